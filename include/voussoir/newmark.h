@@ -1,0 +1,94 @@
+#ifndef voussoir_newmark_h
+#define voussoir_newmark_h
+
+#include <voussoir/joint_system.h>
+
+namespace Voussoir
+{
+  /** What happens to velocity and acceleration where faces touch, after the displacements of a step are known. */
+  enum class ImpactRule
+  {
+    impulse_consistent, ///< Coulomb's law for the impulse and for the acceleration: the default
+    paper,              ///< Taylor and Papadopoulos: closed and sticking rows move together
+    none                ///< plain Newmark: oscillates, for comparison
+  };
+
+  ImpactRule  impact_rule(const std::string &name); ///< throws InputError for an unknown name
+  std::string impact_rule_names();                  ///< as a ParameterHandler selection
+
+  /** Energies [J] since the start; those above the line are states, those below accumulate. */
+  struct Energy
+  {
+    double kinetic = 0., added_mass = 0., strain = 0.;              // of concrete; of water; of concrete
+    double damping = 0., friction = 0., impact = 0., input = 0.;    // input: work of all loads
+
+    /** What the account misses: zero but for round-off in a correct run. */
+    double balance(const Energy &start) const;
+  };
+
+  /** Displacement, velocity, acceleration relative to the base, and joint forces, at one time. */
+  struct DynamicState
+  {
+    double   time = 0.;
+    Unknowns u, v, a; ///< [m], [m/s], [m/s^2], 3 per node
+    Unknowns force;   ///< [N], 3 per pair, in the frame of the pair
+    Unknowns load;    ///< [N], that of this time
+    Unknowns Ku, Kv;  ///< stiffness times displacement, times velocity
+    Energy   energy;
+  };
+
+  /** Trapezoidal Newmark with joints: M a + C v + K u = load + G^T force.
+   *
+   *  The displacements of a step satisfy the joint laws; then impact and release make velocity and acceleration
+   *  fit: without, a closed pair rings for ever (reference: dynamics, 1.2 to 1.4). Lumped mass, one 3x3 block per
+   *  node; a node may belong to one pair only. */
+  class Newmark
+  {
+  public:
+    Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters, double dt,
+            ImpactRule rule);
+
+    /** Start from displacement @p u and velocity @p v with the joint forces @p force of that state under @p load;
+     *  accelerations follow. @p reference: jump of each pair, 3 per pair, at which it is closed and unslipped [m]. */
+    void start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
+               const Unknowns &reference);
+
+    /** Go on from a saved state. */
+    void resume(const DynamicState &state, const Unknowns &reference);
+
+    /** One step to time + dt, under @p load there. Throws ComputationError when the joints do not converge. */
+    ContactResult advance(const Unknowns &load);
+
+    const DynamicState &state() const { return now; }
+    const Energy       &initial_energy() const { return first; }
+    double              energy_error() const; ///< |balance| / largest energy that has gone through
+
+    /** Opening and slip of a pair since @p reference, (n,a,b) [m]. */
+    Vector3 opening_and_slip(unsigned int pair) const;
+
+    const std::vector<PairState> &pair_states() const { return system.states(); }
+    const Unknowns               &impulses() const { return impulse; } ///< of the last step, 3 per pair [N s]
+    const JointSystem            &joint_system() const { return system; }
+
+  private:
+    void correct_velocity();
+    void find_acceleration(const Unknowns &force);
+    void account_states();
+    /** v += M^-1 G^T f of one pair. */
+    void add_kick(const Pair &pair, const Vector3 &f, Unknowns &v) const;
+
+    const Structure     &structure;
+    const JointLaws     &laws;
+    const double         dt;
+    const ImpactRule     rule;
+    JointSystem          system;
+    std::vector<Matrix3> inverse_mass; ///< per node
+    std::vector<Matrix3> pair_inverse; ///< G M^-1 G^T per pair
+    Unknowns             reference, impulse, gap;
+    DynamicState         now;
+    Energy               first; ///< at the start
+    double               largest_energy = 0.;
+  };
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Sets up, builds and runs one scene, by default the quick start.
+# Usage: scripts/run.sh [SCENE.prm] [more arguments for voussoir]
+# Results: output/<scene name>/ in the source directory, unless --output says otherwise.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+
+scene="$root/prm/quickstart.prm"
+if (($#)) && [[ "$1" != -* ]]; then
+  scene=$1
+  shift
+fi
+if [[ ! -f "$scene" ]]; then
+  echo "run: no such scene: $scene" >&2
+  exit 2
+fi
+
+output="$root/output/$(basename "$scene" .prm)"
+arguments=()
+while (($#)); do
+  if [[ "$1" == --output ]] && (($# > 1)); then
+    output=$2
+    shift 2
+  else
+    arguments+=("$1")
+    shift
+  fi
+done
+
+"$root/scripts/setup.sh"
+"$root/scripts/build.sh"
+mkdir -p "$(dirname "$output")"
+"$root/build/voussoir" "$scene" --output "$output" "${arguments[@]}"
+
+if [[ -d "$output" ]]; then
+  echo
+  echo "Results: $output"
+fi
+if compgen -G "$output/figures/*.png" >/dev/null; then
+  echo "Figures: $output/figures"
+fi

@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# Installs what Voussoir needs on Debian 12, by apt and only where a package is missing.
+# Usage: scripts/setup.sh
+set -euo pipefail
+
+required=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev libfclib-dev
+          gmsh numdiff ninja-build ccache cmake g++ git python3-matplotlib)
+optional=(calculix-ccx) # only benchmarks/calculix.py uses it
+
+missing() # PACKAGE...: those that are not installed
+{
+  local package
+  for package in "$@"; do
+    [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)" == installed ]] ||
+      echo "$package"
+  done
+}
+
+if ! command -v apt-get >/dev/null; then
+  echo "setup: this is not a Debian system (no apt-get). Install by other means: ${required[*]}" >&2
+  exit 1
+fi
+
+mapfile -t needed < <(missing "${required[@]}")
+mapfile -t wanted < <(missing "${optional[@]}")
+if ((${#needed[@]} + ${#wanted[@]} == 0)); then
+  exit 0
+fi
+
+as_root=()
+if ((EUID != 0)); then
+  if command -v sudo >/dev/null; then
+    as_root=(sudo)
+  elif ((${#needed[@]})); then
+    echo "setup: missing packages, and neither root nor sudo to install them. As root, run:" >&2
+    echo "  apt-get install ${needed[*]}" >&2
+    exit 1
+  else
+    echo "setup: warning: not installed (optional): ${wanted[*]}" >&2
+    exit 0
+  fi
+fi
+
+apt() # ARGUMENTS...: apt-get without questions
+{
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get "$@"
+}
+
+# A failed update is no reason to stop: the lists that are there may do.
+apt update || echo "setup: warning: apt-get update failed, going on with the package lists there are" >&2
+if ((${#needed[@]})); then
+  echo "setup: installing ${needed[*]}"
+  apt install -y --no-install-recommends "${needed[@]}"
+fi
+if ((${#wanted[@]})); then
+  apt install -y --no-install-recommends "${wanted[@]}" ||
+    echo "setup: warning: could not install ${wanted[*]}; benchmarks/calculix.py will be skipped" >&2
+fi

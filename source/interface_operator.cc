@@ -1,0 +1,77 @@
+#include <voussoir/contact_solver.h>
+
+#include <algorithm>
+
+extern "C" void dgemv_(const char *, const int *, const int *, const double *, const double *, const int *,
+                       const double *, const int *, const double *, double *, const int *);
+
+namespace Voussoir
+{
+  InterfaceOperator::InterfaceOperator(const std::vector<unsigned int> &n_pairs)
+    : offset(1, 0), coupled(n_pairs.size())
+  {
+    for (const unsigned int n : n_pairs)
+      offset.push_back(offset.back() + 3 * n);
+  }
+
+  std::vector<double> &InterfaceOperator::block(const unsigned int j, const unsigned int k)
+  {
+    const auto inserted = blocks.try_emplace({j, k});
+    if (inserted.second)
+      {
+        inserted.first->second.assign(std::size_t(size(j)) * size(k), 0.);
+        if (j != k)
+          {
+            coupled[j].push_back(k);
+            coupled[k].push_back(j);
+            for (const unsigned int g : {j, k})
+              std::sort(coupled[g].begin(), coupled[g].end());
+          }
+      }
+    return inserted.first->second;
+  }
+
+  void InterfaceOperator::add_coupling(const unsigned int j, const unsigned int k, const double factor,
+                                       const double *x, double *y) const
+  {
+    const auto found = blocks.find({std::min(j, k), std::max(j, k)});
+    if (found == blocks.end() || found->second.empty())
+      return;
+    const int    rows = size(std::min(j, k)), columns = size(std::max(j, k)), stride = 1;
+    const double one = 1.;
+    dgemv_(j <= k ? "N" : "T", &rows, &columns, &factor, found->second.data(), &rows, x, &stride, &one, y, &stride);
+  }
+
+  void InterfaceOperator::multiply(const Unknowns &x, Unknowns &y) const
+  {
+    y.assign(n(), 0.);
+#pragma omp parallel for schedule(dynamic)
+    for (int j = 0; j < static_cast<int>(n_groups()); ++j)
+      {
+        add_coupling(j, j, 1., x.data() + offset[j], y.data() + offset[j]);
+        for (const unsigned int k : coupled[j])
+          add_coupling(j, k, 1., x.data() + offset[k], y.data() + offset[j]);
+      }
+  }
+
+  Matrix3 InterfaceOperator::diagonal(const unsigned int pair) const
+  {
+    const unsigned int group =
+      std::upper_bound(offset.begin(), offset.end(), 3 * pair) - offset.begin() - 1;
+    const std::vector<double> &b     = blocks.at({group, group});
+    const std::size_t          first = 3 * pair - offset[group], m = size(group);
+    Matrix3                    result;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        result[3 * i + j] = b[(first + j) * m + first + i];
+    return result;
+  }
+
+  double InterfaceOperator::memory() const
+  {
+    double bytes = 0;
+    for (const auto &b : blocks)
+      bytes += 8. * b.second.size();
+    return bytes;
+  }
+} // namespace Voussoir

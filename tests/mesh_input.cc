@@ -1,0 +1,191 @@
+// The mesh module with what users give it: names, axes, units, entries; and every kind of bad input.
+// Writes its files into the working directory.
+
+#include "mesh_testing.h"
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <voussoir/gmsh_io.h>
+#include <voussoir/mesh_joints.h>
+#include <voussoir/mesh_source.h>
+
+#include <filesystem>
+#include <fstream>
+
+using namespace MeshTesting;
+
+namespace
+{
+  void write_text(const std::string &file, const std::string &text)
+  {
+    std::ofstream(file) << text;
+  }
+
+  void test_names()
+  {
+    const std::pair<std::string, int> surfaces[] = {
+        {"base", 1},           {"Up-stream", -1},       {"UPSTREAM", 2},        {"free_surface", 5},
+        {"joint3_minus", 103}, {"joint 3 side 2", 203}, {"Joint-12 Plus", 212}, {"joint 100 side 1", -1}};
+    for (const auto &name : surfaces)
+      expect(physical_id(2, name.first) == name.second, "the surface " + name.first);
+    expect(physical_id(3, "monolith7") == 7 && physical_id(3, "Monolith 12") == 12 &&
+               physical_id(3, "rock left") == 1000 && physical_id(3, "monolith") == -1,
+           "names of volumes");
+    for (const int id : {1, 2, 3, 4, 5, 6, 101, 199, 201, 299})
+      expect(physical_id(2, physical_name(2, id)) == id, "the name of surface " + std::to_string(id));
+
+    // In a file, names decide and ids are what is left: here all are shifted.
+    std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n3 11 \"monolith1\"\n"
+                       "3 12 \"Monolith 2\"\n2 7 \"base\"\n2 8 \"upstream\"\n$EndPhysicalNames\n$Nodes\n12\n";
+    const auto  mesh = bar(2);
+    for (unsigned int n = 0; n < 12; ++n)
+      text += std::to_string(n + 1) + " " + std::to_string(mesh.nodes[n][0]) + " " +
+              std::to_string(mesh.nodes[n][1]) + " " + std::to_string(mesh.nodes[n][2]) + "\n";
+    text += "$EndNodes\n$Elements\n4\n1 3 2 7 1 1 2 6 5\n2 3 2 8 2 1 3 7 5\n3 5 2 11 1 1 2 6 5 3 4 8 7\n"
+            "4 5 2 12 2 5 6 10 9 7 8 12 11\n$EndElements\n";
+    write_text("names.msh", text);
+    const auto named = read_gmsh("names.msh");
+    expect(named.cells[0].volume == 1 && named.cells[1].volume == 2 && named.faces[0].surface == 1 &&
+               named.faces[1].surface == 2 && named.names.at({3, 2}) == "monolith 2",
+           "names decide");
+  }
+
+  void test_axes_and_units()
+  {
+    // A file with x to the right bank, y downstream, z up, in millimetres; and its mirror image.
+    HexMesh    file = bar(2);
+    const auto ours = file;
+    for (auto &node : file.nodes)
+      node = {-1000 * node[1], 1000 * node[0], 1000 * node[2]};
+    write_gmsh(file, "axes.msh");
+    MeshParameters parameters;
+    parameters.source = "file";
+    parameters.file = "axes.msh";
+    parameters.axes = "y -x z";
+    parameters.length_unit = "mm";
+    HexMesh mesh = make_mesh(parameters, ".");
+    for (unsigned int n = 0; n < 12; ++n)
+      expect(rounded(mesh.nodes[n]) == rounded(ours.nodes[n]), "axes");
+    parameters.axes = "y x z";
+    mesh = make_mesh(parameters, std::filesystem::current_path().string());
+    expect(mesh.nodes[11][1] < -1.9 && smallest_jacobian(mesh) > 0, "mirrored axes");
+    for (const std::string axes : {"x y", "x y y", "x y z z", "a b c", "--x y z", "- x y"})
+    {
+      parameters.axes = axes;
+      expect_error([&] { parameters.check(); }, {"'Axes'"});
+    }
+  }
+
+  void test_parameters()
+  {
+    MeshParameters           parameters;
+    dealii::ParameterHandler prm;
+    parameters.add_parameters(prm);
+    prm.parse_input_from_string(
+        "subsection Mesh\nset Axes = y x z\nsubsection Arch210\nset Joints = 5\nend\nend\n");
+    expect(parameters.axes == "y x z" && parameters.arch210.n_joints == 5, "entries");
+    parameters.axes = "x y z";
+    expect(n_monoliths(make_mesh(parameters, "")) == 6, "make_mesh");
+    parameters.arch210.n_joints = 28;
+    parameters.arch210.end_wall_height = 50;
+    expect_error([&] { parameters.check(); }, {"End wall height"});
+    parameters.source = "file";
+    expect_error([&] { parameters.check(); }, {"'File'"});
+  }
+
+  void test_bad_files()
+  {
+    expect_error([] { read_gmsh("no_such_file.msh"); }, {"no_such_file.msh", "does not exist"});
+    write_text("script.msh", "Point(1) = {0, 0, 0};\n");
+    expect_error([] { read_gmsh("script.msh"); }, {"not a gmsh mesh"});
+    const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+    const std::string names = "$PhysicalNames\n1\n3 1 \"monolith 1\"\n$EndPhysicalNames\n";
+    const std::string nodes = "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
+    write_text("tetrahedra.msh", head + names + nodes + "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n");
+    expect_error([] { read_gmsh("tetrahedra.msh"); }, {"Tetrahedron", "monolith 1", "8-node hexahedra"});
+    write_text("empty.msh", head + nodes + "$Elements\n0\n$EndElements\n");
+    expect_error([] { read_gmsh("empty.msh"); }, {"no hexahedra"});
+    write_text("truncated.msh", head + names + nodes + "$Elements\n3\n1 4 2 1 1 1 2");
+    expect_error([] { read_gmsh("truncated.msh"); }, {"truncated.msh"});
+
+    std::ostringstream quadratic;
+    quadratic << head << names << "$Nodes\n20\n";
+    const double corners[20][3] = {{0, 0, 0},  {1, 0, 0},  {1, 1, 0},  {0, 1, 0},  {0, 0, 1},
+                                   {1, 0, 1},  {1, 1, 1},  {0, 1, 1},  {.5, 0, 0}, {0, .5, 0},
+                                   {0, 0, .5}, {1, .5, 0}, {1, 0, .5}, {.5, 1, 0}, {1, 1, .5},
+                                   {0, 1, .5}, {.5, 0, 1}, {0, .5, 1}, {1, .5, 1}, {.5, 1, 1}};
+    for (unsigned int n = 0; n < 20; ++n)
+      quadratic << n + 1 << " " << corners[n][0] << " " << corners[n][1] << " " << corners[n][2] << "\n";
+    quadratic << "$EndNodes\n$Elements\n1\n1 17 2 1 1";
+    for (unsigned int n = 1; n <= 20; ++n)
+      quadratic << " " << n;
+    quadratic << "\n$EndElements\n";
+    write_text("quadratic.msh", quadratic.str());
+    expect_error([] { read_gmsh("quadratic.msh"); },
+                 {"Hexahedron 20", "ElementOrder = 1", "raises the degree"});
+
+    expect_error([] { write_gmsh(bar(1), "no_such_directory/a.msh"); }, {"cannot be written"});
+    expect_error([] { write_gmsh(bar(1), "a.txt"); }, {".msh"});
+    HexMesh unknown = bar(1);
+    unknown.faces[0].surface = 77;
+    write_gmsh(unknown, "unknown.msh");
+    expect_error([] { read_gmsh("unknown.msh"); }, {"surface 77", "unknown"});
+  }
+
+  void test_bad_meshes()
+  {
+    const auto bad = [](const std::function<void(HexMesh &)> &spoil, const std::vector<std::string> &parts)
+    {
+      HexMesh mesh = bar(3);
+      spoil(mesh);
+      expect_error([&] { check_mesh(mesh, "some.msh"); }, parts);
+    };
+    bad([](HexMesh &m) { m.nodes[3][1] = std::nan(""); }, {"some.msh", "node 4"});
+    bad([](HexMesh &m) { std::swap(m.cells[1].nodes[0], m.cells[1].nodes[1]); },
+        {"hexahedron 2", "monolith 2", "(0.5, 1.5, 0.5)", "inverted"});
+    bad([](HexMesh &m) { m.faces.clear(); }, {"'base'"});
+    bad([](HexMesh &m) { m.cells[2].volume = 5; }, {"no monolith 3"});
+    bad([](HexMesh &m) { m.cells[2].volume = 0; }, {"out of range"});
+    bad([](HexMesh &m) { m.faces.push_back({{0, 1, 6, 7}, 2}); }, {"'upstream'", "no hexahedron"});
+    bad([](HexMesh &m) { m.faces.push_back({{4, 5, 7, 6}, 2}); }, {"'upstream'", "inside"});
+    bad([](HexMesh &m) { m.faces.push_back({{0, 1, 5, 4}, 2}); }, {"'upstream'", "'base'"});
+    bad([](HexMesh &m) { m.cells.push_back(m.cells[1]), m.cells.push_back(m.cells[1]); },
+        {"three hexahedra"});
+    bad(
+        [](HexMesh &m)
+        {
+          m = open_joints(m);
+          m.faces.erase(std::remove_if(m.faces.begin(), m.faces.end(),
+                                       [](const auto &face) { return is_joint_side(face.surface); }),
+                        m.faces.end());
+        },
+        {"face to face", "(0.5, 1, 0.5)"});
+
+    HexMesh mirrored = bar(3);
+    for (auto &cell : mirrored.cells)
+      std::swap_ranges(cell.nodes.begin(), cell.nodes.begin() + 4, cell.nodes.begin() + 4);
+    normalize(mirrored);
+    check_mesh(mirrored, "mirrored");
+
+    HexMesh gap = open_joints(bar(3));
+    for (const auto &face : gap.faces)
+      if (face.surface == 202)
+        gap.nodes[*std::max_element(face.nodes.begin(), face.nodes.end())][1] += 0.01;
+    expect_error([&] { open_joints(gap); }, {"joint 2", "side 1", "(1, 2, 1)", "0.01 m away"});
+    HexMesh half = open_joints(bar(3));
+    half.faces.erase(std::remove_if(half.faces.begin(), half.faces.end(),
+                                    [](const auto &face) { return face.surface == 201; }),
+                     half.faces.end());
+    expect_error([&] { close_joints(half); }, {"joint 1", "no side 2", "'joint 1 side 2'"});
+  }
+
+} // namespace
+
+int main()
+{
+  return run({{"names", test_names},
+              {"axes and units", test_axes_and_units},
+              {"parameters", test_parameters},
+              {"bad files", test_bad_files},
+              {"bad meshes", test_bad_meshes}});
+}

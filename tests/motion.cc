@@ -1,0 +1,338 @@
+// Ground motions: design spectra, response spectra, artificial records, readers, bad input.
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <voussoir/error.h>
+#include <voussoir/motion.h>
+#include <voussoir/motion_artificial.h>
+#include <voussoir/response_spectrum.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <sstream>
+
+using namespace Voussoir;
+
+namespace
+{
+  void require(bool condition, const std::string &message)
+  {
+    if (!condition)
+      throw std::runtime_error(message);
+  }
+
+  void require_close(double value, double expected, double tolerance, const std::string &what)
+  {
+    std::ostringstream message;
+    message << what << " is " << value << ", expected " << expected << " +- " << tolerance;
+    require(std::abs(value - expected) <= tolerance, message.str());
+  }
+
+  void write(const std::string &file, const std::string &text)
+  {
+    std::ofstream(file) << text;
+  }
+
+  /** The call must throw an InputError whose message has all these parts. */
+  void require_error(const std::function<void()> &call, const std::vector<std::string> &parts)
+  {
+    std::string message;
+    try
+    {
+      call();
+    }
+    catch (const InputError &error)
+    {
+      message = error.what();
+    }
+    require(!message.empty(), "no error, expected one with '" + parts[0] + "'");
+    for (const std::string &part : parts)
+      require(message.find(part) != std::string::npos, "'" + part + "' is missing in: " + message);
+  }
+
+  // The numbers are those of the codes' formula with T_g = 0.2 s, to the digits of a published table.
+  void design_spectra()
+  {
+    const DesignSpectrum dl{"DL5073-2000", 0.2, 2.5}, nb{"NB35047-2015", 0.2, 2.5};
+
+    const double table[][3] = {{0.00, 1.0000, 1.0000}, {0.04, 1.6000, 1.6000}, {0.10, 2.5000, 2.5000},
+                               {0.20, 2.5000, 2.5000}, {0.25, 2.0451, 2.1867}, {0.30, 1.7356, 1.9601},
+                               {0.50, 1.0960, 1.4427}, {0.70, 0.8096, 1.1790}, {1.00, 0.5873, 0.9518},
+                               {1.20, 0.5000, 0.8532}, {2.00, 0.5000, 0.6280}, {3.00, 0.5000, 0.5000}};
+    for (const auto &row : table)
+    {
+      require_close(design_beta(dl, row[0]), row[1], 5e-5, "DL 5073-2000");
+      require_close(design_beta(nb, row[0]), row[2], 5e-5, "NB 35047-2015");
+    }
+    // A worked example of the code's users: site II at long period, T_g = 0.35 s.
+    require_close(design_beta({"DL5073-2000", 0.35, 2.5}, 1.5), 0.675, 5e-4, "worked example");
+    require_error([] { design_beta({"GB50011", 0.2, 2.5}, 1.); }, {"GB50011", "DL5073-2000"});
+  }
+
+  void response_spectra()
+  {
+    // A suddenly constant acceleration: the peak is a (1 + exp(-pi zeta / sqrt(1 - zeta^2))).
+    const double              zeta = 0.05, a = 3.;
+    const std::vector<double> step(2001, a), periods = {0.04, 0.1, 0.5, 3.};
+    const double              exact = a * (1. + std::exp(-M_PI * zeta / std::sqrt(1. - zeta * zeta)));
+    for (const double value : pseudo_acceleration_spectrum(step, 0.01, periods, zeta))
+      require_close(value, exact, 0.013 * exact, "peak under a step");
+    require_close(pseudo_acceleration_spectrum(step, 0.0005, {0.2}, zeta)[0], exact, 1e-4 * exact,
+                  "step, fine");
+
+    // A ramp of acceleration q t without damping: w^2 u = -q (t - sin(w t) / w), exact at every sample.
+    const double        q = 2., period = 0.7, w = 2. * M_PI / period;
+    std::vector<double> ramp;
+    for (unsigned int k = 0; k <= 100; ++k)
+      ramp.push_back(q * 0.01 * k);
+    const Oscillator oscillator(period, 0., 0.01);
+    const auto       peak = oscillator.peak(ramp);
+    require_close(peak.value, -q * (1. - std::sin(w) / w), 1e-12, "response to a ramp");
+
+    // The sensitivity reproduces the response.
+    const std::vector<double> derivative = oscillator.sensitivity(peak.substep, ramp.size());
+    double                    response = 0.;
+    for (std::size_t k = 0; k < ramp.size(); ++k)
+      response += derivative[k] * ramp[k];
+    require_close(response, peak.value, 1e-12, "response from the sensitivity");
+
+    const auto hundred = logarithmic_periods(0.04, 3., 100);
+    require(hundred.size() == 189 && std::abs(hundred.back() - 3.) < 1e-12, "periods");
+  }
+
+  void artificial_motions()
+  {
+    for (const std::string code : {"DL5073-2000", "NB35047-2015"})
+      for (unsigned int seed = 1; seed <= 3; ++seed)
+        for (const double dt : {0.01, 0.005})
+        {
+          if (dt < 0.01 && seed > 1)
+            continue;
+          MotionParameters parameters;
+          parameters.spectrum.code = code;
+          parameters.seed = seed;
+          parameters.time_step = dt;
+          parameters.scale = {{1., -1., 1.}};
+          const GroundMotion motion = make_motion(parameters, "");
+          require(motion.acceleration.size() == parameters.n_steps() + 1, "wrong number of samples");
+          require_close(motion.duration(), 20.48, 1e-9, "duration");
+
+          const MotionReport report = report_motion(motion, parameters);
+          for (unsigned int d = 0; d < 3; ++d)
+          {
+            const auto  &c = report.components[d];
+            const double peak = 0.5575 * standard_gravity * (d == 2 ? 0.666667 : 1.);
+            require_close(c.peak_acceleration, peak, 1e-9 * peak, "peak acceleration");
+            require(c.maximum_error <= 0.10 && c.mean_error <= 0.05, code + ": spectrum not matched");
+            require(std::abs(c.end_velocity) < 1e-9 && std::abs(c.end_displacement) < 1e-9, "drift");
+            require(c.peak_displacement < 2., "displacement out of proportion");
+            require(c.significant_duration > 7. && c.significant_duration < 15., "D5-95");
+            require(std::abs(report.correlations[d]) <= 0.3, "correlation");
+            require(motion.acceleration.front()[d] == 0. && std::abs(motion.acceleration.back()[d]) < 1e-12,
+                    "does not begin and end at zero");
+
+            // What a program sees that looks at the samples alone.
+            for (const double period : logarithmic_periods(0.04, 3., 100))
+            {
+              const double sampled = Oscillator(period, 0.05, dt).peak(motion.component(d)).sampled;
+              require_close(sampled / parameters.target(d, period), 1., 0.10, "spectrum at the samples");
+            }
+          }
+          std::ostringstream table;
+          print_report(report, table);
+          require(table.str().find("warning") == std::string::npos, table.str());
+        }
+  }
+
+  void seeds()
+  {
+    MotionParameters parameters;
+    const auto       first = make_artificial_component(parameters, 0, 0);
+    require(first == make_artificial_component(parameters, 0, 0), "the same seed gives another motion");
+    parameters.seed = 2;
+    require(first != make_artificial_component(parameters, 0, 0), "another seed gives the same motion");
+  }
+
+  void warnings()
+  {
+    MotionReport report;
+    report.artificial = true;
+    report.components[1].maximum_error = 0.12;
+    report.correlations[2] = -0.4;
+    std::ostringstream table;
+    print_report(report, table);
+    require(table.str().find("spectrum of y is off by up to 12.0 %") != std::string::npos, table.str());
+    require(table.str().find("correlation of y-z is -0.400") != std::string::npos, table.str());
+  }
+
+  MotionParameters file_parameters()
+  {
+    MotionParameters parameters;
+    parameters.source = "file";
+    parameters.duration = 0.03;
+    parameters.time_step = 0.01;
+    return parameters;
+  }
+
+  void readers()
+  {
+    // Four columns: comments, headings, commas, a later start, half the time step.
+    write("motion_table.csv",
+          "\xEF\xBB\xBF# a record\r\nt, ax, ay, az\r\n5.000,1,10,-100\n5.005,2,20,-200 # "
+          "remark\n\n5.010,3,30,-300\n"
+          "5.015,4,40,-400\n5.020,5,50,-500\n5.025,6,60,-600\n5.030,7,70,-700\n5.035,8,80,-800\n");
+    MotionParameters parameters = file_parameters();
+    parameters.file = "motion_table.csv";
+    parameters.unit = "cm/s^2";
+    parameters.factor = 2.;
+    parameters.scale = {{1., 0., -1.}};
+    GroundMotion motion = make_motion(parameters, ".");
+    require(motion.acceleration.size() == 4, "table: samples");
+    for (unsigned int k = 0; k < 4; ++k)
+    {
+      require_close(motion.acceleration[k][0], 0.02 * (1 + 2 * k), 1e-12, "table: x");
+      require_close(motion.acceleration[k][1], 0., 0., "table: y is switched off");
+      require_close(motion.acceleration[k][2], 2. * (1 + 2 * k), 1e-12, "table: z");
+    }
+
+    // Two columns, finer than the file: interpolated. PEER's three headers; values glued to no grid.
+    write("motion_two.txt", "0 0.0\n0.02\t+1.0D0\n0.04 0.5\n");
+    const std::string              title = "PEER STRONG MOTION DATABASE RECORD\nAN EVENT, STATION 5\n"
+                                           "ACCELERATION TIME HISTORY IN UNITS OF G\n";
+    const std::string              data = "  -.64E-02   .50E-02   0.1   -1.E-03   0.2\n   .25\n";
+    const std::vector<std::string> headers = {"    6    0.0100    NPTS, DT\n", "NPTS=  6, DT= .01000 SEC\n",
+                                              "NPTS=      6, DT=   .0100 SEC,\n"};
+    for (const std::string &header : headers)
+    {
+      write("motion_peer.AT2", title + header + data);
+      parameters = file_parameters();
+      parameters.component_files[0] = "motion_two.txt";
+      parameters.component_files[2] = "motion_peer.AT2";
+      parameters.unit = "m/s^2";
+      motion = make_motion(parameters, "");
+      const double two[] = {0., 0.5, 1., 0.75}, peer[] = {-0.0064, 0.005, 0.1, -0.001};
+      for (unsigned int k = 0; k < 4; ++k)
+      {
+        require_close(motion.acceleration[k][0], two[k], 1e-12, "two columns");
+        require_close(motion.acceleration[k][1], 0., 0., "absent component");
+        require_close(motion.acceleration[k][2], peer[k] * standard_gravity, 1e-12, "AT2 " + header);
+      }
+    }
+    parameters.unit = "g";
+    require_close(make_motion(parameters, "").acceleration[2][0], standard_gravity, 1e-12, "unit g");
+
+    // What is written can be read again.
+    write_motion(motion, "motion_written.csv");
+    parameters = file_parameters();
+    parameters.file = "motion_written.csv";
+    const GroundMotion same = make_motion(parameters, "");
+    for (unsigned int k = 0; k < 4; ++k)
+      for (unsigned int d = 0; d < 3; ++d)
+        require_close(same.acceleration[k][d], motion.acceleration[k][d], 1e-10, "written and read");
+
+    // Interpolation of the motion, and outside of it.
+    require_close(motion.at(0.005)[0], 0.25, 1e-12, "at");
+    require_close(motion.at(0.03)[0], 0.75, 1e-12, "at the end");
+    require(motion.at(-0.001)[0] == 0. && motion.at(0.031)[0] == 0., "not zero outside");
+
+    parameters = file_parameters();
+    parameters.source = "none";
+    motion = make_motion(parameters, "");
+    require(motion.acceleration.size() == 4 && motion.at(0.02)[0] == 0., "Source = none");
+  }
+
+  void bad_files()
+  {
+    const auto table = [](const std::string &text)
+    {
+      write("motion_bad.txt", text);
+      MotionParameters parameters = file_parameters();
+      parameters.component_files[1] = "motion_bad.txt";
+      return [parameters] { make_motion(parameters, ""); };
+    };
+    require_error(table("0 1\n.01 2\n.02 3\n"), {"motion_bad.txt", "0.02 s", "Motion/Duration", "0.03"});
+    require_error(table("t a\n0 1\n.01 nan\n.02 3\n"), {"motion_bad.txt", "line 3", "nan"});
+    require_error(table("0 1\n.01 1e999\n.02 3\n"), {"line 2", "1e999"});
+    require_error(table("0 1\n\n.01 1,5x\n"), {"line 3", "columns"});
+    require_error(table("0 1\n.01 5x\n"), {"line 2", "5x"});
+    require_error(table("# t a\n0 1\n.01 2\n.005 3\n"), {"line 4", "increase"});
+    require_error(table("0 1\n.01 2\n.02 3\n.04 4\n.05 3\n"), {"line 4", "equal steps"});
+    require_error(table("0 1 2 3\n"), {"line 1", "4 columns", "Motion/File"});
+    require_error(table("t a\n"), {"motion_bad.txt", "two"});
+    require_error(table("X\nY\nZ\n6 .01 NPTS, DT\n1 2 3\n4 5\n"), {"line 4", "NPTS is 6", "5 values"});
+    require_error(table("X\nY\nZ\nNPTS= 2, DT= -.01 SEC\n1 2\n"), {"line 4", "positive"});
+    require_error(table("X\nY\nZ\nNPTS= 2, DT= .01 SEC\n1 2*\n"), {"line 5", "2*"});
+    require_error(table("X\nY\nVELOCITY IN CM/S\nNPTS= 2, DT= .01 SEC\n1 2\n"), {"line 3", "acceleration"});
+
+    MotionParameters parameters = file_parameters();
+    require_error([&] { make_motion(parameters, ""); }, {"Motion/File"});
+    parameters.file = "no such file.csv";
+    require_error([&] { make_motion(parameters, "scenes"); },
+                  {"scenes/no such file.csv", "cannot be opened"});
+    parameters.component_files[0] = "motion_two.txt";
+    require_error([&] { make_motion(parameters, ""); }, {"both"});
+    parameters.file = "";
+    parameters.component_files[2] = "motion_late.txt";
+    write("motion_late.txt", "1 0\n1.02 1\n1.04 0\n");
+    require_error([&] { make_motion(parameters, ""); }, {"motion_late.txt", "first time"});
+    require_error([] { write_motion({}, "no such directory/motion.csv"); }, {"no such directory/motion.csv"});
+  }
+
+  void entries()
+  {
+    MotionParameters         parameters;
+    dealii::ParameterHandler prm;
+    parameters.add_parameters(prm);
+    require(parameters.vertical_ratio == 0.666667 && parameters.peak_acceleration == 0.5575,
+            "defaults change");
+    parameters.check();
+    prm.parse_input_from_string(
+        "subsection Motion\n set Spectrum = NB35047-2015\n set Seed = 7\n set Scale z = 0\n"
+        " set Damping = 0.03\n set File x = a b.AT2\nend\n");
+    require(parameters.spectrum.code == "NB35047-2015" && parameters.seed == 7 && parameters.scale[2] == 0. &&
+                parameters.damping == 0.03 && parameters.component_files[0] == "a b.AT2",
+            "entries are not read");
+
+    const auto wrong = [](const std::function<void(MotionParameters &)> &change, const std::string &entry)
+    {
+      MotionParameters parameters;
+      change(parameters);
+      require_error([&] { parameters.check(); }, {"Motion/" + entry});
+    };
+    wrong([](MotionParameters &p) { p.time_step = 0.; }, "Time step");
+    wrong([](MotionParameters &p) { p.time_step = NAN; }, "Time step");
+    wrong([](MotionParameters &p) { p.duration = -1.; }, "Duration");
+    wrong([](MotionParameters &p) { p.duration = 20.485; }, "Duration");
+    wrong([](MotionParameters &p) { p.duration = 10.; }, "Duration");
+    wrong([](MotionParameters &p) { p.decay_begin = 2.; }, "Decay begin");
+    wrong([](MotionParameters &p) { p.vertical_ratio = 0.; }, "Vertical ratio");
+    wrong([](MotionParameters &p) { p.spectrum.characteristic_period = 0.; }, "Characteristic period");
+  }
+} // namespace
+
+int main()
+{
+  const std::pair<const char *, void (*)()> tests[] = {{"design_spectra", design_spectra},
+                                                       {"response_spectra", response_spectra},
+                                                       {"artificial_motions", artificial_motions},
+                                                       {"seeds", seeds},
+                                                       {"warnings", warnings},
+                                                       {"readers", readers},
+                                                       {"bad_files", bad_files},
+                                                       {"entries", entries}};
+  for (const auto &test : tests)
+    try
+    {
+      test.second();
+      std::cout << test.first << ": OK" << std::endl;
+    }
+    catch (const std::exception &error)
+    {
+      std::cout << test.first << ": " << error.what() << std::endl;
+      return 1;
+    }
+  return 0;
+}
