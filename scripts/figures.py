@@ -41,6 +41,11 @@ class Skip(Exception):
     """A figure that cannot be made because its data are not there."""
 
 
+def minus(text):
+    """With the typographic minus of the axes."""
+    return text.replace("-", "\N{MINUS SIGN}")
+
+
 def read_table(path, text_columns=()):
     """Columns of a .csv file by name; numbers, but for the named text columns."""
     if not path.exists():
@@ -57,24 +62,34 @@ def read_table(path, text_columns=()):
             for name, column in columns.items()}
 
 
+def read_history(path):
+    """The same, of a table over time."""
+    table = read_table(path)
+    if len(table["time"]) < 2:
+        raise Skip(f"{path.name} holds a single time")
+    return table
+
+
 # ---------------------------------------------------------------- envelopes
 
 def triangles(nodes, cells):
-    """Every quadrilateral as four triangles around its centre: coordinates, triangles, averaging matrix's rows."""
+    """Every quadrilateral as four triangles around its centre: coordinates and corners of the triangles."""
     n = len(nodes)
     centres = n + np.arange(len(cells))
     corner = [np.stack([cells[:, i], cells[:, (i + 1) % 4], centres], axis=1) for i in range(4)]
     return np.vstack([nodes, nodes[cells].mean(axis=1)]), np.vstack(corner)
 
 
-def edges(nodes, cells):
-    """The face's outline, and the edges where two monoliths meet (their nodes coincide, but are not the same)."""
+def edges(drawn, places, cells):
+    """The face's outline, and the edges where two monoliths meet (their nodes coincide, but are not the same).
+    `drawn`: the nodes on paper; `places`: in space."""
     count = Counter(tuple(sorted((cell[i], cell[(i + 1) % 4]))) for cell in cells for i in range(4))
     border = [edge for edge, n in count.items() if n == 1]
-    places = [tuple(sorted(tuple(np.round(nodes[node], 4)) for node in edge)) for edge in border]
-    shared = Counter(places)
-    outline = [nodes[list(edge)][:, :2] for edge, place in zip(border, places) if shared[place] == 1]
-    joints = [nodes[list(edge)][:, :2] for edge, place in zip(border, places) if shared[place] > 1]
+    rounded = [tuple(place) for place in np.round(places, 3) + 0.]  # no negative zeros
+    keys = [tuple(sorted(rounded[node] for node in edge)) for edge in border]
+    shared = Counter(keys)
+    outline = [drawn[list(edge)] for edge, key in zip(border, keys) if shared[key] == 1]
+    joints = [drawn[list(edge)] for edge, key in zip(border, keys) if shared[key] > 1]
     return outline, joints
 
 
@@ -104,23 +119,25 @@ def draw_envelope(face, cells, levels, tension, title, path):
                                 extend="both")
     axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=levels, colors="0.35", linewidths=0.25,
                     linestyles="solid")
-    outline, joints = edges(np.stack([s, z, face["x"], face["y"]], axis=1), cells)
+    outline, joints = edges(np.stack([s, z], axis=1), np.stack([face["x"], face["y"], z], axis=1), cells)
     axes.add_collection(LineCollection(joints, colors="k", linewidths=0.6))
-    axes.add_collection(LineCollection(outline, colors="k", linewidths=1.2))
+    axes.add_collection(LineCollection(outline, colors="k", linewidths=1.3, capstyle="round"))
 
     worst = np.argmax(stress) if tension else np.argmin(stress)
     name = "max" if tension else "min"
     axes.plot(s[worst], z[worst], marker="o", markersize=7, markerfacecolor="#ffd966", markeredgecolor="k",
               clip_on=False, zorder=5, linestyle="none",
-              label=f"{name} {stress[worst]:.2f} MPa at s = {s[worst]:.0f} m, z = {z[worst]:.0f} m")
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.0), handletextpad=0.3)
+              label=minus(f"{name} {stress[worst]:.2f} MPa at s = {s[worst]:.0f} m, z = {z[worst]:.0f} m"))
+    axes.legend(loc="upper center", handletextpad=0.1, borderaxespad=0)
     right_first = np.cov(s, face["y"])[0, 1] > 0  # y points to the left bank
     banks = ("right bank", "left bank") if right_first else ("left bank", "right bank")
-    for bank, place, side in zip(banks, (0.005, 0.995), ("left", "right")):
+    for bank, place, side in zip(banks, (0.01, 0.99), ("left", "right")):
         axes.text(place, 0.98, bank, transform=axes.transAxes, ha=side, va="top", color="0.35", style="italic")
-    axes.set(aspect="equal", xlabel="developed arc length s [m]", ylabel="elevation z [m]", title=title)
-    axes.margins(x=0.01, y=0.03)
-    axes.set_ylim(top=z.max() + 0.14 * height)
+    view = "downstream" if right_first else "upstream"
+    axes.set(aspect="equal", xlabel=f"developed arc length s [m], seen from {view}", ylabel="elevation z [m]",
+             xlim=(s.min() - 0.015 * width, s.max() + 0.015 * width),
+             ylim=(z.min() - 0.03 * height, z.max() + 0.14 * height))
+    axes.set_title(title, pad=10)
     axes.grid(False)
     bar = figure.colorbar(contours, ax=axes, orientation="horizontal", fraction=0.05, pad=0.16, aspect=45,
                           ticks=levels)
@@ -165,12 +182,12 @@ def crest_maxima(output, figures, heading):
             value = 1e3 * np.abs(joints[f"{quantity}_{face}"][order])
             largest = max(largest, value.max())
             axes.plot(s, value, color=colour, marker=marker, markersize=5, linewidth=1.4,
-                      label=f"{face} edge, largest {value.max():.1f} mm at joint {number[value.argmax()]}")
+                      label=f"{face}: {value.max():.1f} mm at joint {number[value.argmax()]}")
         axes.set(xlabel="arc length along the crest s [m]", ylabel=f"maximum {quantity} [mm]")
         axes.set_ylim(0, 1.25 * largest if largest > 0 else 1)
         axes.legend(loc="upper left", ncol=2, handletextpad=0.4, columnspacing=1.2)
         top = axes.secondary_xaxis("top")
-        every = max(1, len(number) // 15)
+        every = -(-len(number) // 15)
         top.set_xticks(s[::every], [str(n) for n in number[::every]])
         top.set_xlabel("joint")
         axes.set_title(f"{heading}\nMaximum joint {quantity} at the crest")
@@ -179,7 +196,7 @@ def crest_maxima(output, figures, heading):
 
 
 def joint_history(output, figures, heading):
-    table = read_table(output / "joint_history.csv")
+    table = read_history(output / "joint_history.csv")
     numbers = [int(match[1]) for name in table if (match := re.fullmatch(r"opening_upstream_(\d+)", name))]
     if not numbers:
         raise Skip("joint_history.csv names no joints")
@@ -196,14 +213,15 @@ def joint_history(output, figures, heading):
         axes.plot(table["time"], upstream, color=UPSTREAM, linewidth=1.1, label="upstream")
         axes.plot(table["time"], downstream, color=DOWNSTREAM, linewidth=1.1, label="downstream")
         axes.text(0.995, 0.93, f"joint {joint}: {max(upstream.max(), downstream.max()):.1f} mm",
-                  transform=axes.transAxes, ha="right", va="top", bbox={"facecolor": "w", "edgecolor": "none", "pad": 1})
+                  transform=axes.transAxes, ha="right", va="top",
+                  bbox={"facecolor": "w", "edgecolor": "none", "pad": 1})
         axes.yaxis.set_major_locator(MaxNLocator(4))
     rows[0, 0].set_ylim(-0.04 * largest, 1.3 * largest if largest > 0 else 1)
     rows[0, 0].set_xlim(table["time"][0], table["time"][-1])
     rows[0, 0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncol=2)
     rows[0, 0].set_title(f"{heading}\nOpenings at the crest, the joints that open most", loc="left")
     rows[-1, 0].set_xlabel("time [s]")
-    figure.supylabel("opening [mm]", fontsize=11, x=0.04)
+    figure.supylabel("opening [mm]", fontsize=11, x=0.06)
     figure.savefig(figures / "joint_history.png")
     plt.close(figure)
 
@@ -211,7 +229,7 @@ def joint_history(output, figures, heading):
 # ---------------------------------------------------------------- histories
 
 def history(output, figures, heading):
-    table = read_table(output / "history.csv")
+    table = read_history(output / "history.csv")
     time, crest = table["time"], 1e3 * table["crest_x"]
     base = {}  # direction -> acceleration
     for name, column in table.items():
@@ -224,7 +242,7 @@ def history(output, figures, heading):
     axes.plot(time, crest, color=UPSTREAM, linewidth=1.1)
     for peak, place in ((crest.argmax(), "bottom"), (crest.argmin(), "top")):
         axes.plot(time[peak], crest[peak], "o", color="k", markersize=4)
-        axes.annotate(f"{crest[peak]:.1f} mm", (time[peak], crest[peak]), ha="center", va=place,
+        axes.annotate(minus(f"{crest[peak]:.1f} mm"), (time[peak], crest[peak]), ha="center", va=place,
                       xytext=(0, 5 if place == "bottom" else -5), textcoords="offset points")
     axes.margins(y=0.15)
     axes.set_ylabel("crest, relative\nto the base [mm]")
@@ -245,7 +263,7 @@ def history(output, figures, heading):
 
 
 def energy(output, figures, heading):
-    table = read_table(output / "energy.csv")
+    table = read_history(output / "energy.csv")
     time, balance = table["time"], table["balance"]
     parts = [name for name in ("input", "strain", "kinetic", "added_mass", "damping", "friction", "impact")
              if name in table]
@@ -261,6 +279,7 @@ def energy(output, figures, heading):
     above.set_title(f"{heading}\nEnergies", loc="left")
     below.plot(time, 100 * balance / largest, color="k", linewidth=1)
     below.set(xlabel="time [s]", ylabel="balance [% of\nlargest energy]", xlim=(time[0], time[-1]))
+    below.ticklabel_format(axis="y", scilimits=(-2, 3), useMathText=True)
     figure.align_ylabels([above, below])
     figure.savefig(figures / "energy.png")
     plt.close(figure)
@@ -275,7 +294,11 @@ def main():
         print(f"figures: error: {output} holds no summary.json, so it is not the output directory of a finished run.\n"
               "Give the directory that voussoir was told to write to with --output.", file=sys.stderr)
         return 2
-    summary = json.loads((output / "summary.json").read_text())
+    try:
+        summary = json.loads((output / "summary.json").read_text())
+    except ValueError as error:
+        print(f"figures: error: {output / 'summary.json'} is not valid JSON: {error}", file=sys.stderr)
+        return 2
     scene, law = str(summary.get("scene", output.name)), str(summary.get("law", ""))
     scene = Path(scene).stem if scene.endswith(".prm") else scene
     heading = f"{scene}, {law}" if law else scene

@@ -27,7 +27,7 @@ namespace Voussoir
     {
       cholmod_start(&common);
       common.supernodal = CHOLMOD_SUPERNODAL;
-      common.print      = 0;
+      common.print = 0;
     }
     ~Factor()
     {
@@ -52,29 +52,30 @@ namespace Voussoir
     {
       const BlockSparseMatrix &K = body.stiffness;
       const unsigned int       n = 3 * K.n_rows();
-      cholmod_sparse *A = cholmod_allocate_sparse(n, n, 9 * K.value.size() / 2 + 3 * n, 1, 1, -1, CHOLMOD_REAL, &common);
-      int            *p = static_cast<int *>(A->p), *index = static_cast<int *>(A->i);
-      double         *x = static_cast<double *>(A->x);
-      int             k = 0;
+      cholmod_sparse          *A =
+          cholmod_allocate_sparse(n, n, 9 * K.value.size() / 2 + 3 * n, 1, 1, -1, CHOLMOD_REAL, &common);
+      int    *p = static_cast<int *>(A->p), *index = static_cast<int *>(A->i);
+      double *x = static_cast<double *>(A->x);
+      int     k = 0;
       // The matrix is symmetric: row by row of K's upper part is column by column of its lower part.
       for (unsigned int row = 0; row < K.n_rows(); ++row)
         for (unsigned int i = 0; i < 3; ++i)
-          {
-            p[3 * row + i] = k;
-            for (std::size_t e = K.start[row]; e < K.start[row + 1]; ++e)
-              for (unsigned int j = 0; j < 3; ++j)
-                if (3 * K.column[e] + j >= 3 * row + i)
-                  {
-                    double            a    = stiffness_factor * K.value[e][3 * i + j];
-                    const std::size_t node = body.first_node + row;
-                    if (K.column[e] == row)
-                      a += mass_factor * structure.mass[node][3 * i + j];
-                    if (K.column[e] == row && i == j && !structure.dashpots.empty())
-                      a += dashpot_factor * structure.dashpots[3 * node + i];
-                    index[k] = 3 * K.column[e] + j;
-                    x[k++]   = a;
-                  }
-          }
+        {
+          p[3 * row + i] = k;
+          for (std::size_t e = K.start[row]; e < K.start[row + 1]; ++e)
+            for (unsigned int j = 0; j < 3; ++j)
+              if (3 * K.column[e] + j >= 3 * row + i)
+              {
+                double            a = stiffness_factor * K.value[e][3 * i + j];
+                const std::size_t node = body.first_node + row;
+                if (K.column[e] == row)
+                  a += mass_factor * structure.mass[node][3 * i + j];
+                if (K.column[e] == row && i == j && !structure.dashpots.empty())
+                  a += dashpot_factor * structure.dashpots[3 * node + i];
+                index[k] = 3 * K.column[e] + j;
+                x[k++] = a;
+              }
+        }
       p[n] = k;
       return A;
     }
@@ -90,45 +91,47 @@ namespace Voussoir
 
   CondensedBody::CondensedBody(const Structure &structure, const Body &body, const double mass_factor,
                                const double stiffness_factor, const double dashpot_factor)
-    : factor(std::make_unique<Factor>())
+      : factor(std::make_unique<Factor>())
   {
     cholmod_common &common = factor->common;
     cholmod_sparse *A =
-      upper_triangle(structure, body, mass_factor, stiffness_factor, dashpot_factor, common);
+        upper_triangle(structure, body, mass_factor, stiffness_factor, dashpot_factor, common);
     std::vector<bool> is_interface(A->nrow, false);
     for (const unsigned int node : body.interface)
       for (unsigned int c = 0; c < 3; ++c)
         is_interface[3 * node + c] = true;
 
     if (!body.interface.empty()) // otherwise CHOLMOD's own choice of orderings is the best
-      {
-        std::vector<int> permutation = order(A, is_interface, common);
-        common.nmethods              = 1;
-        common.method[0].ordering    = CHOLMOD_GIVEN;
-        factor->L                    = cholmod_analyze_p(A, permutation.data(), nullptr, 0, &common);
-      }
+    {
+      std::vector<int> permutation = order(A, is_interface, common);
+      common.nmethods = 1;
+      common.method[0].ordering = CHOLMOD_GIVEN;
+      factor->L = cholmod_analyze_p(A, permutation.data(), nullptr, 0, &common);
+    }
     else
       factor->L = cholmod_analyze(A, &common);
     cholmod_factorize(A, factor->L, &common);
     cholmod_free_sparse(&A, &common);
     cholmod_factor *L = factor->L;
     if (common.status != CHOLMOD_OK || L == nullptr || L->minor < L->n)
-      throw ComputationError("The stiffness of monolith " + std::to_string(body.number) +
-                             " is not positive definite: nothing holds it (does its foot lie on the surface \"base\"?), or "
-                             "its elements are badly shaped.");
+      throw ComputationError(
+          "The stiffness of monolith " + std::to_string(body.number) +
+          " is not positive definite: nothing holds it (does its foot lie on the surface \"base\"?), or "
+          "its elements are badly shaped.");
 
-    // The interface must really stand last; the elimination tree is a chain there, so its postorder keeps it so.
+    // The interface must really stand last; the elimination tree is a chain there, so its postorder keeps it
+    // so.
     const unsigned int n = L->n, m = 3 * body.interface.size(), first = n - m;
     const int         *permutation = static_cast<const int *>(L->Perm);
     tail.assign(permutation + first, permutation + n);
     std::map<unsigned int, unsigned int> place;
     for (unsigned int i = 0; i < m; ++i)
-      {
-        if (!is_interface[tail[i]])
-          throw ComputationError("Monolith " + std::to_string(body.number) +
-                                 " is not in one piece: the elements of a monolith must be connected.");
-        place[tail[i]] = i;
-      }
+    {
+      if (!is_interface[tail[i]])
+        throw ComputationError("Monolith " + std::to_string(body.number) +
+                               " is not in one piece: the elements of a monolith must be connected.");
+      place[tail[i]] = i;
+    }
     slot.resize(m);
     for (unsigned int i = 0; i < body.interface.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
@@ -136,29 +139,29 @@ namespace Voussoir
 
     // Copy L_GG out of the supernodes.
     dense.assign(std::size_t(m) * m, 0.);
-    const int    *super = static_cast<const int *>(L->super), *pi = static_cast<const int *>(L->pi),
+    const int *super = static_cast<const int *>(L->super), *pi = static_cast<const int *>(L->pi),
               *px = static_cast<const int *>(L->px), *rows = static_cast<const int *>(L->s);
     const double *values = static_cast<const double *>(L->x);
     for (std::size_t s = 0; s < L->nsuper; ++s)
       for (int column = std::max<int>(super[s], first); column < super[s + 1]; ++column)
-        {
-          const int n_rows = pi[s + 1] - pi[s], j = column - super[s];
-          for (int i = j; i < n_rows; ++i)
-            dense[std::size_t(column - first) * m + (rows[pi[s] + i] - first)] =
+      {
+        const int n_rows = pi[s + 1] - pi[s], j = column - super[s];
+        for (int i = j; i < n_rows; ++i)
+          dense[std::size_t(column - first) * m + (rows[pi[s] + i] - first)] =
               values[px[s] + std::size_t(j) * n_rows + i];
-        }
+      }
 
     factor->b = cholmod_zeros(n, 1, CHOLMOD_REAL, &common);
     factor->x = cholmod_zeros(n, 1, CHOLMOD_REAL, &common);
   }
 
-  CondensedBody::~CondensedBody()                         = default;
+  CondensedBody::~CondensedBody() = default;
   CondensedBody::CondensedBody(CondensedBody &&) noexcept = default;
 
   void CondensedBody::forward(const double *b)
   {
     const int *permutation = static_cast<const int *>(factor->L->Perm);
-    double    *p           = static_cast<double *>(factor->b->x);
+    double    *p = static_cast<double *>(factor->b->x);
     for (std::size_t i = 0; i < factor->L->n; ++i)
       p[i] = b[permutation[i]];
     factor->solve(CHOLMOD_L);
@@ -189,7 +192,7 @@ namespace Voussoir
     std::swap(factor->b, factor->x);
     factor->solve(CHOLMOD_Lt);
     const int    *permutation = static_cast<const int *>(factor->L->Perm);
-    const double *x           = static_cast<const double *>(factor->x->x);
+    const double *x = static_cast<const double *>(factor->x->x);
     for (std::size_t i = 0; i < factor->L->n; ++i)
       u[permutation[i]] = x[i];
   }
@@ -207,5 +210,8 @@ namespace Voussoir
     return S;
   }
 
-  double CondensedBody::memory() const { return 8. * (factor->L->xsize + dense.size()); }
+  double CondensedBody::memory() const
+  {
+    return 8. * (factor->L->xsize + dense.size());
+  }
 } // namespace Voussoir

@@ -8,7 +8,7 @@ extern "C" void dgemv_(const char *, const int *, const int *, const double *, c
 namespace Voussoir
 {
   InterfaceOperator::InterfaceOperator(const std::vector<unsigned int> &n_pairs)
-    : offset(1, 0), coupled(n_pairs.size())
+      : offset(1, 0), coupled(n_pairs.size())
   {
     for (const unsigned int n : n_pairs)
       offset.push_back(offset.back() + 3 * n);
@@ -18,16 +18,16 @@ namespace Voussoir
   {
     const auto inserted = blocks.try_emplace({j, k});
     if (inserted.second)
+    {
+      inserted.first->second.assign(std::size_t(size(j)) * size(k), 0.);
+      if (j != k)
       {
-        inserted.first->second.assign(std::size_t(size(j)) * size(k), 0.);
-        if (j != k)
-          {
-            coupled[j].push_back(k);
-            coupled[k].push_back(j);
-            for (const unsigned int g : {j, k})
-              std::sort(coupled[g].begin(), coupled[g].end());
-          }
+        coupled[j].push_back(k);
+        coupled[k].push_back(j);
+        for (const unsigned int g : {j, k})
+          std::sort(coupled[g].begin(), coupled[g].end());
       }
+    }
     return inserted.first->second;
   }
 
@@ -39,7 +39,8 @@ namespace Voussoir
       return;
     const int    rows = size(std::min(j, k)), columns = size(std::max(j, k)), stride = 1;
     const double one = 1.;
-    dgemv_(j <= k ? "N" : "T", &rows, &columns, &factor, found->second.data(), &rows, x, &stride, &one, y, &stride);
+    dgemv_(j <= k ? "N" : "T", &rows, &columns, &factor, found->second.data(), &rows, x, &stride, &one, y,
+           &stride);
   }
 
   void InterfaceOperator::multiply(const Unknowns &x, Unknowns &y) const
@@ -47,18 +48,17 @@ namespace Voussoir
     y.assign(n(), 0.);
 #pragma omp parallel for schedule(dynamic)
     for (int j = 0; j < static_cast<int>(n_groups()); ++j)
-      {
-        add_coupling(j, j, 1., x.data() + offset[j], y.data() + offset[j]);
-        for (const unsigned int k : coupled[j])
-          add_coupling(j, k, 1., x.data() + offset[k], y.data() + offset[j]);
-      }
+    {
+      add_coupling(j, j, 1., x.data() + offset[j], y.data() + offset[j]);
+      for (const unsigned int k : coupled[j])
+        add_coupling(j, k, 1., x.data() + offset[k], y.data() + offset[j]);
+    }
   }
 
   Matrix3 InterfaceOperator::diagonal(const unsigned int pair) const
   {
-    const unsigned int group =
-      std::upper_bound(offset.begin(), offset.end(), 3 * pair) - offset.begin() - 1;
-    const std::vector<double> &b     = blocks.at({group, group});
+    const unsigned int group = std::upper_bound(offset.begin(), offset.end(), 3 * pair) - offset.begin() - 1;
+    const std::vector<double> &b = blocks.at({group, group});
     const std::size_t          first = 3 * pair - offset[group], m = size(group);
     Matrix3                    result;
     for (unsigned int i = 0; i < 3; ++i)

@@ -8,7 +8,10 @@ namespace Voussoir
 {
   namespace
   {
-    double length(const double x, const double y) { return std::sqrt(x * x + y * y); }
+    double length(const double x, const double y)
+    {
+      return std::sqrt(x * x + y * y);
+    }
 
     /** Forces that keep the rows of the tangential components at zero jump. */
     Vector3 tangential_tie(const Matrix3 &H, const Vector3 &b)
@@ -23,11 +26,12 @@ namespace Voussoir
       return {{-f[0], -f[1], -f[2]}};
     }
 
-    /** The normal condition, equation (2b): force_n = max(0, force_n - rho gap_n). Returns whether it is closed. */
+    /** The normal condition, equation (2b): force_n = max(0, force_n - rho gap_n). Returns whether it is
+     * closed. */
     bool normal_condition(const Vector3 &force, const Vector3 &gap, const double rho, PairEquations &e)
     {
       const bool closed = force[0] - rho * gap[0] > 0.;
-      e.residual[0]     = closed ? rho * gap[0] : force[0];
+      e.residual[0] = closed ? rho * gap[0] : force[0];
       (closed ? e.d_gap[0] : e.d_force[0]) = closed ? rho : 1.;
       return closed;
     }
@@ -36,17 +40,18 @@ namespace Voussoir
     void no_slip(const Vector3 &gap, const double rho, PairEquations &e)
     {
       for (unsigned int i = 1; i < 3; ++i)
-        {
-          e.residual[i]  = rho * gap[i];
-          e.d_gap[4 * i] = rho;
-        }
+      {
+        e.residual[i] = rho * gap[i];
+        e.d_gap[4 * i] = rho;
+      }
     }
 
     /** Both directions bilateral: the monolithic dam. */
     class Tied : public JointLaw
     {
     public:
-      PairState evaluate(const Vector3 &, const Vector3 &gap, const double rho, PairEquations &e) const override
+      PairState evaluate(const Vector3 &, const Vector3 &gap, const double rho,
+                         PairEquations &e) const override
       {
         e = {{{rho * gap[0], 0., 0.}}, {}, {}};
         e.d_gap[0] = rho;
@@ -61,9 +66,10 @@ namespace Voussoir
     class FJB : public JointLaw
     {
     public:
-      PairState evaluate(const Vector3 &force, const Vector3 &gap, const double rho, PairEquations &e) const override
+      PairState evaluate(const Vector3 &force, const Vector3 &gap, const double rho,
+                         PairEquations &e) const override
       {
-        e                 = {};
+        e = {};
         const bool closed = normal_condition(force, gap, rho, e);
         no_slip(gap, rho, e);
         return closed ? PairState::stick : PairState::open;
@@ -76,33 +82,35 @@ namespace Voussoir
       bool is_tangentially_tied() const override { return true; }
     };
 
-    /** Flat joint that opens and slides with Coulomb friction. Equations (2b), (3b), (4b), the angle of slip taken
-     *  from the trial force x = force_t - rho gap_t: then (3b) and (4b) together are the projection of x on the disc
-     *  of radius mu max(0, force_n - rho gap_n) (Alart and Curnier 1991), which is Lipschitz everywhere. */
+    /** Flat joint that opens and slides with Coulomb friction. Equations (2b), (3b), (4b), the angle of slip
+     * taken from the trial force x = force_t - rho gap_t: then (3b) and (4b) together are the projection of x
+     * on the disc of radius mu max(0, force_n - rho gap_n) (Alart and Curnier 1991), which is Lipschitz
+     * everywhere. */
     class FJA : public JointLaw
     {
     public:
       explicit FJA(const double friction) : mu(friction) {}
 
-      PairState evaluate(const Vector3 &force, const Vector3 &gap, const double rho, PairEquations &e) const override
+      PairState evaluate(const Vector3 &force, const Vector3 &gap, const double rho,
+                         PairEquations &e) const override
       {
         e = {};
         if (!normal_condition(force, gap, rho, e))
+        {
+          for (unsigned int i = 1; i < 3; ++i)
           {
-            for (unsigned int i = 1; i < 3; ++i)
-              {
-                e.residual[i]    = force[i];
-                e.d_force[4 * i] = 1.;
-              }
-            return PairState::open;
+            e.residual[i] = force[i];
+            e.d_force[4 * i] = 1.;
           }
+          return PairState::open;
+        }
         const double x1 = force[1] - rho * gap[1], x2 = force[2] - rho * gap[2], x = length(x1, x2);
         const double radius = mu * (force[0] - rho * gap[0]);
         if (x <= radius)
-          {
-            no_slip(gap, rho, e);
-            return PairState::stick;
-          }
+        {
+          no_slip(gap, rho, e);
+          return PairState::stick;
+        }
         const double e1 = x1 / x, e2 = x2 / x, shrink = radius / x;
         const double g11 = shrink * (1. - e1 * e1), g12 = -shrink * e1 * e2, g22 = shrink * (1. - e2 * e2);
         e.residual[1] = force[1] - radius * e1;
@@ -129,7 +137,8 @@ namespace Voussoir
         const double s11 = H[4] - H[3] * H[1] / H[0], s12 = H[5] - H[3] * H[2] / H[0],
                      s22 = H[8] - H[6] * H[2] / H[0];
         const double c1 = b[1] - H[3] * b[0] / H[0], c2 = b[2] - H[6] * b[0] / H[0];
-        const auto   force = [&](const double k) -> Vector3 {
+        const auto   force = [&](const double k) -> Vector3
+        {
           const double det = (s11 + k) * (s22 + k) - s12 * s12;
           const double f1 = -((s22 + k) * c1 - s12 * c2) / det, f2 = -((s11 + k) * c2 - s12 * c1) / det;
           return {{-(b[0] + H[1] * f1 + H[2] * f2) / H[0], f1, f2}};
@@ -139,10 +148,10 @@ namespace Voussoir
         while (outside(force(high)) && high < 1e30 * H[0])
           high *= 4.;
         for (unsigned int i = 0; i < 200 && high - low > 1e-16 * high; ++i)
-          {
-            const double middle = .5 * (low + high);
-            (outside(force(middle)) ? low : high) = middle;
-          }
+        {
+          const double middle = .5 * (low + high);
+          (outside(force(middle)) ? low : high) = middle;
+        }
         return force(high);
       }
 
@@ -161,48 +170,52 @@ namespace Voussoir
       const double mu;
     };
 
-    /** The same joint by the paper's own equations (3b), (4b): the angle of slip is that of the force, which is
-     *  undefined at an open or unloaded pair. For comparison only; see doc/contact.md. */
+    /** The same joint by the paper's own equations (3b), (4b): the angle of slip is that of the force, which
+     * is undefined at an open or unloaded pair. For comparison only; see doc/contact.md. */
     class FJAPaper : public FJA
     {
     public:
       using FJA::FJA;
 
-      PairState evaluate(const Vector3 &force, const Vector3 &gap, const double rho, PairEquations &e) const override
+      PairState evaluate(const Vector3 &force, const Vector3 &gap, const double rho,
+                         PairEquations &e) const override
       {
-        e                   = {};
+        e = {};
         const bool   closed = normal_condition(force, gap, rho, e);
-        const double p = length(force[1], force[2]), c = p > 0. ? force[1] / p : 1., s = p > 0. ? force[2] / p : 0.;
+        const double p = length(force[1], force[2]), c = p > 0. ? force[1] / p : 1.,
+                     s = p > 0. ? force[2] / p : 0.;
         // d(c, s)/d(force_1, force_2)
-        const double t11 = p > 0. ? s * s / p : 0., t12 = p > 0. ? -c * s / p : 0., t22 = p > 0. ? c * c / p : 0.;
+        const double t11 = p > 0. ? s * s / p : 0., t12 = p > 0. ? -c * s / p : 0.,
+                     t22 = p > 0. ? c * c / p : 0.;
         const double radius = closed ? mu * (force[0] - rho * gap[0]) : 0.;
-        const double trial  = p - rho * (gap[1] * c + gap[2] * s), across = rho * (gap[2] * c - gap[1] * s);
+        const double trial = p - rho * (gap[1] * c + gap[2] * s), across = rho * (gap[2] * c - gap[1] * s);
         // (3b) along (c, s): h3 = p - clip(trial, radius); (4b) across it: h4. Residual h3 (c,s) + h4 (-s,c).
         const bool   slips = std::abs(trial) > radius;
-        const double sign  = trial < 0. ? -1. : 1., h3 = slips ? p - sign * radius : p - trial;
+        const double sign = trial < 0. ? -1. : 1., h3 = slips ? p - sign * radius : p - trial;
         e.residual[1] = h3 * c - across * s;
         e.residual[2] = h3 * s + across * c;
         // derivatives of h3 and h4
-        const Vector3 d_trial = {{0., c - rho * (gap[1] * t11 + gap[2] * t12), s - rho * (gap[1] * t12 + gap[2] * t22)}};
+        const Vector3 d_trial = {
+            {0., c - rho * (gap[1] * t11 + gap[2] * t12), s - rho * (gap[1] * t12 + gap[2] * t22)}};
         Vector3 h3_f = {{0., c, s}}, h3_g = {{0., 0., 0.}};
         if (slips && closed)
           h3_f[0] = -sign * mu, h3_g[0] = sign * mu * rho;
         if (!slips)
-          {
-            for (unsigned int j = 1; j < 3; ++j)
-              h3_f[j] -= d_trial[j];
-            h3_g[1] = rho * c, h3_g[2] = rho * s;
-          }
+        {
+          for (unsigned int j = 1; j < 3; ++j)
+            h3_f[j] -= d_trial[j];
+          h3_g[1] = rho * c, h3_g[2] = rho * s;
+        }
         const Vector3 h4_f = {{0., rho * (gap[2] * t11 - gap[1] * t12), rho * (gap[2] * t12 - gap[1] * t22)}},
                       h4_g = {{0., -rho * s, rho * c}};
         const double dc[3] = {0., t11, t12}, ds[3] = {0., t12, t22};
         for (unsigned int j = 0; j < 3; ++j)
-          {
-            e.d_force[3 + j] = h3_f[j] * c - h4_f[j] * s + h3 * dc[j] - across * ds[j];
-            e.d_force[6 + j] = h3_f[j] * s + h4_f[j] * c + h3 * ds[j] + across * dc[j];
-            e.d_gap[3 + j]   = h3_g[j] * c - h4_g[j] * s;
-            e.d_gap[6 + j]   = h3_g[j] * s + h4_g[j] * c;
-          }
+        {
+          e.d_force[3 + j] = h3_f[j] * c - h4_f[j] * s + h3 * dc[j] - across * ds[j];
+          e.d_force[6 + j] = h3_f[j] * s + h4_f[j] * c + h3 * ds[j] + across * dc[j];
+          e.d_gap[3 + j] = h3_g[j] * c - h4_g[j] * s;
+          e.d_gap[6 + j] = h3_g[j] * s + h4_g[j] * c;
+        }
         return !closed ? PairState::open : (slips ? PairState::slip : PairState::stick);
       }
     };
@@ -228,5 +241,8 @@ namespace Voussoir
     throw InputError("There is no joint law \"" + name + "\". The laws are: " + joint_law_names() + ".");
   }
 
-  std::string joint_law_names() { return "tied|FJA|FJB"; }
+  std::string joint_law_names()
+  {
+    return "tied|FJA|FJB";
+  }
 } // namespace Voussoir

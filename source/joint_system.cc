@@ -29,18 +29,19 @@ namespace Voussoir
     {
       Matrix3 result;
       for (unsigned int j = 0; j < 3; ++j)
-        {
-          const Vector3 Fq = F * q[j];
-          for (unsigned int i = 0; i < 3; ++i)
-            result[3 * i + j] = p[i][0] * Fq[0] + p[i][1] * Fq[1] + p[i][2] * Fq[2];
-        }
+      {
+        const Vector3 Fq = F * q[j];
+        for (unsigned int i = 0; i < 3; ++i)
+          result[3 * i + j] = p[i][0] * Fq[0] + p[i][1] * Fq[1] + p[i][2] * Fq[2];
+      }
       return result;
     }
   } // namespace
 
-  JointSystem::JointSystem(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters,
-                           const double mass_factor, const double stiffness_factor, const double dashpot_factor)
-    : structure(structure), sides(structure.pairs.size()), W(pairs_per_joint(structure))
+  JointSystem::JointSystem(const Structure &structure, const JointLaws &laws,
+                           const ContactParameters &parameters, const double mass_factor,
+                           const double stiffness_factor, const double dashpot_factor)
+      : structure(structure), sides(structure.pairs.size()), W(pairs_per_joint(structure))
   {
     const int                                 n_bodies = structure.bodies.size();
     std::vector<std::optional<CondensedBody>> condensed(n_bodies);
@@ -48,21 +49,21 @@ namespace Voussoir
 #pragma omp parallel for schedule(dynamic)
     for (int i = 0; i < n_bodies; ++i)
       try
-        {
-          condensed[i].emplace(structure, structure.bodies[i], mass_factor, stiffness_factor, dashpot_factor);
-        }
+      {
+        condensed[i].emplace(structure, structure.bodies[i], mass_factor, stiffness_factor, dashpot_factor);
+      }
       catch (...)
-        {
+      {
 #pragma omp critical
-          failure = std::current_exception();
-        }
+        failure = std::current_exception();
+      }
     if (failure)
       std::rethrow_exception(failure);
     for (auto &body : condensed)
-      {
-        interface.emplace_back(body->n_interface());
-        bodies.push_back(std::move(*body));
-      }
+    {
+      interface.emplace_back(body->n_interface());
+      bodies.push_back(std::move(*body));
+    }
     condense();
     solver = std::make_unique<ContactSolver>(W, laws.of_pair, parameters);
   }
@@ -73,95 +74,97 @@ namespace Voussoir
     std::vector<std::vector<std::pair<unsigned int, unsigned int>>> of_body(bodies.size()); // pair, side
     for (unsigned int p = 0; p < sides.size(); ++p)
       for (unsigned int side = 0; side < 2; ++side)
-        {
-          const Pair        &pair = structure.pairs[p];
-          const unsigned int node = side == 0 ? pair.node_1 : pair.node_2;
-          if (node == rigid_ground)
-            continue;
-          const auto after = std::upper_bound(structure.bodies.begin(), structure.bodies.end(), node,
-                                              [](const unsigned int n, const Body &b) { return n < b.first_node; });
-          const Body &body  = *(after - 1);
-          const auto &nodes = body.interface;
-          sides[p][side]    = {static_cast<unsigned int>(after - 1 - structure.bodies.begin()),
-                               static_cast<unsigned int>(
-                              std::lower_bound(nodes.begin(), nodes.end(), node - body.first_node) - nodes.begin())};
-          of_body[sides[p][side].body].push_back({p, side});
-        }
+      {
+        const Pair        &pair = structure.pairs[p];
+        const unsigned int node = side == 0 ? pair.node_1 : pair.node_2;
+        if (node == rigid_ground)
+          continue;
+        const auto after =
+            std::upper_bound(structure.bodies.begin(), structure.bodies.end(), node,
+                             [](const unsigned int n, const Body &b) { return n < b.first_node; });
+        const Body &body = *(after - 1);
+        const auto &nodes = body.interface;
+        sides[p][side] = {
+            static_cast<unsigned int>(after - 1 - structure.bodies.begin()),
+            static_cast<unsigned int>(std::lower_bound(nodes.begin(), nodes.end(), node - body.first_node) -
+                                      nodes.begin())};
+        of_body[sides[p][side].body].push_back({p, side});
+      }
 
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      {
-        const std::vector<double> F = bodies[b].flexibility();
-        const std::size_t         m = bodies[b].n_interface();
-        for (const auto &q : of_body[b]) // columns
-          for (const auto &p : of_body[b])
-            {
-              const Pair &pair_p = structure.pairs[p.first], &pair_q = structure.pairs[q.first];
-              if (pair_p.joint > pair_q.joint)
-                continue;
-              Matrix3      f;
-              const double sign = p.second == q.second ? 1. : -1.;
-              for (unsigned int j = 0; j < 3; ++j)
-                for (unsigned int i = 0; i < 3; ++i)
-                  f[3 * i + j] = sign * F[bodies[b].position(sides[q.first][q.second].node, j) * m +
-                                          bodies[b].position(sides[p.first][p.second].node, i)];
-              const Matrix3        w     = rotate(pair_p.frame, f, pair_q.frame);
-              std::vector<double> &block = W.block(pair_p.joint, pair_q.joint);
-              const std::size_t    rows = W.size(pair_p.joint), row = 3 * p.first - W.begin(pair_p.joint),
-                                column = 3 * q.first - W.begin(pair_q.joint);
-              for (unsigned int j = 0; j < 3; ++j)
-                for (unsigned int i = 0; i < 3; ++i)
-                  block[(column + j) * rows + row + i] += w[3 * i + j];
-            }
-      }
+    {
+      const std::vector<double> F = bodies[b].flexibility();
+      const std::size_t         m = bodies[b].n_interface();
+      for (const auto &q : of_body[b]) // columns
+        for (const auto &p : of_body[b])
+        {
+          const Pair &pair_p = structure.pairs[p.first], &pair_q = structure.pairs[q.first];
+          if (pair_p.joint > pair_q.joint)
+            continue;
+          Matrix3      f;
+          const double sign = p.second == q.second ? 1. : -1.;
+          for (unsigned int j = 0; j < 3; ++j)
+            for (unsigned int i = 0; i < 3; ++i)
+              f[3 * i + j] = sign * F[bodies[b].position(sides[q.first][q.second].node, j) * m +
+                                      bodies[b].position(sides[p.first][p.second].node, i)];
+          const Matrix3        w = rotate(pair_p.frame, f, pair_q.frame);
+          std::vector<double> &block = W.block(pair_p.joint, pair_q.joint);
+          const std::size_t    rows = W.size(pair_p.joint), row = 3 * p.first - W.begin(pair_p.joint),
+                            column = 3 * q.first - W.begin(pair_q.joint);
+          for (unsigned int j = 0; j < 3; ++j)
+            for (unsigned int i = 0; i < 3; ++i)
+              block[(column + j) * rows + row + i] += w[3 * i + j];
+        }
+    }
   }
 
-  ContactResult JointSystem::solve(const Unknowns &load, const Unknowns &offset, Unknowns &force, Unknowns &gap,
-                                   Unknowns &u)
+  ContactResult JointSystem::solve(const Unknowns &load, const Unknowns &offset, Unknowns &force,
+                                   Unknowns &gap, Unknowns &u)
   {
-    const double start    = now();
+    const double start = now();
     const int    n_bodies = bodies.size();
     u.resize(load.size());
 #pragma omp parallel for schedule(dynamic)
     for (int i = 0; i < n_bodies; ++i)
-      {
-        bodies[i].forward(load.data() + 3 * std::size_t(structure.bodies[i].first_node));
-        bodies[i].interface_displacement(interface[i].data());
-      }
+    {
+      bodies[i].forward(load.data() + 3 * std::size_t(structure.bodies[i].first_node));
+      bodies[i].interface_displacement(interface[i].data());
+    }
 
     const double  middle = now();
     ContactResult result;
     result.converged = true;
     if (!sides.empty())
-      {
-        Unknowns b = offset;
-        for (unsigned int p = 0; p < sides.size(); ++p)
-          for (unsigned int side = 0; side < 2; ++side)
-            if (const Side &s = sides[p][side]; s.body != rigid_ground)
-              for (unsigned int c = 0; c < 3; ++c)
-                {
-                  const double x = (side == 0 ? -1. : 1.) * interface[s.body][bodies[s.body].position(s.node, c)];
-                  for (unsigned int i = 0; i < 3; ++i)
-                    b[3 * p + i] += structure.pairs[p].frame[i][c] * x;
-                }
-        result = solver->solve(b, force, gap);
-        for (auto &f : interface)
-          std::fill(f.begin(), f.end(), 0.);
-        for (unsigned int p = 0; p < sides.size(); ++p)
-          for (unsigned int side = 0; side < 2; ++side)
-            if (const Side &s = sides[p][side]; s.body != rigid_ground)
-              for (unsigned int c = 0; c < 3; ++c)
-                for (unsigned int i = 0; i < 3; ++i)
-                  interface[s.body][bodies[s.body].position(s.node, c)] +=
+    {
+      Unknowns b = offset;
+      for (unsigned int p = 0; p < sides.size(); ++p)
+        for (unsigned int side = 0; side < 2; ++side)
+          if (const Side &s = sides[p][side]; s.body != rigid_ground)
+            for (unsigned int c = 0; c < 3; ++c)
+            {
+              const double x = (side == 0 ? -1. : 1.) * interface[s.body][bodies[s.body].position(s.node, c)];
+              for (unsigned int i = 0; i < 3; ++i)
+                b[3 * p + i] += structure.pairs[p].frame[i][c] * x;
+            }
+      result = solver->solve(b, force, gap);
+      for (auto &f : interface)
+        std::fill(f.begin(), f.end(), 0.);
+      for (unsigned int p = 0; p < sides.size(); ++p)
+        for (unsigned int side = 0; side < 2; ++side)
+          if (const Side &s = sides[p][side]; s.body != rigid_ground)
+            for (unsigned int c = 0; c < 3; ++c)
+              for (unsigned int i = 0; i < 3; ++i)
+                interface[s.body][bodies[s.body].position(s.node, c)] +=
                     (side == 0 ? -1. : 1.) * structure.pairs[p].frame[i][c] * force[3 * p + i];
-      }
+    }
 
     const double after = now();
 #pragma omp parallel for schedule(dynamic)
     for (int i = 0; i < n_bodies; ++i)
-      {
-        bodies[i].add_interface_forces(interface[i].data());
-        bodies[i].backward(u.data() + 3 * std::size_t(structure.bodies[i].first_node));
-      }
+    {
+      bodies[i].add_interface_forces(interface[i].data());
+      bodies[i].backward(u.data() + 3 * std::size_t(structure.bodies[i].first_node));
+    }
     times.sweeps += middle - start + now() - after;
     times.joints += after - middle;
     return result;
@@ -171,10 +174,10 @@ namespace Voussoir
   {
     u.resize(load.size());
     for (unsigned int i = 0; i < bodies.size(); ++i)
-      {
-        bodies[i].forward(load.data() + 3 * std::size_t(structure.bodies[i].first_node));
-        bodies[i].backward(u.data() + 3 * std::size_t(structure.bodies[i].first_node));
-      }
+    {
+      bodies[i].forward(load.data() + 3 * std::size_t(structure.bodies[i].first_node));
+      bodies[i].backward(u.data() + 3 * std::size_t(structure.bodies[i].first_node));
+    }
   }
 
   double JointSystem::memory() const

@@ -266,7 +266,7 @@ namespace Voussoir
     {
       if (table.entries()[i].key != table.entries()[i - 1].key)
         continue;
-      std::array<HexMesh::Face, 2> sides;
+      std::array<HexMesh::Face, 2> sides{};
       std::array<int, 2>           owner;
       for (const unsigned int s : {0, 1})
       {

@@ -5,6 +5,7 @@
 #include <voussoir/motion_artificial.h>
 #include <voussoir/motion_record.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -131,16 +132,18 @@ namespace Voussoir
     require(std::abs(duration / time_step - n_steps()) < 1e-6 * n_steps(), "Duration", duration,
             "it must be a multiple of Time step");
 
-    if (source == "file")
-    {
-      const bool components = !(component_files[0] + component_files[1] + component_files[2]).empty();
-      if (file.empty() != components)
-        throw InputError(
-            components ? "Motion/File and Motion/File x, y, z are both given: keep either the file with "
-                         "all components or the files with one each."
-                       : "Motion/Source is file, but no file is given: set Motion/File (columns t, a_x, "
-                         "a_y, a_z) or Motion/File x, File y, File z.");
-    }
+    const bool components_given = !(component_files[0] + component_files[1] + component_files[2]).empty();
+    if (source == "file" && file.empty() && !components_given)
+      throw InputError(
+          "Motion/Source is file, but no file is given: set Motion/File (columns t, a_x, a_y, a_z) "
+          "or Motion/File x, File y, File z.");
+    if (source == "file" && !file.empty() && components_given)
+      throw InputError("Motion/File and Motion/File x, y, z are both given: keep either the file with all "
+                       "components or the files with one each.");
+    if (source == "artificial" && (!file.empty() || components_given))
+      throw InputError(
+          "A file is given in section Motion, but Motion/Source is artificial: set Source = file, "
+          "or remove the file.");
 
     if (source == "artificial")
     {
@@ -186,7 +189,7 @@ namespace Voussoir
       {
         const std::string  path = (std::filesystem::path(scene_directory) / name).string();
         const MotionRecord record = read_motion_record(path, n_components);
-        if (record.duration() < parameters.duration - 1e-3 * record.dt)
+        if (record.duration() < parameters.duration - 0.01 * record.dt)
         {
           std::ostringstream message;
           message << "The ground motion file '" << path << "' lasts " << record.duration()

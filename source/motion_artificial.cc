@@ -12,7 +12,7 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double longest_period = 10.; // of the series [s]
+    constexpr double longest_period = 20.; // of the series [s]
 
     /** Sum_k c_k exp(2 pi i j k / n), j = 0..n-1, n a power of two (radix 2, in place). */
     void fourier_sum(std::vector<std::complex<double>> &c)
@@ -178,7 +178,7 @@ namespace Voussoir
     Series               series = make_series(parameters, direction, attempt);
     correct_amplitudes(series, parameters.time_step, envelope, target);
     return match_spectrum(series.evaluate(envelope), parameters.time_step, envelope, target,
-                          0.6 * MotionCriteria::maximum_error, // leaves room between the matched periods
+                          0.75 * MotionCriteria::maximum_error, // leaves room between the matched periods
                           parameters.matching_iterations);
   }
 

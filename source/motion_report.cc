@@ -102,7 +102,10 @@ namespace Voussoir
     {
       table << std::left << std::setw(24) << name << std::setw(6) << unit << std::right;
       for (const Component &component : report.components)
-        table << std::setw(10) << value(component) + 0.; // no minus zero
+      {
+        const double number = value(component);
+        table << std::setw(10) << (std::abs(number) < 0.0005 ? 0. : number); // not -0.000
+      }
       table << '\n';
     };
 
@@ -136,7 +139,7 @@ namespace Voussoir
           table << "warning: the spectrum of "
                 << "xyz"[d] << " is off by up to " << 100. * c.maximum_error << " % (" << 100. * c.mean_error
                 << " % on average); accepted are 10 % (5 %). Try more \"Matching"
-                << " iterations\", another \"Seed\" or a longer \"Duration\".\n";
+                << " iterations\", another \"Seed\", a longer \"Duration\" or a smaller \"Time step\".\n";
       }
       table << std::setprecision(3);
       for (unsigned int i = 0; i < 3; ++i)

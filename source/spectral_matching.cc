@@ -24,7 +24,8 @@ namespace Voussoir
       return (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
 
-    /** Solve A x = b, A symmetric positive definite with its lower triangle given, by Cholesky's method. */
+    /** Solve A x = b by Cholesky's method; A is symmetric positive (semi)definite with a diagonal near one,
+     * and its lower triangle is given. */
     Vector solve(std::vector<Vector> A, Vector b)
     {
       const std::size_t n = b.size();
@@ -35,7 +36,7 @@ namespace Voussoir
           double sum = A[i][j];
           for (std::size_t k = 0; k < j; ++k)
             sum -= A[i][k] * A[j][k];
-          A[i][j] = (i == j) ? std::sqrt(sum) : sum / A[j][j];
+          A[i][j] = (i == j) ? std::sqrt(std::max(sum, 1e-15)) : sum / A[j][j];
         }
         for (std::size_t k = 0; k < i; ++k)
           b[i] -= A[i][k] * b[k];
@@ -171,13 +172,14 @@ namespace Voussoir
 
   SpectralError spectral_error(const Vector &acceleration, double dt, const SpectralTarget &target)
   {
-    const Vector  spectrum = pseudo_acceleration_spectrum(acceleration, dt, target.periods, target.damping);
     SpectralError error;
-    for (std::size_t i = 0; i < spectrum.size(); ++i)
+    for (std::size_t i = 0; i < target.periods.size(); ++i)
     {
-      const double relative = std::abs(spectrum[i] / target.pseudo_acceleration[i] - 1.);
+      const auto   peak = Oscillator(target.periods[i], target.damping, dt).peak(acceleration);
+      const double aim = target.pseudo_acceleration[i];
+      const double relative = std::max(std::abs(peak.value) - aim, aim - peak.sampled) / aim;
       error.maximum = std::max(error.maximum, relative);
-      error.mean += relative / spectrum.size();
+      error.mean += relative / target.periods.size();
     }
     return error;
   }

@@ -7,7 +7,8 @@ namespace Voussoir
 {
   Matrix3 inverse(const Matrix3 &a)
   {
-    const double c0 = a[4] * a[8] - a[5] * a[7], c1 = a[5] * a[6] - a[3] * a[8], c2 = a[3] * a[7] - a[4] * a[6];
+    const double c0 = a[4] * a[8] - a[5] * a[7], c1 = a[5] * a[6] - a[3] * a[8],
+                 c2 = a[3] * a[7] - a[4] * a[6];
     const double d = 1. / (a[0] * c0 + a[1] * c1 + a[2] * c2);
     return {{c0 * d, (a[2] * a[7] - a[1] * a[8]) * d, (a[1] * a[5] - a[2] * a[4]) * d, c1 * d,
              (a[0] * a[8] - a[2] * a[6]) * d, (a[2] * a[3] - a[0] * a[5]) * d, c2 * d,
@@ -25,10 +26,10 @@ namespace Voussoir
     start.reserve(columns.size() + 1);
     start.push_back(0);
     for (const auto &row : columns)
-      {
-        column.insert(column.end(), row.begin(), row.end());
-        start.push_back(column.size());
-      }
+    {
+      column.insert(column.end(), row.begin(), row.end());
+      start.push_back(column.size());
+    }
     value.assign(column.size(), Matrix3{});
   }
 
@@ -47,21 +48,21 @@ namespace Voussoir
     const int n = n_rows();
 #pragma omp parallel for schedule(static)
     for (int row = 0; row < n; ++row)
+    {
+      double y0 = 0, y1 = 0, y2 = 0, z0 = 0, z1 = 0, z2 = 0;
+      for (std::size_t k = start[row]; k < start[row + 1]; ++k)
       {
-        double y0 = 0, y1 = 0, y2 = 0, z0 = 0, z1 = 0, z2 = 0;
-        for (std::size_t k = start[row]; k < start[row + 1]; ++k)
-          {
-            const double *a = value[k].data(), *p = x + 3 * column[k], *q = w + 3 * column[k];
-            y0 += a[0] * p[0] + a[1] * p[1] + a[2] * p[2];
-            y1 += a[3] * p[0] + a[4] * p[1] + a[5] * p[2];
-            y2 += a[6] * p[0] + a[7] * p[1] + a[8] * p[2];
-            z0 += a[0] * q[0] + a[1] * q[1] + a[2] * q[2];
-            z1 += a[3] * q[0] + a[4] * q[1] + a[5] * q[2];
-            z2 += a[6] * q[0] + a[7] * q[1] + a[8] * q[2];
-          }
-        y[3 * row] = y0, y[3 * row + 1] = y1, y[3 * row + 2] = y2;
-        z[3 * row] = z0, z[3 * row + 1] = z1, z[3 * row + 2] = z2;
+        const double *a = value[k].data(), *p = x + 3 * column[k], *q = w + 3 * column[k];
+        y0 += a[0] * p[0] + a[1] * p[1] + a[2] * p[2];
+        y1 += a[3] * p[0] + a[4] * p[1] + a[5] * p[2];
+        y2 += a[6] * p[0] + a[7] * p[1] + a[8] * p[2];
+        z0 += a[0] * q[0] + a[1] * q[1] + a[2] * q[2];
+        z1 += a[3] * q[0] + a[4] * q[1] + a[5] * q[2];
+        z2 += a[6] * q[0] + a[7] * q[1] + a[8] * q[2];
       }
+      y[3 * row] = y0, y[3 * row + 1] = y1, y[3 * row + 2] = y2;
+      z[3 * row] = z0, z[3 * row + 1] = z1, z[3 * row + 2] = z2;
+    }
   }
 
   void BlockSparseMatrix::symmetrise()
@@ -69,13 +70,13 @@ namespace Voussoir
     for (unsigned int row = 0; row < n_rows(); ++row)
       for (std::size_t k = start[row]; k < start[row + 1]; ++k)
         if (column[k] >= row)
-          {
-            const auto begin = column.begin() + start[column[k]], end = column.begin() + start[column[k] + 1];
-            Matrix3   &a = value[k], &b = value[std::lower_bound(begin, end, row) - column.begin()];
-            for (unsigned int i = 0; i < 3; ++i)
-              for (unsigned int j = 0; j < 3; ++j)
-                a[3 * i + j] = b[3 * j + i] = .5 * (a[3 * i + j] + b[3 * j + i]);
-          }
+        {
+          const auto begin = column.begin() + start[column[k]], end = column.begin() + start[column[k] + 1];
+          Matrix3   &a = value[k], &b = value[std::lower_bound(begin, end, row) - column.begin()];
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = 0; j < 3; ++j)
+              a[3 * i + j] = b[3 * j + i] = .5 * (a[3 * i + j] + b[3 * j + i]);
+        }
   }
 
   void Structure::collect_interfaces()
@@ -86,12 +87,12 @@ namespace Voussoir
         if (node != rigid_ground)
           in_pair[node] = true;
     for (Body &body : bodies)
-      {
-        body.interface.clear();
-        for (unsigned int i = 0; i < body.n_nodes(); ++i)
-          if (in_pair[body.first_node + i])
-            body.interface.push_back(i);
-      }
+    {
+      body.interface.clear();
+      for (unsigned int i = 0; i < body.n_nodes(); ++i)
+        if (in_pair[body.first_node + i])
+          body.interface.push_back(i);
+    }
   }
 
   void Structure::multiply_stiffness(const Unknowns &u, Unknowns &Ku, const Unknowns &v, Unknowns &Kv) const
@@ -99,10 +100,10 @@ namespace Voussoir
     Ku.resize(u.size());
     Kv.resize(u.size());
     for (const Body &body : bodies)
-      {
-        const std::size_t first = 3 * std::size_t(body.first_node);
-        body.stiffness.multiply(u.data() + first, Ku.data() + first, v.data() + first, Kv.data() + first);
-      }
+    {
+      const std::size_t first = 3 * std::size_t(body.first_node);
+      body.stiffness.multiply(u.data() + first, Ku.data() + first, v.data() + first, Kv.data() + first);
+    }
   }
 
   Vector3 Structure::jump(const Pair &pair, const Unknowns &u) const
@@ -120,12 +121,12 @@ namespace Voussoir
   void Structure::add_pair_force(const Pair &pair, const Vector3 &f, Unknowns &u) const
   {
     for (unsigned int c = 0; c < 3; ++c)
-      {
-        const double x = pair.frame[0][c] * f[0] + pair.frame[1][c] * f[1] + pair.frame[2][c] * f[2];
-        if (pair.node_2 != rigid_ground)
-          u[3 * pair.node_2 + c] += x;
-        if (pair.node_1 != rigid_ground)
-          u[3 * pair.node_1 + c] -= x;
-      }
+    {
+      const double x = pair.frame[0][c] * f[0] + pair.frame[1][c] * f[1] + pair.frame[2][c] * f[2];
+      if (pair.node_2 != rigid_ground)
+        u[3 * pair.node_2 + c] += x;
+      if (pair.node_1 != rigid_ground)
+        u[3 * pair.node_1 + c] -= x;
+    }
   }
 } // namespace Voussoir

@@ -198,7 +198,7 @@ namespace
       require_close(motion.acceleration[k][2], 2. * (1 + 2 * k), 1e-12, "table: z");
     }
 
-    // Two columns, finer than the file: interpolated. PEER's three headers; values glued to no grid.
+    // Two columns, finer than the file: interpolated. PEER's three headers, with a short last line.
     write("motion_two.txt", "0 0.0\n0.02\t+1.0D0\n0.04 0.5\n");
     const std::string              title = "PEER STRONG MOTION DATABASE RECORD\nAN EVENT, STATION 5\n"
                                            "ACCELERATION TIME HISTORY IN UNITS OF G\n";
@@ -307,6 +307,7 @@ namespace
     wrong([](MotionParameters &p) { p.duration = -1.; }, "Duration");
     wrong([](MotionParameters &p) { p.duration = 20.485; }, "Duration");
     wrong([](MotionParameters &p) { p.duration = 10.; }, "Duration");
+    wrong([](MotionParameters &p) { p.file = "a.csv"; }, "Source");
     wrong([](MotionParameters &p) { p.decay_begin = 2.; }, "Decay begin");
     wrong([](MotionParameters &p) { p.vertical_ratio = 0.; }, "Vertical ratio");
     wrong([](MotionParameters &p) { p.spectrum.characteristic_period = 0.; }, "Characteristic period");

@@ -9,8 +9,8 @@ namespace Voussoir
 {
   /** A body seen through its interface.
    *
-   *  The operator A = mass_factor M + stiffness_factor K + dashpot_factor D is factorised once, A = L L^T, with
-   *  the interface unknowns ordered last, so that the trailing block of L is the factor of the condensed
+   *  The operator A = mass_factor M + stiffness_factor K + dashpot_factor D is factorised once, A = L L^T,
+   * with the interface unknowns ordered last, so that the trailing block of L is the factor of the condensed
    *  operator: S = L_GG L_GG^T. A step is then
    *
    *    forward(b)               y = L^-1 b, in which y_G is the condensed load
@@ -22,20 +22,22 @@ namespace Voussoir
   class CondensedBody
   {
   public:
-    /** Throws ComputationError when A is not positive definite (a body that nothing holds, or bad elements). */
+    /** Throws ComputationError when A is not positive definite (a body that nothing holds, or bad elements).
+     */
     CondensedBody(const Structure &structure, const Body &body, double mass_factor, double stiffness_factor,
                   double dashpot_factor);
     ~CondensedBody();
     CondensedBody(CondensedBody &&) noexcept;
 
-    void forward(const double *b);                        ///< b: 3 n_nodes, the body's part of the load
-    void interface_displacement(double *u) const;         ///< u: n_interface()
-    void add_interface_forces(const double *f);           ///< f: n_interface()
-    void backward(double *u);                             ///< u: 3 n_nodes
+    void forward(const double *b);                ///< b: 3 n_nodes, the body's part of the load
+    void interface_displacement(double *u) const; ///< u: n_interface()
+    void add_interface_forces(const double *f);   ///< f: n_interface()
+    void backward(double *u);                     ///< u: 3 n_nodes
 
     unsigned int n_interface() const { return static_cast<unsigned int>(tail.size()); }
 
-    /** Where component c of the interface node number i (in body.interface) stands in the interface arrays. */
+    /** Where component c of the interface node number i (in body.interface) stands in the interface arrays.
+     */
     unsigned int position(const unsigned int i, const unsigned int c) const { return slot[3 * i + c]; }
 
     /** S^-1, n_interface() x n_interface(), column by column (it is symmetric) [m/N]. */
@@ -46,8 +48,8 @@ namespace Voussoir
   private:
     struct Factor;
     std::unique_ptr<Factor>   factor;
-    std::vector<unsigned int> tail; ///< local unknown at each interface position
-    std::vector<unsigned int> slot; ///< the inverse, by interface node and component
+    std::vector<unsigned int> tail;  ///< local unknown at each interface position
+    std::vector<unsigned int> slot;  ///< the inverse, by interface node and component
     std::vector<double>       dense; ///< L_GG, column by column
   };
 } // namespace Voussoir

@@ -21,7 +21,8 @@ namespace Voussoir
     /** @p n_pairs: pairs in each group. */
     explicit InterfaceOperator(const std::vector<unsigned int> &n_pairs);
 
-    /** The block of rows of group @p j and columns of group @p k >= j, column by column; made on first use. */
+    /** The block of rows of group @p j and columns of group @p k >= j, column by column; made on first use.
+     */
     std::vector<double>       &block(unsigned int j, unsigned int k);
     const std::vector<double> &block(unsigned int j, unsigned int k) const { return blocks.at({j, k}); }
 
@@ -41,16 +42,16 @@ namespace Voussoir
     double                           memory() const; ///< [bytes]
 
   private:
-    std::vector<unsigned int>                                             offset;
-    std::vector<std::vector<unsigned int>>                                coupled;
+    std::vector<unsigned int>                                            offset;
+    std::vector<std::vector<unsigned int>>                               coupled;
     std::map<std::pair<unsigned int, unsigned int>, std::vector<double>> blocks;
   };
 
   struct ContactParameters
   {
-    double       tolerance      = 1e-10; ///< relative residual that is accepted
-    unsigned int max_iterations = 60;    ///< Newton steps
-    unsigned int sweeps         = 0;     ///< Gauss-Seidel sweeps before the first Newton step
+    double       tolerance = 1e-10;   ///< relative residual that is accepted
+    unsigned int max_iterations = 60; ///< Newton steps
+    unsigned int sweeps = 0;          ///< Gauss-Seidel sweeps before the first Newton step
 
     void add_parameters(dealii::ParameterHandler &prm);
     void check() const;
@@ -58,27 +59,30 @@ namespace Voussoir
 
   struct ContactResult
   {
-    bool         converged      = false;
-    double       residual       = 0.; ///< |equations| / max(|force|, |rho b|), 2-norms
-    unsigned int iterations     = 0;  ///< Newton steps
-    unsigned int krylov         = 0;  ///< iterations of the linear solver
-    unsigned int factorisations = 0;  ///< of joints
-    unsigned int sweeps         = 0;  ///< Gauss-Seidel sweeps
+    bool         converged = false;
+    double       residual = 0.;      ///< |equations| / max(|force|, |rho b|), 2-norms
+    unsigned int iterations = 0;     ///< Newton steps
+    unsigned int krylov = 0;         ///< iterations of the linear solver
+    unsigned int factorisations = 0; ///< of joints
+    unsigned int sweeps = 0;         ///< Gauss-Seidel sweeps
   };
 
   /** Finds the forces at the pairs of all joints: gap = W force + b, with a joint law at each pair.
    *
-   *  Semismooth Newton with a nonmonotone line search (Grippo, Lampariello and Lucidi 1986). The linear systems are
-   *  solved by GMRES, preconditioned joint by joint: dense LU factors of the joints, in Gauss-Seidel order by colour
-   *  (neighbouring joints have different colours); only joints in which something changed are factorised again. When
-   *  Newton stalls, Gauss-Seidel sweeps with the exact solution of each pair, then Newton again. */
+   *  Semismooth Newton with a nonmonotone line search (Grippo, Lampariello and Lucidi 1986). The linear
+   * systems are solved by GMRES, preconditioned joint by joint: dense LU factors of the joints, in
+   * Gauss-Seidel order by colour (neighbouring joints have different colours); only joints in which something
+   * changed are factorised again. When Newton stalls, Gauss-Seidel sweeps with the exact solution of each
+   * pair, then Newton again. */
   class ContactSolver
   {
   public:
     /** @p laws: one per pair; they and @p W must outlive the solver. */
-    ContactSolver(const InterfaceOperator &W, std::vector<const JointLaw *> laws, const ContactParameters &parameters);
+    ContactSolver(const InterfaceOperator &W, std::vector<const JointLaw *> laws,
+                  const ContactParameters &parameters);
 
-    /** @p force: the initial guess, then the solution; @p gap: receives W force + b. All have three entries per pair. */
+    /** @p force: the initial guess, then the solution; @p gap: receives W force + b. All have three entries
+     * per pair. */
     ContactResult solve(const Unknowns &b, Unknowns &force, Unknowns &gap);
 
     const std::vector<PairState> &states() const { return state; } ///< of the last solution
@@ -100,14 +104,14 @@ namespace Voussoir
     void         couple(const Unknowns &z, Unknowns &v, unsigned int j, bool to_later) const;
     void         sweep(Unknowns &force, Unknowns &gap) const;
 
-    const InterfaceOperator            &W;
-    const std::vector<const JointLaw *> law;
-    const ContactParameters             parameters;
-    std::vector<double>                 rho;
-    std::vector<PairEquations>          equations, factorised;
-    std::vector<PairState>              state;
-    std::vector<GroupFactor>            factors;
-    std::vector<std::vector<unsigned int>> colours;  ///< groups of each colour
+    const InterfaceOperator               &W;
+    const std::vector<const JointLaw *>    law;
+    const ContactParameters                parameters;
+    std::vector<double>                    rho;
+    std::vector<PairEquations>             equations, factorised;
+    std::vector<PairState>                 state;
+    std::vector<GroupFactor>               factors;
+    std::vector<std::vector<unsigned int>> colours; ///< groups of each colour
     std::vector<unsigned int>              colour_of;
   };
 } // namespace Voussoir

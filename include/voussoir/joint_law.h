@@ -15,7 +15,8 @@ namespace Voussoir
     slip
   };
 
-  /** The equations of a pair, zero exactly when its conditions hold, with one element of the generalized Jacobian. */
+  /** The equations of a pair, zero exactly when its conditions hold, with one element of the generalized
+   * Jacobian. */
   struct PairEquations
   {
     Vector3 residual; ///< [N]
@@ -25,8 +26,8 @@ namespace Voussoir
 
   /** The conditions between the two faces of a joint at one pair, in the frame (n,a,b).
    *
-   *  force: of side 1 on side 2 [N]; force[0] > 0 is compression. gap[0]: opening [m], >= 0; gap[1..2]: tangential
-   *  displacement of side 2 against side 1, increment of the step [m]. Friction opposes slip:
+   *  force: of side 1 on side 2 [N]; force[0] > 0 is compression. gap[0]: opening [m], >= 0; gap[1..2]:
+   * tangential displacement of side 2 against side 1, increment of the step [m]. Friction opposes slip:
    *  force_t = -mu force_n slip/|slip|. (The paper's P_tau has the opposite sign.) */
   class JointLaw
   {
@@ -42,7 +43,8 @@ namespace Voussoir
      *  Also the law of impulses (H: inverse mass, b: velocity). */
     virtual Vector3 solve(const Matrix3 &H, const Vector3 &b, bool closed) const = 0;
 
-    /** The contact force that goes with the acceleration @p b, given the velocity @p slip_velocity of side 2. */
+    /** The contact force that goes with the acceleration @p b, given the velocity @p slip_velocity of side 2.
+     */
     virtual Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
                                        double still, bool closed) const;
 
@@ -51,8 +53,8 @@ namespace Voussoir
   };
 
   /** The law of that name: FJA, FJB, tied; with the equations of that name: projection (Alart and Curnier's
-   *  form: the paper's equations with the slip angle of the trial force) or paper (the angle of the force itself).
-   *  Throws InputError for an unknown name. @p friction: coefficient of friction [-]. */
+   *  form: the paper's equations with the slip angle of the trial force) or paper (the angle of the force
+   * itself). Throws InputError for an unknown name. @p friction: coefficient of friction [-]. */
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, double friction,
                                            const std::string &equations = "projection");
 

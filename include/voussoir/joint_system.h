@@ -19,8 +19,9 @@ namespace Voussoir
     double sweeps = 0., joints = 0.;
   };
 
-  /** The bodies condensed for one operator A = mass_factor M + stiffness_factor K + dashpot_factor D, and the joints
-   *  between them: solves A u = load + G^T force, gap = G u + offset, with the joint laws between force and gap. */
+  /** The bodies condensed for one operator A = mass_factor M + stiffness_factor K + dashpot_factor D, and the
+   * joints between them: solves A u = load + G^T force, gap = G u + offset, with the joint laws between force
+   * and gap. */
   class JointSystem
   {
   public:
@@ -28,7 +29,8 @@ namespace Voussoir
                 double mass_factor, double stiffness_factor, double dashpot_factor);
 
     /** @p force: guess, then solution, 3 per pair [N]; @p gap, 3 per pair [m]; @p u, 3 per node [m]. */
-    ContactResult solve(const Unknowns &load, const Unknowns &offset, Unknowns &force, Unknowns &gap, Unknowns &u);
+    ContactResult solve(const Unknowns &load, const Unknowns &offset, Unknowns &force, Unknowns &gap,
+                        Unknowns &u);
 
     /** The bodies without joint forces: A u = load. */
     void solve_free(const Unknowns &load, Unknowns &u);
@@ -46,12 +48,12 @@ namespace Voussoir
     };
     void condense();
 
-    const Structure                     &structure;
-    std::vector<CondensedBody>           bodies;
-    std::vector<std::array<Side, 2>>     sides; ///< per pair
-    InterfaceOperator                    W;
-    std::unique_ptr<ContactSolver>       solver;
-    std::vector<std::vector<double>>     interface; ///< work space per body
+    const Structure                 &structure;
+    std::vector<CondensedBody>       bodies;
+    std::vector<std::array<Side, 2>> sides; ///< per pair
+    InterfaceOperator                W;
+    std::unique_ptr<ContactSolver>   solver;
+    std::vector<std::vector<double>> interface; ///< work space per body
   };
 } // namespace Voussoir
 

@@ -20,7 +20,8 @@ namespace Voussoir
    *  Joint j lies between monoliths j and j+1; contacts of other monoliths get the numbers from
    *  n_monoliths() on, in the order of the monoliths. The nodes of the rock are not doubled: the foot of a
    *  joint on rock stays one node, tied. The input may be conforming, doubled or a mixture: it is closed
-   *  first, so that all three give the same result but for the numbers of the nodes.
+   *  first, so that all three give the same result but for the numbers of the nodes. It must have passed
+   *  check_mesh().
    *  Throws InputError as close_joints(), and for more than PhysicalId::max_joints joints. */
   HexMesh open_joints(const HexMesh &mesh);
 

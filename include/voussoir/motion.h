@@ -98,12 +98,13 @@ namespace Voussoir
       double mean_error = 0.;           ///< of its magnitude, over the periods; artificial
     };
     std::array<Component, 3> components;
-    std::array<double, 3>    correlations = {
-           {0., 0., 0.}}; ///< of the accelerations: x with y, x with z, y with z
-    bool artificial = false;
+    /// Of the accelerations: x with y, x with z, y with z.
+    std::array<double, 3> correlations = {{0., 0., 0.}};
+    bool                  artificial = false;
   };
 
-  /** Errors are taken over 0.04 s to 3 s at 200 periods per decade, and only of artificial motions. */
+  /** Errors are taken of artificial motions only, over 0.04 s to 3 s at 200 periods per decade; at each
+   * period the greater of two, that of the true peak and that of the peak seen at the samples alone. */
   MotionReport report_motion(const GroundMotion &motion, const MotionParameters &parameters);
 
   /** A table, then a warning for each criterion of MotionCriteria that an artificial motion misses. */

@@ -5,7 +5,8 @@
 
 namespace Voussoir
 {
-  /** What happens to velocity and acceleration where faces touch, after the displacements of a step are known. */
+  /** What happens to velocity and acceleration where faces touch, after the displacements of a step are
+   * known. */
   enum class ImpactRule
   {
     impulse_consistent, ///< Coulomb's law for the impulse and for the acceleration: the default
@@ -19,8 +20,8 @@ namespace Voussoir
   /** Energies [J] since the start; those above the line are states, those below accumulate. */
   struct Energy
   {
-    double kinetic = 0., added_mass = 0., strain = 0.;              // of concrete; of water; of concrete
-    double damping = 0., friction = 0., impact = 0., input = 0.;    // input: work of all loads
+    double kinetic = 0., added_mass = 0., strain = 0.;           // of concrete; of water; of concrete
+    double damping = 0., friction = 0., impact = 0., input = 0.; // input: work of all loads
 
     /** What the account misses: zero but for round-off in a correct run. */
     double balance(const Energy &start) const;
@@ -39,28 +40,31 @@ namespace Voussoir
 
   /** Trapezoidal Newmark with joints: M a + C v + K u = load + G^T force.
    *
-   *  The displacements of a step satisfy the joint laws; then impact and release make velocity and acceleration
-   *  fit: without, a closed pair rings for ever (reference: dynamics, 1.2 to 1.4). Lumped mass, one 3x3 block per
-   *  node; a node may belong to one pair only. */
+   *  The displacements of a step satisfy the joint laws; then impact and release make velocity and
+   * acceleration fit: without, a closed pair rings for ever (reference: dynamics, 1.2 to 1.4). Lumped mass,
+   * one 3x3 block per node; a node may belong to one pair only. */
   class Newmark
   {
   public:
     Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters, double dt,
             ImpactRule rule);
 
-    /** Start from displacement @p u and velocity @p v with the joint forces @p force of that state under @p load;
-     *  accelerations follow. @p reference: jump of each pair, 3 per pair, at which it is closed and unslipped [m]. */
+    /** Start from displacement @p u and velocity @p v with the joint forces @p force of that state under @p
+     * load; accelerations follow. @p reference: jump of each pair, 3 per pair, at which it is closed and
+     * unslipped [m]. */
     void start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
                const Unknowns &reference);
 
-    /** Go on from a saved state. */
-    void resume(const DynamicState &state, const Unknowns &reference);
+    /** Go on from a saved state, with the energies of the start and the largest one so far. */
+    void resume(const DynamicState &state, const Energy &first, double largest_energy, const Unknowns &reference);
 
-    /** One step to time + dt, under @p load there. Throws ComputationError when the joints do not converge. */
+    /** One step to time + dt, under @p load there. Throws ComputationError when the joints do not converge.
+     */
     ContactResult advance(const Unknowns &load);
 
     const DynamicState &state() const { return now; }
     const Energy       &initial_energy() const { return first; }
+    double              largest_energy() const { return largest; } ///< that has gone through [J]
     double              energy_error() const; ///< |balance| / largest energy that has gone through
 
     /** Opening and slip of a pair since @p reference, (n,a,b) [m]. */
@@ -87,7 +91,7 @@ namespace Voussoir
     Unknowns             reference, impulse, gap;
     DynamicState         now;
     Energy               first; ///< at the start
-    double               largest_energy = 0.;
+    double               largest = 0.;
   };
 } // namespace Voussoir
 

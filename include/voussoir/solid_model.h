@@ -5,6 +5,7 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/grid/tria.h>
 
+#include <voussoir/material.h>
 #include <voussoir/mesh.h>
 #include <voussoir/structure.h>
 
@@ -12,11 +13,11 @@
 
 namespace Voussoir
 {
-  /** The finite element mesh of the bodies: deal.II's triangulation of an opened mesh, its nodes (support points of
-   *  FE_Q(degree), Gauss-Lobatto), and which of them are free.
+  /** The finite element mesh of the bodies: deal.II's triangulation of an opened mesh, its nodes (support
+   * points of FE_Q(degree), Gauss-Lobatto), and which of them are free.
    *
-   *  A node is a scalar degree of freedom of deal.II's; the three displacement components of free node i are the
-   *  unknowns 3 equation[i] + c. Free nodes are numbered body after body. */
+   *  A node is a scalar degree of freedom of deal.II's; the three displacement components of free node i are
+   * the unknowns 3 equation[i] + c. Free nodes are numbered body after body. */
   class SolidModel
   {
   public:
@@ -26,6 +27,9 @@ namespace Voussoir
     /** Number the free nodes anew; nodes with the same @p master (a node of the same body) move as one. */
     void number_equations(const std::vector<bool> &fixed, const std::vector<unsigned int> &master);
 
+    /** Make one body of all: coincident nodes on the two sides of joints 1..n_joints move as one. */
+    void tie_joints(unsigned int n_joints);
+
     unsigned int n_nodes() const { return static_cast<unsigned int>(points.size()); }
     unsigned int n_bodies() const { return static_cast<unsigned int>(body_numbers.size()); }
     bool         on_surface(const unsigned int node, const int surface) const
@@ -33,31 +37,27 @@ namespace Voussoir
       return surfaces[node].count(surface) > 0;
     }
 
-    dealii::Triangulation<3>         triangulation; ///< material ids are monolith numbers, boundary ids surfaces
-    dealii::FE_Q<3>                  fe;
-    dealii::DoFHandler<3>            dof_handler;
-    std::vector<dealii::Point<3>>    points;        ///< of the nodes [m]
-    std::vector<unsigned int>        body;          ///< of each node: index into body_numbers
-    std::vector<int>                 body_numbers;  ///< monolith numbers, ascending
-    std::vector<std::set<int>>       surfaces;      ///< of each node
-    std::vector<unsigned int>        equation;      ///< of each node; rigid_ground where fixed
-    std::vector<unsigned int>        first_equation;///< of each body, and the number of free nodes at the end
+    dealii::Triangulation<3>      triangulation; ///< material ids are monolith numbers, boundary ids surfaces
+    dealii::FE_Q<3>               fe;
+    dealii::DoFHandler<3>         dof_handler;
+    std::vector<dealii::Point<3>> points;         ///< of the nodes [m]
+    std::vector<unsigned int>     body;           ///< of each node: index into body_numbers
+    std::vector<int>              body_numbers;   ///< monolith numbers, ascending
+    std::vector<std::set<int>>    surfaces;       ///< of each node
+    std::vector<unsigned int>     equation;       ///< of each node; rigid_ground where fixed
+    std::vector<unsigned int>     first_equation; ///< of each body, and the number of free nodes at the end
   };
 
-  struct Material
-  {
-    double young = 21e9, poisson = .17, density = 2400.; ///< [Pa], [-], [kg/m^3]
-  };
-
-  /** Bodies with stiffness and lumped mass (row sums). Degree 1: eight-node elements with incompatible modes (Wilson; Taylor,
-   *  Beresford and Wilson 1976: constant Jacobian in the modes, so the patch test holds), or plain trilinear ones
-   *  when @p incompatible_modes is false. Degree 2: 27-node elements.
+  /** Bodies with stiffness and lumped mass (row sums). Degree 1: eight-node elements with incompatible modes
+   * (Wilson; Taylor, Beresford and Wilson 1976: constant Jacobian in the modes, so the patch test holds), or
+   * plain trilinear ones when @p incompatible_modes is false. Degree 2: 27-node elements.
    *  @p materials: one per body, or a single one for all. */
-  Structure assemble_structure(const SolidModel &model, const std::vector<Material> &materials, bool incompatible_modes);
+  Structure assemble_structure(const SolidModel &model, const std::vector<Material> &materials,
+                               bool incompatible_modes);
 
-  /** The pairs of all joints 1..n_joints, in joint order: nodes of surfaces 100 + j and 200 + j that coincide, with
-   *  frame {n, a, b}: n from side 1 to side 2, b upwards in the joint, a = b x n. Throws InputError for nodes that do
-   *  not match. Pairs of two fixed nodes are left out. */
+  /** The pairs of all joints 1..n_joints, in joint order: nodes of surfaces 100 + j and 200 + j that
+   * coincide, with frame {n, a, b}: n from side 1 to side 2, b upwards in the joint, a = b x n. Throws
+   * InputError for nodes that do not match. Pairs of two fixed nodes are left out. */
   std::vector<Pair> find_pairs(const SolidModel &model, unsigned int n_joints);
 } // namespace Voussoir
 

@@ -14,7 +14,9 @@ namespace Voussoir
     double              peak_acceleration; ///< [m/s^2]
   };
 
-  /** Relative errors of a record's pseudo-acceleration: the largest and the mean of their magnitudes. */
+  /** Relative errors of a record's pseudo-acceleration: the largest and the mean of their magnitudes. At each
+   *  period it is the greater of two, that of the true peak and that of the peak seen at the samples alone.
+   */
   struct SpectralError
   {
     double maximum = 0.;

@@ -7,9 +7,9 @@
 
 namespace Voussoir
 {
-  using Vector3  = std::array<double, 3>;
-  using Matrix3  = std::array<double, 9>; ///< row by row
-  using Unknowns = std::vector<double>;   ///< three components per node, node after node
+  using Vector3 = std::array<double, 3>;
+  using Matrix3 = std::array<double, 9>; ///< row by row
+  using Unknowns = std::vector<double>;  ///< three components per node, node after node
 
   Matrix3 inverse(const Matrix3 &a);
   Vector3 operator*(const Matrix3 &a, const Vector3 &x);
@@ -43,10 +43,10 @@ namespace Voussoir
   /** One linear elastic body: its stiffness, and where its nodes lie in the structure's numbering. */
   struct Body
   {
-    int                       number     = 0; ///< monolith, as messages name it
-    unsigned int              first_node = 0; ///< its nodes are first_node .. first_node + stiffness.n_rows() - 1
-    BlockSparseMatrix         stiffness;      ///< [N/m], free nodes only
-    std::vector<unsigned int> interface;      ///< local numbers of the nodes that belong to pairs, ascending
+    int               number = 0;        ///< monolith, as messages name it
+    unsigned int      first_node = 0;    ///< its nodes are first_node .. first_node + stiffness.n_rows() - 1
+    BlockSparseMatrix stiffness;         ///< [N/m], free nodes only
+    std::vector<unsigned int> interface; ///< local numbers of the nodes that belong to pairs, ascending
 
     unsigned int n_nodes() const { return stiffness.n_rows(); }
   };
@@ -57,10 +57,10 @@ namespace Voussoir
   struct Pair
   {
     unsigned int           node_1 = rigid_ground, node_2 = rigid_ground; ///< free nodes, or the rigid ground
-    std::array<Vector3, 3> frame;                                        ///< n (from side 1 to side 2), a, {n,a,b} right-handed
-    double                 area  = 1.;                                   ///< tributary area [m^2]
-    Vector3                place = {{0., 0., 0.}};                       ///< position [m]
-    unsigned int           joint = 0;                                    ///< index of its joint
+    std::array<Vector3, 3> frame;                  ///< n (from side 1 to side 2), a, {n,a,b} right-handed
+    double                 area = 1.;              ///< tributary area [m^2]
+    Vector3                place = {{0., 0., 0.}}; ///< position [m]
+    unsigned int           joint = 0;              ///< index of its joint
   };
 
   /** Everything linear: bodies, masses, damping; and the pairs along which the bodies meet.
@@ -72,13 +72,14 @@ namespace Voussoir
     std::vector<Matrix3> added_mass; ///< per node, that of the water alone [kg]
     Unknowns             dashpots;   ///< viscous dashpots to the ground per component [N s/m]; empty = none
     std::vector<Pair>    pairs;      ///< sorted by joint
-    unsigned int         n_joints       = 0;
-    double               mass_damping   = 0.; ///< Rayleigh: C = mass_damping M + stiffness_damping K + dashpots [1/s]
-    double               stiffness_damping = 0.; ///< [s]
+    unsigned int         n_joints = 0;
+    double mass_damping = 0.;      ///< Rayleigh: C = mass_damping M + stiffness_damping K + dashpots [1/s]
+    double stiffness_damping = 0.; ///< [s]
 
     unsigned int n_nodes() const { return static_cast<unsigned int>(mass.size()); }
 
-    /** Mark the nodes of the pairs as interface of their bodies. Call once when bodies and pairs are there. */
+    /** Mark the nodes of the pairs as interface of their bodies. Call once when bodies and pairs are there.
+     */
     void collect_interfaces();
 
     /** Stiffness times displacement and stiffness times velocity, all bodies, in one pass. */

@@ -1,0 +1,45 @@
+#ifndef voussoir_dam_h
+#define voussoir_dam_h
+
+#include <voussoir/dam_geometry.h>
+#include <voussoir/joint_system.h>
+#include <voussoir/scene.h>
+#include <voussoir/solid_model.h>
+#include <voussoir/stress.h>
+
+#include <optional>
+
+namespace Voussoir
+{
+  /** The dam of a scene, ready to compute: mesh, structure, joints, loads. Displacements count from the
+   * grouted state, in which the monoliths carry their own weight; that weight's stress is kept apart and
+   * added to all others. */
+  class Dam
+  {
+  public:
+    /** @p tie_all: the monolithic dam, whatever the joint models say (for natural frequencies). */
+    explicit Dam(const Scene &scene, bool tie_all = false);
+
+    Unknowns static_load(double water_part) const; ///< water, and the weight if it is not staged [N]
+
+    const Scene                 &scene;
+    std::size_t                  n_cells = 0;
+    unsigned int                 n_monoliths = 0, n_joints = 0;
+    double                       volume = 0., crest_length = 0.;
+    std::unique_ptr<SolidModel>  model;
+    Structure                    structure;
+    JointLaws                    laws;
+    std::unique_ptr<DamGeometry> geometry;
+    Unknowns                     weight, water;   ///< [N]
+    std::array<Unknowns, 3>      inertia;         ///< load per unit base acceleration
+    double                       added_mass = 0.; ///< for motion along x [kg]
+    std::vector<Stress>          initial_stress;  ///< of the staged self-weight, per node of the model
+    Vector3                      self_weight_crown = {{0., 0., 0.}}; ///< displacement of the crown by it [m]
+    bool                         tied = false;                       ///< all joints: there are no pairs
+
+  private:
+    void stage_self_weight();
+  };
+} // namespace Voussoir
+
+#endif

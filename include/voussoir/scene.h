@@ -1,0 +1,94 @@
+#ifndef voussoir_scene_h
+#define voussoir_scene_h
+
+#include <voussoir/contact_solver.h>
+#include <voussoir/dam_loads.h>
+#include <voussoir/material.h>
+#include <voussoir/mesh_source.h>
+#include <voussoir/motion.h>
+
+#include <map>
+
+namespace Voussoir
+{
+  struct ElementParameters
+  {
+    unsigned int degree = 1;
+    bool         incompatible_modes = true;
+    void         add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /** Rayleigh damping C = a0 M + a1 K with the damping ratio at two frequencies. */
+  struct DampingParameters
+  {
+    double ratio = .05, frequency_1 = 1.2, frequency_2 = 6.; ///< [-], [Hz], [Hz]
+    void   add_parameters(dealii::ParameterHandler &prm);
+    void   check() const;
+    double mass_factor() const;      ///< a0 [1/s]
+    double stiffness_factor() const; ///< a1 [s]
+  };
+
+  struct JointParameters
+  {
+    std::string                         model = "FJA";
+    double                              friction = .8;
+    std::string                         equations = "projection";
+    std::map<unsigned int, std::string> overrides; ///< joint number -> model
+    void                                add_parameters(dealii::ParameterHandler &prm);
+    void                                check() const;
+    const std::string                  &model_of(const unsigned int joint) const
+    {
+      const auto found = overrides.find(joint);
+      return found == overrides.end() ? model : found->second;
+    }
+  };
+
+  struct StaticParameters
+  {
+    std::string  self_weight = "staged"; ///< or monolithic, none
+    unsigned int water_increments = 1;
+    double       gravity = 9.81; ///< [m/s^2]
+    void         add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  struct OutputParameters
+  {
+    std::map<std::string, std::string> probes;                    ///< name -> "x y z" [m]
+    unsigned int                       envelope_interval = 1;     ///< [steps], 0: none
+    unsigned int                       solution_interval = 0;     ///< [steps], 0: none
+    unsigned int                       checkpoint_interval = 500; ///< [steps], 0: none
+    unsigned int                       progress_interval = 64;    ///< [steps]
+    bool                               figures = true;
+    void                               add_parameters(dealii::ParameterHandler &prm);
+    void                               check() const;
+  };
+
+  /** All entries of a scene file. */
+  struct Scene
+  {
+    std::string         name;      ///< of the file, without directory and .prm
+    std::string         directory; ///< of the file: paths in it are relative to this
+    std::string         impact_rule = "impulse-consistent";
+    MeshParameters      mesh;
+    ElementParameters   elements;
+    Material            concrete;
+    DampingParameters   damping;
+    ReservoirParameters reservoir;
+    JointParameters     joints;
+    ContactParameters   contact;
+    StaticParameters    statics;
+    MotionParameters    motion;
+    OutputParameters    output;
+
+    void add_parameters(dealii::ParameterHandler &prm);
+    void check() const;
+  };
+
+  /** Reads a scene file with its includes (relative to the including file), then applies @p overrides, each
+   *  "Section/Subsection/Entry=value". Throws InputError with file, line and entry; for an unknown entry it
+   * names the nearest known one. @p prm: receives the declarations and values, for printing. */
+  void read_scene(const std::string &file, const std::vector<std::string> &overrides, Scene &scene,
+                  dealii::ParameterHandler &prm);
+} // namespace Voussoir
+
+#endif

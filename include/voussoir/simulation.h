@@ -1,0 +1,86 @@
+#ifndef voussoir_simulation_h
+#define voussoir_simulation_h
+
+#include <voussoir/dam.h>
+#include <voussoir/log.h>
+#include <voussoir/recorders.h>
+
+namespace Voussoir
+{
+  struct RunOptions
+  {
+    std::string output;           ///< directory; empty: output/NAME
+    bool        resume = false;   ///< go on from the last checkpoint
+    bool        validate = false; ///< set up and report, but do not compute
+    bool        quiet = false;
+  };
+
+  /** One run of a scene: set up, static state, shaking, results. */
+  class Simulation
+  {
+  public:
+    /** @p scene_text: the scene with all defaults, for the output directory. */
+    Simulation(const Scene &scene, const std::string &scene_text, const RunOptions &options);
+
+    void run();
+
+  private:
+    void report_setup();
+    void find_static_state();
+    void start_shaking();
+    void advance();
+    void record();
+    void report_step();
+    void write_solution();
+    void write_results();
+    void write_summary();
+    void draw_figures();
+    void save_checkpoint();
+    void load_checkpoint();
+
+    const Scene       scene;
+    const std::string scene_text;
+    const RunOptions  options;
+    const std::string directory;
+    Log               log;
+    Stopwatch         clock, shaking_clock;
+    double            clock_before = 0., cpu_before = 0.; ///< of the runs this one resumes [s]
+
+    std::unique_ptr<Dam> dam;
+    GroundMotion         motion;
+    unsigned int         n_steps = 0, step = 0, first_step = 0;
+    bool                 resumed = false;
+
+    struct StaticState
+    {
+      Unknowns      u, force, load;
+      ContactResult contact;
+      unsigned int  n_open = 0;
+      Vector3       crown = {{0., 0., 0.}};
+    } statics;
+
+    struct Counters
+    {
+      double newton = 0., newton_max = 0., krylov = 0., factorisations = 0., sweeps = 0., residual = 0.,
+             energy_error = 0.;
+      double seconds_setup = 0., seconds_static = 0., seconds_sweeps = 0., seconds_joints = 0.,
+             seconds_stepping = 0., seconds_stresses = 0., seconds_output = 0., seconds_shaking = 0.;
+      template <class Archive> void serialize(Archive &archive, unsigned int)
+      {
+        archive &newton &newton_max &krylov &factorisations &sweeps &residual &energy_error;
+        archive &seconds_setup &seconds_static &seconds_sweeps &seconds_joints &seconds_stepping
+            &seconds_stresses &seconds_output &seconds_shaking;
+      }
+    } count;
+
+    std::unique_ptr<Newmark>                    newmark;
+    std::unique_ptr<StressRecovery>             stress;
+    std::unique_ptr<EnvelopeRecorder>           envelope;
+    std::unique_ptr<JointRecorder>              joints;
+    Table                                       history, energy;
+    std::vector<unsigned int>                   probes;    ///< nodes
+    std::vector<std::pair<double, std::string>> solutions; ///< time and file of solution.pvd
+  };
+} // namespace Voussoir
+
+#endif

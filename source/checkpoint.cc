@@ -1,0 +1,95 @@
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <voussoir/error.h>
+#include <voussoir/simulation.h>
+
+#include <ctime>
+#include <filesystem>
+#include <sstream>
+
+namespace Voussoir
+{
+  template <class Archive> void serialize(Archive &archive, Energy &e, unsigned int)
+  {
+    archive &e.kinetic &e.added_mass &e.strain &e.damping &e.friction &e.impact &e.input;
+  }
+
+  template <class Archive> void serialize(Archive &archive, DynamicState &s, unsigned int)
+  {
+    archive &s.time &s.u &s.v &s.a &s.force &s.load &s.Ku &s.Kv &s.energy;
+  }
+
+  namespace
+  {
+    /** The part of a scene that decides its results: without outputs. */
+    std::string decisive_part(const std::string &scene_text)
+    {
+      const auto begin = scene_text.find("subsection Output");
+      const auto end = scene_text.find("\nend", begin);
+      return begin == std::string::npos ? scene_text : scene_text.substr(0, begin) + scene_text.substr(end);
+    }
+  } // namespace
+
+  void Simulation::save_checkpoint()
+  {
+    const std::string file = directory + "/checkpoint.bin";
+    {
+      std::ofstream                   out(file + ".new", std::ios::binary);
+      boost::archive::binary_oarchive archive(out);
+      const std::string               decisive = decisive_part(scene_text);
+      DynamicState                    state = newmark->state();
+      Energy                          first = newmark->initial_energy();
+      double wall = clock_before + clock.seconds(), cpu = cpu_before + double(std::clock()) / CLOCKS_PER_SEC,
+             largest = newmark->largest_energy();
+      archive << decisive << step << wall << cpu << state << first << largest << count << history << energy
+              << *joints << *envelope << solutions;
+      if (!out.flush())
+      {
+        log.line("warning: the checkpoint %s cannot be written; the run goes on without it.", file.c_str());
+        return;
+      }
+    }
+    std::filesystem::rename(file + ".new", file);
+    std::ofstream(directory + "/checkpoint.txt") << "scene " << scene.name << "\nstep " << step << " of "
+                                                 << n_steps << "\ntime " << newmark->state().time << " s\n";
+  }
+
+  void Simulation::load_checkpoint()
+  {
+    const std::string file = directory + "/checkpoint.bin";
+    std::ifstream     in(file, std::ios::binary);
+    if (!in)
+      throw InputError("There is no checkpoint " + file +
+                       " to resume from: the run has ended, or never reached one. Run "
+                       "without --resume, or name the output directory of the run with --output.");
+    try
+    {
+      boost::archive::binary_iarchive archive(in);
+      std::string                     decisive;
+      DynamicState                    state;
+      Energy                          first;
+      double                          largest = 0.;
+      archive >> decisive;
+      if (decisive != decisive_part(scene_text))
+        throw InputError(
+            "The checkpoint " + file +
+            " belongs to another scene: an entry outside \"Output\" differs. Compare scene.prm there with "
+            "yours, or run without --resume.");
+      archive >> step >> clock_before >> cpu_before >> state >> first >> largest >> count >> history >>
+          energy >> *joints >> *envelope >> solutions;
+      newmark->resume(state, first, largest, Unknowns(state.force.size(), 0.));
+    }
+    catch (const boost::archive::archive_exception &)
+    {
+      throw InputError("The checkpoint " + file +
+                       " cannot be read: it is damaged, or of another version. Run without "
+                       "--resume.");
+    }
+    log.line("Resumed   at t = %.2f s, step %u of %u", newmark->state().time, step, n_steps);
+  }
+} // namespace Voussoir

@@ -1,0 +1,101 @@
+#include <voussoir/log.h>
+
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+namespace Voussoir
+{
+  void Log::open(const std::string &name, const bool append)
+  {
+    file.open(name, append ? std::ios::app : std::ios::trunc);
+    file << early << std::flush;
+  }
+
+  void Log::line(const char *format, ...)
+  {
+    char         buffer[1000];
+    std::va_list arguments;
+    va_start(arguments, format);
+    std::vsnprintf(buffer, sizeof(buffer), format, arguments);
+    va_end(arguments);
+    if (!quiet)
+    {
+      std::printf("%s\n", buffer);
+      std::fflush(stdout);
+    }
+    if (file.is_open())
+      file << buffer << std::endl;
+    else
+      early += buffer + std::string("\n");
+  }
+
+  std::string clock_time(const double seconds)
+  {
+    const long s = std::lround(seconds);
+    char       buffer[40];
+    if (s >= 3600)
+      std::snprintf(buffer, sizeof(buffer), "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
+    else
+      std::snprintf(buffer, sizeof(buffer), "%ld:%02ld", s / 60, s % 60);
+    return buffer;
+  }
+
+  std::string Json::number_text(const double number)
+  {
+    if (!std::isfinite(number))
+      return "null";
+    char buffer[40];
+    std::snprintf(buffer, sizeof(buffer),
+                  number == std::floor(number) && std::abs(number) < 1e15 ? "%.0f" : "%.9g", number);
+    return buffer;
+  }
+
+  Json &Json::add_raw(const std::string &key, const std::string &raw)
+  {
+    members.emplace_back(key, raw);
+    return *this;
+  }
+
+  Json &Json::add(const std::string &key, const std::string &text)
+  {
+    std::string quoted = "\"";
+    for (const char c : text)
+    {
+      char code[8];
+      if (c == '"' || c == '\\')
+        (quoted += '\\') += c;
+      else if (static_cast<unsigned char>(c) < 0x20)
+      {
+        std::snprintf(code, sizeof(code), "\\u%04x", c);
+        quoted += code;
+      }
+      else
+        quoted += c;
+    }
+    return add_raw(key, quoted + "\"");
+  }
+
+  Json &Json::add(const std::string &key, const double number)
+  {
+    return add_raw(key, number_text(number));
+  }
+
+  Json &Json::add(const std::string &key, const Json &object)
+  {
+    return add_raw(key, object.text());
+  }
+
+  std::string Json::text() const
+  {
+    std::string result = "{";
+    for (const auto &member : members)
+    {
+      std::string value = member.second; // indent what spans lines
+      for (std::size_t i = 0; (i = value.find('\n', i)) != std::string::npos; i += 3)
+        value.insert(i + 1, "  ");
+      result += (result.size() > 1 ? ",\n  \"" : "\n  \"") + member.first + "\": " + value;
+    }
+    return result + (members.empty() ? "}" : "\n}");
+  }
+} // namespace Voussoir

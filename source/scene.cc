@@ -1,0 +1,157 @@
+#include <deal.II/base/parameter_handler.h>
+
+#include <voussoir/error.h>
+#include <voussoir/newmark.h>
+#include <voussoir/scene.h>
+
+namespace Voussoir
+{
+  using namespace dealii;
+
+  void ElementParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Elements");
+    prm.add_parameter("Degree", degree, "Polynomial degree of the hexahedra: 1 (8 nodes) or 2 (27 nodes).",
+                      Patterns::Integer(1, 2));
+    prm.add_parameter(
+        "Incompatible modes", incompatible_modes,
+        "Add bending modes to elements of degree 1, which lock without them. They cost nothing after the "
+        "set-up.");
+    prm.leave_subsection();
+  }
+
+  void DampingParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Damping");
+    prm.add_parameter("Ratio", ratio,
+                      "Rayleigh damping, as a ratio of critical damping at the two frequencies [-].",
+                      Patterns::Double(0., 1.));
+    prm.add_parameter("Frequency 1", frequency_1, "Lower frequency at which the ratio holds [Hz].",
+                      Patterns::Double(1e-6));
+    prm.add_parameter("Frequency 2", frequency_2, "Upper frequency at which the ratio holds [Hz].",
+                      Patterns::Double(1e-6));
+    prm.leave_subsection();
+  }
+
+  void DampingParameters::check() const
+  {
+    if (!(frequency_2 > frequency_1))
+      throw InputError("Entry \"Damping/Frequency 2\" must be larger than \"Damping/Frequency 1\".");
+  }
+
+  constexpr double two_pi = 6.28318530717958647693;
+
+  double DampingParameters::mass_factor() const
+  {
+    return 2. * ratio * two_pi * frequency_1 * frequency_2 / (frequency_1 + frequency_2);
+  }
+
+  double DampingParameters::stiffness_factor() const
+  {
+    return 2. * ratio / (two_pi * (frequency_1 + frequency_2));
+  }
+
+  void JointParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Joints");
+    prm.add_parameter(
+        "Model", model,
+        "What happens in the joints: tied (the monolithic dam), FJA (flat, opens, Coulomb friction), FJB "
+        "(flat, opens, does not slip).",
+        Patterns::Selection(joint_law_names()));
+    prm.add_parameter("Friction", friction, "Coefficient of friction [-].", Patterns::Double(0.));
+    prm.add_parameter(
+        "Overrides", overrides,
+        "Models of single joints, as \"number: model, number: model\"; joints are numbered from the right "
+        "bank.",
+        Patterns::Map(Patterns::Integer(1), Patterns::Selection(joint_law_names())));
+    prm.add_parameter(
+        "Equations", equations,
+        "Form of the friction equations: projection (slip angle of the trial force; always converges) or "
+        "paper (slip angle of the force itself, as printed; for comparison).",
+        Patterns::Selection("projection|paper"));
+    prm.leave_subsection();
+  }
+
+  void JointParameters::check() const {}
+
+  void StaticParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Statics");
+    prm.add_parameter(
+        "Self-weight", self_weight,
+        "staged: on free-standing monoliths, before the joints are closed, as dams are built; monolithic: "
+        "on the finished dam, together with the water; none.",
+        Patterns::Selection("staged|monolithic|none"));
+    prm.add_parameter(
+        "Water increments", water_increments,
+        "Increments in which the water is raised; friction makes the result depend on the path a little.",
+        Patterns::Integer(1));
+    prm.add_parameter("Gravity", gravity, "Acceleration of gravity [m/s^2].", Patterns::Double(0.));
+    prm.leave_subsection();
+  }
+
+  void OutputParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Output");
+    prm.add_parameter(
+        "Probes", probes,
+        "Points whose displacement goes into history.csv, as \"name: x y z; name: x y z\" [m]; the nearest "
+        "node is taken.",
+        Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
+    prm.add_parameter("Envelope interval", envelope_interval,
+                      "Steps between two evaluations of the stresses for their envelopes; 0: no envelopes.",
+                      Patterns::Integer(0));
+    prm.add_parameter("Solution interval", solution_interval,
+                      "Steps between two files of the whole solution for ParaView; 0: none.",
+                      Patterns::Integer(0));
+    prm.add_parameter("Checkpoint interval", checkpoint_interval, "Steps between two checkpoints; 0: none.",
+                      Patterns::Integer(0));
+    prm.add_parameter("Progress interval", progress_interval, "Steps between two lines on the screen.",
+                      Patterns::Integer(1));
+    prm.add_parameter("Figures", figures,
+                      "Draw the figures at the end of the run (needs python3-matplotlib).");
+    prm.leave_subsection();
+  }
+
+  void OutputParameters::check() const {}
+
+  void Scene::add_parameters(ParameterHandler &prm)
+  {
+    mesh.add_parameters(prm);
+    elements.add_parameters(prm);
+    prm.enter_subsection("Concrete");
+    prm.add_parameter("Young's modulus", concrete.young,
+                      "Dynamic modulus of elasticity of the concrete [Pa].", Patterns::Double(1.));
+    prm.add_parameter("Poisson's ratio", concrete.poisson, "Poisson's ratio of the concrete [-].",
+                      Patterns::Double(-.99, .499));
+    prm.add_parameter("Density", concrete.density, "Density of the concrete [kg/m^3].",
+                      Patterns::Double(1e-3));
+    prm.leave_subsection();
+    damping.add_parameters(prm);
+    reservoir.add_parameters(prm);
+    joints.add_parameters(prm);
+    statics.add_parameters(prm);
+    motion.add_parameters(prm);
+    prm.enter_subsection("Dynamics");
+    prm.add_parameter(
+        "Impact", impact_rule,
+        "Velocity and acceleration of touching faces: impulse-consistent; paper (Taylor and Papadopoulos); "
+        "none (plain Newmark, which rings). The last two for comparison.",
+        Patterns::Selection(impact_rule_names()));
+    prm.leave_subsection();
+    contact.add_parameters(prm);
+    output.add_parameters(prm);
+  }
+
+  void Scene::check() const
+  {
+    mesh.check();
+    damping.check();
+    reservoir.check();
+    joints.check();
+    contact.check();
+    motion.check();
+    output.check();
+  }
+} // namespace Voussoir

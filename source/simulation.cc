@@ -1,0 +1,348 @@
+#include <voussoir/error.h>
+#include <voussoir/simulation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <sstream>
+
+namespace Voussoir
+{
+  Simulation::Simulation(const Scene &scene, const std::string &scene_text, const RunOptions &options)
+      : scene(scene), scene_text(scene_text), options(options),
+        directory(options.output.empty() ? "output/" + scene.name : options.output), log(options.quiet)
+  {
+  }
+
+  void Simulation::run()
+  {
+    if (!options.validate)
+    {
+      std::error_code error;
+      std::filesystem::create_directories(directory, error);
+      if (error || !std::ofstream(directory + "/scene.prm", std::ios::app))
+        throw InputError("The output directory " + directory +
+                         " cannot be written to. Choose another one with --output.");
+      log.open(directory + "/log.txt", options.resume);
+      std::ofstream(directory + "/scene.prm") << scene_text;
+    }
+    motion = make_motion(scene.motion, scene.directory);
+    n_steps = scene.motion.source == "none" ? 0 : motion.acceleration.size() - 1;
+    dam = std::make_unique<Dam>(scene);
+    count.seconds_setup = clock.seconds();
+    report_setup();
+    if (options.validate)
+      return;
+
+    find_static_state();
+    start_shaking();
+    if (options.resume)
+      load_checkpoint();
+    else
+      record();
+    shaking_clock = Stopwatch();
+    const double before = count.seconds_shaking;
+    for (first_step = step; step < n_steps;)
+    {
+      advance();
+      record();
+      count.seconds_shaking = before + shaking_clock.seconds();
+      if (step % scene.output.progress_interval == 0 || step == n_steps)
+        report_step();
+      if (scene.output.checkpoint_interval > 0 && step % scene.output.checkpoint_interval == 0 &&
+          step < n_steps)
+        save_checkpoint();
+    }
+    write_results();
+  }
+
+  void Simulation::report_setup()
+  {
+    const unsigned int n_nodes = dam->structure.n_nodes();
+    log.line("Mesh      %s: %zu cells, degree %u, %u dofs, %u monoliths; volume %.4g m3, crest %.1f m",
+             scene.name.c_str(), dam->n_cells, scene.elements.degree, 3 * n_nodes, dam->n_monoliths,
+             dam->volume, dam->crest_length);
+    if (dam->tied)
+      log.line("Joints    %u joints, tied: the monolithic dam", dam->n_joints);
+    else
+      log.line("Joints    %u joints, %zu pairs, law %s (friction %g)", dam->n_joints,
+               dam->structure.pairs.size(), scene.joints.model.c_str(), scene.joints.friction);
+    log.line("Damping   Rayleigh, C = %.4g 1/s M + %.4g s K: %.3g %% at %g Hz and %g Hz",
+             scene.damping.mass_factor(), scene.damping.stiffness_factor(), 100. * scene.damping.ratio,
+             scene.damping.frequency_1, scene.damping.frequency_2);
+    log.line("Water     level %g m; added mass %s x %g, %.4g kg along x", scene.reservoir.level,
+             scene.reservoir.added_mass.c_str(), scene.reservoir.factor, dam->added_mass);
+    if (options.validate)
+    {
+      double pairs = 0.;
+      for (const Body &body : dam->structure.bodies)
+        pairs += std::pow(3. * body.interface.size(), 2);
+      double entries = 0.;
+      for (const Body &body : dam->structure.bodies)
+        entries += 9. * body.stiffness.value.size();
+      log.line("Unknowns  %u of the bodies, %zu of the joints", 3 * n_nodes, 3 * dam->structure.pairs.size());
+      log.line("Steps     %u of %g s; the scheme is implicit: there is no critical time step", n_steps,
+               motion.dt);
+      log.line("Memory    about %.1f GiB",
+               (8. * (entries * 5. + pairs * 3.) + 1e3 * 27 * n_nodes) / std::pow(2., 30));
+    }
+  }
+
+  void Simulation::find_static_state()
+  {
+    const Stopwatch   watch;
+    const Structure  &structure = dam->structure;
+    const std::size_t n_pairs = structure.pairs.size();
+    JointSystem       system(structure, dam->laws, scene.contact, 0., 1., 0.);
+    Unknowns          gap, offset(3 * n_pairs, 0.);
+    statics.force.assign(3 * n_pairs, 0.);
+    statics.u.assign(3 * structure.n_nodes(), 0.);
+    unsigned int iterations = 0;
+    for (unsigned int i = 1; i <= scene.statics.water_increments; ++i)
+    {
+      // slip is counted from the last increment
+      for (std::size_t p = 0; p < n_pairs; ++p)
+        if (const Vector3 jump = structure.jump(structure.pairs[p], statics.u);
+            !dam->laws.of_pair[p]->is_tangentially_tied())
+          offset[3 * p + 1] = -jump[1], offset[3 * p + 2] = -jump[2];
+      statics.load = dam->static_load(double(i) / scene.statics.water_increments);
+      statics.contact = system.solve(statics.load, offset, statics.force, gap, statics.u);
+      iterations += statics.contact.iterations;
+      if (!statics.contact.converged)
+      {
+        std::ostringstream message;
+        message << "The static state did not converge in increment " << i
+                << " of the water: relative residual " << statics.contact.residual << " after "
+                << statics.contact.iterations
+                << " Newton steps. More increments may help (entry \"Statics/Water increments\").";
+        throw ComputationError(message.str());
+      }
+    }
+    statics.contact.iterations = iterations;
+    for (std::size_t p = 0; p < n_pairs; ++p)
+      statics.n_open += system.states()[p] == PairState::open;
+    if (const unsigned int e = dam->model->equation[dam->geometry->crown]; e != rigid_ground)
+      statics.crown = {{statics.u[3 * e], statics.u[3 * e + 1], statics.u[3 * e + 2]}};
+    count.seconds_static = watch.seconds();
+    log.line("Static    self-weight %s, then water: %u Newton steps, %u pairs open, crest %.1f mm downstream "
+             "(%.1f s)",
+             scene.statics.self_weight.c_str(), iterations, statics.n_open, 1e3 * statics.crown[0],
+             count.seconds_static);
+  }
+
+  void Simulation::start_shaking()
+  {
+    const Stopwatch  watch;
+    const Structure &structure = dam->structure;
+    newmark = std::make_unique<Newmark>(structure, dam->laws, scene.contact, motion.dt,
+                                        impact_rule(scene.impact_rule));
+    Unknowns load = statics.load;
+    if (n_steps > 0)
+      for (unsigned int d = 0; d < 3; ++d)
+        for (std::size_t k = 0; k < load.size(); ++k)
+          load[k] += motion.acceleration[0][d] * dam->inertia[d][k];
+    newmark->start(statics.u, Unknowns(statics.u.size(), 0.), statics.force, load,
+                   Unknowns(3 * structure.pairs.size(), 0.));
+
+    joints = std::make_unique<JointRecorder>(structure, *dam->geometry);
+    stress = std::make_unique<StressRecovery>(*dam->model, std::vector<Material>{scene.concrete},
+                                              scene.elements.incompatible_modes);
+    envelope = std::make_unique<EnvelopeRecorder>(*stress, dam->initial_stress);
+    history.columns = {"time",
+                       "crest_x",
+                       "crest_y",
+                       "crest_z",
+                       "base_acceleration_x",
+                       "base_acceleration_y",
+                       "base_acceleration_z"};
+    probes = {dam->geometry->crown};
+    for (const auto &probe : scene.output.probes)
+    {
+      std::istringstream in(probe.second);
+      dealii::Point<3>   p;
+      if (!(in >> p[0] >> p[1] >> p[2]))
+        throw InputError("Entry \"Output/Probes\": probe \"" + probe.first + "\" has the place \"" +
+                         probe.second + "\"; write three numbers, x y z.");
+      probes.push_back(nearest_node(*dam->model, p));
+      for (const char *c : {"_x", "_y", "_z"})
+        history.columns.push_back(probe.first + c);
+    }
+    energy.columns = {"time",     "kinetic", "strain", "added_mass", "damping",
+                      "friction", "impact",  "input",  "balance"};
+    count.seconds_static += watch.seconds();
+    if (n_steps > 0)
+    {
+      log.line("Shaking   %.2f s in %u steps of %g s; joints and factors hold %.2f GiB", n_steps * motion.dt,
+               n_steps, motion.dt, newmark->joint_system().memory() / std::pow(2., 30));
+      log.line("\n   time  newton  open  slip  opening [mm]  slip [mm]  tension [MPa]  elapsed     left");
+    }
+  }
+
+  void Simulation::advance()
+  {
+    const Stopwatch watch;
+    Unknowns        load = statics.load;
+    const auto     &a = motion.acceleration[step + 1];
+    for (std::size_t k = 0; k < load.size(); ++k)
+      load[k] += a[0] * dam->inertia[0][k] + a[1] * dam->inertia[1][k] + a[2] * dam->inertia[2][k];
+    const SystemTimes   before = newmark->joint_system().times;
+    const ContactResult result = newmark->advance(load);
+    ++step;
+    const SystemTimes &after = newmark->joint_system().times;
+    count.seconds_sweeps += after.sweeps - before.sweeps;
+    count.seconds_joints += after.joints - before.joints;
+    count.seconds_stepping +=
+        watch.seconds() - (after.sweeps - before.sweeps) - (after.joints - before.joints);
+    count.newton += result.iterations;
+    count.newton_max = std::max<double>(count.newton_max, result.iterations);
+    count.krylov += result.krylov;
+    count.factorisations += result.factorisations;
+    count.sweeps += result.sweeps;
+    count.residual = std::max(count.residual, result.residual);
+    count.energy_error = std::max(count.energy_error, newmark->energy_error());
+  }
+
+  void Simulation::record()
+  {
+    const DynamicState &state = newmark->state();
+    if (scene.output.envelope_interval > 0 && step % scene.output.envelope_interval == 0)
+    {
+      const Stopwatch watch;
+      envelope->record(state.time, state.u);
+      count.seconds_stresses += watch.seconds();
+    }
+    const Stopwatch watch;
+    joints->record(*newmark);
+    std::vector<double> row = {state.time};
+    for (std::size_t i = 0; i < probes.size(); ++i)
+    {
+      const unsigned int e = dam->model->equation[probes[i]];
+      for (unsigned int c = 0; c < 3; ++c)
+        row.push_back(e == rigid_ground ? 0. : state.u[3 * e + c]);
+      if (i == 0)
+        row.insert(row.end(), motion.acceleration[step].begin(), motion.acceleration[step].end());
+    }
+    history.rows.push_back(row);
+    const Energy &e = state.energy, &e0 = newmark->initial_energy();
+    energy.rows.push_back({state.time, e.kinetic, e.strain - e0.strain, e.added_mass, e.damping, e.friction,
+                           e.impact, e.input, e.balance(e0)});
+    if (scene.output.solution_interval > 0 && step % scene.output.solution_interval == 0)
+      write_solution();
+    count.seconds_output += watch.seconds();
+  }
+
+  void Simulation::report_step()
+  {
+    unsigned int open = 0, slip = 0;
+    for (const PairState state : newmark->pair_states())
+    {
+      open += state == PairState::open;
+      slip += state == PairState::slip;
+    }
+    const double done = step - first_step, elapsed = shaking_clock.seconds();
+    const float  tension = *std::max_element(envelope->maximum.begin(), envelope->maximum.end());
+    log.line("%7.2f  %6.2f %5u %5u  %12.2f %10.2f  %13.2f  %7s  %7s", newmark->state().time,
+             count.newton / step, open, slip, 1e3 * joints->opening.value, 1e3 * joints->slip.value,
+             scene.output.envelope_interval > 0 ? 1e-6 * tension : 0.,
+             clock_time(clock_before + elapsed).c_str(),
+             clock_time(elapsed / done * (n_steps - step)).c_str());
+  }
+
+  void Simulation::write_solution()
+  {
+    std::vector<Stress> s;
+    stress->apply(newmark->state().u, s);
+    std::vector<FieldWriter::NodalField> fields = {{"max_principal", std::vector<float>(s.size())},
+                                                   {"min_principal", std::vector<float>(s.size())}};
+    constexpr const char                *components[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+    for (unsigned int c = 0; c < 6; ++c)
+      fields.push_back({std::string("stress_") + components[c], std::vector<float>(s.size())});
+    for (std::size_t i = 0; i < s.size(); ++i)
+    {
+      for (unsigned int c = 0; c < 6; ++c)
+        fields[2 + c].values[i] = s[i][c] += dam->initial_stress[i][c];
+      const auto p = principal_stresses(s[i]);
+      fields[0].values[i] = p[0];
+      fields[1].values[i] = p[1];
+    }
+    // Joint state at the nodes of the joints: opening, slip, and 0 open, 1 stick, 2 slip; -1 elsewhere.
+    std::vector<float> opening(dam->structure.n_nodes(), 0.f), slip(opening), state(opening.size(), -1.f);
+    for (unsigned int p = 0; p < dam->structure.pairs.size(); ++p)
+    {
+      const Vector3 d = newmark->opening_and_slip(p);
+      for (const unsigned int node : {dam->structure.pairs[p].node_1, dam->structure.pairs[p].node_2})
+        if (node != rigid_ground)
+        {
+          opening[node] = d[0];
+          slip[node] = std::hypot(d[1], d[2]);
+          state[node] = static_cast<float>(newmark->pair_states()[p]);
+        }
+    }
+    for (const auto &field : {std::make_pair("opening", &opening), {"slip", &slip}, {"joint_state", &state}})
+    {
+      fields.push_back({field.first, std::vector<float>(s.size(), field.second == &state ? -1.f : 0.f)});
+      for (std::size_t i = 0; i < s.size(); ++i)
+        if (dam->model->equation[i] != rigid_ground)
+          fields.back().values[i] = (*field.second)[dam->model->equation[i]];
+    }
+    char name[40];
+    std::snprintf(name, sizeof(name), "solution-%05u.vtu", step);
+    FieldWriter(*dam->model).write_vtu(directory + "/" + name, newmark->state().u, fields);
+    solutions.emplace_back(newmark->state().time, name);
+    std::ofstream pvd(directory + "/solution.pvd");
+    pvd << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+    for (const auto &solution : solutions)
+      pvd << "<DataSet timestep=\"" << solution.first << "\" file=\"" << solution.second << "\"/>\n";
+    pvd << "</Collection>\n</VTKFile>\n";
+  }
+
+  void Simulation::write_results()
+  {
+    const Stopwatch watch;
+    history.write(directory + "/history.csv");
+    energy.write(directory + "/energy.csv");
+    joints->maxima().write(directory + "/joints.csv");
+    joints->history.write(directory + "/joint_history.csv");
+    if (scene.output.envelope_interval > 0)
+    {
+      const FieldWriter writer(*dam->model);
+      writer.write_vtu(directory + "/envelope.vtu", {},
+                       {{"max_principal", envelope->maximum}, {"min_principal", envelope->minimum}});
+      writer.write_faces(directory, *dam->geometry, envelope->maximum, envelope->minimum);
+    }
+    count.seconds_output += watch.seconds();
+    write_summary();
+    log.line("Joints    largest opening %.2f mm, largest slip %.2f mm", 1e3 * joints->opening.value,
+             1e3 * joints->slip.value);
+    if (n_steps > 0)
+      log.line("Speed     %.2f s of wall time per second of shaking; per step %.1f ms: sweeps %.1f, joints "
+               "%.1f, stepping "
+               "%.1f, stresses %.1f, output %.1f",
+               count.seconds_shaking / (n_steps * motion.dt), 1e3 * count.seconds_shaking / n_steps,
+               1e3 * count.seconds_sweeps / n_steps, 1e3 * count.seconds_joints / n_steps,
+               1e3 * count.seconds_stepping / n_steps, 1e3 * count.seconds_stresses / n_steps,
+               1e3 * count.seconds_output / n_steps);
+    log.line("Energy    balance closes to %.1e of the largest energy", count.energy_error);
+    for (const char *name : {"/checkpoint.bin", "/checkpoint.txt"})
+      std::filesystem::remove(directory + name); // the run is complete: nothing to resume
+    if (scene.output.figures)
+      draw_figures();
+    log.line("Results   %s", directory.c_str());
+  }
+
+  void Simulation::draw_figures()
+  {
+    const char       *script_directory = std::getenv("VOUSSOIR_SCRIPTS");
+    const std::string script =
+        (script_directory != nullptr ? std::string(script_directory) : VOUSSOIR_SOURCE_DIR "/scripts") +
+        "/figures.py";
+    const std::string command =
+        "/usr/bin/python3 '" + script + "' '" + directory + "' > '" + directory + "/figures.log' 2>&1";
+    log.line("Figures   %s/figures", directory.c_str());
+    if (std::system(command.c_str()) != 0)
+      log.line("warning: the figures could not be drawn; see %s/figures.log. The results are complete.",
+               directory.c_str());
+  }
+} // namespace Voussoir

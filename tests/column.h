@@ -1,0 +1,271 @@
+// Columns of hexahedra with a cross-section of 1 m x 1 m along x, and the checks of the exact-solution tests.
+
+#ifndef voussoir_tests_column_h
+#define voussoir_tests_column_h
+
+#include <voussoir/newmark.h>
+#include <voussoir/solid_model.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace Columns
+{
+  using namespace Voussoir;
+
+  constexpr double pi = 3.14159265358979323846;
+
+  inline bool &failed()
+  {
+    static bool any = false;
+    return any;
+  }
+
+  inline void report(const std::string &what, const double value, const std::string &limit, const bool good)
+  {
+    std::printf("%-66s %12.4e  %-22s %s\n", what.c_str(), value, limit.c_str(), good ? "OK" : "FAILED");
+    std::fflush(stdout);
+    failed() = failed() || !good;
+  }
+
+  inline std::string text(const double x)
+  {
+    char s[32];
+    std::snprintf(s, sizeof(s), "%.6g", x);
+    return s;
+  }
+
+  /** |value| < limit; false for NaN. */
+  inline void below(const std::string &what, const double value, const double limit)
+  {
+    report(what, value, "< " + text(limit), std::abs(value) < limit);
+  }
+
+  inline void above(const std::string &what, const double value, const double limit)
+  {
+    report(what, value, "> " + text(limit), value > limit);
+  }
+
+  inline void between(const std::string &what, const double value, const double low, const double high)
+  {
+    report(what, value, "[" + text(low) + ", " + text(high) + "]", value >= low && value <= high);
+  }
+
+  /** A value without limit. */
+  inline void note(const std::string &what, const double value) { report(what, value, "-", true); }
+
+  /** Random numbers in [-1, 1], the same on every machine. */
+  inline double random_number()
+  {
+    static std::mt19937 engine(7);
+    return engine() / 2147483647.5 - 1.;
+  }
+
+  /** Runs the tests; main's status. */
+  inline int run_all(const std::vector<std::function<void()>> &tests)
+  {
+#ifdef _OPENMP
+    omp_set_num_threads(1); // the bodies are tiny
+#endif
+    for (const auto &test : tests)
+      try
+        {
+          test();
+        }
+      catch (const std::exception &error)
+        {
+          std::printf("FAILED: %s\n", error.what());
+          failed() = true;
+        }
+    return failed() ? 1 : 0;
+  }
+
+  struct Bar
+  {
+    double       from, to;
+    unsigned int n;           ///< elements
+    double       rho, cp, cs; ///< density and wave speeds; cs = cp/sqrt(2): no lateral contraction
+  };
+
+  inline Bar bar(const double from, const double to, const unsigned int n, const double E, const double rho)
+  {
+    return {from, to, n, rho, std::sqrt(E / rho), std::sqrt(.5 * E / rho)};
+  }
+
+  inline Material material(const Bar &bar)
+  {
+    Material     m;
+    const double p = bar.cp * bar.cp, s = bar.cs * bar.cs;
+    m.density = bar.rho;
+    m.poisson = (p - 2. * s) / (2. * (p - s));
+    m.young   = 2. * bar.rho * s * (1. + m.poisson);
+    return m;
+  }
+
+  struct Column
+  {
+    Structure                              structure;
+    std::vector<std::vector<unsigned int>> node; ///< by bar and layer
+    std::vector<std::vector<double>>       x;    ///< of the layers
+
+    double total(const unsigned int bar, const unsigned int component, const Unknowns &v) const ///< sum of m v
+    {
+      double sum = 0.;
+      for (const unsigned int i : node[bar])
+        sum += structure.mass[i][4 * component] * v[3 * i + component];
+      return sum;
+    }
+    double mass(const unsigned int bar) const { return total(bar, 0, Unknowns(3 * structure.n_nodes(), 1.)); }
+    void   set(Unknowns &u, const unsigned int bar, const Vector3 &value) const
+    {
+      for (const unsigned int i : node[bar])
+        std::copy(value.begin(), value.end(), u.begin() + 3 * i);
+    }
+    Unknowns zero() const { return Unknowns(3 * structure.n_nodes(), 0.); }
+    double   kinetic(const Unknowns &v) const
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < structure.n_nodes(); ++i)
+        for (unsigned int c = 0; c < 3; ++c)
+          sum += .5 * structure.mass[i][4 * c] * v[3 * i + c] * v[3 * i + c];
+      return sum;
+    }
+  };
+
+  /** A pair between the rigid ground and a node, n = x (or any other axes by turning {x,y,z} @p turn times). */
+  inline Pair wall(const unsigned int node, const unsigned int turn = 0)
+  {
+    Pair pair;
+    pair.node_2 = node;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int d = 0; d < 3; ++d)
+        pair.frame[i][d] = (i + turn) % 3 == d ? 1. : 0.;
+    return pair;
+  }
+
+  /** The nodes of a layer move as one. Two bars that meet have a joint. @p rigid: all nodes of a bar move as one. */
+  inline Column make_column(const std::vector<Bar> &bars, const std::function<bool(double)> &is_fixed = nullptr,
+                            const bool rigid = false)
+  {
+    HexMesh               mesh;
+    std::vector<Material> materials;
+    for (unsigned int b = 0; b < bars.size(); ++b)
+      {
+        materials.push_back(material(bars[b]));
+        for (unsigned int i = 0; i <= bars[b].n; ++i)
+          {
+            const double       x = bars[b].from + (bars[b].to - bars[b].from) * i / bars[b].n;
+            const unsigned int k = mesh.nodes.size();
+            for (const auto &p : {std::array<double, 2>{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+              mesh.nodes.push_back({x, p[0], p[1]});
+            if (i < bars[b].n)
+              mesh.cells.push_back({{k, k + 1, k + 2, k + 3, k + 4, k + 5, k + 6, k + 7}, int(b + 1)});
+            if (i == bars[b].n && b + 1 < bars.size())
+              mesh.faces.push_back({{k, k + 1, k + 2, k + 3}, int(PhysicalId::joint_side_1 + b + 1)});
+            if (i == 0 && b > 0)
+              mesh.faces.push_back({{k, k + 1, k + 2, k + 3}, int(PhysicalId::joint_side_2 + b)});
+          }
+      }
+    SolidModel                model(mesh, 1);
+    std::vector<unsigned int> master(model.n_nodes());
+    std::vector<bool>         fixed(model.n_nodes());
+    const auto                layer = [&](const unsigned int i) {
+      const Bar &bar = bars[model.body[i]];
+      return rigid ? 0L : std::lround((model.points[i][0] - bar.from) / (bar.to - bar.from) * bar.n);
+    };
+    std::map<std::pair<unsigned int, long>, unsigned int> first;
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      {
+        master[i] = first.try_emplace({model.body[i], layer(i)}, i).first->second;
+        fixed[i]  = is_fixed && is_fixed(model.points[i][0]);
+      }
+    model.number_equations(fixed, master);
+
+    Column column;
+    column.structure = assemble_structure(model, materials, true);
+    column.node.resize(bars.size());
+    column.x.resize(bars.size());
+    for (const auto &entry : first) // ascending in bar and layer
+      if (model.equation[entry.second] != rigid_ground)
+        {
+          column.node[entry.first.first].push_back(model.equation[entry.second]);
+          column.x[entry.first.first].push_back(model.points[entry.second][0]);
+        }
+    column.structure.n_joints = bars.size() > 1 ? bars.size() - 1 : 1;
+    if (bars.size() > 1)
+      column.structure.pairs = find_pairs(model, bars.size() - 1);
+    column.structure.collect_interfaces();
+    return column;
+  }
+
+  inline JointLaws make_laws(const Structure &structure, const std::string &name, const double friction,
+                             const std::string &equations = "projection")
+  {
+    JointLaws laws;
+    for (unsigned int j = 0; j < structure.n_joints; ++j)
+      laws.of_joint.push_back(make_joint_law(name, friction, equations));
+    for (const Pair &pair : structure.pairs)
+      laws.of_pair.push_back(laws.of_joint[pair.joint].get());
+    return laws;
+  }
+  inline double worst_energy_error = 0.; ///< of all runs since it was last reported
+
+  inline void report_energy(const std::string &what)
+  {
+    below(what + ": energy account, error / largest energy", worst_energy_error, 1e-10);
+    worst_energy_error = 0.;
+  }
+
+  inline ContactParameters tight()
+  {
+    ContactParameters parameters;
+    parameters.tolerance = 1e-13;
+    return parameters;
+  }
+
+  /** What a run left in its pair 0, step by step. */
+  struct History
+  {
+    std::vector<double>  t;
+    std::vector<Vector3> force, gap;
+  };
+
+  /** Steps @p newmark n times under load(t); @p see is called after the start and after each step. */
+  inline History run(Newmark &newmark, const double dt, const unsigned int n,
+              const std::function<void(double, Unknowns &)> &load, const Unknowns &zero,
+              const std::function<void()> &see = nullptr)
+  {
+    History h;
+    for (unsigned int i = 0; i <= n; ++i)
+      {
+        if (i > 0)
+          {
+            Unknowns f = zero;
+            if (load)
+              load(i * dt, f);
+            newmark.advance(f);
+          }
+        const Unknowns &force = newmark.state().force;
+        h.t.push_back(i * dt);
+        h.force.push_back({{force[0], force[1], force[2]}});
+        h.gap.push_back(newmark.opening_and_slip(0));
+        if (see)
+          see();
+      }
+    worst_energy_error = std::max(worst_energy_error, newmark.energy_error());
+    return h;
+  }
+
+} // namespace Columns
+
+#endif
