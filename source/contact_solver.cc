@@ -383,10 +383,12 @@ namespace Voussoir
     while (result.residual > parameters.tolerance && result.iterations < parameters.max_iterations)
     {
       result.factorisations += factorise();
-      // As exact as Newton is about to become (Eisenstat and Walker 1996, choice 2).
+      // As exact as Newton is about to become (Eisenstat and Walker 1996, choice 2), but not looser than 1e-3
+      // when it stalls: a loose step misses the soft modes of bodies that only their neighbours hold.
       const double ratio = result.iterations == 0 ? 1. : result.residual / previous;
-      const double tolerance =
-          std::clamp(.9 * ratio * ratio, std::min(.1, .3 * parameters.tolerance / result.residual), .1);
+      const double loosest = since_best > 0 ? 1e-3 : .1;
+      const double tolerance = std::clamp(
+          .9 * ratio * ratio, std::min(loosest, .3 * parameters.tolerance / result.residual), loosest);
       result.krylov += solve_linear(tolerance, step);
       W.multiply(step, d_gap);
       previous = result.residual;

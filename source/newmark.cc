@@ -134,6 +134,7 @@ namespace Voussoir
     }
     account_states();
     first = now.energy;
+    largest = 0.;
   }
 
   void Newmark::resume(const DynamicState &state, const Energy &first_energy, const double largest_so_far,
@@ -307,7 +308,10 @@ namespace Voussoir
       if (rule == ImpactRule::paper)
       {
         const bool tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
-        add_kick(pair, tie_rows(pair_inverse[p], jump, {{closed, tied, tied}}), now.v);
+        const Vector3 f = tie_rows(pair_inverse[p], jump, {{closed, tied, tied}});
+        add_kick(pair, f, now.v);
+        for (unsigned int c = 0; c < 3; ++c)
+          impulse[3 * p + c] += f[c];
         continue;
       }
       // The velocity without any joint force of this step, then the impulse that the law allows.

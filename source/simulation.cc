@@ -298,13 +298,18 @@ namespace Voussoir
     pvd << "</Collection>\n</VTKFile>\n";
   }
 
-  void Simulation::write_results()
+  void Simulation::write_tables()
   {
-    const Stopwatch watch;
     history.write(directory + "/history.csv");
     energy.write(directory + "/energy.csv");
     joints->maxima().write(directory + "/joints.csv");
     joints->history.write(directory + "/joint_history.csv");
+  }
+
+  void Simulation::write_results()
+  {
+    const Stopwatch watch;
+    write_tables();
     if (scene.output.envelope_interval > 0)
     {
       const FieldWriter writer(*dam->model);

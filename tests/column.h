@@ -62,7 +62,10 @@ namespace Columns
   }
 
   /** A value without limit. */
-  inline void note(const std::string &what, const double value) { report(what, value, "-", true); }
+  inline void note(const std::string &what, const double value)
+  {
+    report(what, value, "-", true);
+  }
 
   /** Random numbers in [-1, 1], the same on every machine. */
   inline double random_number()
@@ -79,14 +82,14 @@ namespace Columns
 #endif
     for (const auto &test : tests)
       try
-        {
-          test();
-        }
+      {
+        test();
+      }
       catch (const std::exception &error)
-        {
-          std::printf("FAILED: %s\n", error.what());
-          failed() = true;
-        }
+      {
+        std::printf("FAILED: %s\n", error.what());
+        failed() = true;
+      }
     return failed() ? 1 : 0;
   }
 
@@ -108,7 +111,7 @@ namespace Columns
     const double p = bar.cp * bar.cp, s = bar.cs * bar.cs;
     m.density = bar.rho;
     m.poisson = (p - 2. * s) / (2. * (p - s));
-    m.young   = 2. * bar.rho * s * (1. + m.poisson);
+    m.young = 2. * bar.rho * s * (1. + m.poisson);
     return m;
   }
 
@@ -118,7 +121,8 @@ namespace Columns
     std::vector<std::vector<unsigned int>> node; ///< by bar and layer
     std::vector<std::vector<double>>       x;    ///< of the layers
 
-    double total(const unsigned int bar, const unsigned int component, const Unknowns &v) const ///< sum of m v
+    double total(const unsigned int bar, const unsigned int component,
+                 const Unknowns &v) const ///< sum of m v
     {
       double sum = 0.;
       for (const unsigned int i : node[bar])
@@ -142,7 +146,8 @@ namespace Columns
     }
   };
 
-  /** A pair between the rigid ground and a node, n = x (or any other axes by turning {x,y,z} @p turn times). */
+  /** A pair between the rigid ground and a node, n = x (or any other axes by turning {x,y,z} @p turn times).
+   */
   inline Pair wall(const unsigned int node, const unsigned int turn = 0)
   {
     Pair pair;
@@ -153,42 +158,44 @@ namespace Columns
     return pair;
   }
 
-  /** The nodes of a layer move as one. Two bars that meet have a joint. @p rigid: all nodes of a bar move as one. */
-  inline Column make_column(const std::vector<Bar> &bars, const std::function<bool(double)> &is_fixed = nullptr,
-                            const bool rigid = false)
+  /** The nodes of a layer move as one. Two bars that meet have a joint. @p rigid: all nodes of a bar move as
+   * one. */
+  inline Column make_column(const std::vector<Bar>            &bars,
+                            const std::function<bool(double)> &is_fixed = nullptr, const bool rigid = false)
   {
     HexMesh               mesh;
     std::vector<Material> materials;
     for (unsigned int b = 0; b < bars.size(); ++b)
+    {
+      materials.push_back(material(bars[b]));
+      for (unsigned int i = 0; i <= bars[b].n; ++i)
       {
-        materials.push_back(material(bars[b]));
-        for (unsigned int i = 0; i <= bars[b].n; ++i)
-          {
-            const double       x = bars[b].from + (bars[b].to - bars[b].from) * i / bars[b].n;
-            const unsigned int k = mesh.nodes.size();
-            for (const auto &p : {std::array<double, 2>{0, 0}, {1, 0}, {1, 1}, {0, 1}})
-              mesh.nodes.push_back({x, p[0], p[1]});
-            if (i < bars[b].n)
-              mesh.cells.push_back({{k, k + 1, k + 2, k + 3, k + 4, k + 5, k + 6, k + 7}, int(b + 1)});
-            if (i == bars[b].n && b + 1 < bars.size())
-              mesh.faces.push_back({{k, k + 1, k + 2, k + 3}, int(PhysicalId::joint_side_1 + b + 1)});
-            if (i == 0 && b > 0)
-              mesh.faces.push_back({{k, k + 1, k + 2, k + 3}, int(PhysicalId::joint_side_2 + b)});
-          }
+        const double       x = bars[b].from + (bars[b].to - bars[b].from) * i / bars[b].n;
+        const unsigned int k = mesh.nodes.size();
+        for (const auto &p : {std::array<double, 2>{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+          mesh.nodes.push_back({x, p[0], p[1]});
+        if (i < bars[b].n)
+          mesh.cells.push_back({{k, k + 1, k + 2, k + 3, k + 4, k + 5, k + 6, k + 7}, int(b + 1)});
+        if (i == bars[b].n && b + 1 < bars.size())
+          mesh.faces.push_back({{k, k + 1, k + 2, k + 3}, int(PhysicalId::joint_side_1 + b + 1)});
+        if (i == 0 && b > 0)
+          mesh.faces.push_back({{k, k + 1, k + 2, k + 3}, int(PhysicalId::joint_side_2 + b)});
       }
+    }
     SolidModel                model(mesh, 1);
     std::vector<unsigned int> master(model.n_nodes());
     std::vector<bool>         fixed(model.n_nodes());
-    const auto                layer = [&](const unsigned int i) {
+    const auto                layer = [&](const unsigned int i)
+    {
       const Bar &bar = bars[model.body[i]];
       return rigid ? 0L : std::lround((model.points[i][0] - bar.from) / (bar.to - bar.from) * bar.n);
     };
     std::map<std::pair<unsigned int, long>, unsigned int> first;
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
-      {
-        master[i] = first.try_emplace({model.body[i], layer(i)}, i).first->second;
-        fixed[i]  = is_fixed && is_fixed(model.points[i][0]);
-      }
+    {
+      master[i] = first.try_emplace({model.body[i], layer(i)}, i).first->second;
+      fixed[i] = is_fixed && is_fixed(model.points[i][0]);
+    }
     model.number_equations(fixed, master);
 
     Column column;
@@ -197,10 +204,10 @@ namespace Columns
     column.x.resize(bars.size());
     for (const auto &entry : first) // ascending in bar and layer
       if (model.equation[entry.second] != rigid_ground)
-        {
-          column.node[entry.first.first].push_back(model.equation[entry.second]);
-          column.x[entry.first.first].push_back(model.points[entry.second][0]);
-        }
+      {
+        column.node[entry.first.first].push_back(model.equation[entry.second]);
+        column.x[entry.first.first].push_back(model.points[entry.second][0]);
+      }
     column.structure.n_joints = bars.size() > 1 ? bars.size() - 1 : 1;
     if (bars.size() > 1)
       column.structure.pairs = find_pairs(model, bars.size() - 1);
@@ -242,26 +249,26 @@ namespace Columns
 
   /** Steps @p newmark n times under load(t); @p see is called after the start and after each step. */
   inline History run(Newmark &newmark, const double dt, const unsigned int n,
-              const std::function<void(double, Unknowns &)> &load, const Unknowns &zero,
-              const std::function<void()> &see = nullptr)
+                     const std::function<void(double, Unknowns &)> &load, const Unknowns &zero,
+                     const std::function<void()> &see = nullptr)
   {
     History h;
     for (unsigned int i = 0; i <= n; ++i)
+    {
+      if (i > 0)
       {
-        if (i > 0)
-          {
-            Unknowns f = zero;
-            if (load)
-              load(i * dt, f);
-            newmark.advance(f);
-          }
-        const Unknowns &force = newmark.state().force;
-        h.t.push_back(i * dt);
-        h.force.push_back({{force[0], force[1], force[2]}});
-        h.gap.push_back(newmark.opening_and_slip(0));
-        if (see)
-          see();
+        Unknowns f = zero;
+        if (load)
+          load(i * dt, f);
+        newmark.advance(f);
       }
+      const Unknowns &force = newmark.state().force;
+      h.t.push_back(i * dt);
+      h.force.push_back({{force[0], force[1], force[2]}});
+      h.gap.push_back(newmark.opening_and_slip(0));
+      if (see)
+        see();
+    }
     worst_energy_error = std::max(worst_energy_error, newmark.energy_error());
     return h;
   }

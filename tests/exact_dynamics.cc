@@ -14,7 +14,7 @@ namespace
   // a1: elastic bar that hits a rigid wall with 10 m/s
   struct BarOnWall
   {
-    double eu = 0., ep = 0., osc = 0., least_dE = 1e300, largest_dE = -1e300, pmax = 0.;
+    double eu = 0., ep = 0., osc = 0., least_dE = 1e300, largest_dE = -1e300, pmax = 0., impulse = 0.;
     int    chatter = 0;
   };
 
@@ -28,92 +28,104 @@ namespace
     Newmark         newmark(column.structure, laws, tight(), dt, rule);
     BarOnWall       result;
     for (const double phi : {.1, .3, .5, .7, .9})
+    {
+      const double h0 = 5. + phi * v0 * dt, t1 = h0 / v0;
+      Unknowns     v = column.zero();
+      column.set(v, 0, {{-v0, 0., 0.}});
+      newmark.start(column.zero(), v, {0., 0., 0.}, column.zero(), {-h0, 0., 0.});
+      double        impulse = 0.;
+      const auto    see = [&] { impulse += newmark.impulses()[0]; };
+      const History h = run(newmark, dt, std::lround((1. + 2. * tw) / dt), nullptr, column.zero(), see);
+      double        eu = 0., ep = 0., sum = 0., osc = 0.;
+      unsigned int  n_core = 0;
+      for (unsigned int i = 0; i < h.t.size(); ++i)
       {
-        const double h0 = 5. + phi * v0 * dt, t1 = h0 / v0;
-        Unknowns     v  = column.zero();
-        column.set(v, 0, {{-v0, 0., 0.}});
-        newmark.start(column.zero(), v, {0., 0., 0.}, column.zero(), {-h0, 0., 0.});
-        const History h = run(newmark, dt, std::lround((1. + 2. * tw) / dt), nullptr, column.zero());
-        double        eu = 0., ep = 0., sum = 0., osc = 0.;
-        unsigned int  n_core = 0;
-        for (unsigned int i = 0; i < h.t.size(); ++i)
-          {
-            const double s = h.t[i] - t1, p = h.force[i][0], pe = s > 0. && s < 2. * tw ? p_exact : 0.;
-            const double q = s < 0. ? h0 - v0 * h.t[i] : (s < 2. * tw ? 0. : v0 * (s - 2. * tw));
-            eu += (h.gap[i][0] - q) * (h.gap[i][0] - q);
-            ep += std::abs(p - pe);
-            sum += pe;
-            result.pmax = std::max(result.pmax, p / p_exact);
-            if (s > .2 * tw && s < 1.8 * tw)
-              {
-                osc += (p / pe - 1.) * (p / pe - 1.);
-                ++n_core;
-                result.chatter += p <= 0.;
-              }
-          }
-        const Energy &e  = newmark.state().energy;
-        const double  dE = (e.kinetic + e.strain) / (.5 * L * v0 * v0) - 1.;
-        result.eu += std::sqrt(eu / h.t.size()) / 5. / 5.;
-        result.ep += ep / sum / 5.;
-        result.osc        = std::max(result.osc, std::sqrt(osc / n_core));
-        result.least_dE   = std::min(result.least_dE, dE);
-        result.largest_dE = std::max(result.largest_dE, dE);
+        const double s = h.t[i] - t1, p = h.force[i][0], pe = s > 0. && s < 2. * tw ? p_exact : 0.;
+        const double q = s < 0. ? h0 - v0 * h.t[i] : (s < 2. * tw ? 0. : v0 * (s - 2. * tw));
+        eu += (h.gap[i][0] - q) * (h.gap[i][0] - q);
+        ep += std::abs(p - pe);
+        sum += pe;
+        result.pmax = std::max(result.pmax, p / p_exact);
+        if (s > .2 * tw && s < 1.8 * tw)
+        {
+          osc += (p / pe - 1.) * (p / pe - 1.);
+          ++n_core;
+          result.chatter += p <= 0.;
+        }
       }
+      const Energy &e = newmark.state().energy;
+      const double  dE = (e.kinetic + e.strain) / (.5 * L * v0 * v0) - 1.;
+      result.eu += std::sqrt(eu / h.t.size()) / 5. / 5.;
+      result.ep += ep / sum / 5.;
+      const double change = column.total(0, 0, newmark.state().v) + L * v0;
+      result.impulse = std::max(result.impulse, std::abs(impulse / change - 1.));
+      result.osc = std::max(result.osc, std::sqrt(osc / n_core));
+      result.least_dE = std::min(result.least_dE, dE);
+      result.largest_dE = std::max(result.largest_dE, dE);
+    }
     return result;
   }
 
   void test_a()
   {
     for (const bool paper : {false, true})
-      {
-        const std::string what = paper ? "a1 (rule of the paper) " : "a1 bar on wall: ";
-        const ImpactRule  rule = paper ? ImpactRule::paper : nf;
-        const BarOnWall   r = bar_on_wall(100, 1.5, rule), fine = bar_on_wall(200, 1.5, rule);
-        below(what + "displacement", r.eu, 1e-2);
-        below(what + "force, L1", r.ep, 2.6e-2);
-        below(what + "force, oscillation", r.osc, 4e-3);
-        between(what + "energy change, least", r.least_dE, -1e-2, 0.);
-        between(what + "energy change, largest", r.largest_dE, -1e-2, 0.);
-        below(what + "largest force / exact", r.pmax, 1.25);
-        report(what + "steps without contact", r.chatter, "0", r.chatter == 0);
-        above(what + "force error, ne=100 / ne=200", r.ep / fine.ep, 1.6);
-      }
+    {
+      const std::string what = paper ? "a1 (rule of the paper) " : "a1 bar on wall: ";
+      const ImpactRule  rule = paper ? ImpactRule::paper : nf;
+      const BarOnWall   r = bar_on_wall(100, 1.5, rule), fine = bar_on_wall(200, 1.5, rule);
+      below(what + "displacement", r.eu, 1e-2);
+      below(what + "force, L1", r.ep, 2.6e-2);
+      below(what + "force, oscillation", r.osc, 4e-3);
+      between(what + "energy change, least", r.least_dE, -1e-2, 0.);
+      between(what + "energy change, largest", r.largest_dE, -1e-2, 0.);
+      below(what + "largest force / exact", r.pmax, 1.25);
+      below(what + "impulse / change of momentum", r.impulse, 1e-10);
+      report(what + "steps without contact", r.chatter, "0", r.chatter == 0);
+      above(what + "force error, ne=100 / ne=200", r.ep / fine.ep, 1.6);
+    }
     above("a1 plain Newmark: largest energy change", bar_on_wall(100, 1.5, ImpactRule::none).largest_dE, .5);
     report_energy("a1");
   }
 
   // b: a bar hits another one with 10 m/s
-  void two_bars(const std::string &name, const Bar &one, const Bar &two, const double p, const double v1, const double v2)
+  void two_bars(const std::string &name, const Bar &one, const Bar &two, const double p, const double v1,
+                const double v2)
   {
-    const double v0 = 10., L1 = one.to - one.from, L2 = two.to - two.from, c = 30.;
-    const double dt = 1.5 * std::min(L1 / one.n, L2 / two.n) / c, g0 = v0 * 10.37 * dt, t1 = g0 / v0;
+    const double    v0 = 10., L1 = one.to - one.from, L2 = two.to - two.from, c = 30.;
+    const double    dt = 1.5 * std::min(L1 / one.n, L2 / two.n) / c, g0 = v0 * 10.37 * dt, t1 = g0 / v0;
     const Column    column = make_column({one, two});
-    const JointLaws laws   = make_laws(column.structure, "FJA", .5);
+    const JointLaws laws = make_laws(column.structure, "FJA", .5);
     Newmark         newmark(column.structure, laws, tight(), dt, nf);
     Unknowns        v = column.zero();
     column.set(v, 0, {{v0, 0., 0.}});
     newmark.start(column.zero(), v, {0., 0., 0.}, column.zero(), {-g0, 0., 0.});
     const double m1 = column.mass(0), m2 = column.mass(1);
-    double       momentum = 0.;
-    const auto   see      = [&] {
+    double       momentum = 0., impulse = 0.;
+    const auto   see = [&]
+    {
+      impulse += newmark.impulses()[0];
       const Unknowns &now = newmark.state().v;
-      momentum = std::max(momentum, std::abs((column.total(0, 0, now) + column.total(1, 0, now)) / (m1 * v0) - 1.));
+      momentum =
+          std::max(momentum, std::abs((column.total(0, 0, now) + column.total(1, 0, now)) / (m1 * v0) - 1.));
     };
-    const History h = run(newmark, dt, std::lround((t1 + 3. * std::max(L1, L2) / c) / dt), nullptr, column.zero(), see);
-    double        ep = 0., sum = 0., grazing = 0., range = g0;
+    const History h =
+        run(newmark, dt, std::lround((t1 + 3. * std::max(L1, L2) / c) / dt), nullptr, column.zero(), see);
+    double ep = 0., sum = 0., grazing = 0., range = g0;
     for (unsigned int i = 0; i < h.t.size(); ++i)
-      {
-        const double s = h.t[i] - t1, pe = s > 0. && s < 2. * L1 / c ? p : 0.;
-        ep += std::abs(h.force[i][0] - pe);
-        sum += pe;
-        range = std::max(range, v0 * (s - 2. * L2 / c));
-        if (s > 2. * L1 / c && s < 2. * L2 / c)
-          grazing = std::max(grazing, h.gap[i][0]);
-      }
+    {
+      const double s = h.t[i] - t1, pe = s > 0. && s < 2. * L1 / c ? p : 0.;
+      ep += std::abs(h.force[i][0] - pe);
+      sum += pe;
+      range = std::max(range, v0 * (s - 2. * L2 / c));
+      if (s > 2. * L1 / c && s < 2. * L2 / c)
+        grazing = std::max(grazing, h.gap[i][0]);
+    }
     below(name + ": force, L1", ep / sum, 3e-2);
     below(name + ": final velocity of bar 2", (column.total(1, 0, newmark.state().v) / m2 - v2) / v0, 1.5e-2);
     note(name + ": final velocity of bar 1 - exact", (column.total(0, 0, newmark.state().v) / m1 - v1) / v0);
     below(name + ": momentum", momentum, 1e-9);
+    below(name + ": impulse / change of momentum", impulse / column.total(1, 0, newmark.state().v) - 1.,
+          1e-10);
     if (L2 > L1)
       below(name + ": gap while grazing", grazing / range, 2e-2);
   }
@@ -143,27 +155,29 @@ namespace
 
   void test_c1()
   {
-    const double   A = .5 * g, T0 = .3, mu = .2, V = A * T0, exact = -V * V / (2. * mu * g) * (1. - mu * g / A);
+    const double A = .5 * g, T0 = .3, mu = .2, V = A * T0, exact = -V * V / (2. * mu * g) * (1. - mu * g / A);
     const Particle p(mu);
     for (const double step : {.02, .01, .005, .0025})
-      {
-        const double dt = 1.0137 * step;
-        Newmark      newmark(p.column.structure, p.laws, tight(), dt, nf);
-        newmark.start({0., 0., 0.}, {0., 0., 0.}, {g, mu * g, 0.}, {-g, -A, 0.}, {0., 0., 0.});
-        const History h = run(
-          newmark, dt, std::lround(1.3 / dt),
-          [&](const double t, Unknowns &f) { f = {-g, t < T0 ? -A : 0., 0.}; }, {0., 0., 0.});
-        double noise = 0.;
-        for (unsigned int i = 0; i < h.t.size(); ++i)
-          if (h.t[i] > 1.)
-            noise = std::max(noise, std::abs(h.force[i][1]) / (mu * g));
-        const std::string what = "c1 pulse, dt = " + text(step) + ": ";
-        if (step == .005)
-          below(what + "slip", h.gap.back()[1] / exact - 1., 2.5e-2);
-        else
-          note(what + "slip error", h.gap.back()[1] / exact - 1.);
-        below(what + "friction in stick / limit", noise, 1e-6);
-      }
+    {
+      const double dt = 1.0137 * step;
+      Newmark      newmark(p.column.structure, p.laws, tight(), dt, nf);
+      newmark.start({0., 0., 0.}, {0., 0., 0.}, {g, mu * g, 0.}, {-g, -A, 0.}, {0., 0., 0.});
+      const History h = run(newmark, dt, std::lround(1.3 / dt),
+                            [&](const double t, Unknowns &f) {
+                              f = {-g, t < T0 ? -A : 0., 0.};
+                            },
+                            {0., 0., 0.});
+      double        noise = 0.;
+      for (unsigned int i = 0; i < h.t.size(); ++i)
+        if (h.t[i] > 1.)
+          noise = std::max(noise, std::abs(h.force[i][1]) / (mu * g));
+      const std::string what = "c1 pulse, dt = " + text(step) + ": ";
+      if (step == .005)
+        below(what + "slip", h.gap.back()[1] / exact - 1., 2.5e-2);
+      else
+        note(what + "slip error", h.gap.back()[1] / exact - 1.);
+      below(what + "friction in stick / limit", noise, 1e-6);
+    }
     report_energy("c1");
   }
 
@@ -176,41 +190,45 @@ namespace
   Sliding sliding_column(const unsigned int refinement)
   {
     constexpr unsigned int ne = 20;
-    constexpr double       H = 20., cs = 400., rho = 2000., A = .6 * g, w = 2. * pi * 3., mu = .25, dt0 = .0025;
-    Column                 column = make_column({{0., H, ne, rho, cs * std::sqrt(2.), cs}});
-    Structure             &s      = column.structure;
+    constexpr double H = 20., cs = 400., rho = 2000., A = .6 * g, w = 2. * pi * 3., mu = .25, dt0 = .0025;
+    Column           column = make_column({{0., H, ne, rho, cs * std::sqrt(2.), cs}});
+    Structure       &s = column.structure;
     s.pairs.push_back(wall(column.node[0][0]));
     s.collect_interfaces();
-    s.stiffness_damping  = .04 / (2. * cs * ne / H * std::sin(pi / (4. * ne)));
+    s.stiffness_damping = .04 / (2. * cs * ne / H * std::sin(pi / (4. * ne)));
     const JointLaws laws = make_laws(s, "FJA", mu);
-    const double    dt   = dt0 / refinement;
+    const double    dt = dt0 / refinement;
     Newmark         newmark(s, laws, tight(), dt, nf);
     Unknowns        u = column.zero(), load0 = column.zero();
-    const auto      load = [&](const double t, Unknowns &f) {
+    const auto      load = [&](const double t, Unknowns &f)
+    {
       for (const unsigned int i : column.node[0])
-        {
-          f[3 * i]     = -s.mass[i][0] * g;
-          f[3 * i + 1] = -s.mass[i][4] * A * std::sin(w * t);
-        }
+      {
+        f[3 * i] = -s.mass[i][0] * g;
+        f[3 * i + 1] = -s.mass[i][4] * A * std::sin(w * t);
+      }
     };
     load(0., load0);
     double above_layer = column.mass(0); // settled under its weight
     for (unsigned int k = 1; k <= ne; ++k)
-      {
-        above_layer -= s.mass[column.node[0][k - 1]][0];
-        u[3 * column.node[0][k]] = u[3 * column.node[0][k - 1]] - above_layer * g * (H / ne) / (rho * 2. * cs * cs);
-      }
+    {
+      above_layer -= s.mass[column.node[0][k - 1]][0];
+      u[3 * column.node[0][k]] =
+          u[3 * column.node[0][k - 1]] - above_layer * g * (H / ne) / (rho * 2. * cs * cs);
+    }
     newmark.start(u, column.zero(), {column.mass(0) * g, 0., 0.}, load0, {0., 0., 0.});
     Sliding      result;
     unsigned int count = 0;
-    run(newmark, dt, std::lround(4. / dt), load, column.zero(), [&] {
-      if (count++ % refinement == 0)
+    run(newmark, dt, std::lround(4. / dt), load, column.zero(),
+        [&]
         {
-          result.slip.push_back(newmark.state().u[3 * column.node[0][0] + 1]);
-          result.top.push_back(newmark.state().u[3 * column.node[0][ne] + 1]);
-          result.friction.push_back(newmark.state().force[1] / (mu * column.mass(0) * g));
-        }
-    });
+          if (count++ % refinement == 0)
+          {
+            result.slip.push_back(newmark.state().u[3 * column.node[0][0] + 1]);
+            result.top.push_back(newmark.state().u[3 * column.node[0][ne] + 1]);
+            result.friction.push_back(newmark.state().force[1] / (mu * column.mass(0) * g));
+          }
+        });
     return result;
   }
 
@@ -220,11 +238,11 @@ namespace
     double        rms = 0., error = 0., top = 0.;
     const auto    range = std::minmax_element(run.slip.begin(), run.slip.end());
     for (unsigned int i = 0; i < run.slip.size(); ++i)
-      {
-        top   = std::max(top, std::abs(run.top[i]));
-        error = std::max(error, std::abs(run.slip[i] - fine.slip[i]));
-        rms += (run.friction[i] - fine.friction[i]) * (run.friction[i] - fine.friction[i]);
-      }
+    {
+      top = std::max(top, std::abs(run.top[i]));
+      error = std::max(error, std::abs(run.slip[i] - fine.slip[i]));
+      rms += (run.friction[i] - fine.friction[i]) * (run.friction[i] - fine.friction[i]);
+    }
     const double ptp = 4.263584994e-2; // event-driven reference
     below("c4 sliding column: peak to peak slip", (*range.second - *range.first) / ptp - 1., 2e-2);
     below("c4 sliding column: final slip", (run.slip.back() + 1.758344576e-2) / ptp, 2e-2);
@@ -239,34 +257,43 @@ namespace
   {
     const double theta = pi / 6., n = g * std::cos(theta), along = g * std::sin(theta), dt = .01;
     for (const double mu : {.7, .4})
-      {
-        const Particle p(mu);
-        Newmark        newmark(p.column.structure, p.laws, tight(), dt, nf);
-        const Unknowns weight = {-n, 0., -along};
-        newmark.start({0., 0., 0.}, {0., 0., 0.}, {n, 0., std::min(along, mu * n)}, weight, {0., 0., 0.});
-        const History h = run(newmark, dt, 100, [&](double, Unknowns &f) { f = weight; }, {0., 0., 0.});
-        const double  exact = mu == .4 ? -.75335816 : 0.;
-        below("d1 incline, friction " + text(mu) + ": slip", h.gap.back()[2] - exact, mu == .4 ? 1e-8 : 1e-14);
-        below("d1 incline, friction " + text(mu) + ": normal", h.gap.back()[0], 1e-14);
-      }
+    {
+      const Particle p(mu);
+      Newmark        newmark(p.column.structure, p.laws, tight(), dt, nf);
+      const Unknowns weight = {-n, 0., -along};
+      newmark.start({0., 0., 0.}, {0., 0., 0.}, {n, 0., std::min(along, mu * n)}, weight, {0., 0., 0.});
+      const History h = run(newmark, dt, 100, [&](double, Unknowns &f) { f = weight; }, {0., 0., 0.});
+      const double  exact = mu == .4 ? -.75335816 : 0.;
+      below("d1 incline, friction " + text(mu) + ": slip", h.gap.back()[2] - exact, mu == .4 ? 1e-8 : 1e-14);
+      below("d1 incline, friction " + text(mu) + ": normal", h.gap.back()[0], 1e-14);
+    }
     const Particle p(.3);
     Newmark        newmark(p.column.structure, p.laws, tight(), dt, nf);
     for (const double vt : {1., .2})
+    {
+      double tangential = 0., normal = 0., impulses = 0.;
+      for (unsigned int k = 0; k < 49; ++k)
       {
-        double tangential = 0., normal = 0.;
-        for (unsigned int k = 0; k < 49; ++k)
-          {
-            const double gap = dt * (3. + .02 + .02 * k);
-            newmark.start({0., 0., 0.}, {-1., .6 * vt, .8 * vt}, {0., 0., 0.}, {0., 0., 0.}, {-gap, 0., 0.});
-            run(newmark, dt, 20, nullptr, {0., 0., 0.});
-            const Unknowns &v    = newmark.state().v;
-            const double    left = vt == 1. ? .7 : 0.;
-            tangential = std::max({tangential, std::abs(v[1] - .6 * left), std::abs(v[2] - .8 * left)});
-            normal     = std::max(normal, std::abs(v[0]));
-          }
-        below("d2 oblique impact, vt = " + text(vt) + ": tangential velocity after it", tangential, 1e-12);
-        below("d2 oblique impact, vt = " + text(vt) + ": normal velocity after it", normal, 1e-12);
+        const double gap = dt * (3. + .02 + .02 * k);
+        newmark.start({0., 0., 0.}, {-1., .6 * vt, .8 * vt}, {0., 0., 0.}, {0., 0., 0.}, {-gap, 0., 0.});
+        Vector3 impulse{};
+        run(newmark, dt, 20, nullptr, {0., 0., 0.},
+            [&]
+            {
+              for (unsigned int c = 0; c < 3; ++c)
+                impulse[c] += newmark.impulses()[c];
+            });
+        const Unknowns &v = newmark.state().v;
+        const double    left = vt == 1. ? .7 : 0.;
+        tangential = std::max({tangential, std::abs(v[1] - .6 * left), std::abs(v[2] - .8 * left)});
+        normal = std::max(normal, std::abs(v[0]));
+        impulses = std::max({impulses, std::abs(impulse[0] - 1.), std::abs(impulse[1] + .6 * (vt - left)),
+                             std::abs(impulse[2] + .8 * (vt - left))});
       }
+      below("d2 oblique impact, vt = " + text(vt) + ": tangential velocity after it", tangential, 1e-12);
+      below("d2 oblique impact, vt = " + text(vt) + ": normal velocity after it", normal, 1e-12);
+      below("d2 oblique impact, vt = " + text(vt) + ": impulse", impulses, 1e-12);
+    }
     report_energy("d1, d2");
   }
 
@@ -277,7 +304,7 @@ namespace
     const double       dt = 1.5 * H / ne / cp, g0 = vn * dt * 5.37, t1 = g0 / vn;
     const double       p = Zp * vn / 2., tau = std::min(Zs * vt / 2., mu * p);
     const Column       column = make_column({{-H, 0., ne, rho, cp, cs}, {0., H, ne, rho, cp, cs}});
-    const JointLaws    laws   = make_laws(column.structure, "FJA", mu);
+    const JointLaws    laws = make_laws(column.structure, "FJA", mu);
     Newmark            newmark(column.structure, laws, tight(), dt, rule);
     Unknowns           v = column.zero();
     column.set(v, 0, {{vn, .6 * vt, .8 * vt}});
@@ -285,25 +312,28 @@ namespace
     const History h = run(newmark, dt, std::lround((t1 + 3.2 * H / cp) / dt), nullptr, column.zero());
     double        ep = 0., etau = 0., n = 0., excess = 0.;
     for (unsigned int i = 0; i < h.t.size(); ++i)
-      {
-        const bool   inside = h.t[i] > t1 && h.t[i] < t1 + 2. * H / cp;
-        const double t      = .6 * h.force[i][1] + .8 * h.force[i][2];
-        ep += std::abs(h.force[i][0] / p - inside);
-        etau += std::abs(t / tau - inside);
-        n += inside;
-        excess = std::max(excess, std::hypot(h.force[i][1], h.force[i][2]) - mu * h.force[i][0] * (1. + 1e-9));
-      }
-    const double v2 = (.6 * column.total(1, 1, newmark.state().v) + .8 * column.total(1, 2, newmark.state().v)) / column.mass(1);
-    const std::string what =
-      "d3 plates, vt = " + text(vt) + (rule == nf ? (tau < mu * p ? ", stick: " : ", slip: ") : ", plain Newmark: ");
+    {
+      const bool   inside = h.t[i] > t1 && h.t[i] < t1 + 2. * H / cp;
+      const double t = .6 * h.force[i][1] + .8 * h.force[i][2];
+      ep += std::abs(h.force[i][0] / p - inside);
+      etau += std::abs(t / tau - inside);
+      n += inside;
+      excess = std::max(excess, std::hypot(h.force[i][1], h.force[i][2]) - mu * h.force[i][0] * (1. + 1e-9));
+    }
+    const double v2 =
+        (.6 * column.total(1, 1, newmark.state().v) + .8 * column.total(1, 2, newmark.state().v)) /
+        column.mass(1);
+    const std::string what = "d3 plates, vt = " + text(vt) +
+                             (rule == nf ? (tau < mu * p ? ", stick: " : ", slip: ") : ", plain Newmark: ");
     if (rule == nf)
-      {
-        below(what + "transverse velocity", v2 * rho * cp / (2. * tau) - 1., 1.5e-2);
-        below(what + "normal velocity", column.total(1, 0, newmark.state().v) / column.mass(1) / vn - 1., 1.5e-2);
-        note(what + "pressure, L1", ep / n);
-        note(what + "shear, L1", etau / n);
-        report(what + "excess over Coulomb's limit", excess, "<= 0", excess <= 0.);
-      }
+    {
+      below(what + "transverse velocity", v2 * rho * cp / (2. * tau) - 1., 1.5e-2);
+      below(what + "normal velocity", column.total(1, 0, newmark.state().v) / column.mass(1) / vn - 1.,
+            1.5e-2);
+      note(what + "pressure, L1", ep / n);
+      note(what + "shear, L1", etau / n);
+      report(what + "excess over Coulomb's limit", excess, "<= 0", excess <= 0.);
+    }
     else
       above(what + "transverse velocity", std::abs(v2 * rho * cp / (2. * tau) - 1.), .2);
   }

@@ -8,84 +8,87 @@ namespace
 {
   void test_derivatives(const std::string &name, const std::string &equations)
   {
-    const auto   law   = make_joint_law(name, .7, equations);
+    const auto   law = make_joint_law(name, .7, equations);
     double       worst = 0.;
     int          states[3] = {0, 0, 0};
     const double h = 1e-6;
     for (unsigned int trial = 0; trial < 3000; ++trial)
-      {
-        Vector3       x[2]; // force, gap
-        const double  rho = std::pow(10., random_number());
-        PairEquations e, plus, minus;
-        for (Vector3 &v : x)
-          for (double &y : v)
-            y = random_number();
-        const PairState state = law->evaluate(x[0], x[1], rho, e);
-        if (equations == "paper" && std::hypot(x[0][1], x[0][2]) < .05)
-          continue;
-        double error  = 0.;
-        bool   smooth = true;
-        for (unsigned int k = 0; k < 2; ++k)
-          for (unsigned int j = 0; j < 3; ++j)
-            {
-              const double kept = x[k][j];
-              x[k][j]           = kept + h;
-              smooth            = smooth && law->evaluate(x[0], x[1], rho, plus) == state;
-              x[k][j]           = kept - h;
-              smooth            = smooth && law->evaluate(x[0], x[1], rho, minus) == state;
-              x[k][j]           = kept;
-              for (unsigned int i = 0; i < 3; ++i)
-                error = std::max(error, std::abs((plus.residual[i] - minus.residual[i]) / (2. * h) -
-                                                 (k == 0 ? e.d_force : e.d_gap)[3 * i + j]) /
-                                          (1. + rho));
-            }
-        if (!smooth)
-          continue;
-        ++states[static_cast<int>(state)];
-        worst = std::max(worst, error);
-      }
+    {
+      Vector3       x[2]; // force, gap
+      const double  rho = std::pow(10., random_number());
+      PairEquations e, plus, minus;
+      for (Vector3 &v : x)
+        for (double &y : v)
+          y = random_number();
+      const PairState state = law->evaluate(x[0], x[1], rho, e);
+      if (equations == "paper" && std::hypot(x[0][1], x[0][2]) < .05)
+        continue;
+      double error = 0.;
+      bool   smooth = true;
+      for (unsigned int k = 0; k < 2; ++k)
+        for (unsigned int j = 0; j < 3; ++j)
+        {
+          const double kept = x[k][j];
+          x[k][j] = kept + h;
+          smooth = smooth && law->evaluate(x[0], x[1], rho, plus) == state;
+          x[k][j] = kept - h;
+          smooth = smooth && law->evaluate(x[0], x[1], rho, minus) == state;
+          x[k][j] = kept;
+          for (unsigned int i = 0; i < 3; ++i)
+            error = std::max(error, std::abs((plus.residual[i] - minus.residual[i]) / (2. * h) -
+                                             (k == 0 ? e.d_force : e.d_gap)[3 * i + j]) /
+                                        (1. + rho));
+        }
+      if (!smooth)
+        continue;
+      ++states[static_cast<int>(state)];
+      worst = std::max(worst, error);
+    }
     below("law " + name + ", " + equations + " equations: derivatives", worst, 1e-6);
     if (name == "FJA")
-      above("law " + name + ", " + equations + " equations: states of each kind", *std::min_element(states, states + 3), 100);
+      above("law " + name + ", " + equations + " equations: states of each kind",
+            *std::min_element(states, states + 3), 100);
   }
 
   void test_solve(const std::string &name)
   {
     double worst = 0.;
     for (const double mu : {0., .3, .7, 1.5})
+    {
+      const auto law = make_joint_law(name, mu);
+      for (unsigned int trial = 0; trial < 5000; ++trial)
       {
-        const auto law = make_joint_law(name, mu);
-        for (unsigned int trial = 0; trial < 5000; ++trial)
-          {
-            Matrix3 A, H{};
-            Vector3 b;
-            for (double &a : A)
-              a = random_number();
-            for (double &x : b)
-              x = random_number();
-            for (unsigned int i = 0; i < 3; ++i)
-              for (unsigned int j = 0; j < 3; ++j)
-                for (unsigned int k = 0; k < 3; ++k)
-                  H[3 * i + j] += A[3 * i + k] * A[3 * j + k] + (i == j && k == 0 ? .1 : 0.);
-            const Vector3 f   = law->solve(H, b, true);
-            Vector3       gap = H * f;
-            for (unsigned int c = 0; c < 3; ++c)
-              gap[c] += b[c];
-            PairEquations e;
-            law->evaluate(f, gap, 1., e);
-            for (unsigned int c = 0; c < 3; ++c)
-              worst = std::max(worst, std::abs(e.residual[c]) / (1. + std::abs(f[0]) + std::abs(f[1]) + std::abs(f[2])));
-          }
+        Matrix3 A, H{};
+        Vector3 b;
+        for (double &a : A)
+          a = random_number();
+        for (double &x : b)
+          x = random_number();
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            for (unsigned int k = 0; k < 3; ++k)
+              H[3 * i + j] += A[3 * i + k] * A[3 * j + k] + (i == j && k == 0 ? .1 : 0.);
+        const Vector3 f = law->solve(H, b, true);
+        Vector3       gap = H * f;
+        for (unsigned int c = 0; c < 3; ++c)
+          gap[c] += b[c];
+        PairEquations e;
+        law->evaluate(f, gap, 1., e);
+        for (unsigned int c = 0; c < 3; ++c)
+          worst = std::max(worst,
+                           std::abs(e.residual[c]) / (1. + std::abs(f[0]) + std::abs(f[1]) + std::abs(f[2])));
       }
+    }
     below("law " + name + ": exact solution of one pair, residual", worst, 1e-11);
   }
 
-  /** e1, e4: compressed by @p compression, then driven along a circle of radius @p radius_of_drive / .6 times the
-   *  elastic slip: the radius of the slider is known for the discrete steps. */
+  /** e1, e4: compressed by @p compression, then driven along a circle of radius @p radius_of_drive / .6 times
+   * the elastic slip: the radius of the slider is known for the discrete steps. */
   void circular_drive(const std::string &name, const std::vector<Bar> &bars, const unsigned int n)
   {
     const double end = bars.back().to;
-    Column       column = make_column(bars, [&](const double x) { return x == end || (bars.size() > 1 && x == 0.); });
+    Column       column =
+        make_column(bars, [&](const double x) { return x == end || (bars.size() > 1 && x == 0.); });
     if (bars.size() == 1)
       column.structure.pairs.push_back(wall(column.node[0][0]));
     column.structure.collect_interfaces();
@@ -94,27 +97,27 @@ namespace
     JointSystem     system(column.structure, laws, tight(), 0., 1., 0.);
     double          normal = 0., tangential = 0.; // flexibilities
     for (const Bar &b : bars)
-      {
-        normal += (b.to - b.from) / (b.rho * b.cp * b.cp);
-        tangential += (b.to - b.from) / (b.rho * b.cs * b.cs);
-      }
+    {
+      normal += (b.to - b.from) / (b.rho * b.cp * b.cp);
+      tangential += (b.to - b.from) / (b.rho * b.cs * b.cs);
+    }
     const double p = compression / normal, r = mu * p * tangential, U = r / .6, D = 2. * pi / n;
     const double exact = -r * std::sin(D / 2.) + std::sqrt(U * U - r * r * std::pow(std::cos(D / 2.), 2));
     Unknowns     force(3, 0.), gap, u, offset(3);
     double       slider[2] = {0., 0.}, cone = 0., step = 0.;
     unsigned int iterations = 0;
-    bool         converged  = true;
+    bool         converged = true;
     for (unsigned int i = 0; i < 60 * n; ++i)
-      {
-        offset                     = {-compression, U * std::cos(i * D) - slider[0], U * std::sin(i * D) - slider[1]};
-        const ContactResult result = system.solve(column.zero(), offset, force, gap, u);
-        converged                  = converged && result.converged;
-        iterations                 = std::max(iterations, result.iterations);
-        slider[0] += gap[1];
-        slider[1] += gap[2];
-        step = std::hypot(gap[1], gap[2]);
-        cone = std::max(cone, std::abs(std::hypot(force[1], force[2]) / (mu * force[0]) - 1.));
-      }
+    {
+      offset = {-compression, U * std::cos(i * D) - slider[0], U * std::sin(i * D) - slider[1]};
+      const ContactResult result = system.solve(column.zero(), offset, force, gap, u);
+      converged = converged && result.converged;
+      iterations = std::max(iterations, result.iterations);
+      slider[0] += gap[1];
+      slider[1] += gap[2];
+      step = std::hypot(gap[1], gap[2]);
+      cone = std::max(cone, std::abs(std::hypot(force[1], force[2]) / (mu * force[0]) - 1.));
+    }
     const std::string what = name + ", " + text(n) + " steps per turn: ";
     report(what + "converged, most iterations", iterations, "", converged);
     below(what + "pressure", force[0] / p - 1., 1e-12);
@@ -146,29 +149,29 @@ namespace
     double            worst = 0., field = 0., area = 0.;
     unsigned int      iterations = 0, sweeps = 0, failures = 0;
     for (unsigned int step = 0; step < path.size(); ++step)
+    {
+      for (unsigned int k = 0; k < n; ++k)
       {
-        for (unsigned int k = 0; k < n; ++k)
-          {
-            const unsigned int i = column.node[0][k];
-            offset[3 * k + 1]    = -u[3 * i];
-            offset[3 * k + 2]    = -u[3 * i + 1];
-            load[3 * i]          = k == 0 ? path[step] : 0.;
-            load[3 * i + 2]      = -column.structure.mass[i][8]; // density 1: the tributary length
-          }
-        const double        before = u[3 * column.node[0][0]];
-        const ContactResult result = system.solve(load, offset, force, gap, u);
-        const double        end    = u[3 * column.node[0][0]];
-        failures += !result.converged;
-        iterations = std::max(iterations, result.iterations);
-        sweeps += result.sweeps;
-        worst = std::max(worst, std::abs(end - exact[step]) / U(Fm));
-        if (step == 7)
-          for (unsigned int k = 0; k < n; ++k)
-            field = std::max(field, std::abs(u[3 * column.node[0][k]] -
-                                             U(std::max(Fm - column.x[0][k], 0.))) / U(Fm));
-        if (step >= 8)
-          area += .5 * (path[step] + path[step - 1]) * (end - before);
+        const unsigned int i = column.node[0][k];
+        offset[3 * k + 1] = -u[3 * i];
+        offset[3 * k + 2] = -u[3 * i + 1];
+        load[3 * i] = k == 0 ? path[step] : 0.;
+        load[3 * i + 2] = -column.structure.mass[i][8]; // density 1: the tributary length
       }
+      const double        before = u[3 * column.node[0][0]];
+      const ContactResult result = system.solve(load, offset, force, gap, u);
+      const double        end = u[3 * column.node[0][0]];
+      failures += !result.converged;
+      iterations = std::max(iterations, result.iterations);
+      sweeps += result.sweeps;
+      worst = std::max(worst, std::abs(end - exact[step]) / U(Fm));
+      if (step == 7)
+        for (unsigned int k = 0; k < n; ++k)
+          field = std::max(field,
+                           std::abs(u[3 * column.node[0][k]] - U(std::max(Fm - column.x[0][k], 0.))) / U(Fm));
+      if (step >= 8)
+        area += .5 * (path[step] + path[step - 1]) * (end - before);
+    }
     const std::string what = "e2 bar on friction, " + text(ne) + " elements: ";
     report(what + "most Newton steps, all converged", iterations, "", failures == 0);
     note(what + "Gauss-Seidel sweeps", sweeps);
@@ -180,10 +183,10 @@ namespace
   void test_laws()
   {
     for (const std::string name : {"FJA", "FJB", "tied"})
-      {
-        test_derivatives(name, "projection");
-        test_solve(name);
-      }
+    {
+      test_derivatives(name, "projection");
+      test_solve(name);
+    }
     test_derivatives("FJA", "paper");
   }
 

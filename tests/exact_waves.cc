@@ -1,5 +1,5 @@
-// Plane waves through a joint against the exact solution, and the energy of elastic runs, through the program's own
-// elements and time stepping.
+// Plane waves through a joint against the exact solution, and the energy of elastic runs, through the
+// program's own elements and time stepping.
 
 #include "column.h"
 
@@ -19,19 +19,21 @@ namespace
 
   Wave wave(const Signal &f, const unsigned int ne, const double nu, const ImpactRule rule)
   {
-    const double V = .2, Lh = 300., rho = 2400., cp = 3000., cs = 1800., Zp = rho * cp, Zs = rho * cs, p0 = .72e6, mu = .5;
-    const double dt = nu * Lh / ne / cp;
-    Column       column = make_column({{-Lh, 0., ne, rho, cp, cs}, {0., Lh, ne, rho, cp, cs}});
-    Structure   &s      = column.structure;
+    const double V = .2, Lh = 300., rho = 2400., cp = 3000., cs = 1800., Zp = rho * cp, Zs = rho * cs,
+                 p0 = .72e6, mu = .5;
+    const double       dt = nu * Lh / ne / cp;
+    Column             column = make_column({{-Lh, 0., ne, rho, cp, cs}, {0., Lh, ne, rho, cp, cs}});
+    Structure         &s = column.structure;
     const unsigned int left = column.node[0].front(), right = column.node[1].back();
     s.dashpots = column.zero();
     for (const unsigned int end : {left, right})
       for (unsigned int c = 0; c < 3; ++c)
         s.dashpots[3 * end + c] = c == 0 ? Zp : Zs;
-    const auto load = [&](const double t, Unknowns &q) {
+    const auto load = [&](const double t, Unknowns &q)
+    {
       const Vector3 v = f(t);
-      q[3 * left]     = p0 + 2. * Zp * V * v[0];
-      q[3 * right]    = -p0;
+      q[3 * left] = p0 + 2. * Zp * V * v[0];
+      q[3 * right] = -p0;
       for (unsigned int c = 1; c < 3; ++c)
         q[3 * left + c] = 2. * Zs * V * v[c];
     };
@@ -47,65 +49,67 @@ namespace
 
     // The exact solution by quadrature: memory only in the gap and, when it slips, in the slip.
     constexpr unsigned int n_sub = 40;
-    const double           step  = dt / n_sub;
+    const double           step = dt / n_sub;
     const auto             q = [&](const double t) { return p0 + Zp * V * f(t - Lh / cp)[0]; };
     double                 gap = 0., s_a = 0., s_b = 0., rate_a = 0., rate_b = 0., p = p0, t_a = 0., t_b = 0.;
-    double                 sum_p = 0., sum_t = 0., ep = 0., etau = 0., eg = 0., eslip = 0., most_gap = 0., most_slip = 0.;
-    double                 tv = 0., tv_exact = 0., t_a_before = 0.;
-    bool                   open = false;
+    double sum_p = 0., sum_t = 0., ep = 0., etau = 0., eg = 0., eslip = 0., most_gap = 0., most_slip = 0.;
+    double tv = 0., tv_exact = 0., t_a_before = 0.;
+    bool   open = false;
     for (unsigned int i = 0; i < h.t.size(); ++i)
+    {
+      for (unsigned int k = 0; i > 0 && k < n_sub; ++k)
       {
-        for (unsigned int k = 0; i > 0 && k < n_sub; ++k)
-          {
-            const double t = h.t[i - 1] + k * step, q0 = q(t), q1 = q(t + step);
-            if (!open && q1 < 0.)
-              {
-                const double part = q0 > 0. ? q0 / (q0 - q1) : 0.;
-                gap               = -q1 / Zp * (1. - part) * step;
-                open              = true;
-              }
-            else if (open)
-              {
-                gap -= (q0 + q1) / Zp * step;
-                if (gap <= 0.)
-                  gap = 0., open = false;
-              }
-            p                   = open ? 0. : std::max(q1, 0.);
-            const Vector3 v     = f(t + step - Lh / cs);
-            const double  S_a   = Zs * V * v[1], S_b = Zs * V * v[2], S = std::hypot(S_a, S_b);
-            const double  part  = std::min(1., mu * p / std::max(S, 1e-300));
-            t_a = S_a * part, t_b = S_b * part;
-            const double new_a = -2. / Zs * (S_a - t_a), new_b = -2. / Zs * (S_b - t_b);
-            s_a += .5 * (rate_a + new_a) * step, s_b += .5 * (rate_b + new_b) * step;
-            rate_a = new_a, rate_b = new_b;
-          }
-        ep += std::abs(h.force[i][0] - p);
-        sum_p += p;
-        eg       = std::max(eg, std::abs(h.gap[i][0] - gap));
-        most_gap = std::max(most_gap, gap);
-        etau += std::hypot(h.force[i][1] - t_a, h.force[i][2] - t_b);
-        sum_t += std::hypot(t_a, t_b);
-        eslip     = std::max(eslip, std::hypot(h.gap[i][1] - s_a, h.gap[i][2] - s_b));
-        most_slip = std::max(most_slip, std::hypot(s_a, s_b));
-        if (i > 0)
-          tv += std::abs(h.force[i][1] - h.force[i - 1][1]);
-        tv_exact += std::abs(t_a - t_a_before);
-        t_a_before = t_a;
+        const double t = h.t[i - 1] + k * step, q0 = q(t), q1 = q(t + step);
+        if (!open && q1 < 0.)
+        {
+          const double part = q0 > 0. ? q0 / (q0 - q1) : 0.;
+          gap = -q1 / Zp * (1. - part) * step;
+          open = true;
+        }
+        else if (open)
+        {
+          gap -= (q0 + q1) / Zp * step;
+          if (gap <= 0.)
+            gap = 0., open = false;
+        }
+        p = open ? 0. : std::max(q1, 0.);
+        const Vector3 v = f(t + step - Lh / cs);
+        const double  S_a = Zs * V * v[1], S_b = Zs * V * v[2], S = std::hypot(S_a, S_b);
+        const double  part = std::min(1., mu * p / std::max(S, 1e-300));
+        t_a = S_a * part, t_b = S_b * part;
+        const double new_a = -2. / Zs * (S_a - t_a), new_b = -2. / Zs * (S_b - t_b);
+        s_a += .5 * (rate_a + new_a) * step, s_b += .5 * (rate_b + new_b) * step;
+        rate_a = new_a, rate_b = new_b;
       }
+      ep += std::abs(h.force[i][0] - p);
+      sum_p += p;
+      eg = std::max(eg, std::abs(h.gap[i][0] - gap));
+      most_gap = std::max(most_gap, gap);
+      etau += std::hypot(h.force[i][1] - t_a, h.force[i][2] - t_b);
+      sum_t += std::hypot(t_a, t_b);
+      eslip = std::max(eslip, std::hypot(h.gap[i][1] - s_a, h.gap[i][2] - s_b));
+      most_slip = std::max(most_slip, std::hypot(s_a, s_b));
+      if (i > 0)
+        tv += std::abs(h.force[i][1] - h.force[i - 1][1]);
+      tv_exact += std::abs(t_a - t_a_before);
+      t_a_before = t_a;
+    }
     return {ep / sum_p, eg / most_gap, etau / sum_t, eslip / most_slip, tv / tv_exact};
   }
 
   void test_h()
   {
-    const double w   = 2. * pi * 5.;
-    const auto   on  = [=](const double t) { return t > 0. && t < 4. * pi / w ? 1. : 0.; };
-    const Signal P   = [=](const double t) -> Vector3 { return {{-std::sin(w * t) * on(t), 0., 0.}}; };
-    const Signal SH  = [=](const double t) -> Vector3 { return {{0., std::sin(w * t) * on(t), 0.}}; };
-    const Signal S2  = [=](const double t) -> Vector3 {
+    const double w = 2. * pi * 5.;
+    const auto   on = [=](const double t) { return t > 0. && t < 4. * pi / w ? 1. : 0.; };
+    const Signal P = [=](const double t) -> Vector3 { return {{-std::sin(w * t) * on(t), 0., 0.}}; };
+    const Signal SH = [=](const double t) -> Vector3 { return {{0., std::sin(w * t) * on(t), 0.}}; };
+    const Signal S2 = [=](const double t) -> Vector3 {
       return {{0., std::sin(w * t) * on(t), .7 * std::sin(1.5 * w * t) * on(t)}};
     };
-    const Signal PS = [=](const double t) -> Vector3 {
-      return {{-std::sin(w * t) * on(t), .6 * std::sin(1.3 * w * t) * on(t), .4 * std::sin(.7 * w * t) * on(t)}};
+    const Signal PS = [=](const double t) -> Vector3
+    {
+      return {
+          {-std::sin(w * t) * on(t), .6 * std::sin(1.3 * w * t) * on(t), .4 * std::sin(.7 * w * t) * on(t)}};
     };
     Wave r = wave(P, 60, 1.5, nf);
     below("h P wave: pressure, L1", r.ep, 3e-2);
@@ -117,85 +121,87 @@ namespace
     note("h two S waves: shear, L1", r.etau);
     note("h two S waves: slip", r.eslip);
     for (const double nu : {.5, .75, 1., 1.25, 1.5, 2., 3.})
-      {
-        r = wave(PS, 60, nu, nf);
-        const std::string what = "h P and S, Courant number " + text(nu);
-        below(what + ": slip", r.eslip, nu <= 1.5 ? 8e-3 : (nu == 2. ? 1.6e-2 : 3.5e-2));
-        below(what + ": variation of the shear / exact", r.tv, 1.5);
-      }
+    {
+      r = wave(PS, 60, nu, nf);
+      const std::string what = "h P and S, Courant number " + text(nu);
+      below(what + ": slip", r.eslip, nu <= 1.5 ? 8e-3 : (nu == 2. ? 1.6e-2 : 3.5e-2));
+      below(what + ": variation of the shear / exact", r.tv, 1.5);
+    }
     report_energy("h");
     for (const double nu : {.5, 1.5, 3.})
-      {
-        r = wave(PS, 60, nu, ImpactRule::paper);
-        const std::string what = "h P and S, rule of the paper, Courant number " + text(nu);
-        note(what + ": slip", r.eslip);
-        note(what + ": variation", r.tv);
-      }
+    {
+      r = wave(PS, 60, nu, ImpactRule::paper);
+      const std::string what = "h P and S, rule of the paper, Courant number " + text(nu);
+      note(what + ": slip", r.eslip);
+      note(what + ": variation", r.tv);
+    }
     report_energy("h, rule of the paper");
   }
 
   /** Energy of elastic runs, and a tied joint against no joint. */
   void test_elastic()
   {
-    const Bar    one{0., 5., 10, 2400., 3000., 1800.}, two{5., 10., 10, 2400., 3000., 1800.}, both{0., 10., 20, 2400., 3000., 1800.};
+    const Bar one{0., 5., 10, 2400., 3000., 1800.}, two{5., 10., 10, 2400., 3000., 1800.},
+        both{0., 10., 20, 2400., 3000., 1800.};
     const double dt = 4e-4;
     Unknowns     monolithic, tied;
     for (const std::string law : {"none", "tied", "FJB"})
       for (const bool damped : {false, true})
+      {
+        Column             column = law == "none" ? make_column({both}) : make_column({one, two});
+        Structure         &s = column.structure;
+        const unsigned int left = column.node.front().front(), right = column.node.back().back();
+        s.dashpots = column.zero();
+        for (unsigned int c = 0; damped && c < 3; ++c)
+          s.dashpots[3 * right + c] = 1e6 * (1 + c);
+        s.mass_damping = damped ? 5. : 0.;
+        s.stiffness_damping = damped ? 1e-4 : 0.;
+        if (law == "none")
+          s.n_joints = 0;
+        const JointLaws laws = make_laws(s, law == "none" ? "tied" : law, 0.);
+        Newmark         newmark(s, laws, tight(), dt, nf);
+        Unknowns        none(3 * s.pairs.size(), 0.), load;
+        newmark.start(column.zero(), column.zero(), none, column.zero(), none);
+        double slip = 0.;
+        for (unsigned int i = 1; i <= 500; ++i)
         {
-          Column     column = law == "none" ? make_column({both}) : make_column({one, two});
-          Structure &s      = column.structure;
-          const unsigned int left = column.node.front().front(), right = column.node.back().back();
-          s.dashpots        = column.zero();
-          for (unsigned int c = 0; damped && c < 3; ++c)
-            s.dashpots[3 * right + c] = 1e6 * (1 + c);
-          s.mass_damping      = damped ? 5. : 0.;
-          s.stiffness_damping = damped ? 1e-4 : 0.;
-          if (law == "none")
-            s.n_joints = 0;
-          const JointLaws laws = make_laws(s, law == "none" ? "tied" : law, 0.);
-          Newmark         newmark(s, laws, tight(), dt, nf);
-          Unknowns        none(3 * s.pairs.size(), 0.), load;
-          newmark.start(column.zero(), column.zero(), none, column.zero(), none);
-          double slip = 0.;
-          for (unsigned int i = 1; i <= 500; ++i)
-            {
-              load = column.zero();
-              for (unsigned int c = 0; c < 3; ++c)
-                load[3 * left + c] = 1e6 * std::sin((300. + 170. * c) * i * dt);
-              newmark.advance(load);
-              if (law != "none")
-                {
-                  const Vector3 gap = newmark.opening_and_slip(0);
-                  slip              = std::max({slip, std::abs(gap[1]), std::abs(gap[2])});
-                }
-            }
-          const Energy     &e    = newmark.state().energy;
-          const std::string what = "elastic, joint " + law + (damped ? ", damped: " : ": ");
-          below(what + "energy balance / input", e.balance(newmark.initial_energy()) / e.input, 1e-6);
-          below(what + "energy error", newmark.energy_error(), 1e-10);
+          load = column.zero();
+          for (unsigned int c = 0; c < 3; ++c)
+            load[3 * left + c] = 1e6 * std::sin((300. + 170. * c) * i * dt);
+          newmark.advance(load);
           if (law != "none")
-            below(what + "work at the joint / input",
-                  (std::abs(e.friction) + (law == "tied" ? std::abs(e.impact) : 0.)) / e.input, 1e-10);
-          if (law == "FJB")
-            below(what + "slip / displacement", slip / std::abs(newmark.state().u[3 * left + 1]), 1e-9);
-          if (law == "none" && damped)
-            monolithic = newmark.state().u;
-          if (law == "tied" && damped)
-            tied = {newmark.state().u[3 * right], newmark.state().u[3 * right + 1], newmark.state().u[3 * right + 2]};
-          if (law == "tied" && damped)
-            {
-              const Column plain = make_column({both});
-              double       error = 0., size = 0.;
-              for (unsigned int c = 0; c < 3; ++c)
-                {
-                  const double u = monolithic[3 * plain.node[0].back() + c];
-                  error          = std::max(error, std::abs(tied[c] - u));
-                  size           = std::max(size, std::abs(u));
-                }
-              below("elastic, joint tied: displacement against no joint", error / size, 1e-9);
-            }
+          {
+            const Vector3 gap = newmark.opening_and_slip(0);
+            slip = std::max({slip, std::abs(gap[1]), std::abs(gap[2])});
+          }
         }
+        const Energy     &e = newmark.state().energy;
+        const std::string what = "elastic, joint " + law + (damped ? ", damped: " : ": ");
+        below(what + "energy balance / input", e.balance(newmark.initial_energy()) / e.input, 1e-6);
+        below(what + "energy error", newmark.energy_error(), 1e-10);
+        if (law != "none")
+          below(what + "work at the joint / input",
+                (std::abs(e.friction) + (law == "tied" ? std::abs(e.impact) : 0.)) / e.input, 1e-10);
+        if (law == "FJB")
+          below(what + "slip / displacement", slip / std::abs(newmark.state().u[3 * left + 1]), 1e-9);
+        if (law == "none" && damped)
+          monolithic = newmark.state().u;
+        if (law == "tied" && damped)
+          tied = {newmark.state().u[3 * right], newmark.state().u[3 * right + 1],
+                  newmark.state().u[3 * right + 2]};
+        if (law == "tied" && damped)
+        {
+          const Column plain = make_column({both});
+          double       error = 0., size = 0.;
+          for (unsigned int c = 0; c < 3; ++c)
+          {
+            const double u = monolithic[3 * plain.node[0].back() + c];
+            error = std::max(error, std::abs(tied[c] - u));
+            size = std::max(size, std::abs(u));
+          }
+          below("elastic, joint tied: displacement against no joint", error / size, 1e-9);
+        }
+      }
   }
 } // namespace
 

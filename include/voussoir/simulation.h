@@ -32,6 +32,7 @@ namespace Voussoir
     void record();
     void report_step();
     void write_solution();
+    void write_tables();
     void write_results();
     void write_summary();
     void draw_figures();
