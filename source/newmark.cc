@@ -42,6 +42,8 @@ namespace Voussoir
 
   ImpactRule impact_rule(const std::string &name)
   {
+    if (name == "mean-force")
+      return ImpactRule::mean_force;
     if (name == "impulse-consistent")
       return ImpactRule::impulse_consistent;
     if (name == "paper")
@@ -53,7 +55,7 @@ namespace Voussoir
 
   std::string impact_rule_names()
   {
-    return "impulse-consistent|paper|none";
+    return "mean-force|impulse-consistent|paper|none";
   }
 
   double Energy::balance(const Energy &start) const
@@ -118,20 +120,7 @@ namespace Voussoir
     now.v = v;
     now.load = load;
     now.force = force;
-    structure.multiply_stiffness(now.u, now.Ku, now.v, now.Kv);
-    now.a.assign(u.size(), 0.);
-    Unknowns f = load; // M a = load + G^T force - C v - K u
-    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-      structure.add_pair_force(structure.pairs[p], get(force, p), f);
-    for (unsigned int i = 0; i < structure.n_nodes(); ++i)
-    {
-      const Vector3 Mv = structure.mass[i] * get(now.v, i);
-      for (unsigned int c = 0; c < 3; ++c)
-        f[3 * i + c] -= structure.mass_damping * Mv[c] + structure.stiffness_damping * now.Kv[3 * i + c] +
-                        (structure.dashpots.empty() ? 0. : structure.dashpots[3 * i + c] * v[3 * i + c]) +
-                        now.Ku[3 * i + c];
-      set(now.a, i, inverse_mass[i] * get(f, i));
-    }
+    structure.multiply_stiffness(now.u, now.Ku);
     account_states();
     first = now.energy;
     largest = 0.;
@@ -174,34 +163,38 @@ namespace Voussoir
     return largest > 0. ? std::abs(now.energy.balance(first)) / largest : 0.;
   }
 
-  ContactResult Newmark::advance(const Unknowns &load)
+  /** The sum of the equations of motion at both ends of the step, in which accelerations cancel:
+   *  S u_new = load + load_old + M (4/dt^2 u + 4/dt v) + 2/dt C u - K u + G^T (force + force_old). */
+  Unknowns Newmark::right_hand_side(const Unknowns &load) const
   {
-    const std::size_t n = structure.n_nodes(), n_pairs = structure.pairs.size();
-    const double      c_m = 2. / dt * structure.mass_damping, c_k = structure.stiffness_damping;
-
-    // Predictor: rhs = load + M (4/dt^2 u + 4/dt v + a) + C (2/dt u + v); for the trapezoidal rule alone, K a
-    // is not needed.
-    Unknowns rhs(3 * n);
+    Unknowns     rhs(load.size());
+    const double c_m = 4. / (dt * dt) + 2. / dt * structure.mass_damping,
+                 c_k = 2. / dt * structure.stiffness_damping - 1.;
 #pragma omp parallel for schedule(static)
-    for (int i = 0; i < static_cast<int>(n); ++i)
+    for (int i = 0; i < static_cast<int>(structure.n_nodes()); ++i)
     {
       Vector3 x;
       for (unsigned int c = 0; c < 3; ++c)
-      {
-        const std::size_t k = 3 * i + c;
-        x[c] = (4. / (dt * dt) + c_m) * now.u[k] + (4. / dt + structure.mass_damping) * now.v[k] + now.a[k];
-      }
+        x[c] = c_m * now.u[3 * i + c] + 4. / dt * now.v[3 * i + c];
       const Vector3 Mx = structure.mass[i] * x;
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * i + c;
-        rhs[k] = load[k] + Mx[c] + c_k * (2. / dt * now.Ku[k] + now.Kv[k]);
+        rhs[k] = load[k] + now.load[k] + Mx[c] + c_k * now.Ku[k];
         if (!structure.dashpots.empty())
-          rhs[k] += structure.dashpots[k] * (2. / dt * now.u[k] + now.v[k]);
+          rhs[k] += 2. / dt * structure.dashpots[k] * now.u[k];
       }
     }
+    if (rule != ImpactRule::mean_force) // there the unknown is the sum of the forces
+      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+        structure.add_pair_force(structure.pairs[p], get(now.force, p), rhs);
+    return rhs;
+  }
 
-    Unknowns offset(3 * n_pairs), force = now.force, u_new;
+  ContactResult Newmark::advance(const Unknowns &load)
+  {
+    const std::size_t n_pairs = structure.pairs.size();
+    Unknowns          offset(3 * n_pairs), force = now.force, u_new;
     for (std::size_t p = 0; p < n_pairs; ++p)
     {
       const Vector3 before = structure.jump(structure.pairs[p], now.u);
@@ -209,90 +202,85 @@ namespace Voussoir
       for (unsigned int c = 1; c < 3; ++c)
         offset[3 * p + c] = laws.of_pair[p]->is_tangentially_tied() ? -reference[3 * p + c] : -before[c];
     }
-    const ContactResult result = system.solve(rhs, offset, force, gap, u_new);
+    if (rule == ImpactRule::mean_force)
+      for (double &f : force)
+        f *= 2.;
+    const ContactResult result = system.solve(right_hand_side(load), offset, force, gap, u_new);
     if (!result.converged)
-      throw ComputationError("The joint conditions did not converge at t = " + std::to_string(now.time + dt) +
-                             " s: relative residual " + std::to_string(result.residual) + " after " +
-                             std::to_string(result.iterations) +
-                             " Newton steps. A smaller time step usually helps (entry \"Time step\").");
+      throw ComputationError(
+          "The joint conditions did not converge at t = " + std::to_string(now.time + dt) +
+          " s: relative residual " + std::to_string(result.residual) + " after " +
+          std::to_string(result.iterations) +
+          " Newton steps. A smaller time step usually helps (entry \"Motion/Time step\").");
 
-    // Newmark's velocity and acceleration, and the work of this step (exact for the trapezoidal rule).
-    Energy  &energy = now.energy;
-    Unknowns v_old = now.v, Ku_old = now.Ku, Kv_old = now.Kv;
-    double   input = 0., damping = 0.;
-    now.time += dt;
-    for (std::size_t k = 0; k < 3 * n; ++k)
-    {
-      const double du = u_new[k] - now.u[k];
-      if (!(std::abs(du) < 1e30))
-        throw ComputationError("The displacements are not finite at t = " + std::to_string(now.time) + " s.");
-      now.v[k] = 2. / dt * du - v_old[k];
-      now.a[k] = 4. / (dt * dt) * du - 4. / dt * v_old[k] - now.a[k];
-      input += .5 * (load[k] + now.load[k]) * du;
-    }
+    // The impulse of each pair, from the mean of its force over the step.
+    const double half_dt = .5 * dt;
+    for (std::size_t k = 0; k < 3 * n_pairs; ++k)
+      impulse[k] = half_dt * (rule == ImpactRule::mean_force ? force[k] : now.force[k] + force[k]);
+
+    // The work of the step: exact, since all forces enter by their means and u_new - u = dt/2 (v + v_new).
     double friction = 0., opening = 0.;
     for (std::size_t p = 0; p < n_pairs; ++p)
     {
       const Vector3 before = structure.jump(structure.pairs[p], now.u),
                     after = structure.jump(structure.pairs[p], u_new);
       for (unsigned int c = 0; c < 3; ++c)
-        (c == 0 ? opening : friction) -=
-            .5 * (now.force[3 * p + c] + force[3 * p + c]) * (after[c] - before[c]);
+        (c == 0 ? opening : friction) -= impulse[3 * p + c] / dt * (after[c] - before[c]);
     }
-    Unknowns u_old(u_new);
-    u_old.swap(now.u); // now.u is the new one
-    now.load = load;
-
-    impulse.assign(3 * n_pairs, 0.);
-    for (std::size_t k = 0; k < 3 * n_pairs; ++k)
-      impulse[k] = .5 * dt * (now.force[k] + force[k]);
-    double     kinetic_before = 0., kinetic_after = 0.;
-    const auto kinetic_of_pairs = [&]
+    Unknowns Ku;
+    structure.multiply_stiffness(u_new, Ku);
+    double input = 0., damping = 0.;
+    for (unsigned int i = 0; i < structure.n_nodes(); ++i)
     {
-      double sum = 0.;
-      for (const Pair &pair : structure.pairs)
-        for (const unsigned int node : {pair.node_1, pair.node_2})
-          if (node != rigid_ground)
-            sum += .5 * dot(get(now.v, node), structure.mass[node] * get(now.v, node));
-      return sum;
-    };
-    const Unknowns v_newmark = now.v;
-    kinetic_before = kinetic_of_pairs();
-    if (rule != ImpactRule::none && n_pairs > 0)
-      correct_velocity();
-    kinetic_after = kinetic_of_pairs();
-
-    structure.multiply_stiffness(now.u, now.Ku, now.v, now.Kv);
-    for (std::size_t k = 0; k < 3 * n; ++k)
-    {
-      // K times Newmark's velocity, without another product
-      const double Kv = 2. / dt * (now.Ku[k] - Ku_old[k]) - Kv_old[k], du = now.u[k] - u_old[k];
-      damping += .5 * structure.stiffness_damping * (Kv + Kv_old[k]) * du;
-      if (!structure.dashpots.empty())
-        damping += .5 * structure.dashpots[k] * (v_newmark[k] + v_old[k]) * du;
-    }
-    if (structure.mass_damping > 0.)
-      for (std::size_t i = 0; i < n; ++i)
+      Vector3 du;
+      for (unsigned int c = 0; c < 3; ++c)
       {
-        Vector3 v;
-        for (unsigned int c = 0; c < 3; ++c)
-          v[c] = v_newmark[3 * i + c] + v_old[3 * i + c];
-        const Vector3 Mv = structure.mass[i] * v; // du = dt/2 (v_old + v_newmark)
-        damping += .5 * structure.mass_damping * .5 * dt * dot(v, Mv);
+        const std::size_t k = 3 * i + c;
+        du[c] = u_new[k] - now.u[k];
+        input += .5 * (load[k] + now.load[k]) * du[c];
+        damping += structure.stiffness_damping / dt * (Ku[k] - now.Ku[k]) * du[c];
+        if (!structure.dashpots.empty())
+          damping += structure.dashpots[k] / dt * du[c] * du[c];
+        now.v[k] = 2. / dt * du[c] - now.v[k];
+        now.u[k] = u_new[k];
       }
-    energy.input += input;
-    energy.damping += damping;
-    energy.friction += friction;
-    energy.impact += opening + kinetic_before - kinetic_after;
+      damping += structure.mass_damping / dt * dot(du, structure.mass[i] * du);
+    }
+    now.Ku.swap(Ku);
+    now.load = load;
+    now.time += dt;
+    if (!std::isfinite(input))
+      throw ComputationError("The displacements are not finite at t = " + std::to_string(now.time) + " s.");
 
-    if (rule == ImpactRule::none)
-      now.force = force;
-    else if (n_pairs > 0)
-      find_acceleration(force);
+    const double kinetic_before = kinetic_energy_of_pairs();
+    if (rule != ImpactRule::none)
+      correct_velocity();
+    now.energy.input += input;
+    now.energy.damping += damping;
+    now.energy.friction += friction;
+    now.energy.impact += opening + kinetic_before - kinetic_energy_of_pairs();
     account_states();
-    largest = std::max({largest, std::abs(energy.input), energy.kinetic + energy.added_mass,
-                               first.kinetic, std::abs(energy.strain - first.strain), energy.damping});
+    largest = std::max({largest, std::abs(now.energy.input), now.energy.kinetic + now.energy.added_mass,
+                        first.kinetic, std::abs(now.energy.strain - first.strain), now.energy.damping});
+
+    if (rule == ImpactRule::mean_force)
+      for (std::size_t k = 0; k < 3 * n_pairs; ++k)
+        now.force[k] = .5 * force[k];
+    else if (rule == ImpactRule::none || n_pairs == 0)
+      now.force = force;
+    else
+      find_end_force(force);
     return result;
+  }
+
+  double Newmark::kinetic_energy_of_pairs() const
+  {
+    double sum = 0.;
+    for (const Pair &pair : structure.pairs)
+      for (const unsigned int node : {pair.node_1, pair.node_2})
+        if (node != rigid_ground)
+          sum += .5 * dot(get(now.v, node), structure.mass[node] * get(now.v, node));
+    return sum;
   }
 
   void Newmark::correct_velocity()
@@ -307,7 +295,7 @@ namespace Voussoir
       const Vector3 jump = structure.jump(pair, now.v);
       if (rule == ImpactRule::paper)
       {
-        const bool tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
+        const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
         const Vector3 f = tie_rows(pair_inverse[p], jump, {{closed, tied, tied}});
         add_kick(pair, f, now.v);
         for (unsigned int c = 0; c < 3; ++c)
@@ -326,26 +314,29 @@ namespace Voussoir
     }
   }
 
-  void Newmark::find_acceleration(const Unknowns &force)
+  /** The joint forces at the end of the step, from the accelerations there; for the rules that need them. */
+  void Newmark::find_end_force(const Unknowns &force)
   {
     // Without joint forces: M a = load - C v - K u at all nodes.
     const std::size_t n = structure.n_nodes();
-    double            fastest = 0.;
+    Unknowns          Kv, a(3 * n);
+    structure.multiply_stiffness(now.v, Kv);
+    double fastest = 0.;
     for (std::size_t i = 0; i < n; ++i)
     {
       Vector3 f = structure.mass[i] * get(now.v, i);
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * i + c;
-        f[c] = now.load[k] - structure.mass_damping * f[c] - structure.stiffness_damping * now.Kv[k] -
-               now.Ku[k] - (structure.dashpots.empty() ? 0. : structure.dashpots[k] * now.v[k]);
+        f[c] = now.load[k] - structure.mass_damping * f[c] - structure.stiffness_damping * Kv[k] - now.Ku[k] -
+               (structure.dashpots.empty() ? 0. : structure.dashpots[k] * now.v[k]);
         fastest = std::max(fastest, std::abs(now.v[k]));
       }
-      set(now.a, i, inverse_mass[i] * f);
+      set(a, i, inverse_mass[i] * f);
     }
     if (rule == ImpactRule::paper)
       for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-        add_kick(structure.pairs[p], get(force, p), now.a);
+        add_kick(structure.pairs[p], get(force, p), a);
 
     const double still = std::max(1e-9 * fastest, 1e-12);
     for (std::size_t p = 0; p < structure.pairs.size(); ++p)
@@ -353,7 +344,7 @@ namespace Voussoir
       const Pair     &pair = structure.pairs[p];
       const JointLaw &law = *laws.of_pair[p];
       const bool      closed = system.states()[p] != PairState::open;
-      const Vector3   jump = structure.jump(pair, now.a);
+      const Vector3   jump = structure.jump(pair, a);
       Vector3         f = {{0., 0., 0.}}, result = {{0., 0., 0.}};
       if (rule == ImpactRule::paper)
       {
@@ -365,7 +356,7 @@ namespace Voussoir
       else if (closed || law.is_tangentially_tied())
         result = f =
             law.solve_acceleration(pair_inverse[p], jump, structure.jump(pair, now.v), still, closed);
-      add_kick(pair, f, now.a);
+      add_kick(pair, f, a);
       set(now.force, p, result);
     }
   }

@@ -136,8 +136,11 @@ namespace Voussoir
     prm.enter_subsection("Dynamics");
     prm.add_parameter(
         "Impact", impact_rule,
-        "Velocity and acceleration of touching faces: impulse-consistent; paper (Taylor and Papadopoulos); "
-        "none (plain Newmark, which rings). The last two for comparison.",
+        "Joint forces and velocities of touching faces: mean-force (forces are means over the step, so that "
+        "joints "
+        "never create energy); impulse-consistent (forces at the end of the step, with Coulomb's law for "
+        "impulses); paper (Taylor and Papadopoulos); none (plain Newmark, which rings). The last three for "
+        "comparison.",
         Patterns::Selection(impact_rule_names()));
     prm.leave_subsection();
     contact.add_parameters(prm);

@@ -46,7 +46,17 @@ namespace Voussoir
     const double before = count.seconds_shaking;
     for (first_step = step; step < n_steps;)
     {
-      advance();
+      try
+      {
+        advance();
+      }
+      catch (const ComputationError &error)
+      {
+        write_tables(); // what there is, to see what went wrong
+        const bool resumable = std::filesystem::exists(directory + "/checkpoint.txt");
+        throw ComputationError(error.what() + (" The tables in " + directory) + " end before it" +
+                               (resumable ? "; the last checkpoint is there, too: go on from it with --resume." : "."));
+      }
       record();
       count.seconds_shaking = before + shaking_clock.seconds();
       if (step % scene.output.progress_interval == 0 || step == n_steps)

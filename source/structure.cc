@@ -43,25 +43,21 @@ namespace Voussoir
       entry[i] += block[i];
   }
 
-  void BlockSparseMatrix::multiply(const double *x, double *y, const double *w, double *z) const
+  void BlockSparseMatrix::multiply(const double *x, double *y) const
   {
     const int n = n_rows();
 #pragma omp parallel for schedule(static)
     for (int row = 0; row < n; ++row)
     {
-      double y0 = 0, y1 = 0, y2 = 0, z0 = 0, z1 = 0, z2 = 0;
+      double y0 = 0, y1 = 0, y2 = 0;
       for (std::size_t k = start[row]; k < start[row + 1]; ++k)
       {
-        const double *a = value[k].data(), *p = x + 3 * column[k], *q = w + 3 * column[k];
+        const double *a = value[k].data(), *p = x + 3 * column[k];
         y0 += a[0] * p[0] + a[1] * p[1] + a[2] * p[2];
         y1 += a[3] * p[0] + a[4] * p[1] + a[5] * p[2];
         y2 += a[6] * p[0] + a[7] * p[1] + a[8] * p[2];
-        z0 += a[0] * q[0] + a[1] * q[1] + a[2] * q[2];
-        z1 += a[3] * q[0] + a[4] * q[1] + a[5] * q[2];
-        z2 += a[6] * q[0] + a[7] * q[1] + a[8] * q[2];
       }
       y[3 * row] = y0, y[3 * row + 1] = y1, y[3 * row + 2] = y2;
-      z[3 * row] = z0, z[3 * row + 1] = z1, z[3 * row + 2] = z2;
     }
   }
 
@@ -95,15 +91,11 @@ namespace Voussoir
     }
   }
 
-  void Structure::multiply_stiffness(const Unknowns &u, Unknowns &Ku, const Unknowns &v, Unknowns &Kv) const
+  void Structure::multiply_stiffness(const Unknowns &u, Unknowns &Ku) const
   {
     Ku.resize(u.size());
-    Kv.resize(u.size());
     for (const Body &body : bodies)
-    {
-      const std::size_t first = 3 * std::size_t(body.first_node);
-      body.stiffness.multiply(u.data() + first, Ku.data() + first, v.data() + first, Kv.data() + first);
-    }
+      body.stiffness.multiply(u.data() + 3 * std::size_t(body.first_node), Ku.data() + 3 * std::size_t(body.first_node));
   }
 
   Vector3 Structure::jump(const Pair &pair, const Unknowns &u) const

@@ -9,7 +9,8 @@ namespace Voussoir
    * known. */
   enum class ImpactRule
   {
-    impulse_consistent, ///< Coulomb's law for the impulse and for the acceleration: the default
+    mean_force, ///< joint forces are means over the step; Coulomb's law for their impulse: the default
+    impulse_consistent, ///< joint forces at the end of the step; Coulomb's law for impulse and acceleration
     paper,              ///< Taylor and Papadopoulos: closed and sticking rows move together
     none                ///< plain Newmark: oscillates, for comparison
   };
@@ -27,14 +28,14 @@ namespace Voussoir
     double balance(const Energy &start) const;
   };
 
-  /** Displacement, velocity, acceleration relative to the base, and joint forces, at one time. */
+  /** Displacement and velocity relative to the base, and joint forces, at one time. */
   struct DynamicState
   {
     double   time = 0.;
-    Unknowns u, v, a; ///< [m], [m/s], [m/s^2], 3 per node
-    Unknowns force;   ///< [N], 3 per pair, in the frame of the pair
-    Unknowns load;    ///< [N], that of this time
-    Unknowns Ku, Kv;  ///< stiffness times displacement, times velocity
+    Unknowns u, v;  ///< [m], [m/s], 3 per node
+    Unknowns force; ///< [N], 3 per pair, in the frame of the pair: mean over the last step, or at its end
+    Unknowns load;  ///< [N], that of this time
+    Unknowns Ku;    ///< stiffness times displacement [N]
     Energy   energy;
   };
 
@@ -56,7 +57,8 @@ namespace Voussoir
                const Unknowns &reference);
 
     /** Go on from a saved state, with the energies of the start and the largest one so far. */
-    void resume(const DynamicState &state, const Energy &first, double largest_energy, const Unknowns &reference);
+    void resume(const DynamicState &state, const Energy &first, double largest_energy,
+                const Unknowns &reference);
 
     /** One step to time + dt, under @p load there. Throws ComputationError when the joints do not converge.
      */
@@ -75,9 +77,11 @@ namespace Voussoir
     const JointSystem            &joint_system() const { return system; }
 
   private:
-    void correct_velocity();
-    void find_acceleration(const Unknowns &force);
-    void account_states();
+    void     correct_velocity();
+    void     find_end_force(const Unknowns &force);
+    Unknowns right_hand_side(const Unknowns &load) const;
+    double   kinetic_energy_of_pairs() const;
+    void     account_states();
     /** v += M^-1 G^T f of one pair. */
     void add_kick(const Pair &pair, const Vector3 &f, Unknowns &v) const;
 

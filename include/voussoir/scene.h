@@ -68,7 +68,7 @@ namespace Voussoir
   {
     std::string         name;      ///< of the file, without directory and .prm
     std::string         directory; ///< of the file: paths in it are relative to this
-    std::string         impact_rule = "impulse-consistent";
+    std::string         impact_rule = "mean-force";
     MeshParameters      mesh;
     ElementParameters   elements;
     Material            concrete;

@@ -26,9 +26,8 @@ namespace Voussoir
     /** A(row, column) += block; the entry must be in the pattern. */
     void add(unsigned int row, unsigned int column, const Matrix3 &block);
 
-    /** y = A x and z = A w in one pass over the matrix (it is the memory traffic that costs).
-     *  All arrays have 3 n_rows() entries. */
-    void multiply(const double *x, double *y, const double *w, double *z) const;
+    /** y = A x; both arrays have 3 n_rows() entries. */
+    void multiply(const double *x, double *y) const;
 
     /** Replace the matrix by (A + A^T)/2: removes the round-off of assembly. */
     void symmetrise();
@@ -82,8 +81,8 @@ namespace Voussoir
      */
     void collect_interfaces();
 
-    /** Stiffness times displacement and stiffness times velocity, all bodies, in one pass. */
-    void multiply_stiffness(const Unknowns &u, Unknowns &Ku, const Unknowns &v, Unknowns &Kv) const;
+    /** Stiffness times displacement, all bodies [N]. */
+    void multiply_stiffness(const Unknowns &u, Unknowns &Ku) const;
 
     /** R (u_2 - u_1) of a pair. */
     Vector3 jump(const Pair &pair, const Unknowns &u) const;
