@@ -63,10 +63,6 @@ namespace Voussoir
   {
     const std::string file = directory + "/checkpoint.bin";
     std::ifstream     in(file, std::ios::binary);
-    if (!in)
-      throw InputError("There is no checkpoint " + file +
-                       " to resume from: the run has ended, or never reached one. Run "
-                       "without --resume, or name the output directory of the run with --output.");
     try
     {
       boost::archive::binary_iarchive archive(in);

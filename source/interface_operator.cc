@@ -1,4 +1,4 @@
-#include <voussoir/contact_solver.h>
+#include <voussoir/interface_operator.h>
 
 #include <algorithm>
 
@@ -45,14 +45,32 @@ namespace Voussoir
 
   void InterfaceOperator::multiply(const Unknowns &x, Unknowns &y) const
   {
-    y.assign(n(), 0.);
+    // A block of two joints serves both while it is in the cache; its two products are added up afterwards,
+    // in the order of the blocks, so that the result does not depend on the number of threads.
+    std::vector<const std::pair<const std::pair<unsigned int, unsigned int>, std::vector<double>> *> list;
+    for (const auto &b : blocks)
+      list.push_back(&b);
+    std::vector<std::array<std::vector<double>, 2>> products(list.size());
 #pragma omp parallel for schedule(dynamic)
-    for (int j = 0; j < static_cast<int>(n_groups()); ++j)
+    for (int i = 0; i < static_cast<int>(list.size()); ++i)
     {
-      add_coupling(j, j, 1., x.data() + offset[j], y.data() + offset[j]);
-      for (const unsigned int k : coupled[j])
-        add_coupling(j, k, 1., x.data() + offset[k], y.data() + offset[j]);
+      const unsigned int j = list[i]->first.first, k = list[i]->first.second;
+      products[i][0].assign(size(j), 0.);
+      add_coupling(j, k, 1., x.data() + offset[k], products[i][0].data());
+      if (j != k)
+      {
+        products[i][1].assign(size(k), 0.);
+        add_coupling(k, j, 1., x.data() + offset[j], products[i][1].data());
+      }
     }
+    y.assign(n(), 0.);
+    for (std::size_t i = 0; i < list.size(); ++i)
+      for (unsigned int side = 0; side < 2; ++side)
+      {
+        double *out = y.data() + offset[side == 0 ? list[i]->first.first : list[i]->first.second];
+        for (const double p : products[i][side])
+          *out++ += p;
+      }
   }
 
   Matrix3 InterfaceOperator::diagonal(const unsigned int pair) const

@@ -12,6 +12,14 @@ int main(int argc, char *argv[])
   try
   {
     dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    {
+      if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+        std::cerr << "voussoir: error: This version runs on one rank: start it without mpirun. It uses all "
+                     "cores, or as many as OMP_NUM_THREADS says."
+                  << std::endl;
+      return 2;
+    }
     return Voussoir::run_command(std::vector<std::string>(argv + 1, argv + argc));
   }
   catch (const Voussoir::InputError &error)

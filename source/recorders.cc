@@ -51,7 +51,7 @@ namespace Voussoir
     std::vector<double> row = {time};
     for (const auto &joint : geometry.joints)
     {
-      const bool    empty = joint.upstream == rigid_ground;
+      const bool    empty = joint.upstream >= structure.pairs.size(); // no pairs, or a tied dam
       const Vector3 up = empty ? Vector3{} : newmark.opening_and_slip(joint.upstream),
                     down = empty ? Vector3{} : newmark.opening_and_slip(joint.downstream);
       row.insert(row.end(), {up[0], down[0], std::hypot(up[1], up[2]), std::hypot(down[1], down[2])});

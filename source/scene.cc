@@ -4,6 +4,8 @@
 #include <voussoir/newmark.h>
 #include <voussoir/scene.h>
 
+#include <sstream>
+
 namespace Voussoir
 {
   using namespace dealii;
@@ -114,7 +116,25 @@ namespace Voussoir
     prm.leave_subsection();
   }
 
-  void OutputParameters::check() const {}
+  void OutputParameters::check() const
+  {
+    probe_places();
+  }
+
+  std::map<std::string, Vector3> OutputParameters::probe_places() const
+  {
+    std::map<std::string, Vector3> places;
+    for (const auto &probe : probes)
+    {
+      std::istringstream in(probe.second);
+      std::string        more;
+      Vector3           &p = places[probe.first];
+      if (!(in >> p[0] >> p[1] >> p[2]) || in >> more)
+        throw InputError("Entry \"Output/Probes\": probe \"" + probe.first + "\" has the place \"" +
+                         probe.second + "\"; write three numbers, x y z.");
+    }
+    return places;
+  }
 
   void Scene::add_parameters(ParameterHandler &prm)
   {

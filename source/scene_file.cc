@@ -144,10 +144,16 @@ namespace Voussoir
       }
       catch (const ParameterHandler::ExcValueDoesNotMatchPattern &error)
       {
-        std::ostringstream info;
+        std::ostringstream info; // "... does not match the given pattern <...>."
         error.print_info(info);
-        throw InputError(entry.place + ": entry \"" + path + "\" cannot be \"" + entry.value + "\". " +
-                         info.str());
+        const std::string text = info.str(), before = "pattern <";
+        const auto        from = text.find(before), to = text.rfind('>');
+        throw InputError(entry.place + ": entry \"" + path + "\" cannot be \"" + entry.value +
+                         "\". It must be " +
+                         (from < to && to != std::string::npos ?
+                            text.substr(from + before.size(), to - from - before.size()) :
+                            "of another kind: `voussoir parameters` prints all entries") +
+                         ".");
       }
       catch (const ExceptionBase &)
       {

@@ -18,6 +18,10 @@ namespace Voussoir
 
   void Simulation::run()
   {
+    if (options.resume && !std::filesystem::exists(directory + "/checkpoint.bin"))
+      throw InputError("There is no checkpoint " + directory +
+                       "/checkpoint.bin to resume from: the run has ended, or never reached one. Run "
+                       "without --resume, or name the output directory of the run with --output.");
     if (!options.validate)
     {
       std::error_code error;
@@ -26,7 +30,8 @@ namespace Voussoir
         throw InputError("The output directory " + directory +
                          " cannot be written to. Choose another one with --output.");
       log.open(directory + "/log.txt", options.resume);
-      std::ofstream(directory + "/scene.prm") << scene_text;
+      if (!options.resume) // else only when the checkpoint belongs to this scene
+        std::ofstream(directory + "/scene.prm") << scene_text;
     }
     motion = make_motion(scene.motion, scene.directory);
     n_steps = scene.motion.source == "none" ? 0 : motion.acceleration.size() - 1;
@@ -39,7 +44,10 @@ namespace Voussoir
     find_static_state();
     start_shaking();
     if (options.resume)
+    {
       load_checkpoint();
+      std::ofstream(directory + "/scene.prm") << scene_text;
+    }
     else
       record();
     shaking_clock = Stopwatch();
@@ -168,14 +176,10 @@ namespace Voussoir
                        "base_acceleration_y",
                        "base_acceleration_z"};
     probes = {dam->geometry->crown};
-    for (const auto &probe : scene.output.probes)
+    for (const auto &probe : scene.output.probe_places())
     {
-      std::istringstream in(probe.second);
-      dealii::Point<3>   p;
-      if (!(in >> p[0] >> p[1] >> p[2]))
-        throw InputError("Entry \"Output/Probes\": probe \"" + probe.first + "\" has the place \"" +
-                         probe.second + "\"; write three numbers, x y z.");
-      probes.push_back(nearest_node(*dam->model, p));
+      const Vector3 &p = probe.second;
+      probes.push_back(nearest_node(*dam->model, dealii::Point<3>(p[0], p[1], p[2])));
       for (const char *c : {"_x", "_y", "_z"})
         history.columns.push_back(probe.first + c);
     }

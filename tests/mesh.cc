@@ -1,5 +1,5 @@
 // The mesh module: arch210 against its tables, gmsh files, opening and closing joints.
-// Usage: mesh [directory of the sample meshes]; writes its files into the working directory.
+// Usage: mesh, or mesh DIRECTORY for the sample meshes there; writes its files into the working directory.
 
 #include "mesh_testing.h"
 
@@ -233,20 +233,17 @@ namespace
 
 int main(int argc, char **argv)
 {
-#ifdef SOURCE_DIR
-  const std::string samples = argc > 1 ? argv[1] : SOURCE_DIR "/../shared/reference/data/peers";
-#else
-  const std::string samples = argc > 1 ? argv[1] : "";
-#endif
-  const int status = run({{"arch210", test_arch210},
-                          {"arch210 joints", test_arch210_joints},
-                          {"open and close", test_open_and_close},
-                          {"files", test_files},
-                          {"mixed mesh", test_mixed},
-                          {"contacts out of order", test_contacts_out_of_order},
-                          {"rock", test_rock}});
+  if (argc == 1)
+    return run({{"arch210", test_arch210},
+                {"arch210 joints", test_arch210_joints},
+                {"open and close", test_open_and_close},
+                {"files", test_files},
+                {"mixed mesh", test_mixed},
+                {"contacts out of order", test_contacts_out_of_order},
+                {"rock", test_rock}});
+  const std::string samples = argv[1];
   if (std::filesystem::exists(samples + "/s1k.v41.msh"))
-    return std::max(status, run({{"sample meshes", [&] { test_samples(samples); }}}));
+    return run({{"sample meshes", [&] { test_samples(samples); }}});
   std::cout << "sample meshes: SKIPPED, no files in '" << samples << "'" << std::endl;
-  return status;
+  return 77; // ctest shows the test as skipped
 }

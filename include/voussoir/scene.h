@@ -61,6 +61,7 @@ namespace Voussoir
     bool                               figures = true;
     void                               add_parameters(dealii::ParameterHandler &prm);
     void                               check() const;
+    std::map<std::string, Vector3>     probe_places() const; ///< throws InputError for a malformed one
   };
 
   /** All entries of a scene file. */

@@ -1,0 +1,506 @@
+#!/usr/bin/env python3
+"""Tests of the program as a whole, on a dam of three monoliths: its messages, its files, its results.
+
+    run_program.py VOUSSOIR CASE...     cases: see the functions with that name below
+"""
+
+import csv
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+VOUSSOIR = str(Path(sys.argv[1]).resolve()) if len(sys.argv) > 1 else ""
+
+MESH = """
+subsection Mesh
+  subsection Arch210
+    set Joints = 2
+    set Elements along = 6
+    set Elements up = 3
+    set Elements through = 1
+  end
+end
+"""
+SCENE = MESH + """
+subsection Joints
+  set Friction = 0.6
+end
+subsection Motion
+  set Source = file
+  set File = motion.txt
+  set Unit = g
+  set Duration = 0.5
+  set Time step = 0.01
+end
+subsection Output
+  set Figures = false
+  set Checkpoint interval = 0
+end
+"""
+
+
+def expect(condition, text):
+    if not condition:
+        raise AssertionError(text)
+
+
+def write(name, text):
+    Path(name).write_text(text)
+    return name
+
+
+def voussoir(*arguments, environment=None):
+    return subprocess.run([VOUSSOIR, *arguments], capture_output=True, text=True, timeout=120,
+                          env={**os.environ, **(environment or {})})
+
+
+def runs(*arguments, environment=None):
+    """The run must succeed; its standard output."""
+    result = voussoir(*arguments, environment=environment)
+    expect(result.returncode == 0 and not result.stderr,
+           f"status {result.returncode} of {arguments}: {result.stdout[-2000:]}{result.stderr}")
+    return result.stdout
+
+
+def refused(arguments, *parts):
+    """The run must end with status 2 and a message that has all these parts."""
+    result = voussoir(*arguments)
+    what = f"{arguments}: status {result.returncode}, message: {result.stderr.strip()}"
+    expect(result.returncode == 2, what)
+    expect(result.stderr.startswith("voussoir: error: "), what)
+    for part in parts:
+        expect(part in result.stderr, f"'{part}' is missing: {what}")
+    expect(not re.search(r"\w\.(cc|h)\b|exception|deal\.II", result.stderr), f"speaks of the code: {what}")
+    print("   ", result.stderr.strip()[17:])
+
+
+def write_scene(name="scene.prm", extra=""):
+    from math import exp, sin
+    with open("motion.txt", "w") as file:
+        for i in range(301):
+            t = .01 * i
+            s = 1 - exp(-10 * t)
+            print(t, *(f"{.6 * s * sin(w * t + p):.10g}" for w, p in ((17, 0), (23, 1), (29, 2))), file=file)
+    return write(name, SCENE + extra)
+
+
+def table(name):
+    with open(name) as file:
+        rows = list(csv.reader(file))
+    return rows[0], [[float(x) for x in row] for row in rows[1:]]
+
+
+def difference(a, b):
+    """Largest difference of two tables: of each column, over its largest value."""
+    (names_a, a), (names_b, b) = table(a), table(b)
+    expect(names_a == names_b and len(a) == len(b), "the tables have different columns or lengths")
+    worst = 0.
+    for x, y in zip(zip(*a), zip(*b)):
+        size = max(map(abs, x))
+        worst = max([worst] + [abs(p - q) / size for p, q in zip(x, y) if size > 0])
+    return worst
+
+
+def same(a, b, limit=1e-9, tables=("history", "joint_history")):
+    for name in tables:
+        d = difference(f"{a}/{name}.csv", f"{b}/{name}.csv")
+        print(f"    {name}.csv of {a} and {b}: difference {d:.1e}, limit {limit:.0e}")
+        expect(d <= limit, f"{name}.csv of {a} and {b} differ by {d:.1e}")
+
+
+# Meshes: MSH 2.2 as lists
+
+def read_mesh(name):
+    lines = iter(Path(name).read_text().splitlines())
+    mesh = {"head": [], "nodes": [], "elements": []}
+    for line in lines:
+        if line in ("$Nodes", "$Elements"):
+            kind = line[1:].lower()
+            mesh[kind] = [next(lines).split() for _ in range(int(next(lines)))]
+            next(lines)
+        else:
+            mesh["head"].append(line)
+    for i, node in enumerate(mesh["nodes"]):
+        mesh["nodes"][i] = [float(x) for x in node[1:]]
+    # physical id, corners counted from 0
+    mesh["elements"] = [(int(e[1]), int(e[3]), [int(n) - 1 for n in e[3 + int(e[2]):]]) for e in mesh["elements"]]
+    return mesh
+
+
+def write_mesh(name, mesh):
+    with open(name, "w") as file:
+        print("\n".join(mesh["head"]), "$Nodes", len(mesh["nodes"]), sep="\n", file=file)
+        for i, x in enumerate(mesh["nodes"]):
+            print(i + 1, *(f"{c:.17g}" for c in x), file=file)
+        print("$EndNodes", "$Elements", len(mesh["elements"]), sep="\n", file=file)
+        for i, (kind, tag, nodes) in enumerate(mesh["elements"]):
+            print(i + 1, kind, 2, tag, tag, *(n + 1 for n in nodes), file=file)
+        print("$EndElements", file=file)
+
+
+FACES = ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+
+
+def double(mesh):
+    """Each monolith with its own nodes, the sides of the joints as surfaces 100 + j and 200 + j, names removed."""
+    owner, number, nodes, elements = {}, {}, [], []
+
+    def own(volume, n):
+        if (volume, n) not in number:
+            number[volume, n] = len(nodes)
+            nodes.append(mesh["nodes"][n])
+        return number[volume, n]
+
+    hexes = [e for e in mesh["elements"] if e[0] == 5]
+    for _, volume, corners in hexes:
+        elements.append((5, volume, [own(volume, n) for n in corners]))
+        for face in FACES:
+            owner.setdefault(frozenset(corners[k] for k in face), []).append((volume, [corners[k] for k in face]))
+    for kind, tag, corners in mesh["elements"]:
+        if kind == 3:
+            volume = owner[frozenset(corners)][0][0]
+            elements.append((3, tag, [own(volume, n) for n in corners]))
+    for sides in owner.values():
+        if len(sides) == 2 and sides[0][0] != sides[1][0]:
+            low, high = sorted(sides)
+            elements.append((3, 100 + low[0], [own(low[0], n) for n in low[1]]))
+            elements.append((3, 200 + low[0], [own(high[0], n) for n in high[1]]))
+    head = re.sub(r"\$PhysicalNames.*?\$EndPhysicalNames\n?", "", "\n".join(mesh["head"]), flags=re.S)
+    return {"head": head.strip().split("\n"), "nodes": nodes, "elements": elements}
+
+
+def arch_mesh():
+    write_scene()
+    runs("mesh", "scene.prm", "--output", "arch.msh", "--format", "2.2")
+    return read_mesh("arch.msh")
+
+
+def from_file(name):
+    return ["--set", "Mesh/Source=file", "--set", f"Mesh/File={name}"]
+
+
+# The cases
+
+def command_line():
+    expect(re.match(r"Voussoir \d+\.\d+\.\d+ \(.+\), deal\.II \d", runs("--version")), "--version")
+    for word in ("--help", "-h", "help"):
+        expect("Exit status" in runs(word), word)
+    entries = json.loads(runs("parameters", "json"))
+    expect("Joints" in entries and entries["Joints"]["Model"]["default_value"] == "FJA", "parameters json")
+    markdown = runs("parameters", "markdown").splitlines()
+    expect(len(markdown) > 50 and all(re.fullmatch(r"\|.*\|", line) for line in markdown), "parameters markdown")
+    expect(any("`Joints/Friction` | `0.8`" in line for line in markdown), "parameters markdown: an entry")
+    write("all.prm", runs("parameters", "prm"))
+    expect(runs("parameters") == Path("all.prm").read_text(), "parameters")
+    small = [x for e in ("Joints=2", "Elements along=6", "Elements up=3", "Elements through=1")
+             for x in ("--set", f"Mesh/Arch210/{e}")]
+    expect("2 joints" in runs("all.prm", "--validate", *small), "all entries as a scene")
+    refused([], "which scene")
+    refused(["parameters", "xml"], "xml", "markdown")
+    write_scene()
+    refused(["scene.prm", "--fast"], "--fast", "--help")
+    refused(["scene.prm", "--output"], "--output", "needs a value")
+    refused(["scene.prm", "other.prm"], "other.prm")
+    refused(["mesh", "scene.prm"], "--output")
+    refused(["mesh", "scene.prm", "--output", "a.msh", "--format", "3"], "--format")
+    refused(["mesh", "scene.prm", "--output", "missing/a.msh"], "missing/a.msh")
+    refused(["modes", "scene.prm", "--count", "none"], "--count")
+    refused(["motion", "scene.prm", "--output", "missing/a.csv"], "missing/a.csv")
+    modes = runs("modes", "scene.prm", "--count", "3").split()
+    expect(len(modes) == 3 + 6 and 0 < float(modes[4]) <= float(modes[6]) <= float(modes[8]), f"modes {modes}")
+
+
+def scenes():
+    refused(["missing.prm"], "missing.prm")
+    refused(["."], "cannot be read")
+    write_scene()
+    shown = runs("scene.prm", "--validate")
+    expect("2 joints" in shown and "50 of 0.01 s" in shown and not Path("output").exists(), "--validate")
+    for entry, parts in {"Joints/Friktion=1": ("Friktion", "Joints/Friction"),
+                         "Friction=1": ("Joints/Friction",),
+                         "Joints/Friction": ("write --set",),
+                         "Joints/Friction=much": ("Joints/Friction", "much"),
+                         "Joints/Friction=-1": ("Joints/Friction", "-1"),
+                         "Joints/Friction=nan": ("Joints/Friction", "nan"),
+                         "Concrete/Density=inf": ("Concrete/Density", "inf"),
+                         "Joints/Model=FJC": ("Joints/Model", "FJC", "FJA"),
+                         "Joints/Overrides=7: FJB": ("joint 7", "2 joints"),
+                         "Joints/Overrides=1: XYZ": ("Joints/Overrides", "XYZ"),
+                         "Elements/Degree=3": ("Elements/Degree", "3"),
+                         "Damping/Frequency 2=1": ("Damping/Frequency 2",),
+                         "Motion/Duration=0": ("Motion/Duration",),
+                         "Output/Probes=foot: 1 2": ("Output/Probes", "foot", "1 2", "three numbers"),
+                         "Output/Probes=foot: 1 2 3 4": ("Output/Probes", "foot", "three numbers")}.items():
+        refused(["scene.prm", "--validate", "--set", entry], *parts)
+    for text, parts in {"set Nothing = 1\n": ("bad.prm, line 3", "Nothing"),
+                        "subsection Joints\n set Model = ABC\nend\n": ("bad.prm, line 4", "Joints/Model", "ABC"),
+                        "subsection Joints\n": ("bad.prm", "Joints", "not closed"),
+                        "end\n": ("bad.prm, line 3", "end"),
+                        "Model = FJA\n": ("bad.prm, line 3", "Model = FJA"),
+                        "include parts/missing.prm\n": ("bad.prm, line 3", "parts/missing.prm"),
+                        "include bad.prm\n": ("circle",)}.items():
+        write("bad.prm", "# a comment\n\n" + text)
+        refused(["bad.prm", "--validate"], *parts)
+    # Includes are relative to the including file; the last value holds; --set comes after the file.
+    Path("parts/more").mkdir(parents=True, exist_ok=True)
+    write("parts/more/joints.prm", "subsection Joints\n  set Model = FJB # no slip\n set Friction = 0.25\nend\n")
+    write("parts/all.prm", "include more/joints.prm\n")
+    write_scene("including.prm", "include parts/all.prm\n")
+    expect("law FJB (friction 0.25)" in runs("including.prm", "--validate"), "includes")
+    expect("law FJA (friction 0.5)" in runs("including.prm", "--validate", "--set", "Joints/Friction=0.5", "--set",
+                                            "Joints/Model = FJA"), "--set")
+    write("parts/all.prm", "\ninclude more/nothing.prm\n")
+    refused(["including.prm", "--validate"], "parts/all.prm, line 2", "nothing.prm")
+
+
+def meshes():
+    mesh = arch_mesh()
+    refused(["scene.prm", "--validate", *from_file("missing.msh")], "missing.msh")
+    refused(["scene.prm", "--validate", "--set", "Mesh/Source=file"], "File")
+    refused(["scene.prm", "--validate", *from_file("scene.prm")], "scene.prm")
+    refused(["scene.prm", "--validate", *from_file("arch.msh"), "--set", "Mesh/Axes=x x z"], "Axes")
+    expect("2 joints" in runs("scene.prm", "--validate", *from_file("arch.msh")), "conforming mesh")
+
+    doubled = double(mesh)
+    write_mesh("doubled.msh", doubled)
+    expect("2 joints" in runs("scene.prm", "--validate", *from_file("doubled.msh")), "doubled mesh")
+    side = max(n for _, tag, nodes in doubled["elements"] if tag == 202 for n in nodes)
+    for kind, move, parts in (("moved", 0.3, ("joint 2", "no partner")), ("nan", float("nan"), ("node",))):
+        bad = {**doubled, "nodes": [list(x) for x in doubled["nodes"]]}
+        bad["nodes"][side][0] += move
+        write_mesh(f"{kind}.msh", bad)
+        refused(["scene.prm", "--validate", *from_file(f"{kind}.msh")], *parts)
+
+    first = next(i for i, e in enumerate(mesh["elements"]) if e[0] == 5)
+    bad = {**mesh, "elements": list(mesh["elements"])}
+    kind, tag, nodes = bad["elements"][first]
+    bad["elements"][first] = (kind, tag, [nodes[1], nodes[0]] + nodes[2:])
+    write_mesh("inverted.msh", bad)
+    refused(["scene.prm", "--validate", *from_file("inverted.msh")], "inverted.msh", "inverted", "monolith 1")
+
+    bad = double(mesh)  # monolith 3 is rock, held where the base was
+    rock = {n for _, tag, nodes in bad["elements"] if tag == 3 and _ == 5 for n in nodes}
+    elements = [e for e in mesh["elements"]]
+    owner = {frozenset(nodes[k] for k in face): tag for kind, tag, nodes in elements if kind == 5 for face in FACES}
+    bad = {**mesh, "head": bad["head"], "elements": []}
+    for kind, tag, nodes in elements:
+        if kind == 5:
+            bad["elements"].append((5, 1000 if tag == 3 else tag, nodes))
+        elif owner[frozenset(nodes)] != 3:
+            bad["elements"].append((3, tag, nodes))
+        else:
+            bad["elements"].append((3, 6 if tag == 1 else 5, nodes))
+    write_mesh("rock.msh", bad)
+    refused(["scene.prm", "--validate", *from_file("rock.msh")], "rock", "rigid base")
+
+
+def motions():
+    write_scene()
+    refused(["scene.prm", "--validate", "--set", "Motion/Duration=4"], "motion.txt", "lasts 3 s", "Duration")
+    refused(["scene.prm", "--validate", "--set", "Motion/File=missing.txt"], "missing.txt")
+    lines = Path("motion.txt").read_text().splitlines()
+    for name, line in (("nan", "0.1 nan 0 0"), ("inf", "0.1 0 inf 0"), ("words", "0.1 a b c"), ("columns", "0.1 1 2"),
+                       ("back", "0.05 0 0 0")):
+        write(f"{name}.txt", "\n".join(lines[:10] + [line] + lines[11:]) + "\n")
+        refused(["scene.prm", "--validate", "--set", f"Motion/File={name}.txt"], f"{name}.txt", "11")
+    write("empty.txt", "")
+    refused(["scene.prm", "--validate", "--set", "Motion/File=empty.txt"], "empty.txt")
+    runs("motion", "scene.prm", "--output", "motion.csv")
+    names, rows = table("motion.csv")
+    expect(names == ["t", "a_x", "a_y", "a_z"] and len(rows) == 51, "motion.csv")
+    expect(abs(rows[7][1] - float(lines[7].split()[1]) * 9.80665) < 1e-9, "unit of motion.csv")
+
+
+PARTS = {"history.csv": ["time", "crest_x", "crest_y", "crest_z", "base_acceleration_x", "base_acceleration_y",
+                         "base_acceleration_z", "foot_x", "foot_y", "foot_z"],
+         "joints.csv": ["joint", "s", "opening_upstream", "opening_downstream", "slip_upstream", "slip_downstream",
+                        "time_of_max_opening"],
+         "joint_history.csv": ["time"] + [f"{q}_{j}" for j in (1, 2) for q in (
+             "opening_upstream", "opening_downstream", "slip_upstream", "slip_downstream")],
+         "energy.csv": ["time", "kinetic", "strain", "added_mass", "damping", "friction", "impact", "input", "balance"]}
+
+
+def outputs():
+    write_scene()
+    shown = runs("scene.prm", "--output", "full", "--set", "Output/Probes=foot: 0 0 0", "--set",
+                 "Output/Solution interval=25", "--set", "Output/Checkpoint interval=20",
+                 "--set", "Output/Progress interval=10")
+    for name, columns in PARTS.items():
+        names, rows = table(f"full/{name}")
+        expect(names == columns, f"columns of {name}: {names}")
+        expect(len(rows) == (2 if name == "joints.csv" else 51), f"{name} has {len(rows)} rows")
+        expect(all(x == x and abs(x) < 1e30 for row in rows for x in row), f"{name} has numbers that are not finite")
+    summary = json.loads(Path("full/summary.json").read_text())
+    for key in ("scene", "revision", "version", "dealii", "ranks", "mesh", "steps", "seconds", "newton_iterations",
+                "contact_residual", "energy_balance_error", "extremes"):
+        expect(key in summary, f"summary.json lacks {key}")
+    expect(summary["scene"] == "scene" and summary["steps"] == 50 and summary["mesh"]["pairs"] > 0, "summary.json")
+    expect(summary["energy_balance_error"] < 1e-9 and summary["contact_residual"] < 1e-8, "summary.json: errors")
+    for key in ("cells", "nodes", "dofs", "pairs"):
+        expect(key in summary["mesh"], f"summary.json lacks mesh/{key}")
+    for key in ("max_opening", "max_slip", "max_tension_upstream", "max_tension_downstream", "max_compression"):
+        expect(set(summary["extremes"][key]) == {"value", "place", "time"}, f"summary.json lacks extremes/{key}")
+    largest = [max(max(row[2:4]) for row in table("full/joints.csv")[1]),
+               max(max(row[4:6]) for row in table("full/joints.csv")[1])]
+    for key, value in zip(("max_opening", "max_slip"), largest):
+        expect(0 < value <= summary["extremes"][key]["value"] * (1 + 1e-6), f"{key}: {value} at the crest")
+    for j in (1, 2):
+        history = [row[4 * j - 3] for row in table("full/joint_history.csv")[1]]
+        expect(table("full/joints.csv")[1][j - 1][2] == max(max(history), 0), "joints.csv against joint_history.csv")
+    for name in ("envelope.vtu", "solution-00000.vtu", "solution-00025.vtu", "solution-00050.vtu"):
+        text = Path(f"full/{name}").read_text(errors="replace")
+        expect("<VTKFile" in text[:400] and "</VTKFile>" in text[-100:], name)
+    expect(Path("full/solution.pvd").read_text().count("solution-") == 3, "solution.pvd")
+    expect(not list(Path("full").glob("checkpoint*")), "a complete run leaves no checkpoint")
+    log = Path("full/log.txt").read_text()
+    expect(log.strip() == shown.strip() and "Joints" in log, "log.txt is what the terminal shows")
+    # The scene with all defaults is a scene, and gives the same run.
+    shutil.copy("motion.txt", "full/motion.txt")
+    expect("foot: 0 0 0" in Path("full/scene.prm").read_text(), "scene.prm has what --set sets")
+    expect(runs("full/scene.prm", "--output", "again", "--quiet") == "", "--quiet")
+    expect(Path("again/history.csv").read_bytes() == Path("full/history.csv").read_bytes(), "scene.prm as a scene")
+    # Nothing but the static state; an artificial motion; no joints.
+    runs("scene.prm", "--output", "still", "--set", "Motion/Source=none", "--set", "Motion/File=")
+    expect(len(table("still/history.csv")[1]) == 1, "static state alone")
+    runs("scene.prm", "--output", "artificial", "--set", "Motion/Source=artificial", "--set", "Motion/File=",
+         "--set", "Motion/Rise end=0.1", "--set", "Motion/Decay begin=0.4")
+    expect(len(table("artificial/history.csv")[1]) == 51, "artificial motion")
+    runs("scene.prm", "--output", "whole", "--set", "Mesh/Arch210/Joints=0")
+    expect(table("whole/joints.csv")[1] == [], "no joints")
+    # Where nothing can be written
+    write("a_file", "")
+    refused(["scene.prm", "--output", "a_file/below"], "a_file/below", "--output")
+    refused(["scene.prm", "--output", "a_file"], "a_file", "--output")
+
+
+def laws():
+    write_scene()
+    for degree in ("1", "2"):
+        crest = {}
+        for law in ("FJA", "FJB", "tied"):
+            name = f"{law}_{degree}"
+            runs("scene.prm", "--output", name, "--set", f"Joints/Model={law}", "--set", f"Elements/Degree={degree}")
+            summary = json.loads(Path(f"{name}/summary.json").read_text())
+            opening, slip = (summary["extremes"][e]["value"] for e in ("max_opening", "max_slip"))
+            crest[law] = max(abs(row[1]) for row in table(f"{name}/history.csv")[1])
+            print(f"    {name}: opening {1e3 * opening:.3g} mm, slip {1e3 * slip:.3g} mm, crest {crest[law]:.4g} m, "
+                  f"energy error {summary['energy_balance_error']:.1e}")
+            expect(summary["law"] == law and summary["energy_balance_error"] < 1e-9, f"{name}: summary.json")
+            expect((opening > 1e-4) == (law != "tied"), f"{name}: opening {opening}")
+            expect((slip > 1e-5) if law == "FJA" else slip < 1e-12, f"{name}: slip {slip}")
+            names, rows = table(f"{name}/energy.csv")
+            gain = max((a[5] + a[6] - b[5] - b[6]) / max(1., b[7]) for a, b in zip(rows, rows[1:]))
+            expect(gain < 1e-6, f"{name}: the joints create energy, {gain:.1e} of the input")
+        expect(crest["FJA"] > crest["tied"] > 0., f"degree {degree}: crest {crest}")
+    # All joints tied one by one is the monolithic dam, and one law may hold in one joint.
+    runs("scene.prm", "--output", "ties", "--set", "Joints/Model=FJA", "--set", "Joints/Overrides=1: tied, 2: tied")
+    same("ties", "tied_1")
+    runs("scene.prm", "--output", "mixed", "--set", "Joints/Model=FJA", "--set", "Joints/Overrides=2: tied")
+    rows = table("mixed/joints.csv")[1]
+    expect(rows[0][2] > 1e-4 and abs(rows[1][2]) < 1e-12, "one joint tied, the other not")
+    # Rules of impact
+    for rule in ("impulse-consistent", "paper", "none"):
+        runs("scene.prm", "--output", rule, "--set", f"Dynamics/Impact={rule}", "--set", "Motion/Duration=0.1")
+
+
+def resume():
+    write_scene()
+    settings = ["--set", "Motion/Duration=3", "--set", "Output/Checkpoint interval=40",
+                "--set", "Output/Solution interval=100"]
+    refused(["scene.prm", "--output", "nothing", *settings, "--resume"], "nothing/checkpoint.bin", "--resume")
+    runs("scene.prm", "--output", "whole", *settings)
+    for attempt in range(10):
+        shutil.rmtree("killed", ignore_errors=True)
+        process = subprocess.Popen([VOUSSOIR, "scene.prm", "--output", "killed", *settings],
+                                   stdout=subprocess.DEVNULL)
+        while process.poll() is None and not Path("killed/checkpoint.txt").exists():
+            time.sleep(.001)
+        process.send_signal(signal.SIGKILL)
+        if process.wait() == -signal.SIGKILL and Path("killed/checkpoint.txt").exists():
+            break
+    else:
+        raise AssertionError("the run always ends before it can be killed")
+    print("   ", " ".join(Path("killed/checkpoint.txt").read_text().split()))
+    scene = Path("killed/scene.prm").read_bytes()
+    refused(["scene.prm", "--output", "killed", *settings, "--resume", "--set", "Joints/Friction=0.7"], "checkpoint",
+            "another scene")
+    expect(Path("killed/scene.prm").read_bytes() == scene, "a refused run must not overwrite scene.prm")
+    shutil.copytree("killed", "damaged", dirs_exist_ok=True)
+    data = Path("damaged/checkpoint.bin").read_bytes()
+    Path("damaged/checkpoint.bin").write_bytes(data[:len(data) // 2])
+    refused(["scene.prm", "--output", "damaged", *settings, "--resume"], "damaged/checkpoint.bin", "damaged")
+    # Outputs may change.
+    expect("Resumed" in runs("scene.prm", "--output", "killed", *settings, "--resume",
+                             "--set", "Output/Progress interval=10"), "--resume")
+    for name in ("history.csv", "joint_history.csv", "joints.csv", "energy.csv", "envelope.vtu", "solution.pvd"):
+        expect(Path(f"killed/{name}").read_bytes() == Path(f"whole/{name}").read_bytes(),
+               f"{name} of the resumed run differs")
+    for key in ("steps", "extremes", "newton_iterations", "contact_residual"):
+        a, b = (json.loads(Path(f"{d}/summary.json").read_text())[key] for d in ("killed", "whole"))
+        expect(a == b, f"summary.json of the resumed run differs in {key}: {a}, {b}")
+
+
+def threads():
+    write_scene()
+    for n in ("1", "2"):
+        runs("scene.prm", "--output", f"threads_{n}", environment={"OMP_NUM_THREADS": n})
+    same("threads_1", "threads_2")
+
+
+def doubled():
+    mesh = arch_mesh()
+    write_mesh("doubled.msh", double(mesh))
+    runs("scene.prm", "--output", "built_in")
+    runs("scene.prm", "--output", "conforming", *from_file("arch.msh"))
+    runs("scene.prm", "--output", "doubled", *from_file("doubled.msh"))
+    same("built_in", "conforming")
+    same("built_in", "doubled")
+    # The same dam with other axes and units
+    turned = {**mesh, "nodes": [[-1e3 * y, 1e3 * x, 1e3 * z] for x, y, z in mesh["nodes"]]}
+    write_mesh("turned.msh", turned)
+    runs("scene.prm", "--output", "turned", *from_file("turned.msh"), "--set", "Mesh/Axes=y -x z",
+         "--set", "Mesh/Length unit=mm")
+    same("built_in", "turned")
+
+
+def ranks():
+    """Until the program is parallel, more than one rank is refused: both would write the same files."""
+    mpirun = shutil.which("mpirun")
+    if mpirun is None:
+        print("SKIPPED: there is no mpirun")
+        sys.exit(77)
+    write_scene()
+    command = [mpirun, "--oversubscribe", "-np", "2", VOUSSOIR, "scene.prm", "--output", "two"]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    expect(result.returncode != 0, "two ranks: status 0")
+    expect(result.stderr.count("voussoir: error: ") == 1 and "one rank" in result.stderr, result.stderr)
+    expect(not Path("two").exists(), "two ranks: files were written")
+
+
+def main():
+    cases = {c.__name__: c for c in (command_line, scenes, meshes, motions, outputs, laws, resume, threads, doubled,
+                                     ranks)}
+    if len(sys.argv) < 3 or any(name not in cases for name in sys.argv[2:]):
+        sys.exit(f"{__doc__}\nCases: {' '.join(cases)}")
+    start = Path.cwd()
+    for name in sys.argv[2:]:
+        directory = start / "program" / name
+        shutil.rmtree(directory, ignore_errors=True)
+        directory.mkdir(parents=True)
+        os.chdir(directory)
+        print(name)
+        cases[name]()
+        print(f"{name}: OK")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except AssertionError as error:
+        sys.exit(f"FAILED: {error}")
