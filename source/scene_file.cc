@@ -150,9 +150,9 @@ namespace Voussoir
         const auto        from = text.find(before), to = text.rfind('>');
         throw InputError(entry.place + ": entry \"" + path + "\" cannot be \"" + entry.value +
                          "\". It must be " +
-                         (from < to && to != std::string::npos ?
-                            text.substr(from + before.size(), to - from - before.size()) :
-                            "of another kind: `voussoir parameters` prints all entries") +
+                         (from < to && to != std::string::npos
+                              ? text.substr(from + before.size(), to - from - before.size())
+                              : "of another kind: `voussoir parameters` prints all entries") +
                          ".");
       }
       catch (const ExceptionBase &)

@@ -43,9 +43,10 @@ namespace
       newmark.start(column.zero(), v, {0., 0., 0.}, column.zero(), {-h0, 0., 0.});
       double        impulse = 0.;
       const auto    see = [&] { impulse += newmark.impulses()[0]; };
-      const History h = run(newmark, dt, std::lround((1. + 2. * tw) / dt), nullptr, column.zero(), see, is_mean);
-      double        eu = 0., ep = 0., sum = 0., osc = 0.;
-      unsigned int  n_core = 0;
+      const History h =
+          run(newmark, dt, std::lround((1. + 2. * tw) / dt), nullptr, column.zero(), see, is_mean);
+      double       eu = 0., ep = 0., sum = 0., osc = 0.;
+      unsigned int n_core = 0;
       for (unsigned int i = 0; i < h.t.size(); ++i)
       {
         const double s = h.t[i] - t1, p = h.force[i][0], pe = p_exact * part_of(s, dt, 0., 2. * tw, is_mean);
@@ -341,9 +342,9 @@ namespace
         (.6 * column.total(1, 1, newmark.state().v) + .8 * column.total(1, 2, newmark.state().v)) /
         column.mass(1);
     const std::string what = "d3 plates, vt = " + text(vt) +
-                             (rule == ImpactRule::none ? ", plain Newmark: " :
-                              tau < mu * p             ? ", stick: " :
-                                                         ", slip: ");
+                             (rule == ImpactRule::none ? ", plain Newmark: "
+                              : tau < mu * p           ? ", stick: "
+                                                       : ", slip: ");
     if (rule != ImpactRule::none)
     {
       below(what + "transverse velocity", v2 * rho * cp / (2. * tau) - 1., 1.5e-2);
