@@ -315,6 +315,40 @@ namespace
     report_energy("d1, d2");
   }
 
+  /** Oblique impacts of the particle under loads that change its velocity by up to @p most in the step [of
+   * the velocity of impact]: the joint may take energy, but create none. */
+  void impact_under_load(const double most)
+  {
+    const Particle p(.6);
+    const double   dt = .01;
+    Newmark        newmark(p.column.structure, p.laws, tight(), dt, tested_rule);
+    double         created = 0.;
+    for (double share = .01; share < 1.; share += .07)
+      for (double vt = 0.; vt < 2.; vt += .4)
+        for (double normal = -most; normal < 1.01 * most; normal += .25 * most)
+          for (double tangential = -most; tangential < 1.01 * most; tangential += .25 * most)
+          {
+            const Unknowns f = {normal / dt, tangential / dt, 0.};
+            newmark.start({0., 0., 0.}, {-1., vt, 0.}, {0., 0., 0.}, f, {-share * dt, 0., 0.});
+            JointEnergy joint(newmark);
+            newmark.advance(f);
+            joint.see(newmark);
+            created = std::max(created, joint.total);
+          }
+    const std::string what = "impact under load, change of velocity " + text(most) + ": created [J of .5 J]";
+    if (most <= .5)
+      below(what, created, 1e-12);
+    else
+      missed(what, created, 1e-12);
+  }
+
+  void test_impact_under_load()
+  {
+    for (const double most : {.25, .5, 1., 2., 4.})
+      if (mean_force())
+        impact_under_load(most);
+  }
+
   void pressure_shear(const double vn, const double vt, const double mu, const ImpactRule rule)
   {
     const double       H = 10., rho = 2400., cp = 3000., cs = 1800., Zp = rho * cp, Zs = rho * cs;
@@ -372,5 +406,5 @@ namespace
 
 int main(int argc, char **argv)
 {
-  return run_all({test_a, test_b, test_c1, test_c4, test_d1_d2, test_d3}, argc, argv);
+  return run_all({test_a, test_b, test_c1, test_c4, test_d1_d2, test_impact_under_load, test_d3}, argc, argv);
 }

@@ -1,0 +1,185 @@
+#!/usr/bin/python3
+"""A second, independent program for the jointed arch of peers.py with joints that open but do not slip (FJB).
+
+    benchmarks/node_to_node.py [--data DIRECTORY] [--dt 0.01] [--mass consistent|lumped] [--impact none|mean-force]
+
+Dense matrices and an active set on one page: plain trilinear elements, trapezoidal Newmark. "none" takes the joints'
+forces at the end of each step; "mean-force" as means over it, with the closed joints' relative velocity made zero by
+an impulse. It shows what the reference of peers.py owes to its consistent mass and to its impact rule.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+import scipy.linalg
+
+import calculix
+from program import ROOT
+
+YOUNG, POISSON, DENSITY, A0, A1 = 21e9, 0.17, 2400., 0.785, 0.00177
+SIGNS = np.array([(-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1),
+                  (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)], dtype=float)
+
+
+def element(corners):
+    """Stiffness (24,24) and consistent mass (8,8) of a trilinear hexahedron."""
+    mu, lam = YOUNG / 2 / (1 + POISSON), YOUNG * POISSON / (1 + POISSON) / (1 - 2 * POISSON)
+    D = np.diag([2 * mu] * 3 + [mu] * 3)
+    D[:3, :3] += lam
+    K, M = np.zeros((24, 24)), np.zeros((8, 8))
+    for point in SIGNS / np.sqrt(3):
+        factors = 1 + SIGNS * point
+        shape = factors.prod(axis=1) / 8
+        slope = np.stack([SIGNS[:, k] * np.delete(factors, k, axis=1).prod(axis=1) / 8 for k in range(3)], axis=1)
+        jacobian = corners.T @ slope
+        volume = np.linalg.det(jacobian)
+        g = slope @ np.linalg.inv(jacobian)
+        B = np.zeros((6, 24))
+        for k, (i, j) in enumerate([(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)]):
+            B[k, i::3] += g[:, j]
+            if i != j:
+                B[k, j::3] += g[:, i]
+        K += volume * B.T @ D @ B
+        M += volume * DENSITY * np.outer(shape, shape)
+    return K, M
+
+
+def read_doubled(path):
+    """The mesh, and pairs of coincident nodes with the joint's normal: (joint, node 1, node 2, normal)."""
+    raw, elements = calculix.read_nodes_and_elements_2(calculix.read_sections(path))
+    index = {tag: i for i, tag in enumerate(raw)}
+    nodes = np.array(list(raw.values()), dtype=float)
+    quads = {}
+    for kind, physical, tags in elements:
+        if kind == calculix.QUADRILATERAL:
+            quads.setdefault(physical, []).append([index[tag] for tag in tags])
+    hexahedra = np.array([[index[t] for t in tags] for kind, _, tags in elements if kind == calculix.HEXAHEDRON])
+    p = nodes[hexahedra]
+    volume = np.einsum("ij,ij->i", np.cross(p[:, 1] - p[:, 0], p[:, 3] - p[:, 0]), p[:, 4] - p[:, 0])
+    hexahedra[volume < 0] = hexahedra[volume < 0][:, [4, 5, 6, 7, 0, 1, 2, 3]]
+    mesh = calculix.Mesh(nodes, hexahedra, {name: np.array(quads[n]) for name, n in calculix.SURFACES.items()})
+    pairs = []
+    for joint in range(1, 100):
+        if 100 + joint not in quads:
+            break
+        side_1, side_2 = (np.unique(quads[base + joint]) for base in (100, 200))
+        normal = {i: np.zeros(3) for i in side_1}
+        for quad in quads[100 + joint]:
+            x = nodes[quad]
+            for i in quad:
+                normal[i] += np.cross(x[2] - x[0], x[3] - x[1])
+        towards = nodes[hexahedra[np.isin(hexahedra, side_2).any(axis=1)]].mean(axis=(0, 1)) - nodes[side_1].mean(axis=0)
+        for i in side_1:
+            n = normal[i] / np.linalg.norm(normal[i])
+            pairs.append((joint, i, side_2[np.argmin(np.linalg.norm(nodes[side_2] - nodes[i], axis=1))],
+                          n * np.sign(n @ towards)))
+    return mesh, pairs
+
+
+def contact(W, gap, force):
+    """Forces f with gap + W f = 0 tangentially; normally (every third row) gap >= 0, f >= 0, and one of them zero."""
+    tied = np.arange(len(gap)) % 3 != 0
+    active = tied | (force > 0)
+    scale = 1 / np.diag(W)
+    for _ in range(100):
+        force = np.zeros(len(gap))
+        force[active] = np.linalg.solve(W[np.ix_(active, active)], -gap[active])
+        previous, active = active, tied | (force - scale * (gap + W @ force) > 0)
+        if (active == previous).all():
+            return force
+    raise RuntimeError("the active set does not settle")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--data", type=Path, default=ROOT / "../shared/reference/data/peers", help="reference data")
+    parser.add_argument("--dt", type=float, default=0.01)
+    parser.add_argument("--mass", default="consistent", choices=["consistent", "lumped"])
+    parser.add_argument("--impact", default="none", choices=["none", "mean-force"])
+    o = parser.parse_args()
+    if not (o.data / "motion.txt").exists():
+        print(f"SKIPPED: no reference data in {o.data} (option --data)")
+        return 77
+    mesh, pairs = read_doubled(o.data / "s1k.v22.msh")
+    n = len(mesh.nodes)
+    K, m = np.zeros((3 * n, 3 * n)), np.zeros((n, n))
+    for cell in mesh.hexahedra:
+        dofs = (3 * cell[:, None] + np.arange(3)).ravel()
+        k_cell, m_cell = element(mesh.nodes[cell])
+        K[np.ix_(dofs, dofs)] += k_cell
+        m[np.ix_(cell, cell)] += m_cell
+    if o.mass == "lumped":
+        m = np.diag(m.sum(axis=1))
+    M = np.kron(m, np.eye(3))
+    free = np.setdiff1d(np.arange(n), mesh.surface_nodes("base"))
+    fixed = np.isin(np.arange(n), mesh.surface_nodes("base"))
+    pairs = [p for p in pairs if not fixed[p[1]]]
+    keep = (3 * free[:, None] + np.arange(3)).ravel()
+    B = np.zeros((3 * len(pairs), 3 * n))
+    for row, (_, i, j, normal) in enumerate(pairs):
+        axes = np.linalg.svd(normal[None])[2]
+        axes[0] = normal
+        B[3 * row:3 * row + 3, 3 * i:3 * i + 3] = -axes
+        B[3 * row:3 * row + 3, 3 * j:3 * j + 3] = axes
+    B = B[:, keep]
+    load = calculix.water_forces(mesh, 195., 1000., 9.81, 8).ravel() - 9.81 * M @ np.tile([0, 0, 1.], n)
+    influence = (M @ np.tile(np.eye(3), (n, 1)))[keep]
+    load, K, M = load[keep], K[np.ix_(keep, keep)], M[np.ix_(keep, keep)]
+    C = A0 * M + A1 * K
+    top = [max((r for r, p in enumerate(pairs) if p[0] == j), key=lambda r: (mesh.nodes[pairs[r][1], 2], sign *
+               np.hypot(*(mesh.nodes[pairs[r][1], :2] - mesh.nodes[:, :2].mean(axis=0) * [0, 10]))))
+           for sign in (1, -1) for j in range(1, 6)]  # the crest's pairs, upstream and downstream
+    top = np.array(top)
+
+    def flexibility(A):
+        factor = scipy.linalg.cho_factor(A)
+        G = scipy.linalg.cho_solve(factor, B.T)
+        return factor, G, B @ G
+
+    static, G, W = flexibility(K)
+    u = scipy.linalg.cho_solve(static, load)
+    force = contact(W, B @ u, np.zeros(len(B)))
+    u += G @ force
+    probe = np.flatnonzero(keep == 3 * calculix.crown_crest(mesh, "upstream", 1))[0]
+    print(f"static crest {1e3 * u[probe + 1]:.2f} mm downstream, {1e3 * u[probe + 2]:.2f} mm up")
+
+    dt = o.dt
+    factor, G, W = flexibility(4 / dt**2 * M + 2 / dt * C + K)
+    inverse_mass = scipy.linalg.cho_factor(M)
+    G_mass = scipy.linalg.cho_solve(inverse_mass, B.T)
+    motion = np.loadtxt(o.data / "motion.txt")
+    times = np.arange(1, round(2 / dt) + 1) * dt
+    v, a = np.zeros_like(u), np.zeros_like(u)
+    widest, base = np.zeros(len(top)), np.zeros(3)
+    f_old, r_old = load.copy(), load - K @ u
+    for t in times:
+        ground = np.array([np.interp(t, motion[:, 0], motion[:, k]) for k in (1, 2, 3)])
+        f_new = load - influence @ ground
+        if o.impact == "none":
+            rhs = f_new + M @ (4 / dt**2 * u + 4 / dt * v + a) + C @ (2 / dt * u + v)
+        else:  # trapezoidal rule in momentum; the joints' force is constant over the step
+            rhs = (f_old + f_new) + M @ (4 / dt**2 * u + 4 / dt * v) + C @ (2 / dt * u) - K @ u
+        predicted = scipy.linalg.cho_solve(factor, rhs)
+        force = contact(W, B @ predicted, force)
+        new = predicted + G @ force
+        if o.impact == "none":
+            a_new = 4 / dt**2 * (new - u) - 4 / dt * v - a
+            u, v, a = new, v + dt / 2 * (a + a_new), a_new
+        else:
+            u, v = new, 2 / dt * (new - u) - v
+            jump, closed = B @ v, force != 0
+            # Newton's impact law of a closed pair: no relative velocity, whatever the mean force left of it.
+            H = (B @ G_mass)[np.ix_(closed, closed)]
+            v += G_mass[:, closed] @ np.linalg.solve(H, -jump[closed])
+        f_old = f_new
+        widest = np.maximum(widest, (B @ u)[3 * top])
+    print(f"{o.mass} mass, impact {o.impact}, dt {1e3 * dt:g} ms: largest openings [mm]")
+    for face, part in (("upstream", widest[:5]), ("downstream", widest[5:])):
+        print(f"  {face:<12}" + " ".join(f"{1e3 * x:6.1f}" for x in part))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
