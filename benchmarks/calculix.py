@@ -263,7 +263,8 @@ class CalculiX:
         output = ["*NODE PRINT, NSET=CREST", "U", "*END STEP"]
         steps = ["*STEP", "*STATIC", "*CLOAD"] + loads + output
         if o.mass == "lumped":
-            weight = [f"{i + 1}, 3, {-o.gravity * mass:.12g}" for i, mass in enumerate(lumped_masses(self.mesh, o.density))]
+            masses = lumped_masses(self.mesh, o.density)
+            weight = [f"{i + 1}, 3, {-o.gravity * mass:.12g}" for i, mass in enumerate(masses)]
             steps += ["*STEP", "*STATIC", "*CLOAD, OP=NEW"] + weight + output
         else:
             steps += ["*STEP", "*STATIC", "*CLOAD, OP=NEW", "*DLOAD", f"DAM, GRAV, {o.gravity:.12g}, 0, 0, -1"] + output
@@ -281,6 +282,7 @@ class CalculiX:
     def history(self, motion):
         """Rows of time, u_x, u_y, u_z of the crown crest relative to the base, from rest, without static loads."""
         o, steps = self.options, []
+        masses = lumped_masses(self.mesh, o.density) if o.mass == "lumped" else []
         for k, axis in enumerate("XYZ"):
             steps += [f"*AMPLITUDE, NAME=BASE{axis}"]
             steps += [f"{t:.9g}, {a:.12g}" for t, a in zip(motion[:, 0], motion[:, k + 1])]
@@ -289,7 +291,7 @@ class CalculiX:
             direction = ", ".join("-1." if i == k else "0." for i in range(3))
             if o.mass == "lumped":
                 steps += [f"*CLOAD, AMPLITUDE=BASE{axis}"]
-                steps += [f"{i + 1}, {k + 1}, {-mass:.12g}" for i, mass in enumerate(lumped_masses(self.mesh, o.density))]
+                steps += [f"{i + 1}, {k + 1}, {-mass:.12g}" for i, mass in enumerate(masses)]
             else:
                 steps += [f"*DLOAD, AMPLITUDE=BASE{axis}", f"DAM{axis}, GRAV, 1., {direction}"]
         steps += ["*NODE PRINT, NSET=CREST, FREQUENCY=1", "U", "*END STEP"]

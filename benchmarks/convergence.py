@@ -72,7 +72,7 @@ def main():
     finest = options.levels - 1
 
     print(f"### Frequencies at {unknowns(finest):,} unknowns [Hz]\n")
-    print("| reservoir | element | f1 | f2 | f3 | f4 | f5 | f6 | worst difference |\n|---|---|---|---|---|---|---|---|---|")
+    print("| reservoir | element | f1 | f2 | f3 | f4 | f5 | f6 | worst difference |\n" + "|---" * 9 + "|")
     for name, (_, reference) in RESERVOIRS.items():
         print(f"| {name} | *reference* | " + " | ".join(f"{f:.3f}" for f in reference) + " | |")
         for element, (_, _, target) in ELEMENTS.items():

@@ -70,7 +70,8 @@ def read_doubled(path):
             x = nodes[quad]
             for i in quad:
                 normal[i] += np.cross(x[2] - x[0], x[3] - x[1])
-        towards = nodes[hexahedra[np.isin(hexahedra, side_2).any(axis=1)]].mean(axis=(0, 1)) - nodes[side_1].mean(axis=0)
+        beyond = hexahedra[np.isin(hexahedra, side_2).any(axis=1)]
+        towards = nodes[beyond].mean(axis=(0, 1)) - nodes[side_1].mean(axis=0)
         for i in side_1:
             n = normal[i] / np.linalg.norm(normal[i])
             pairs.append((joint, i, side_2[np.argmin(np.linalg.norm(nodes[side_2] - nodes[i], axis=1))],
@@ -92,17 +93,10 @@ def contact(W, gap, force):
     raise RuntimeError("the active set does not settle")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--data", type=Path, default=ROOT / "../shared/reference/data/peers", help="reference data")
-    parser.add_argument("--dt", type=float, default=0.01)
-    parser.add_argument("--mass", default="consistent", choices=["consistent", "lumped"])
-    parser.add_argument("--impact", default="none", choices=["none", "mean-force"])
-    o = parser.parse_args()
-    if not (o.data / "motion.txt").exists():
-        print(f"SKIPPED: no reference data in {o.data} (option --data)")
-        return 77
-    mesh, pairs = read_doubled(o.data / "s1k.v22.msh")
+def simulate(data, dt, mass, impact):
+    """Static displacement of the crown's crest, downstream and up, and the largest openings of the joints at the
+    crest, upstream and downstream, all in mm."""
+    mesh, pairs = read_doubled(data / "s1k.v22.msh")
     n = len(mesh.nodes)
     K, m = np.zeros((3 * n, 3 * n)), np.zeros((n, n))
     for cell in mesh.hexahedra:
@@ -110,7 +104,7 @@ def main():
         k_cell, m_cell = element(mesh.nodes[cell])
         K[np.ix_(dofs, dofs)] += k_cell
         m[np.ix_(cell, cell)] += m_cell
-    if o.mass == "lumped":
+    if mass == "lumped":
         m = np.diag(m.sum(axis=1))
     M = np.kron(m, np.eye(3))
     free = np.setdiff1d(np.arange(n), mesh.surface_nodes("base"))
@@ -128,10 +122,10 @@ def main():
     influence = (M @ np.tile(np.eye(3), (n, 1)))[keep]
     load, K, M = load[keep], K[np.ix_(keep, keep)], M[np.ix_(keep, keep)]
     C = A0 * M + A1 * K
-    top = [max((r for r, p in enumerate(pairs) if p[0] == j), key=lambda r: (mesh.nodes[pairs[r][1], 2], sign *
-               np.hypot(*(mesh.nodes[pairs[r][1], :2] - mesh.nodes[:, :2].mean(axis=0) * [0, 10]))))
-           for sign in (1, -1) for j in range(1, 6)]  # the crest's pairs, upstream and downstream
-    top = np.array(top)
+    crest_pairs = [[r for r, p in enumerate(pairs) if p[0] == j and p[1] in mesh.surface_nodes("crest")]
+                   for j in range(1, 6)]
+    top = np.array([end(rows, key=lambda r: mesh.nodes[pairs[r][1], 1])  # y is downstream
+                    for end in (min, max) for rows in crest_pairs])
 
     def flexibility(A):
         factor = scipy.linalg.cho_factor(A)
@@ -143,28 +137,26 @@ def main():
     force = contact(W, B @ u, np.zeros(len(B)))
     u += G @ force
     probe = np.flatnonzero(keep == 3 * calculix.crown_crest(mesh, "upstream", 1))[0]
-    print(f"static crest {1e3 * u[probe + 1]:.2f} mm downstream, {1e3 * u[probe + 2]:.2f} mm up")
+    crest = 1e3 * u[probe + 1:probe + 3]
 
-    dt = o.dt
     factor, G, W = flexibility(4 / dt**2 * M + 2 / dt * C + K)
     inverse_mass = scipy.linalg.cho_factor(M)
     G_mass = scipy.linalg.cho_solve(inverse_mass, B.T)
-    motion = np.loadtxt(o.data / "motion.txt")
+    motion = np.loadtxt(data / "motion.txt")
     times = np.arange(1, round(2 / dt) + 1) * dt
     v, a = np.zeros_like(u), np.zeros_like(u)
-    widest, base = np.zeros(len(top)), np.zeros(3)
-    f_old, r_old = load.copy(), load - K @ u
+    widest, f_old = np.zeros(len(top)), load
     for t in times:
         ground = np.array([np.interp(t, motion[:, 0], motion[:, k]) for k in (1, 2, 3)])
         f_new = load - influence @ ground
-        if o.impact == "none":
+        if impact == "none":
             rhs = f_new + M @ (4 / dt**2 * u + 4 / dt * v + a) + C @ (2 / dt * u + v)
         else:  # trapezoidal rule in momentum; the joints' force is constant over the step
             rhs = (f_old + f_new) + M @ (4 / dt**2 * u + 4 / dt * v) + C @ (2 / dt * u) - K @ u
         predicted = scipy.linalg.cho_solve(factor, rhs)
         force = contact(W, B @ predicted, force)
         new = predicted + G @ force
-        if o.impact == "none":
+        if impact == "none":
             a_new = 4 / dt**2 * (new - u) - 4 / dt * v - a
             u, v, a = new, v + dt / 2 * (a + a_new), a_new
         else:
@@ -175,9 +167,24 @@ def main():
             v += G_mass[:, closed] @ np.linalg.solve(H, -jump[closed])
         f_old = f_new
         widest = np.maximum(widest, (B @ u)[3 * top])
-    print(f"{o.mass} mass, impact {o.impact}, dt {1e3 * dt:g} ms: largest openings [mm]")
-    for face, part in (("upstream", widest[:5]), ("downstream", widest[5:])):
-        print(f"  {face:<12}" + " ".join(f"{1e3 * x:6.1f}" for x in part))
+    return crest, 1e3 * widest.reshape(2, 5)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--data", type=Path, default=ROOT / "../shared/reference/data/peers", help="reference data")
+    parser.add_argument("--dt", type=float, default=0.01)
+    parser.add_argument("--mass", default="consistent", choices=["consistent", "lumped"])
+    parser.add_argument("--impact", default="none", choices=["none", "mean-force"])
+    o = parser.parse_args()
+    if not (o.data / "motion.txt").exists():
+        print(f"SKIPPED: no reference data in {o.data} (option --data)")
+        return 77
+    crest, openings = simulate(o.data, o.dt, o.mass, o.impact)
+    print(f"static crest {crest[0]:.2f} mm downstream, {crest[1]:.2f} mm up")
+    print(f"{o.mass} mass, impact {o.impact}, dt {1e3 * o.dt:g} ms: largest openings [mm]")
+    for face, values in zip(("upstream", "downstream"), openings):
+        print(f"  {face:<12}" + " ".join(f"{x:6.1f}" for x in values))
     return 0
 
 

@@ -32,7 +32,8 @@ def simulate(program, scene, settings=None, output=None):
     """Runs a scene; returns its summary.json and its directory (temporary, if not given)."""
     with tempfile.TemporaryDirectory() as temporary:
         directory = Path(output or temporary)
-        _, seconds = run(program, scene, "--output", directory, settings={"Output/Figures": "false", **(settings or {})})
+        _, seconds = run(program, scene, "--output", directory,
+                         settings={"Output/Figures": "false", **(settings or {})})
         summary = json.loads((directory / "summary.json").read_text())
     summary["seconds"]["cpu"] = seconds
     return summary

@@ -102,7 +102,8 @@ def main():
                 curves.setdefault(name, []).append((result["seconds"], *errors(result, reference)))
 
     figure, axes = plt.subplots(1, 2, figsize=(10, 4.2))
-    for axis, column, label in zip(axes, (1, 2), ("relative error of the crest's history", "error of largest openings [mm]")):
+    labels = ("relative error of the crest's history", "error of largest openings [mm]")
+    for axis, column, label in zip(axes, (1, 2), labels):
         for name, points in curves.items():
             points = np.array(sorted(points))
             axis.loglog(points[:, 0], points[:, column], MARKS[name] + "-", label=name)

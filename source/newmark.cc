@@ -219,13 +219,17 @@ namespace Voussoir
       impulse[k] = half_dt * (rule == ImpactRule::mean_force ? force[k] : now.force[k] + force[k]);
 
     // The work of the step: exact, since all forces enter by their means and u_new - u = dt/2 (v + v_new).
-    double friction = 0., opening = 0.;
+    double   friction = 0., opening = 0.;
+    Unknowns change(3 * n_pairs); // of the jumps
     for (std::size_t p = 0; p < n_pairs; ++p)
     {
       const Vector3 before = structure.jump(structure.pairs[p], now.u),
                     after = structure.jump(structure.pairs[p], u_new);
       for (unsigned int c = 0; c < 3; ++c)
-        (c == 0 ? opening : friction) -= impulse[3 * p + c] / dt * (after[c] - before[c]);
+      {
+        change[3 * p + c] = after[c] - before[c];
+        (c == 0 ? opening : friction) -= impulse[3 * p + c] / dt * change[3 * p + c];
+      }
     }
     Unknowns Ku;
     structure.multiply_stiffness(u_new, Ku);
@@ -254,7 +258,7 @@ namespace Voussoir
 
     const double kinetic_before = kinetic_energy_of_pairs();
     if (rule != ImpactRule::none)
-      correct_velocity();
+      correct_velocity(change);
     now.energy.input += input;
     now.energy.damping += damping;
     now.energy.friction += friction;
@@ -283,7 +287,7 @@ namespace Voussoir
     return sum;
   }
 
-  void Newmark::correct_velocity()
+  void Newmark::correct_velocity(const Unknowns &change)
   {
     for (std::size_t p = 0; p < structure.pairs.size(); ++p)
     {
@@ -303,13 +307,27 @@ namespace Voussoir
         continue;
       }
       // The velocity without any joint force of this step, then the impulse that the law allows.
-      Vector3 change, before = pair_inverse[p] * get(impulse, p);
-      for (unsigned int c = 0; c < 3; ++c)
-        before[c] = jump[c] - before[c];
-      const Vector3 allowed = law.solve(pair_inverse[p], before, closed);
-      for (unsigned int c = 0; c < 3; ++c)
-        change[c] = allowed[c] - impulse[3 * p + c];
-      add_kick(pair, change, now.v);
+      const Vector3 spent = get(impulse, p), lost = pair_inverse[p] * spent;
+      Vector3       allowed =
+          law.solve(pair_inverse[p], {{jump[0] - lost[0], jump[1] - lost[1], jump[2] - lost[2]}}, closed);
+      const auto correction = [&] {
+        return Vector3{{allowed[0] - spent[0], allowed[1] - spent[1], allowed[2] - spent[2]}};
+      };
+      if (rule == ImpactRule::mean_force && !law.is_tangentially_tied())
+      {
+        // Where loads tear at a pair more than it strikes, returning the friction of the step could give more
+        // energy than the pair took: then only the normal row is corrected, which always takes energy.
+        const Vector3 f = correction(), gained = pair_inverse[p] * f;
+        double        gain = 0., size = 0.;
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          gain += .5 * f[c] * (2. * jump[c] + gained[c]);
+          size += std::abs(f[c] * jump[c]) + std::abs(f[c] * gained[c]);
+        }
+        if (gain > -dot(spent, get(change, p)) / dt + 1e-12 * size)
+          allowed = {{std::max(0., spent[0] - jump[0] / pair_inverse[p][0]), spent[1], spent[2]}};
+      }
+      add_kick(pair, correction(), now.v);
       set(impulse, p, allowed);
     }
   }

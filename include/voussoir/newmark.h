@@ -77,7 +77,7 @@ namespace Voussoir
     const JointSystem            &joint_system() const { return system; }
 
   private:
-    void     correct_velocity();
+    void     correct_velocity(const Unknowns &change);
     void     find_end_force(const Unknowns &force);
     Unknowns right_hand_side(const Unknowns &load) const;
     double   kinetic_energy_of_pairs() const;
