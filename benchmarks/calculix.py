@@ -223,7 +223,8 @@ class CalculiX:
         lines += ["*NSET, NSET=BASE"] + [str(node + 1) for node in self.mesh.surface_nodes("base")]
         lines += ["*NSET, NSET=CREST", str(self.probe + 1), "*BOUNDARY", "BASE, 1, 3"]
         density = o.density * (1e-9 if o.mass == "lumped" else 1)
-        lines += ["*MATERIAL, NAME=CONCRETE", "*ELASTIC", f"{o.young:.12g}, {o.poisson:.12g}", "*DENSITY", f"{density:.12g}"]
+        lines += ["*MATERIAL, NAME=CONCRETE", "*ELASTIC", f"{o.young:.12g}, {o.poisson:.12g}"]
+        lines += ["*DENSITY", f"{density:.12g}"]
         lines += [f"*DAMPING, ALPHA={o.damping[0]:.12g}, BETA={o.damping[1]:.12g}"] if any(o.damping) else []
         lines += ["*SOLID SECTION, ELSET=DAM, MATERIAL=CONCRETE"]
         if o.mass == "lumped":

@@ -98,7 +98,8 @@ def main():
                 good = good and np.abs(openings - np.array(rows[name][:2])).max() < limit
 
         print(f"\n### {law.upper()}: largest opening and slip at the crest [mm], joints 1 to 5\n")
-        print("| run | opening, upstream | opening, downstream | slip, upstream | slip, downstream |\n" + "|---" * 5 + "|")
+        print("| run | opening, upstream | opening, downstream | slip, upstream | slip, downstream |")
+        print("|---" * 5 + "|")
         for name, values in rows.items():
             print(f"| {name} | " + " | ".join(" ".join(f"{v:.1f}" for v in column) for column in values) + " |")
         print("\n| run | static crest, downstream | static crest, up | move upstream | move downstream |")

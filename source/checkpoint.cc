@@ -26,18 +26,21 @@ namespace Voussoir
 
   namespace
   {
-    /** The part of a scene that decides its results: without outputs. */
-    std::string decisive_part(const std::string &scene_text)
+    /** The part of a scene that decides its results: without outputs, and without the settings of the solver, which
+     * one may want to change to get past a step that failed. */
+    std::string decisive_part(std::string scene_text)
     {
-      const auto begin = scene_text.find("subsection Output");
-      const auto end = scene_text.find("\nend", begin);
-      return begin == std::string::npos ? scene_text : scene_text.substr(0, begin) + scene_text.substr(end);
+      for (const char *section : {"subsection Output", "subsection Contact"})
+        if (const auto begin = scene_text.find(section); begin != std::string::npos)
+          scene_text.erase(begin, scene_text.find("\nend", begin) - begin);
+      return scene_text;
     }
   } // namespace
 
   void Simulation::save_checkpoint()
   {
     const std::string file = directory + "/checkpoint.bin";
+    try
     {
       std::ofstream                   out(file + ".new", std::ios::binary);
       boost::archive::binary_oarchive archive(out);
@@ -49,10 +52,12 @@ namespace Voussoir
       archive << decisive << step << wall << cpu << state << first << largest << count << history << energy
               << *joints << *envelope << solutions;
       if (!out.flush())
-      {
-        log.line("warning: the checkpoint %s cannot be written; the run goes on without it.", file.c_str());
-        return;
-      }
+        throw boost::archive::archive_exception(boost::archive::archive_exception::output_stream_error);
+    }
+    catch (const boost::archive::archive_exception &)
+    {
+      log.line("warning: the checkpoint %s cannot be written; the run goes on without it.", file.c_str());
+      return;
     }
     std::filesystem::rename(file + ".new", file);
     std::ofstream(directory + "/checkpoint.txt") << "scene " << scene.name << "\nstep " << step << " of "
@@ -74,10 +79,19 @@ namespace Voussoir
       if (decisive != decisive_part(scene_text))
         throw InputError(
             "The checkpoint " + file +
-            " belongs to another scene: an entry outside \"Output\" differs. Compare scene.prm there with "
-            "yours, or run without --resume.");
+            " belongs to another scene: an entry outside \"Output\" and \"Contact\" differs. Compare scene.prm "
+            "there with yours, or run without --resume.");
+      const std::vector<std::string> columns = history.columns;
       archive >> step >> clock_before >> cpu_before >> state >> first >> largest >> count >> history >>
           energy >> *joints >> *envelope >> solutions;
+      if (state.u.size() != statics.u.size() || state.force.size() != statics.force.size() || step > n_steps ||
+          envelope->maximum.size() != dam->model->n_nodes())
+        throw InputError("The checkpoint " + file +
+                         " belongs to another mesh or motion: a file that the scene names has changed. Run without "
+                         "--resume.");
+      if (history.columns != columns)
+        throw InputError("The checkpoint " + file +
+                         " has other probes than the scene: entry \"Output/Probes\" must not change on --resume.");
       newmark->resume(state, first, largest, Unknowns(state.force.size(), 0.));
     }
     catch (const boost::archive::archive_exception &)

@@ -8,6 +8,7 @@
 #include <voussoir/modes.h>
 #include <voussoir/simulation.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <sstream>
@@ -160,7 +161,7 @@ Exit status: 0 done; 1 the computation failed; 2 bad input.
           return w;
         }());
     const auto &p = arguments.positional;
-    if (p.empty() || p[0] == "help")
+    if (p.empty() || std::find(p.begin(), p.end(), "help") != p.end())
     {
       std::cout << help;
       if (p.empty())

@@ -55,8 +55,6 @@ namespace Voussoir
     prm.leave_subsection();
   }
 
-  void ContactParameters::check() const {}
-
   ContactSolver::ContactSolver(const InterfaceOperator &W, std::vector<const JointLaw *> laws,
                                const ContactParameters &parameters)
       : W(W), law(std::move(laws)), parameters(parameters), jacobian(W), equations(law.size()),

@@ -68,6 +68,19 @@ namespace Voussoir
         added_mass = add_westergaard_mass(*model, scene.reservoir, structure);
     }
     inertia = inertial_loads(structure);
+
+    double top = -1e300, bottom = 1e300;
+    for (unsigned int i = 0; i < model->n_nodes(); ++i)
+      if (model->on_surface(i, PhysicalId::upstream))
+      {
+        top = std::max(top, model->points[i][2]);
+        bottom = std::min(bottom, model->points[i][2]);
+      }
+    if (scene.reservoir.density > 0. && scene.reservoir.level > top + 1e-6 * (top - bottom))
+      throw InputError("Entry \"Reservoir/Water level\" is " + std::to_string(scene.reservoir.level) +
+                       " m, above the dam, which ends at " + std::to_string(top) +
+                       " m. Lower the water, or check the axes and the length unit of the mesh.");
+    has_water = scene.reservoir.density > 0. && scene.reservoir.level > bottom;
   }
 
   void Dam::stage_self_weight()

@@ -3,6 +3,7 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <voussoir/dam_loads.h>
+#include <voussoir/error.h>
 #include <voussoir/solid_model.h>
 
 #include <algorithm>
@@ -34,8 +35,6 @@ namespace Voussoir
         Patterns::Double(0.));
     prm.leave_subsection();
   }
-
-  void ReservoirParameters::check() const {}
 
   void add_weight(const Structure &structure, const double gravity, Unknowns &load)
   {
@@ -119,12 +118,17 @@ namespace Voussoir
       return (1. - t) * left->second + t * right->second;
     };
 
+    if (foot.empty())
+      throw InputError(
+          "The surfaces \"upstream\" and \"base\" of the mesh do not meet, so that the depth of the "
+          "reservoir is not known. Mark both in the mesh, or set \"Reservoir/Added mass\" to none.");
+
     double total = 0.;
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
     {
       const unsigned int e = model.equation[i];
       const double       h = reservoir.level - model.points[i][2], size = area[i].norm();
-      if (h <= 0. || size == 0. || foot.empty())
+      if (h <= 0. || size == 0.)
         continue;
       const double depth =
           reservoir.level - (reservoir.depth == "local" ? foot_at(model.points[i][1]) : lowest);

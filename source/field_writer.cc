@@ -17,17 +17,17 @@ namespace Voussoir
   void FieldWriter::write_vtu(const std::string &file, const Unknowns &u,
                               const std::vector<NodalField> &fields) const
   {
-    DataOut<3>                 data_out;
+    const FESystem<3>          system(model.fe, 3);
+    DoFHandler<3>              vector_handler(model.triangulation);
+    Vector<float>              displacement;
     std::vector<Vector<float>> scalars;
+    DataOut<3>                 data_out; // last: it refers to the others
     scalars.reserve(fields.size());
     for (const NodalField &field : fields)
     {
       scalars.emplace_back(field.values.begin(), field.values.end());
       data_out.add_data_vector(model.dof_handler, scalars.back(), field.name);
     }
-    const FESystem<3> system(model.fe, 3);
-    DoFHandler<3>     vector_handler(model.triangulation);
-    Vector<float>     displacement;
     if (!u.empty())
     {
       vector_handler.distribute_dofs(system);

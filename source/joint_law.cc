@@ -171,7 +171,7 @@ namespace Voussoir
     };
 
     /** The same joint by the paper's own equations (3b), (4b): the angle of slip is that of the force, which
-     * is undefined at an open or unloaded pair. For comparison only; see doc/contact.md. */
+     * is undefined at an open or unloaded pair. For comparison only; see doc/method.md. */
     class FJAPaper : public FJA
     {
     public:

@@ -91,6 +91,8 @@ namespace Voussoir
         of_body[sides[p][side].body].push_back({p, side});
       }
 
+    for (unsigned int j = 0; j < W.n_groups(); ++j)
+      W.block(j, j); // joints without pairs have one, too: an empty one
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       const std::vector<double> F = bodies[b].flexibility();

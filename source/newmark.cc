@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace Voussoir
 {
@@ -207,11 +208,15 @@ namespace Voussoir
         f *= 2.;
     const ContactResult result = system.solve(right_hand_side(load), offset, force, gap, u_new);
     if (!result.converged)
-      throw ComputationError(
-          "The joint conditions did not converge at t = " + std::to_string(now.time + dt) +
-          " s: relative residual " + std::to_string(result.residual) + " after " +
-          std::to_string(result.iterations) +
-          " Newton steps. A smaller time step usually helps (entry \"Motion/Time step\").");
+    {
+      std::ostringstream message;
+      message << "The joint conditions did not converge at t = " << now.time + dt << " s: relative residual "
+              << result.residual << " after " << result.iterations
+              << " Newton steps. A smaller time step usually helps (entry \"Motion/Time step\"), or more "
+                 "Newton steps "
+                 "(\"Contact/Maximum iterations\").";
+      throw ComputationError(message.str());
+    }
 
     // The impulse of each pair, from the mean of its force over the step.
     const double half_dt = .5 * dt;

@@ -75,8 +75,6 @@ namespace Voussoir
     prm.leave_subsection();
   }
 
-  void JointParameters::check() const {}
-
   void StaticParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Statics");
@@ -126,6 +124,11 @@ namespace Voussoir
     std::map<std::string, Vector3> places;
     for (const auto &probe : probes)
     {
+      if (probe.first.empty() || probe.first.find_first_of(",\"") != std::string::npos)
+        throw InputError(
+            "Entry \"Output/Probes\": \"" + probe.first +
+            "\" cannot be the name of a probe; it becomes a column of history.csv. Separate probes by "
+            "semicolons, as in \"name: x y z; name: x y z\".");
       std::istringstream in(probe.second);
       std::string        more;
       Vector3           &p = places[probe.first];
@@ -171,9 +174,6 @@ namespace Voussoir
   {
     mesh.check();
     damping.check();
-    reservoir.check();
-    joints.check();
-    contact.check();
     motion.check();
     output.check();
   }

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 namespace Voussoir
@@ -29,6 +30,8 @@ namespace Voussoir
       if (error || !std::ofstream(directory + "/scene.prm", std::ios::app))
         throw InputError("The output directory " + directory +
                          " cannot be written to. Choose another one with --output.");
+      if (!options.resume)
+        remove_old_results();
       log.open(directory + "/log.txt", options.resume);
       if (!options.resume) // else only when the checkpoint belongs to this scene
         std::ofstream(directory + "/scene.prm") << scene_text;
@@ -62,8 +65,9 @@ namespace Voussoir
       {
         write_tables(); // what there is, to see what went wrong
         const bool resumable = std::filesystem::exists(directory + "/checkpoint.txt");
-        throw ComputationError(error.what() + (" The tables in " + directory) + " end before it" +
-                               (resumable ? "; the last checkpoint is there, too: go on from it with --resume." : "."));
+        throw ComputationError(
+            error.what() + (" The tables in " + directory) + " end before it" +
+            (resumable ? "; the last checkpoint is there, too: go on from it with --resume." : "."));
       }
       record();
       count.seconds_shaking = before + shaking_clock.seconds();
@@ -76,6 +80,25 @@ namespace Voussoir
     write_results();
   }
 
+  /** What an earlier run left would stand beside the new results as if it belonged to them. */
+  void Simulation::remove_old_results()
+  {
+    for (const auto &entry : std::filesystem::directory_iterator(directory))
+    {
+      const std::string name = entry.path().filename().string(), kind = entry.path().extension().string();
+      const bool        solution = name.rfind("solution", 0) == 0 && (kind == ".vtu" || kind == ".pvd");
+      if (solution || std::set<std::string>{"summary.json", "envelope.vtu", "faces.csv", "faces_cells.csv",
+                                            "history.csv", "energy.csv", "joints.csv", "joint_history.csv",
+                                            "figures.log", "checkpoint.bin", "checkpoint.txt"}
+                              .count(name) > 0)
+        std::filesystem::remove(entry.path());
+    }
+    if (std::filesystem::is_directory(directory + "/figures"))
+      for (const auto &entry : std::filesystem::directory_iterator(directory + "/figures"))
+        if (entry.path().extension() == ".png")
+          std::filesystem::remove(entry.path());
+  }
+
   void Simulation::report_setup()
   {
     const unsigned int n_nodes = dam->structure.n_nodes();
@@ -85,13 +108,21 @@ namespace Voussoir
     if (dam->tied)
       log.line("Joints    %u joints, tied: the monolithic dam", dam->n_joints);
     else
+    {
+      std::string laws = scene.joints.model;
+      for (const auto &entry : scene.joints.overrides)
+        laws += ", joint " + std::to_string(entry.first) + ": " + entry.second;
       log.line("Joints    %u joints, %zu pairs, law %s (friction %g)", dam->n_joints,
-               dam->structure.pairs.size(), scene.joints.model.c_str(), scene.joints.friction);
+               dam->structure.pairs.size(), laws.c_str(), scene.joints.friction);
+    }
     log.line("Damping   Rayleigh, C = %.4g 1/s M + %.4g s K: %.3g %% at %g Hz and %g Hz",
              scene.damping.mass_factor(), scene.damping.stiffness_factor(), 100. * scene.damping.ratio,
              scene.damping.frequency_1, scene.damping.frequency_2);
-    log.line("Water     level %g m; added mass %s x %g, %.4g kg along x", scene.reservoir.level,
-             scene.reservoir.added_mass.c_str(), scene.reservoir.factor, dam->added_mass);
+    if (!dam->has_water)
+      log.line("Water     none: the reservoir is empty");
+    else
+      log.line("Water     level %g m; added mass %s x %g, %.4g kg along x", scene.reservoir.level,
+               scene.reservoir.added_mass.c_str(), scene.reservoir.factor, dam->added_mass);
     if (options.validate)
     {
       double pairs = 0.;
@@ -139,8 +170,8 @@ namespace Voussoir
       }
     }
     statics.contact.iterations = iterations;
-    for (std::size_t p = 0; p < n_pairs; ++p)
-      statics.n_open += system.states()[p] == PairState::open;
+    statics.pairs = system.states();
+    statics.n_open = std::count(statics.pairs.begin(), statics.pairs.end(), PairState::open);
     if (const unsigned int e = dam->model->equation[dam->geometry->crown]; e != rigid_ground)
       statics.crown = {{statics.u[3 * e], statics.u[3 * e + 1], statics.u[3 * e + 2]}};
     count.seconds_static = watch.seconds();
@@ -282,6 +313,7 @@ namespace Voussoir
       fields[1].values[i] = p[1];
     }
     // Joint state at the nodes of the joints: opening, slip, and 0 open, 1 stick, 2 slip; -1 elsewhere.
+    const std::vector<PairState> &pairs = step == 0 ? statics.pairs : newmark->pair_states();
     std::vector<float> opening(dam->structure.n_nodes(), 0.f), slip(opening), state(opening.size(), -1.f);
     for (unsigned int p = 0; p < dam->structure.pairs.size(); ++p)
     {
@@ -291,7 +323,7 @@ namespace Voussoir
         {
           opening[node] = d[0];
           slip[node] = std::hypot(d[1], d[2]);
-          state[node] = static_cast<float>(newmark->pair_states()[p]);
+          state[node] = static_cast<float>(pairs[p]);
         }
     }
     for (const auto &field : {std::make_pair("opening", &opening), {"slip", &slip}, {"joint_state", &state}})

@@ -301,7 +301,8 @@ namespace Voussoir
     for (unsigned int i = 0; i < n_nodes(); ++i)
     {
       master[i] = root(i);
-      fixed[i] = on_surface(i, PhysicalId::base);
+      if (on_surface(i, PhysicalId::base)) // of one monolith is enough
+        fixed[master[i]] = true;
     }
     std::fill(body.begin(), body.end(), 0);
     body_numbers.resize(1);

@@ -48,7 +48,7 @@ namespace Voussoir
         .add("max", count.newton_max)
         .add("linear_iterations_mean", count.krylov / n)
         .add("joint_factorisations_mean", count.factorisations / n)
-        .add("fallback_sweeps", count.sweeps);
+        .add("sweeps", count.sweeps);
     const auto &crown = dam->model->points[dam->geometry->crown];
     statics_json.add_list("crest_point", Vector3{{crown[0], crown[1], crown[2]}})
         .add_list("crest_displacement", statics.crown)

@@ -17,7 +17,6 @@ namespace Voussoir
     unsigned int sweeps = 2;          ///< Gauss-Seidel sweeps before the first Newton step
 
     void add_parameters(dealii::ParameterHandler &prm);
-    void check() const;
   };
 
   struct ContactResult
@@ -32,9 +31,10 @@ namespace Voussoir
 
   /** Finds the forces at the pairs of all joints: gap = W force + b, with a joint law at each pair.
    *
-   *  Semismooth Newton with a nonmonotone line search (Grippo, Lampariello and Lucidi 1986), its linear systems solved
-   *  by JointJacobian to the accuracy that Newton can use (Eisenstat and Walker 1996). A few Gauss-Seidel sweeps with
-   *  the exact solution of each pair settle the states before the first Newton step; more follow when Newton stalls. */
+   *  Semismooth Newton with a nonmonotone line search (Grippo, Lampariello and Lucidi 1986), its linear
+   * systems solved by JointJacobian to the accuracy that Newton can use (Eisenstat and Walker 1996). A few
+   * Gauss-Seidel sweeps with the exact solution of each pair settle the states before the first Newton step;
+   * more follow when Newton stalls. */
   class ContactSolver
   {
   public:

@@ -35,7 +35,8 @@ namespace Voussoir
     double                       added_mass = 0.; ///< for motion along x [kg]
     std::vector<Stress>          initial_stress;  ///< of the staged self-weight, per node of the model
     Vector3                      self_weight_crown = {{0., 0., 0.}}; ///< displacement of the crown by it [m]
-    bool                         tied = false;                       ///< all joints: there are no pairs
+    bool                         has_water = false; ///< does the water reach the upstream face?
+    bool                         tied = false;      ///< all joints: there are no pairs
 
   private:
     void stage_self_weight();

@@ -23,7 +23,6 @@ namespace Voussoir
     double      factor = 1.;                ///< of the added mass [-]
 
     void add_parameters(dealii::ParameterHandler &prm);
-    void check() const;
   };
 
   /** Weight of the concrete: the lumped masses times @p gravity, downwards [N]. */

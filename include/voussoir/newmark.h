@@ -51,7 +51,7 @@ namespace Voussoir
             ImpactRule rule);
 
     /** Start from displacement @p u and velocity @p v with the joint forces @p force of that state under @p
-     * load; accelerations follow. @p reference: jump of each pair, 3 per pair, at which it is closed and
+     * load; @p reference: jump of each pair, 3 per pair, at which it is closed and
      * unslipped [m]. */
     void start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
                const Unknowns &reference);

@@ -35,7 +35,6 @@ namespace Voussoir
     std::string                         equations = "projection";
     std::map<unsigned int, std::string> overrides; ///< joint number -> model
     void                                add_parameters(dealii::ParameterHandler &prm);
-    void                                check() const;
     const std::string                  &model_of(const unsigned int joint) const
     {
       const auto found = overrides.find(joint);

@@ -25,6 +25,7 @@ namespace Voussoir
     void run();
 
   private:
+    void remove_old_results();
     void report_setup();
     void find_static_state();
     void start_shaking();
@@ -54,10 +55,11 @@ namespace Voussoir
 
     struct StaticState
     {
-      Unknowns      u, force, load;
-      ContactResult contact;
-      unsigned int  n_open = 0;
-      Vector3       crown = {{0., 0., 0.}};
+      Unknowns               u, force, load;
+      std::vector<PairState> pairs;
+      ContactResult          contact;
+      unsigned int           n_open = 0;
+      Vector3                crown = {{0., 0., 0.}};
     } statics;
 
     struct Counters
