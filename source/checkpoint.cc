@@ -26,8 +26,8 @@ namespace Voussoir
 
   namespace
   {
-    /** The part of a scene that decides its results: without outputs, and without the settings of the solver, which
-     * one may want to change to get past a step that failed. */
+    /** The part of a scene that decides its results: without outputs, and without the settings of the solver,
+     * which one may want to change to get past a step that failed. */
     std::string decisive_part(std::string scene_text)
     {
       for (const char *section : {"subsection Output", "subsection Contact"})
@@ -77,21 +77,23 @@ namespace Voussoir
       double                          largest = 0.;
       archive >> decisive;
       if (decisive != decisive_part(scene_text))
-        throw InputError(
-            "The checkpoint " + file +
-            " belongs to another scene: an entry outside \"Output\" and \"Contact\" differs. Compare scene.prm "
-            "there with yours, or run without --resume.");
+        throw InputError("The checkpoint " + file +
+                         " belongs to another scene: an entry outside \"Output\" and \"Contact\" differs. "
+                         "Compare scene.prm "
+                         "there with yours, or run without --resume.");
       const std::vector<std::string> columns = history.columns;
       archive >> step >> clock_before >> cpu_before >> state >> first >> largest >> count >> history >>
           energy >> *joints >> *envelope >> solutions;
-      if (state.u.size() != statics.u.size() || state.force.size() != statics.force.size() || step > n_steps ||
-          envelope->maximum.size() != dam->model->n_nodes())
-        throw InputError("The checkpoint " + file +
-                         " belongs to another mesh or motion: a file that the scene names has changed. Run without "
-                         "--resume.");
+      if (state.u.size() != statics.u.size() || state.force.size() != statics.force.size() ||
+          step > n_steps || envelope->maximum.size() != dam->model->n_nodes())
+        throw InputError(
+            "The checkpoint " + file +
+            " belongs to another mesh or motion: a file that the scene names has changed. Run without "
+            "--resume.");
       if (history.columns != columns)
-        throw InputError("The checkpoint " + file +
-                         " has other probes than the scene: entry \"Output/Probes\" must not change on --resume.");
+        throw InputError(
+            "The checkpoint " + file +
+            " has other probes than the scene: entry \"Output/Probes\" must not change on --resume.");
       newmark->resume(state, first, largest, Unknowns(state.force.size(), 0.));
     }
     catch (const boost::archive::archive_exception &)

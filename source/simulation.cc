@@ -260,6 +260,16 @@ namespace Voussoir
     }
     const Stopwatch watch;
     joints->record(*newmark);
+    if (const double jump = std::max(joints->opening.value, joints->slip.value);
+        jump > .02 * dam->crest_length)
+    {
+      std::ostringstream message;
+      message
+          << "The joints have moved by " << jump << " m at t = " << state.time
+          << " s: the run has become unstable. Use \"Dynamics/Impact\" = mean-force, or a smaller time step.";
+      write_tables();
+      throw ComputationError(message.str());
+    }
     std::vector<double> row = {state.time};
     for (std::size_t i = 0; i < probes.size(); ++i)
     {

@@ -95,7 +95,8 @@ namespace Voussoir
   {
     Ku.resize(u.size());
     for (const Body &body : bodies)
-      body.stiffness.multiply(u.data() + 3 * std::size_t(body.first_node), Ku.data() + 3 * std::size_t(body.first_node));
+      body.stiffness.multiply(u.data() + 3 * std::size_t(body.first_node),
+                              Ku.data() + 3 * std::size_t(body.first_node));
   }
 
   Vector3 Structure::jump(const Pair &pair, const Unknowns &u) const
