@@ -17,6 +17,9 @@ namespace Voussoir
             "leave the rock out and mark the dam's foot as the surface \"base\".");
     volume = Voussoir::volume(mesh);
     crest_length = Voussoir::crest_length(mesh);
+    const auto box = bounding_box(mesh);
+    size =
+        std::hypot(box.second[0] - box.first[0], box.second[1] - box.first[1], box.second[2] - box.first[2]);
     n_cells = mesh.cells.size();
     n_monoliths = Voussoir::n_monoliths(mesh);
     const HexMesh opened = open_joints(mesh);

@@ -3,10 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <ctime>
 #include <filesystem>
-#include <set>
 #include <sstream>
 
 namespace Voussoir
@@ -78,25 +75,6 @@ namespace Voussoir
         save_checkpoint();
     }
     write_results();
-  }
-
-  /** What an earlier run left would stand beside the new results as if it belonged to them. */
-  void Simulation::remove_old_results()
-  {
-    for (const auto &entry : std::filesystem::directory_iterator(directory))
-    {
-      const std::string name = entry.path().filename().string(), kind = entry.path().extension().string();
-      const bool        solution = name.rfind("solution", 0) == 0 && (kind == ".vtu" || kind == ".pvd");
-      if (solution || std::set<std::string>{"summary.json", "envelope.vtu", "faces.csv", "faces_cells.csv",
-                                            "history.csv", "energy.csv", "joints.csv", "joint_history.csv",
-                                            "figures.log", "checkpoint.bin", "checkpoint.txt"}
-                              .count(name) > 0)
-        std::filesystem::remove(entry.path());
-    }
-    if (std::filesystem::is_directory(directory + "/figures"))
-      for (const auto &entry : std::filesystem::directory_iterator(directory + "/figures"))
-        if (entry.path().extension() == ".png")
-          std::filesystem::remove(entry.path());
   }
 
   void Simulation::report_setup()
@@ -260,8 +238,7 @@ namespace Voussoir
     }
     const Stopwatch watch;
     joints->record(*newmark);
-    if (const double jump = std::max(joints->opening.value, joints->slip.value);
-        jump > .02 * dam->crest_length)
+    if (const double jump = std::max(joints->opening.value, joints->slip.value); jump > .02 * dam->size)
     {
       std::ostringstream message;
       message
@@ -303,107 +280,5 @@ namespace Voussoir
              scene.output.envelope_interval > 0 ? 1e-6 * tension : 0.,
              clock_time(clock_before + elapsed).c_str(),
              clock_time(elapsed / done * (n_steps - step)).c_str());
-  }
-
-  void Simulation::write_solution()
-  {
-    std::vector<Stress> s;
-    stress->apply(newmark->state().u, s);
-    std::vector<FieldWriter::NodalField> fields = {{"max_principal", std::vector<float>(s.size())},
-                                                   {"min_principal", std::vector<float>(s.size())}};
-    constexpr const char                *components[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};
-    for (unsigned int c = 0; c < 6; ++c)
-      fields.push_back({std::string("stress_") + components[c], std::vector<float>(s.size())});
-    for (std::size_t i = 0; i < s.size(); ++i)
-    {
-      for (unsigned int c = 0; c < 6; ++c)
-        fields[2 + c].values[i] = s[i][c] += dam->initial_stress[i][c];
-      const auto p = principal_stresses(s[i]);
-      fields[0].values[i] = p[0];
-      fields[1].values[i] = p[1];
-    }
-    // Joint state at the nodes of the joints: opening, slip, and 0 open, 1 stick, 2 slip; -1 elsewhere.
-    const std::vector<PairState> &pairs = step == 0 ? statics.pairs : newmark->pair_states();
-    std::vector<float> opening(dam->structure.n_nodes(), 0.f), slip(opening), state(opening.size(), -1.f);
-    for (unsigned int p = 0; p < dam->structure.pairs.size(); ++p)
-    {
-      const Vector3 d = newmark->opening_and_slip(p);
-      for (const unsigned int node : {dam->structure.pairs[p].node_1, dam->structure.pairs[p].node_2})
-        if (node != rigid_ground)
-        {
-          opening[node] = d[0];
-          slip[node] = std::hypot(d[1], d[2]);
-          state[node] = static_cast<float>(pairs[p]);
-        }
-    }
-    for (const auto &field : {std::make_pair("opening", &opening), {"slip", &slip}, {"joint_state", &state}})
-    {
-      fields.push_back({field.first, std::vector<float>(s.size(), field.second == &state ? -1.f : 0.f)});
-      for (std::size_t i = 0; i < s.size(); ++i)
-        if (dam->model->equation[i] != rigid_ground)
-          fields.back().values[i] = (*field.second)[dam->model->equation[i]];
-    }
-    char name[40];
-    std::snprintf(name, sizeof(name), "solution-%05u.vtu", step);
-    FieldWriter(*dam->model).write_vtu(directory + "/" + name, newmark->state().u, fields);
-    solutions.emplace_back(newmark->state().time, name);
-    std::ofstream pvd(directory + "/solution.pvd");
-    pvd << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-    for (const auto &solution : solutions)
-      pvd << "<DataSet timestep=\"" << solution.first << "\" file=\"" << solution.second << "\"/>\n";
-    pvd << "</Collection>\n</VTKFile>\n";
-  }
-
-  void Simulation::write_tables()
-  {
-    history.write(directory + "/history.csv");
-    energy.write(directory + "/energy.csv");
-    joints->maxima().write(directory + "/joints.csv");
-    joints->history.write(directory + "/joint_history.csv");
-  }
-
-  void Simulation::write_results()
-  {
-    const Stopwatch watch;
-    write_tables();
-    if (scene.output.envelope_interval > 0)
-    {
-      const FieldWriter writer(*dam->model);
-      writer.write_vtu(directory + "/envelope.vtu", {},
-                       {{"max_principal", envelope->maximum}, {"min_principal", envelope->minimum}});
-      writer.write_faces(directory, *dam->geometry, envelope->maximum, envelope->minimum);
-    }
-    count.seconds_output += watch.seconds();
-    write_summary();
-    log.line("Joints    largest opening %.2f mm, largest slip %.2f mm", 1e3 * joints->opening.value,
-             1e3 * joints->slip.value);
-    if (n_steps > 0)
-      log.line("Speed     %.2f s of wall time per second of shaking; per step %.1f ms: sweeps %.1f, joints "
-               "%.1f, stepping "
-               "%.1f, stresses %.1f, output %.1f",
-               count.seconds_shaking / (n_steps * motion.dt), 1e3 * count.seconds_shaking / n_steps,
-               1e3 * count.seconds_sweeps / n_steps, 1e3 * count.seconds_joints / n_steps,
-               1e3 * count.seconds_stepping / n_steps, 1e3 * count.seconds_stresses / n_steps,
-               1e3 * count.seconds_output / n_steps);
-    log.line("Energy    balance closes to %.1e of the largest energy", count.energy_error);
-    for (const char *name : {"/checkpoint.bin", "/checkpoint.txt"})
-      std::filesystem::remove(directory + name); // the run is complete: nothing to resume
-    if (scene.output.figures)
-      draw_figures();
-    log.line("Results   %s", directory.c_str());
-  }
-
-  void Simulation::draw_figures()
-  {
-    const char       *script_directory = std::getenv("VOUSSOIR_SCRIPTS");
-    const std::string script =
-        (script_directory != nullptr ? std::string(script_directory) : VOUSSOIR_SOURCE_DIR "/scripts") +
-        "/figures.py";
-    const std::string command =
-        "/usr/bin/python3 '" + script + "' '" + directory + "' > '" + directory + "/figures.log' 2>&1";
-    log.line("Figures   %s/figures", directory.c_str());
-    if (std::system(command.c_str()) != 0)
-      log.line("warning: the figures could not be drawn; see %s/figures.log. The results are complete.",
-               directory.c_str());
   }
 } // namespace Voussoir
