@@ -2,6 +2,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <voussoir/command_line.h>
+#include <voussoir/contact_command.h>
 #include <voussoir/error.h>
 #include <voussoir/gmsh_io.h>
 #include <voussoir/mesh_joints.h>
@@ -30,6 +31,9 @@ voussoir modes SCENE.prm [--count 10]
     Natural frequencies of the tied dam, with added mass [Hz].
 voussoir motion SCENE.prm --output FILE.csv
     The scene's ground motion, t, a_x, a_y, a_z [s, m/s^2], and a report about it.
+voussoir contact FILE.hdf5... [--tolerance 1e-12] [--solver NAME] [--max-seconds 10] [--write-solutions DIR]
+    Solves frictional contact problems in FCLib's format; a JSON object per file, seconds are CPU seconds.
+    Solvers: newton (the default, with its fallbacks), proximal, sweeps, paper, fischer-burmeister.
 voussoir parameters [prm|json|markdown]
     All entries of a scene file with their defaults and meaning.
 voussoir --help, voussoir --version
@@ -43,6 +47,7 @@ Exit status: 0 done; 1 the computation failed; 2 bad input.
       std::vector<std::string> positional, overrides;
       std::string              output, format = "4.1", count = "10";
       RunOptions               run;
+      ContactOptions           contact;
     };
 
     Arguments read_arguments(const std::vector<std::string> &words)
@@ -65,6 +70,14 @@ Exit status: 0 done; 1 the computation failed; 2 bad input.
           arguments.format = value();
         else if (words[i] == "--count")
           arguments.count = value();
+        else if (words[i] == "--tolerance")
+          arguments.contact.tolerance = value();
+        else if (words[i] == "--solver")
+          arguments.contact.solver = value();
+        else if (words[i] == "--max-seconds")
+          arguments.contact.max_seconds = value();
+        else if (words[i] == "--write-solutions")
+          arguments.contact.solutions = value();
         else if (words[i] == "--resume")
           arguments.run.resume = true;
         else if (words[i] == "--validate")
@@ -180,7 +193,10 @@ Exit status: 0 done; 1 the computation failed; 2 bad input.
       return 0;
     }
     if (p[0] == "contact")
-      throw InputError("This version cannot yet solve FCLib problems (`voussoir contact`).");
+    {
+      run_contact(std::vector<std::string>(p.begin() + 1, p.end()), arguments.contact);
+      return 0;
+    }
 
     const bool is_command = p[0] == "mesh" || p[0] == "modes" || p[0] == "motion";
     if (p.size() != (is_command ? 2 : 1))

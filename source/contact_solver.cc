@@ -4,9 +4,9 @@
 #include <voussoir/error.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <deque>
-#include <numeric>
 
 namespace Voussoir
 {
@@ -18,9 +18,23 @@ namespace Voussoir
         y[i] += factor * x[i];
     }
 
-    /** Largest eigenvalue of a symmetric positive definite 3x3 matrix, by the power method with squaring. */
+    Vector3 get(const Unknowns &x, const std::size_t i)
+    {
+      return {{x[3 * i], x[3 * i + 1], x[3 * i + 2]}};
+    }
+
+    double wall_time()
+    {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    }
+
+    /** Largest eigenvalue of the symmetric part of a positive definite 3x3 matrix: power method with
+     *  squaring. */
     double largest_eigenvalue(Matrix3 a)
     {
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < i; ++j)
+          a[3 * i + j] = a[3 * j + i] = .5 * (a[3 * i + j] + a[3 * j + i]);
       double trace = a[0] + a[4] + a[8], log_scale = 0.;
       if (!(trace > 0.))
         return 0.;
@@ -44,6 +58,7 @@ namespace Voussoir
   {
     using dealii::Patterns::Double;
     using dealii::Patterns::Integer;
+    using dealii::Patterns::Selection;
     prm.enter_subsection("Contact");
     prm.add_parameter(
         "Tolerance", tolerance,
@@ -52,175 +67,282 @@ namespace Voussoir
     prm.add_parameter("Maximum iterations", max_iterations, "Newton steps before the solver gives up [-].",
                       Integer(1));
     prm.add_parameter("Sweeps", sweeps, "Gauss-Seidel sweeps before the first Newton step [-].", Integer(0));
+    prm.add_parameter("Method", method,
+                      "newton (falls back on sweeps, then on the proximal point method), proximal, or sweeps "
+                      "(Gauss-Seidel alone).",
+                      Selection(method_names()));
     prm.leave_subsection();
   }
 
-  ContactSolver::ContactSolver(const InterfaceOperator &W, std::vector<const JointLaw *> laws,
-                               const ContactParameters &parameters)
-      : W(W), law(std::move(laws)), parameters(parameters), jacobian(W), equations(law.size()),
-        state(law.size(), PairState::open)
+  std::string ContactParameters::method_names()
   {
+    return "newton|proximal|sweeps";
+  }
+
+  ContactSolver::ContactSolver(const ContactOperator &W, std::vector<const JointLaw *> laws,
+                               const ContactParameters &parameters)
+      : W(W), law(std::move(laws)), parameters(parameters), jacobian(W.make_jacobian()), equations(law.size()),
+        state(law.size(), PairState::open), touch(law.size(), 0)
+  {
+    double trace = 0.;
     for (std::size_t i = 0; i < law.size(); ++i)
     {
-      pair_W.push_back(W.diagonal(i));
-      rho.push_back(1. / largest_eigenvalue(pair_W.back()));
+      const Matrix3 H = W.diagonal(i);
+      trace += H[0] + H[4] + H[8];
+      const double largest = largest_eigenvalue(H);
+      rho.push_back(largest > 0. ? 1. / largest : 0.);
     }
+    mean_rho = trace > 0. ? 3. * law.size() / trace : 1.;
+    for (double &r : rho)
+      if (!(r > 0.))
+        r = mean_rho;
+  }
+
+  ContactSolver::~ContactSolver() = default;
+
+  double ContactSolver::critical_friction() const
+  {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < law.size(); ++i)
+    {
+      const Matrix3 H = W.diagonal(i);
+      smallest = std::min(smallest, H[0] / std::max(std::hypot(H[1], H[2]), 1e-300));
+    }
+    return smallest;
+  }
+
+  Vector3 ContactSolver::shifted_gap(const std::size_t i, const Unknowns &force, const Unknowns &gap) const
+  {
+    Vector3 g = get(gap, i);
+    if (proximal.alpha > 0.)
+      for (unsigned int c = 0; c < 3; ++c)
+        g[c] += proximal.alpha / rho[i] * (force[3 * i + c] - proximal.centre[3 * i + c]);
+    return g;
   }
 
   void ContactSolver::evaluate(const Unknowns &force, const Unknowns &gap)
   {
     for (std::size_t i = 0; i < law.size(); ++i)
-      state[i] = law[i]->evaluate({{force[3 * i], force[3 * i + 1], force[3 * i + 2]}},
-                                  {{gap[3 * i], gap[3 * i + 1], gap[3 * i + 2]}}, rho[i], equations[i]);
+      law[i]->evaluate(get(force, i), shifted_gap(i, force, gap), get(*start, i), rho[i], equations[i]);
   }
 
   double ContactSolver::merit() const
   {
     double sum = 0.;
     for (std::size_t i = 0; i < law.size(); ++i)
-      for (const double f : equations[i].residual)
-        sum += f * f / (rho[i] * rho[i]);
+      sum += dot(equations[i].residual, equations[i].residual) / (rho[i] * rho[i]);
     return sum;
   }
 
-  double ContactSolver::relative_residual(const Unknowns &b, const Unknowns &force) const
+  double ContactSolver::residual(const Unknowns &force, const Unknowns &gap) const
   {
-    double f = 0., p = 0., q = 0.;
+    double f = 0., p = 0., q = 0., u = 0.;
     for (std::size_t i = 0; i < law.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        f += equations[i].residual[c] * equations[i].residual[c];
-        p += force[3 * i + c] * force[3 * i + c];
-        q += rho[i] * rho[i] * b[3 * i + c] * b[3 * i + c];
-      }
-    const double scale = std::max(p, q);
-    return scale > 0. ? std::sqrt(f / scale) : 0.;
-  }
-
-  /** One Gauss-Seidel sweep over all pairs with the exact solution of each; gap stays W force + b. */
-  void ContactSolver::sweep(Unknowns &force, Unknowns &gap) const
-  {
-    for (const auto &colour : jacobian.colours())
     {
-      std::vector<std::vector<double>> change(colour.size());
-#pragma omp parallel for schedule(dynamic)
-      for (int index = 0; index < static_cast<int>(colour.size()); ++index)
+      const Vector3 g = shifted_gap(i, force, gap), s = get(*start, i), r = get(force, i);
+      const Vector3 e = law[i]->error(r, g, s, mean_rho);
+      f += dot(e, e);
+      p += dot(r, r);
+      for (unsigned int c = 0; c < 3; ++c) // friction only knows the displacement of the step
       {
-        const unsigned int         j = colour[index], m = W.size(j);
-        const std::vector<double> &w = W.block(j, j);
-        change[index].assign(m, 0.);
-        for (unsigned int i = 0; i < m; i += 3)
-        {
-          const unsigned int pair = (W.begin(j) + i) / 3;
-          double            *f = &force[3 * pair], *d = &gap[W.begin(j)];
-          const Matrix3     &H = pair_W[pair];
-          const Vector3      Hf = H * Vector3{{f[0], f[1], f[2]}};
-          const Vector3      solution =
-              law[pair]->solve(H, {{d[i] - Hf[0], d[i + 1] - Hf[1], d[i + 2] - Hf[2]}}, true);
-          for (unsigned int c = 0; c < 3; ++c)
-          {
-            const double delta = solution[c] - f[c];
-            f[c] = solution[c];
-            change[index][i + c] = delta;
-            const double *column = w.data() + std::size_t(i + c) * m;
-            if (delta != 0.)
-              for (unsigned int row = 0; row < m; ++row)
-                d[row] += delta * column[row];
-          }
-        }
+        const double before = c == 0 || law[i]->is_tangentially_tied() ? 0. : s[c];
+        q += ((*b)[3 * i + c] - before) * ((*b)[3 * i + c] - before);
+        u += (g[c] - before) * (g[c] - before);
       }
-      for (std::size_t index = 0; index < colour.size(); ++index)
-        for (const unsigned int k : W.neighbours(colour[index]))
-          W.add_coupling(k, colour[index], 1., change[index].data(), gap.data() + W.begin(k));
     }
+    const double scale = std::max({std::sqrt(p), mean_rho * std::sqrt(q), mean_rho * std::sqrt(u)});
+    return scale > 0. ? std::sqrt(f) / scale : 0.;
   }
 
-  ContactResult ContactSolver::solve(const Unknowns &b, Unknowns &force, Unknowns &gap)
+  void ContactSolver::refresh_gap(const Unknowns &force, Unknowns &gap) const
   {
-    ContactResult result;
-    const auto    update_gap = [&]
-    {
-      W.multiply(force, gap);
-      add(gap, 1., b);
-    };
-    update_gap();
-    for (; result.sweeps < parameters.sweeps; ++result.sweeps)
-      sweep(force, gap);
-    evaluate(force, gap);
-    result.residual = relative_residual(b, force);
+    W.multiply(force, gap);
+    add(gap, 1., *b);
+  }
 
-    std::deque<double> merits(1, merit());
-    double             previous = result.residual, best = result.residual;
-    Unknowns           best_force = force, step, d_gap, trial_force, trial_gap;
-    unsigned int       since_best = 0;
-    while (result.residual > parameters.tolerance && result.iterations < parameters.max_iterations)
+  bool ContactSolver::out_of_time() const
+  {
+    return wall_time() > deadline;
+  }
+
+  unsigned int ContactSolver::steps_left() const
+  {
+    return parameters.max_iterations - std::min(parameters.max_iterations, result.iterations);
+  }
+
+  void ContactSolver::sweep(const unsigned int count, Unknowns &force, Unknowns &gap)
+  {
+    const auto solve_pair = [this](const unsigned int pair, const Matrix3 &H, const Vector3 &free)
+    { return law[pair]->solve(H, free, get(*start, pair)); };
+    for (unsigned int i = 0; i < count && !out_of_time(); ++i, ++result.sweeps)
+      W.sweep(solve_pair, force, gap);
+  }
+
+  /** Moves along @p step; returns the merit there. None decreases: the whole step is taken. */
+  double ContactSolver::line_search(const double bound, const Unknowns &step, const Unknowns &d_gap,
+                                    Unknowns &force, Unknowns &gap)
+  {
+    Unknowns trial_force, trial_gap;
+    for (unsigned int halving = 0; halving <= 12; ++halving)
     {
-      result.factorisations += jacobian.update(equations);
+      const double t = halving == 12 ? 1. : std::ldexp(1., -static_cast<int>(halving));
+      trial_force = force;
+      trial_gap = gap;
+      add(trial_force, t, step);
+      add(trial_gap, t, d_gap);
+      evaluate(trial_force, trial_gap);
+      const double found = merit();
+      if (found <= (1. - 2e-4 * t) * bound || halving == 12)
+      {
+        force.swap(trial_force);
+        gap.swap(trial_gap);
+        return found;
+      }
+    }
+    return bound;
+  }
+
+  /** Newton's method from @p force for the present (regularised) problem. False when it stalls; @p force is
+   *  then the best that was found. */
+  bool ContactSolver::newton(const double target, const unsigned int max_steps, Unknowns &force, Unknowns &gap)
+  {
+    evaluate(force, gap);
+    double             now = residual(force, gap), previous = now;
+    Best               found{now, force};
+    std::deque<double> merits(1, merit());
+    Unknowns           step, d_gap;
+    unsigned int       stalled = 0;
+    for (unsigned int k = 0; now > target && k < max_steps && steps_left() > 0 && !out_of_time(); ++k)
+    {
+      if (proximal.alpha > 0.) // d gap/d force = W + alpha D
+        for (std::size_t i = 0; i < law.size(); ++i)
+          for (unsigned int c = 0; c < 9; ++c)
+            equations[i].d_force[c] += proximal.alpha / rho[i] * equations[i].d_gap[c];
+      result.factorisations += jacobian->update(equations);
       // As exact as Newton is about to become (Eisenstat and Walker 1996, choice 2), but not looser than 1e-3
       // when it stalls: a loose step misses the soft modes of bodies that only their neighbours hold.
-      const double ratio = result.iterations == 0 ? 1. : result.residual / previous;
-      const double loosest = since_best > 0 ? 1e-3 : .1;
-      const double tolerance = std::clamp(
-          .9 * ratio * ratio, std::min(loosest, .3 * parameters.tolerance / result.residual), loosest);
-      result.krylov += jacobian.solve(tolerance, step);
-      W.multiply(step, d_gap);
-      previous = result.residual;
-
-      double       t = 1.;
-      const double bound = *std::max_element(merits.begin(), merits.end());
-      for (unsigned int halving = 0; halving <= 12; ++halving, t *= .5)
-      {
-        if (halving == 12) // none decreases: take the whole step, and remember the best
-          t = 1.;
-        trial_force = force;
-        trial_gap = gap;
-        add(trial_force, t, step);
-        add(trial_gap, t, d_gap);
-        evaluate(trial_force, trial_gap);
-        if (merit() <= (1. - 2e-4 * t) * bound || halving == 12)
-          break;
-      }
-      force.swap(trial_force);
-      gap.swap(trial_gap);
+      const double ratio = k == 0 ? 1. : now / previous, loosest = stalled > 0 ? 1e-3 : .1;
+      const double tolerance = std::clamp(.9 * ratio * ratio, std::min(loosest, .3 * target / now), loosest);
+      result.krylov += jacobian->solve(tolerance, step, d_gap);
       ++result.iterations;
-      merits.push_back(merit());
+      merits.push_back(
+          line_search(*std::max_element(merits.begin(), merits.end()), step, d_gap, force, gap));
       if (merits.size() > 5)
         merits.pop_front();
-      result.residual = relative_residual(b, force);
-      if (result.residual <= parameters.tolerance) // free of the round-off of the updates?
+      previous = now;
+      now = residual(force, gap);
+      if (now <= target) // free of the round-off of the updates?
       {
-        update_gap();
+        refresh_gap(force, gap);
         evaluate(force, gap);
-        result.residual = relative_residual(b, force);
+        now = residual(force, gap);
       }
-      if (!(result.residual < 1e30))
+      if (!(now < 1e30)) // singular
         break;
-      since_best = result.residual < .9 * best ? 0 : since_best + 1;
-      if (result.residual < best)
+      stalled = now < .9 * found.residual ? 0 : stalled + 1;
+      if (now < found.residual)
+        found = {now, force};
+      if (stalled == 15)
+        break;
+    }
+    if (now <= target)
+      return true;
+    force = found.force;
+    refresh_gap(force, gap);
+    evaluate(force, gap);
+    return false;
+  }
+
+  /** Regularised problems around the last solution; superlinear, since alpha falls with the residual. */
+  bool ContactSolver::proximal_point(Unknowns &force, Unknowns &gap)
+  {
+    const auto here = [&]
+    {
+      proximal.alpha = 0.;
+      const double r = residual(force, gap);
+      if (r < best.residual)
+        best = {r, force};
+      return r;
+    };
+    double       now = here(), boost = 1.;
+    unsigned int failures = 0, n_sweeps = 20;
+    while (now > parameters.tolerance && steps_left() > 0 && !out_of_time())
+    {
+      proximal.centre = force;
+      proximal.alpha = std::min(1., 5. * now) * boost;
+      if (newton(std::max(.1 * now, .3 * parameters.tolerance), 50, force, gap))
+        boost = std::max(1., .1 * boost);
+      else
       {
-        best = result.residual;
-        best_force = force;
+        boost *= 10.;
+        if (++failures == 4)
+        {
+          force = best.force;
+          refresh_gap(force, gap);
+          sweep(n_sweeps, force, gap);
+          n_sweeps = std::min(2 * n_sweeps, 2000u);
+          failures = 0;
+          boost = 1.;
+        }
       }
-      if (since_best == 15) // Newton stalls or cycles: settle the states pair by pair, then go on
+      now = here();
+    }
+    return now <= parameters.tolerance;
+  }
+
+  ContactResult ContactSolver::solve(const Unknowns &right_hand_side, const Unknowns &start_gap, Unknowns &force,
+                                     Unknowns &gap)
+  {
+    b = &right_hand_side;
+    start = &start_gap;
+    result = ContactResult();
+    proximal.alpha = 0.;
+    best = Best();
+    deadline = wall_time() + parameters.max_seconds;
+
+    refresh_gap(force, gap);
+    evaluate(force, gap);
+    result.converged = residual(force, gap) <= parameters.tolerance;
+    if (!result.converged && parameters.method == "newton")
+    {
+      sweep(parameters.sweeps, force, gap);
+      result.converged = newton(parameters.tolerance, steps_left(), force, gap);
+      if (!result.converged)
       {
-        force = best_force;
-        update_gap();
-        for (unsigned int i = 0; i < 20; ++i, ++result.sweeps)
-          sweep(force, gap);
-        evaluate(force, gap);
-        result.residual = relative_residual(b, force);
-        merits.assign(1, merit());
-        since_best = 0;
-        best = result.residual;
+        result.path = ContactPath::sweeps;
+        best = {residual(force, gap), force};
+        sweep(20, force, gap);
+        result.converged = newton(parameters.tolerance, steps_left(), force, gap);
       }
     }
-    result.converged = result.residual <= parameters.tolerance;
-    if (!result.converged)
+    if (!result.converged && parameters.method == "sweeps")
     {
-      force = best_force;
-      update_gap();
-      evaluate(force, gap);
-      result.residual = relative_residual(b, force);
+      result.path = ContactPath::sweeps;
+      while (!result.converged && !out_of_time() && result.sweeps < 1000 * std::size_t(parameters.max_iterations))
+      {
+        sweep(10, force, gap);
+        refresh_gap(force, gap);
+        result.converged = residual(force, gap) <= parameters.tolerance;
+      }
+    }
+    else if (!result.converged)
+    {
+      result.path = ContactPath::proximal;
+      if (parameters.method == "proximal")
+        sweep(parameters.sweeps, force, gap);
+      result.converged = proximal_point(force, gap);
+    }
+    if (!result.converged && best.residual < std::numeric_limits<double>::infinity())
+      force = best.force;
+    proximal.alpha = 0.;
+    refresh_gap(force, gap);
+    evaluate(force, gap);
+    result.residual = residual(force, gap);
+    result.converged = result.residual <= parameters.tolerance;
+    for (std::size_t i = 0; i < law.size(); ++i)
+    {
+      state[i] = equations[i].state;
+      touch[i] = equations[i].touching;
     }
     return result;
   }

@@ -1,4 +1,5 @@
 #include <voussoir/interface_operator.h>
+#include <voussoir/joint_jacobian.h>
 
 #include <algorithm>
 
@@ -71,6 +72,65 @@ namespace Voussoir
         for (const double p : products[i][side])
           *out++ += p;
       }
+  }
+
+  std::vector<std::vector<unsigned int>> InterfaceOperator::colours() const
+  {
+    std::vector<std::vector<unsigned int>> result;
+    std::vector<unsigned int>              colour(n_groups(), 0);
+    for (unsigned int g = 0; g < n_groups(); ++g)
+    {
+      std::vector<bool> taken(n_groups() + 1, false);
+      for (const unsigned int k : coupled[g])
+        if (k < g)
+          taken[colour[k]] = true;
+      colour[g] = std::find(taken.begin(), taken.end(), false) - taken.begin();
+      result.resize(std::max<std::size_t>(result.size(), colour[g] + 1));
+      result[colour[g]].push_back(g);
+    }
+    return result;
+  }
+
+  void InterfaceOperator::sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const
+  {
+    for (const auto &groups : colours())
+    {
+      std::vector<std::vector<double>> change(groups.size());
+#pragma omp parallel for schedule(dynamic)
+      for (int index = 0; index < static_cast<int>(groups.size()); ++index)
+      {
+        const unsigned int         j = groups[index], m = size(j);
+        const std::vector<double> &w = block(j, j);
+        change[index].assign(m, 0.);
+        for (unsigned int i = 0; i < m; i += 3)
+        {
+          const unsigned int pair = (begin(j) + i) / 3;
+          double            *f = &force[3 * pair], *d = &gap[begin(j)];
+          const Matrix3      H = diagonal(pair);
+          const Vector3      Hf = H * Vector3{{f[0], f[1], f[2]}};
+          const Vector3      solution =
+              solve_pair(pair, H, {{d[i] - Hf[0], d[i + 1] - Hf[1], d[i + 2] - Hf[2]}});
+          for (unsigned int c = 0; c < 3; ++c)
+          {
+            const double delta = solution[c] - f[c];
+            f[c] = solution[c];
+            change[index][i + c] = delta;
+            const double *column = w.data() + std::size_t(i + c) * m;
+            if (delta != 0.)
+              for (unsigned int row = 0; row < m; ++row)
+                d[row] += delta * column[row];
+          }
+        }
+      }
+      for (std::size_t index = 0; index < groups.size(); ++index)
+        for (const unsigned int k : coupled[groups[index]])
+          add_coupling(k, groups[index], 1., change[index].data(), gap.data() + begin(k));
+    }
+  }
+
+  std::unique_ptr<ContactJacobian> InterfaceOperator::make_jacobian() const
+  {
+    return std::make_unique<JointJacobian>(*this);
   }
 
   Matrix3 InterfaceOperator::diagonal(const unsigned int pair) const

@@ -37,21 +37,15 @@ namespace Voussoir
   } // namespace
 
   JointJacobian::JointJacobian(const InterfaceOperator &W)
-      : W(W), factors(W.n_groups()), colour(W.n_groups(), 0)
+      : W(W), factors(W.n_groups()), groups_of_colour(W.colours()), colour(W.n_groups(), 0)
   {
+    for (unsigned int c = 0; c < groups_of_colour.size(); ++c)
+      for (const unsigned int g : groups_of_colour[c])
+        colour[g] = c;
     for (unsigned int g = 0; g < W.n_groups(); ++g)
-    {
-      std::vector<bool> taken(W.n_groups() + 1, false);
-      for (const unsigned int k : W.neighbours(g))
-        if (k < g)
-          taken[colour[k]] = true;
-      colour[g] = std::find(taken.begin(), taken.end(), false) - taken.begin();
-      groups_of_colour.resize(std::max<std::size_t>(groups_of_colour.size(), colour[g] + 1));
-      groups_of_colour[colour[g]].push_back(g);
       for (unsigned int k = g; k < W.n_groups(); ++k)
         if (const std::vector<double> *block = W.find_block(g, k))
           blocks[{g, k}].assign(block->begin(), block->end());
-    }
   }
 
   bool JointJacobian::needs_factor(const unsigned int group) const
@@ -214,9 +208,24 @@ namespace Voussoir
     }
   }
 
-  unsigned int JointJacobian::solve(const double tolerance, Unknowns &step)
+  /** y = W x. */
+  void JointJacobian::multiply_W(const Unknowns &x, Unknowns &y) const
   {
-    const unsigned int n = W.n(), max_iterations = 100;
+    const Floats in(x.begin(), x.end());
+    Floats       out(x.size(), 0.f);
+#pragma omp parallel for schedule(dynamic)
+    for (int j = 0; j < static_cast<int>(W.n_groups()); ++j)
+    {
+      multiply_block(j, j, in.data() + W.begin(j), out.data() + W.begin(j));
+      for (const unsigned int k : W.neighbours(j))
+        multiply_block(j, k, in.data() + W.begin(k), out.data() + W.begin(j));
+    }
+    y.assign(out.begin(), out.end());
+  }
+
+  unsigned int JointJacobian::solve(const double tolerance, Unknowns &step, Unknowns &d_gap)
+  {
+    const unsigned int n = W.n();
     // The trivial rows first: they are exact, and stay zero in all that follows.
     Unknowns r(n);
     bool     trivial = false;
@@ -236,28 +245,29 @@ namespace Voussoir
       }
     if (trivial)
     {
-      Floats x(step.begin(), step.end()), w(n, 0.f);
-#pragma omp parallel for schedule(dynamic)
-      for (int j = 0; j < static_cast<int>(W.n_groups()); ++j)
-      {
-        multiply_block(j, j, x.data() + W.begin(j), w.data() + W.begin(j));
-        for (const unsigned int k : W.neighbours(j))
-          multiply_block(j, k, x.data() + W.begin(k), w.data() + W.begin(j));
-      }
+      multiply_W(step, d_gap);
       for (std::size_t i = 0; i < equations->size(); ++i)
       {
         const Vector3 f = (*equations)[i].d_force * Vector3{{step[3 * i], step[3 * i + 1], step[3 * i + 2]}},
-                      g = (*equations)[i].d_gap * Vector3{{w[3 * i], w[3 * i + 1], w[3 * i + 2]}};
+                      g = (*equations)[i].d_gap * Vector3{{d_gap[3 * i], d_gap[3 * i + 1], d_gap[3 * i + 2]}};
         for (unsigned int c = 0; c < 3; ++c)
           r[3 * i + c] -= f[c] + g[c];
       }
     }
+    const unsigned int iterations = gmres(r, tolerance * std::sqrt(all), step);
+    multiply_W(step, d_gap);
+    return iterations;
+  }
 
+  /** step += J^-1 r, until the residual is below @p target. */
+  unsigned int JointJacobian::gmres(const Unknowns &r, double target, Unknowns &step) const
+  {
+    const unsigned int n = W.n(), max_iterations = 100;
     double norm = 0.;
     for (const double x : r)
       norm += x * x;
     norm = std::sqrt(norm);
-    const double target = std::max(tolerance * std::sqrt(all), 1e-6 * norm); // what single precision can do
+    target = std::max(target, 1e-6 * norm); // what single precision can do
     if (!(norm > target))
       return 0;
     std::vector<Floats>              v(1, Floats(n)), z;

@@ -1,11 +1,22 @@
 #include <voussoir/error.h>
 #include <voussoir/joint_law.h>
+#include <voussoir/key_law.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace Voussoir
 {
+  double dot(const Vector3 &a, const Vector3 &b)
+  {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
+
+  Vector3 operator-(const Vector3 &a, const Vector3 &b)
+  {
+    return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
+  }
+
   namespace
   {
     double length(const double x, const double y)
@@ -13,7 +24,7 @@ namespace Voussoir
       return std::sqrt(x * x + y * y);
     }
 
-    /** Forces that keep the rows of the tangential components at zero jump. */
+    /** Forces that keep the tangential components of the gap at zero. */
     Vector3 tangential_tie(const Matrix3 &H, const Vector3 &b)
     {
       const double det = H[4] * H[8] - H[5] * H[7];
@@ -28,143 +39,144 @@ namespace Voussoir
 
     /** The normal condition, equation (2b): force_n = max(0, force_n - rho gap_n). Returns whether it is
      * closed. */
-    bool normal_condition(const Vector3 &force, const Vector3 &gap, const double rho, PairEquations &e)
+    bool normal_condition(const double force, const double opening, const double rho, PairEquations &e)
     {
-      const bool closed = force[0] - rho * gap[0] > 0.;
-      e.residual[0] = closed ? rho * gap[0] : force[0];
+      const bool closed = force - rho * opening > 0.;
+      e.residual[0] = closed ? rho * opening : force;
       (closed ? e.d_gap[0] : e.d_force[0]) = closed ? rho : 1.;
+      e.touching = closed;
       return closed;
     }
 
-    /** No slip: equations (5) and (6). */
-    void no_slip(const Vector3 &gap, const double rho, PairEquations &e)
+    /** The same by Fischer and Burmeister: a + b = sqrt(a^2 + b^2). */
+    void smooth_normal_condition(const double force, const double opening, const double rho, PairEquations &e)
     {
-      for (unsigned int i = 1; i < 3; ++i)
-      {
-        e.residual[i] = rho * gap[i];
-        e.d_gap[4 * i] = rho;
-      }
+      const double gap = rho * opening, r = length(force, gap);
+      e.residual[0] = force + gap - r;
+      e.d_force[0] = r > 0. ? 1. - force / r : 1. - std::sqrt(.5);
+      e.d_gap[0] = rho * (r > 0. ? 1. - gap / r : 1. - std::sqrt(.5));
+      e.touching = force > gap;
+    }
+
+    /** No slip: equations (5) and (6). */
+    void no_slip(const double slip_a, const double slip_b, const double rho, PairEquations &e)
+    {
+      e.residual[1] = rho * slip_a;
+      e.residual[2] = rho * slip_b;
+      e.d_gap[4] = e.d_gap[8] = rho;
     }
 
     /** Both directions bilateral: the monolithic dam. */
     class Tied : public JointLaw
     {
     public:
-      PairState evaluate(const Vector3 &, const Vector3 &gap, const double rho,
-                         PairEquations &e) const override
+      void evaluate(const Vector3 &, const Vector3 &gap, const Vector3 &, const double rho,
+                    PairEquations &e) const override
       {
-        e = {{{rho * gap[0], 0., 0.}}, {}, {}};
+        e = {};
+        e.residual[0] = rho * gap[0];
         e.d_gap[0] = rho;
-        no_slip(gap, rho, e);
-        return PairState::stick;
+        no_slip(gap[1], gap[2], rho, e);
+        e.state = PairState::stick;
+        e.touching = 1;
       }
-      Vector3 solve(const Matrix3 &H, const Vector3 &b, bool) const override { return full_tie(H, b); }
-      bool    is_tangentially_tied() const override { return true; }
+      Vector3 solve(const Matrix3 &H, const Vector3 &b, const Vector3 &) const override
+      {
+        return full_tie(H, b);
+      }
+      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, unsigned char) const override
+      {
+        return full_tie(H, v);
+      }
+      bool is_tangentially_tied() const override { return true; }
     };
 
     /** Flat joint that opens and does not slip, open or closed. Equations (2b), (5), (6). */
     class FJB : public JointLaw
     {
     public:
-      PairState evaluate(const Vector3 &force, const Vector3 &gap, const double rho,
-                         PairEquations &e) const override
+      explicit FJB(const bool smooth) : smooth(smooth) {}
+
+      void evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &, const double rho,
+                    PairEquations &e) const override
       {
         e = {};
-        const bool closed = normal_condition(force, gap, rho, e);
-        no_slip(gap, rho, e);
-        return closed ? PairState::stick : PairState::open;
+        if (smooth)
+          smooth_normal_condition(force[0], gap[0], rho, e);
+        else
+          normal_condition(force[0], gap[0], rho, e);
+        no_slip(gap[1], gap[2], rho, e);
+        e.state = e.touching ? PairState::stick : PairState::open;
       }
-      Vector3 solve(const Matrix3 &H, const Vector3 &b, const bool closed) const override
+      Vector3 error(const Vector3 &force, const Vector3 &gap, const Vector3 &, const double rho) const override
       {
-        const Vector3 f = closed ? full_tie(H, b) : Vector3{{-1., 0., 0.}};
+        return {{std::min(force[0], rho * gap[0]), rho * gap[1], rho * gap[2]}};
+      }
+      Vector3 solve(const Matrix3 &H, const Vector3 &b, const Vector3 &) const override
+      {
+        const Vector3 f = full_tie(H, b);
         return f[0] > 0. ? f : tangential_tie(H, b);
       }
+      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const unsigned char touching) const override
+      {
+        return touching ? solve(H, v, {}) : tangential_tie(H, v);
+      }
       bool is_tangentially_tied() const override { return true; }
+
+    private:
+      const bool smooth;
     };
 
-    /** Flat joint that opens and slides with Coulomb friction. Equations (2b), (3b), (4b), the angle of slip
-     * taken from the trial force x = force_t - rho gap_t: then (3b) and (4b) together are the projection of x
-     * on the disc of radius mu max(0, force_n - rho gap_n) (Alart and Curnier 1991), which is Lipschitz
-     * everywhere. */
+    /** Flat joint that opens and slides with Coulomb friction. */
     class FJA : public JointLaw
     {
     public:
       explicit FJA(const double friction) : mu(friction) {}
 
-      PairState evaluate(const Vector3 &force, const Vector3 &gap, const double rho,
-                         PairEquations &e) const override
+      void evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, const double rho,
+                    PairEquations &e) const override
       {
-        e = {};
-        if (!normal_condition(force, gap, rho, e))
-        {
-          for (unsigned int i = 1; i < 3; ++i)
-          {
-            e.residual[i] = force[i];
-            e.d_force[4 * i] = 1.;
-          }
-          return PairState::open;
-        }
-        const double x1 = force[1] - rho * gap[1], x2 = force[2] - rho * gap[2], x = length(x1, x2);
-        const double radius = mu * (force[0] - rho * gap[0]);
-        if (x <= radius)
-        {
-          no_slip(gap, rho, e);
-          return PairState::stick;
-        }
-        const double e1 = x1 / x, e2 = x2 / x, shrink = radius / x;
-        const double g11 = shrink * (1. - e1 * e1), g12 = -shrink * e1 * e2, g22 = shrink * (1. - e2 * e2);
-        e.residual[1] = force[1] - radius * e1;
-        e.residual[2] = force[2] - radius * e2;
-        e.d_force[3] = -mu * e1, e.d_force[4] = 1. - g11, e.d_force[5] = -g12;
-        e.d_force[6] = -mu * e2, e.d_force[7] = -g12, e.d_force[8] = 1. - g22;
-        e.d_gap[3] = rho * mu * e1, e.d_gap[4] = rho * g11, e.d_gap[5] = rho * g12;
-        e.d_gap[6] = rho * mu * e2, e.d_gap[7] = rho * g12, e.d_gap[8] = rho * g22;
-        return PairState::slip;
+        alart_curnier(force, gap[0], {{gap[1] - start[1], gap[2] - start[2]}}, mu, rho, e);
       }
 
-      /** Open, stick, or slip with force_t(k) = -(S + k I)^-1 c, where k = |slip|/|force_t| is the root of a
-       *  decreasing function: found by bisection, which cannot fail for H positive definite. */
-      Vector3 solve(const Matrix3 &H, const Vector3 &b, const bool closed) const override
+      /** r - P(r - rho (u + mu |u_t| n)), P: projection on the cone of friction. */
+      Vector3 error(const Vector3 &force, const Vector3 &gap, const Vector3 &start,
+                    const double rho) const override
       {
-        if (!closed || b[0] >= 0.)
-          return {{0., 0., 0.}};
-        const Vector3 stick = full_tie(H, b);
-        if (stick[0] >= 0. && length(stick[1], stick[2]) <= mu * stick[0])
-          return stick;
-        if (mu == 0.)
-          return {{-b[0] / H[0], 0., 0.}};
+        const double  s1 = gap[1] - start[1], s2 = gap[2] - start[2];
+        const Vector3 x = {
+            {force[0] - rho * (gap[0] + mu * length(s1, s2)), force[1] - rho * s1, force[2] - rho * s2}};
+        const double t = length(x[1], x[2]);
+        if (mu * t <= -x[0])
+          return force;
+        if (t <= mu * x[0])
+          return force - x;
+        const double n = (x[0] + mu * t) / (1. + mu * mu);
+        return {{force[0] - n, force[1] - mu * n * x[1] / t, force[2] - mu * n * x[2] / t}};
+      }
 
-        const double s11 = H[4] - H[3] * H[1] / H[0], s12 = H[5] - H[3] * H[2] / H[0],
-                     s22 = H[8] - H[6] * H[2] / H[0];
-        const double c1 = b[1] - H[3] * b[0] / H[0], c2 = b[2] - H[6] * b[0] / H[0];
-        const auto   force = [&](const double k) -> Vector3
-        {
-          const double det = (s11 + k) * (s22 + k) - s12 * s12;
-          const double f1 = -((s22 + k) * c1 - s12 * c2) / det, f2 = -((s11 + k) * c2 - s12 * c1) / det;
-          return {{-(b[0] + H[1] * f1 + H[2] * f2) / H[0], f1, f2}};
-        };
-        const auto outside = [&](const Vector3 &f) { return length(f[1], f[2]) > mu * f[0]; };
-        double     low = 0., high = H[0] + H[4] + H[8];
-        while (outside(force(high)) && high < 1e30 * H[0])
-          high *= 4.;
-        for (unsigned int i = 0; i < 200 && high - low > 1e-16 * high; ++i)
-        {
-          const double middle = .5 * (low + high);
-          (outside(force(middle)) ? low : high) = middle;
-        }
-        return force(high);
+      Vector3 solve(const Matrix3 &H, const Vector3 &b, const Vector3 &start) const override
+      {
+        return solve_coulomb(H, {{b[0], b[1] - start[1], b[2] - start[2]}}, mu);
+      }
+
+      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const unsigned char touching) const override
+      {
+        return touching ? solve_coulomb(H, v, mu) : Vector3{};
       }
 
       Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &w, const double still,
-                                 const bool closed) const override
+                                 const unsigned char touching) const override
       {
         const double speed = length(w[1], w[2]);
-        if (speed <= still || !closed)
-          return solve(H, b, closed);
+        if (speed <= still || !touching)
+          return solve_impulse(H, b, touching);
         const double e1 = w[1] / speed, e2 = w[2] / speed, h = H[0] - mu * (H[1] * e1 + H[2] * e2);
         const double normal = h > 0. ? std::max(0., -b[0] / h) : std::max(0., -b[0] / H[0]);
         return {{normal, -mu * normal * e1, -mu * normal * e2}};
       }
+
+      double flat_friction() const override { return mu; }
 
     protected:
       const double mu;
@@ -177,27 +189,27 @@ namespace Voussoir
     public:
       using FJA::FJA;
 
-      PairState evaluate(const Vector3 &force, const Vector3 &gap, const double rho,
-                         PairEquations &e) const override
+      void evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, const double rho,
+                    PairEquations &e) const override
       {
         e = {};
-        const bool   closed = normal_condition(force, gap, rho, e);
+        const bool   closed = normal_condition(force[0], gap[0], rho, e);
+        const double g1 = gap[1] - start[1], g2 = gap[2] - start[2];
         const double p = length(force[1], force[2]), c = p > 0. ? force[1] / p : 1.,
                      s = p > 0. ? force[2] / p : 0.;
         // d(c, s)/d(force_1, force_2)
         const double t11 = p > 0. ? s * s / p : 0., t12 = p > 0. ? -c * s / p : 0.,
                      t22 = p > 0. ? c * c / p : 0.;
         const double radius = closed ? mu * (force[0] - rho * gap[0]) : 0.;
-        const double trial = p - rho * (gap[1] * c + gap[2] * s), across = rho * (gap[2] * c - gap[1] * s);
+        const double trial = p - rho * (g1 * c + g2 * s), across = rho * (g2 * c - g1 * s);
         // (3b) along (c, s): h3 = p - clip(trial, radius); (4b) across it: h4. Residual h3 (c,s) + h4 (-s,c).
         const bool   slips = std::abs(trial) > radius;
         const double sign = trial < 0. ? -1. : 1., h3 = slips ? p - sign * radius : p - trial;
         e.residual[1] = h3 * c - across * s;
         e.residual[2] = h3 * s + across * c;
         // derivatives of h3 and h4
-        const Vector3 d_trial = {
-            {0., c - rho * (gap[1] * t11 + gap[2] * t12), s - rho * (gap[1] * t12 + gap[2] * t22)}};
-        Vector3 h3_f = {{0., c, s}}, h3_g = {{0., 0., 0.}};
+        const Vector3 d_trial = {{0., c - rho * (g1 * t11 + g2 * t12), s - rho * (g1 * t12 + g2 * t22)}};
+        Vector3       h3_f = {{0., c, s}}, h3_g = {{0., 0., 0.}};
         if (slips && closed)
           h3_f[0] = -sign * mu, h3_g[0] = sign * mu * rho;
         if (!slips)
@@ -206,7 +218,7 @@ namespace Voussoir
             h3_f[j] -= d_trial[j];
           h3_g[1] = rho * c, h3_g[2] = rho * s;
         }
-        const Vector3 h4_f = {{0., rho * (gap[2] * t11 - gap[1] * t12), rho * (gap[2] * t12 - gap[1] * t22)}},
+        const Vector3 h4_f = {{0., rho * (g2 * t11 - g1 * t12), rho * (g2 * t12 - g1 * t22)}},
                       h4_g = {{0., -rho * s, rho * c}};
         const double dc[3] = {0., t11, t12}, ds[3] = {0., t12, t22};
         for (unsigned int j = 0; j < 3; ++j)
@@ -216,33 +228,252 @@ namespace Voussoir
           e.d_gap[3 + j] = h3_g[j] * c - h4_g[j] * s;
           e.d_gap[6 + j] = h3_g[j] * s + h4_g[j] * c;
         }
-        return !closed ? PairState::open : (slips ? PairState::slip : PairState::stick);
+        e.state = !closed ? PairState::open : (slips ? PairState::slip : PairState::stick);
+      }
+    };
+
+    /** The arrow matrix of the Jordan product with x, or its inverse, times a 3x3 matrix. */
+    Matrix3 arrow_times(const Vector3 &x, const Matrix3 &a)
+    {
+      Matrix3 b;
+      for (unsigned int j = 0; j < 3; ++j)
+      {
+        b[j] = x[0] * a[j] + x[1] * a[3 + j] + x[2] * a[6 + j];
+        b[3 + j] = x[1] * a[j] + x[0] * a[3 + j];
+        b[6 + j] = x[2] * a[j] + x[0] * a[6 + j];
+      }
+      return b;
+    }
+
+    Matrix3 arrow_inverse_times(const Vector3 &x, const Matrix3 &a)
+    {
+      const double det = x[0] * x[0] - x[1] * x[1] - x[2] * x[2];
+      Matrix3      b;
+      for (unsigned int j = 0; j < 3; ++j)
+      {
+        b[j] = (x[0] * a[j] - x[1] * a[3 + j] - x[2] * a[6 + j]) / det;
+        b[3 + j] = (a[3 + j] - x[1] * b[j]) / x[0];
+        b[6 + j] = (a[6 + j] - x[2] * b[j]) / x[0];
+      }
+      return b;
+    }
+
+    /** Coulomb's law as complementarity on the second-order cone (De Saxce): X = rho (u_n + mu |u_t|, mu u_t)
+     * and Y = (mu r_n, r_t) are orthogonal members of it, where X + Y = (X o X + Y o Y)^(1/2), o: Jordan
+     * product (Fukushima, Luo and Tseng 2001). */
+    class FJASmooth : public FJA
+    {
+    public:
+      using FJA::FJA;
+
+      void evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, const double rho,
+                    PairEquations &e) const override
+      {
+        alart_curnier(force, gap[0], {{gap[1] - start[1], gap[2] - start[2]}}, mu, rho, e); // for the state
+        const PairState state = e.state;
+        e = {};
+        if (mu == 0.)
+        {
+          smooth_normal_condition(force[0], gap[0], rho, e);
+          for (unsigned int i = 1; i < 3; ++i)
+          {
+            e.residual[i] = force[i];
+            e.d_force[4 * i] = 1.;
+          }
+          e.state = state;
+          return;
+        }
+        const double  s1 = gap[1] - start[1], s2 = gap[2] - start[2], slip = length(s1, s2);
+        const Vector3 X = {{rho * (gap[0] + mu * slip), rho * mu * s1, rho * mu * s2}},
+                      Y = {{mu * force[0], force[1], force[2]}};
+        const double  w0 = dot(X, X) + dot(Y, Y), w1 = 2. * (X[0] * X[1] + Y[0] * Y[1]),
+                     w2 = 2. * (X[0] * X[2] + Y[0] * Y[2]), w = length(w1, w2);
+        const double low = std::sqrt(std::max(0., w0 - w)), high = std::sqrt(w0 + w);
+        Vector3      z = {{.5 * (high + low), 0., 0.}};
+        if (w > 0.)
+          z[1] = .5 * (high - low) * w1 / w, z[2] = .5 * (high - low) * w2 / w;
+        for (unsigned int i = 0; i < 3; ++i)
+          e.residual[i] = X[i] + Y[i] - z[i];
+        const double k1 = slip > 0. ? s1 / slip : 0., k2 = slip > 0. ? s2 / slip : 0.;
+        Matrix3      dX = {{rho, rho * mu * k1, rho * mu * k2, 0., rho * mu, 0., 0., 0., rho * mu}},
+                dY = {{mu, 0., 0., 0., 1., 0., 0., 0., 1.}};
+        Vector3 x = X, y = Y;
+        if (!(high > 0.)) // X = Y = 0: a member of the generalized Jacobian
+          z = {{1., 0., 0.}}, x = y = {{std::sqrt(.5), 0., 0.}};
+        else if (low < 1e-8 * high) // on the boundary of the cone: a member close by
+          z[0] += 1e-8 * high;
+        const Matrix3 a = arrow_inverse_times(z, arrow_times(x, dX)), b = arrow_inverse_times(z, arrow_times(y, dY));
+        for (unsigned int k = 0; k < 9; ++k)
+        {
+          e.d_gap[k] = dX[k] - a[k];
+          e.d_force[k] = dY[k] - b[k];
+        }
+        e.state = state;
+        e.touching = state != PairState::open;
       }
     };
   } // namespace
 
-  Vector3 JointLaw::solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &, double,
-                                       const bool closed) const
+  void alart_curnier(const Vector3 &force, const double opening, const std::array<double, 2> &slip,
+                     const double mu, const double rho, PairEquations &e)
   {
-    return solve(H, b, closed);
+    e = {};
+    if (!normal_condition(force[0], opening, rho, e))
+    {
+      for (unsigned int i = 1; i < 3; ++i)
+      {
+        e.residual[i] = force[i];
+        e.d_force[4 * i] = 1.;
+      }
+      e.state = PairState::open;
+      return;
+    }
+    const double x1 = force[1] - rho * slip[0], x2 = force[2] - rho * slip[1], x = length(x1, x2);
+    const double radius = mu * (force[0] - rho * opening);
+    if (x <= radius)
+    {
+      no_slip(slip[0], slip[1], rho, e);
+      e.state = PairState::stick;
+      return;
+    }
+    const double e1 = x1 / x, e2 = x2 / x, shrink = radius / x;
+    const double g11 = shrink * (1. - e1 * e1), g12 = -shrink * e1 * e2, g22 = shrink * (1. - e2 * e2);
+    e.residual[1] = force[1] - radius * e1;
+    e.residual[2] = force[2] - radius * e2;
+    e.d_force[3] = -mu * e1, e.d_force[4] = 1. - g11, e.d_force[5] = -g12;
+    e.d_force[6] = -mu * e2, e.d_force[7] = -g12, e.d_force[8] = 1. - g22;
+    e.d_gap[3] = rho * mu * e1, e.d_gap[4] = rho * g11, e.d_gap[5] = rho * g12;
+    e.d_gap[6] = rho * mu * e2, e.d_gap[7] = rho * g12, e.d_gap[8] = rho * g22;
+    e.state = PairState::slip;
+  }
+
+  /** Open, stick, or slip with force_t(k) = -(S + k I)^-1 c, where k = |slip|/|force_t| is the root of
+   *  |force_t(k)| - mu force_n(k). 1/|force_t| is nearly linear in k, so the secant of 1/|force_t| -
+   *  1/(mu force_n) converges in a few steps; bisection keeps the bracket, which cannot fail for H positive
+   *  definite. */
+  Vector3 solve_coulomb(const Matrix3 &H, const Vector3 &b, const double mu)
+  {
+    if (b[0] >= 0.)
+      return {{0., 0., 0.}};
+    if (mu == 0.)
+      return {{-b[0] / H[0], 0., 0.}};
+    const double s11 = H[4] - H[3] * H[1] / H[0], s12 = H[5] - H[3] * H[2] / H[0],
+                 s22 = H[8] - H[6] * H[2] / H[0];
+    const double c1 = b[1] - H[3] * b[0] / H[0], c2 = b[2] - H[6] * b[0] / H[0];
+    struct Trial
+    {
+      Vector3 force;
+      double  excess; ///< 1/(mu force_n) - 1/|force_t|: positive outside the cone
+      bool    usable; ///< is excess a number?
+    };
+    const auto at = [&](const double k)
+    {
+      const double det = (s11 + k) * (s22 + k) - s12 * s12;
+      const double f1 = -((s22 + k) * c1 - s12 * c2) / det, f2 = -((s11 + k) * c2 - s12 * c1) / det;
+      const double n = -(b[0] + H[1] * f1 + H[2] * f2) / H[0], t = length(f1, f2);
+      return Trial{{{n, f1, f2}}, 1. / (mu * n) - 1. / t, n > 0. && t > 0.};
+    };
+    const auto outside = [&](const Vector3 &f) { return length(f[1], f[2]) > mu * f[0]; };
+    double     low = 0., high = H[0] + H[4] + H[8];
+    Trial      at_low = at(low);
+    if (!outside(at_low.force))
+      return at_low.force; // sticks
+    Trial at_high = at(high);
+    while (outside(at_high.force) && high < 1e30 * H[0])
+    {
+      low = high, at_low = at_high;
+      high *= 4.;
+      at_high = at(high);
+    }
+    int last_side = 0; // of the end that moved: the other one's value is halved when it stays (Illinois)
+    for (unsigned int i = 0; i < 200 && high - low > 4e-16 * high; ++i)
+    {
+      double     middle = .5 * (low + high);
+      const bool secant = at_low.usable && at_high.usable && i % 8 != 7;
+      if (secant)
+      {
+        const double step = (high - low) * at_low.excess / (at_low.excess - at_high.excess);
+        if (step > 0. && step < high - low)
+          middle = low + step;
+      }
+      const Trial  trial = at(middle);
+      const double t = length(trial.force[1], trial.force[2]);
+      if (std::abs(t - mu * trial.force[0]) <= 2e-16 * t)
+        return trial.force;
+      const int side = outside(trial.force) ? -1 : 1;
+      if (side < 0)
+      {
+        low = middle, at_low = trial;
+        if (last_side < 0)
+          at_high.excess *= .5;
+      }
+      else
+      {
+        high = middle, at_high = trial;
+        if (last_side > 0)
+          at_low.excess *= .5;
+      }
+      last_side = secant ? side : 0;
+    }
+    return at(high).force;
+  }
+
+  Vector3 JointLaw::error(const Vector3 &force, const Vector3 &gap, const Vector3 &start,
+                          const double rho) const
+  {
+    PairEquations e;
+    evaluate(force, gap, start, rho, e);
+    return e.residual;
+  }
+
+  Vector3 JointLaw::stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
+                                const unsigned char touching) const
+  {
+    return {{touching ? std::max(0., spent[0] - v[0] / H[0]) : spent[0], spent[1], spent[2]}};
+  }
+
+  Vector3 JointLaw::solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &, double,
+                                       const unsigned char touching) const
+  {
+    return solve_impulse(H, b, touching);
+  }
+
+  Equations equations_from_name(const std::string &name)
+  {
+    if (name == "alart-curnier")
+      return Equations::alart_curnier;
+    if (name == "paper")
+      return Equations::paper;
+    if (name == "fischer-burmeister")
+      return Equations::fischer_burmeister;
+    throw InputError("There are no equations \"" + name + "\". The equations are: " + equations_names() + ".");
+  }
+
+  std::string equations_names()
+  {
+    return "alart-curnier|paper|fischer-burmeister";
   }
 
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const double friction,
-                                           const std::string &equations)
+                                           const Equations equations, const KeyParameters &keys)
   {
     if (name == "tied")
       return std::make_unique<Tied>();
     if (name == "FJB")
-      return std::make_unique<FJB>();
-    if (name == "FJA" && equations == "paper")
+      return std::make_unique<FJB>(equations == Equations::fischer_burmeister);
+    if (name == "FJA" && equations == Equations::paper)
       return std::make_unique<FJAPaper>(friction);
+    if (name == "FJA" && equations == Equations::fischer_burmeister)
+      return std::make_unique<FJASmooth>(friction);
     if (name == "FJA")
       return std::make_unique<FJA>(friction);
+    if (name == "KSM")
+      return make_key_law(friction, equations, keys);
     throw InputError("There is no joint law \"" + name + "\". The laws are: " + joint_law_names() + ".");
   }
 
   std::string joint_law_names()
   {
-    return "tied|FJA|FJB";
+    return "tied|FJA|FJB|KSM";
   }
 } // namespace Voussoir

@@ -120,10 +120,10 @@ namespace Voussoir
     }
   }
 
-  ContactResult JointSystem::solve(const Unknowns &load, const Unknowns &offset, Unknowns &force,
-                                   Unknowns &gap, Unknowns &u)
+  ContactResult JointSystem::solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
+                                   Unknowns &force, Unknowns &gap, Unknowns &u)
   {
-    const double start = now();
+    const double begin = now();
     const int    n_bodies = bodies.size();
     u.resize(load.size());
 #pragma omp parallel for schedule(dynamic)
@@ -148,7 +148,7 @@ namespace Voussoir
               for (unsigned int i = 0; i < 3; ++i)
                 b[3 * p + i] += structure.pairs[p].frame[i][c] * x;
             }
-      result = solver->solve(b, force, gap);
+      result = solver->solve(b, start, force, gap);
       for (auto &f : interface)
         std::fill(f.begin(), f.end(), 0.);
       for (unsigned int p = 0; p < sides.size(); ++p)
@@ -167,7 +167,7 @@ namespace Voussoir
       bodies[i].add_interface_forces(interface[i].data());
       bodies[i].backward(u.data() + 3 * std::size_t(structure.bodies[i].first_node));
     }
-    times.sweeps += middle - start + now() - after;
+    times.sweeps += middle - begin + now() - after;
     times.joints += after - middle;
     return result;
   }

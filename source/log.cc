@@ -98,4 +98,12 @@ namespace Voussoir
     }
     return result + (members.empty() ? "}" : "\n}");
   }
+
+  std::string Json::line() const
+  {
+    std::string result = "{";
+    for (const auto &member : members)
+      result += (result.size() > 1 ? ", \"" : "\"") + member.first + "\": " + member.second;
+    return result + "}";
+  }
 } // namespace Voussoir

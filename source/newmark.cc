@@ -20,11 +20,6 @@ namespace Voussoir
       std::copy(value.begin(), value.end(), x.begin() + 3 * i);
     }
 
-    double dot(const Vector3 &a, const Vector3 &b)
-    {
-      return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    }
-
     /** Forces that make the marked rows of H f + b zero; the other rows carry none. */
     Vector3 tie_rows(Matrix3 H, Vector3 b, const std::array<bool, 3> &tied)
     {
@@ -67,7 +62,7 @@ namespace Voussoir
 
   Newmark::Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters,
                    const double dt, const ImpactRule rule)
-      : structure(structure), laws(laws), dt(dt), rule(rule),
+      : structure(structure), laws(laws), parameters(parameters), dt(dt), rule(rule),
         system(structure, laws, parameters, 4. / (dt * dt) + 2. / dt * structure.mass_damping,
                1. + 2. / dt * structure.stiffness_damping, 2. / dt)
   {
@@ -194,29 +189,63 @@ namespace Voussoir
 
   ContactResult Newmark::advance(const Unknowns &load)
   {
+    ContactResult result;
+    return step(load, result) ? result : advance_in_halves(load, result);
+  }
+
+  ContactResult Newmark::advance_in_halves(const Unknowns &load, const ContactResult &failed)
+  {
+    if (halvings_left == 0)
+    {
+      std::ostringstream message;
+      message << "The joint conditions did not converge at t = " << now.time + dt << " s, not with time steps of "
+              << dt << " s either: relative residual " << failed.residual << " after " << failed.iterations
+              << " Newton steps and " << failed.sweeps
+              << " sweeps. See entries \"Motion/Time step\" and \"Contact/Maximum iterations\".";
+      throw ComputationError(message.str());
+    }
+    if (!finer)
+    {
+      finer = std::make_unique<Newmark>(structure, laws, parameters, .5 * dt, rule);
+      finer->halvings_left = halvings_left - 1;
+    }
+    Unknowns middle = load;
+    for (std::size_t k = 0; k < load.size(); ++k)
+      middle[k] = .5 * (load[k] + now.load[k]);
+    finer->resume(now, first, largest, reference);
+    ContactResult       result = finer->advance(middle);
+    const ContactResult second = finer->advance(load);
+    const double        end = now.time + dt; // free of the round-off of halves
+    now = finer->now;
+    now.time = end;
+    largest = finer->largest;
+    impulse = finer->impulse;
+    result.path = ContactPath::smaller_step;
+    result.residual = std::max(result.residual, second.residual);
+    result.iterations += failed.iterations + second.iterations;
+    result.krylov += failed.krylov + second.krylov;
+    result.factorisations += failed.factorisations + second.factorisations;
+    result.sweeps += failed.sweeps + second.sweeps;
+    return result;
+  }
+
+  /** One step; false when the joints do not converge: then nothing has changed. */
+  bool Newmark::step(const Unknowns &load, ContactResult &result)
+  {
     const std::size_t n_pairs = structure.pairs.size();
-    Unknowns          offset(3 * n_pairs), force = now.force, u_new;
+    Unknowns          offset(3 * n_pairs), start(3 * n_pairs), force = now.force, u_new;
     for (std::size_t p = 0; p < n_pairs; ++p)
     {
-      const Vector3 before = structure.jump(structure.pairs[p], now.u);
-      offset[3 * p] = -reference[3 * p];
-      for (unsigned int c = 1; c < 3; ++c)
-        offset[3 * p + c] = laws.of_pair[p]->is_tangentially_tied() ? -reference[3 * p + c] : -before[c];
+      set(start, p, opening_and_slip(p));
+      for (unsigned int c = 0; c < 3; ++c)
+        offset[3 * p + c] = -reference[3 * p + c];
     }
     if (rule == ImpactRule::mean_force)
       for (double &f : force)
         f *= 2.;
-    const ContactResult result = system.solve(right_hand_side(load), offset, force, gap, u_new);
+    result = system.solve(right_hand_side(load), offset, start, force, gap, u_new);
     if (!result.converged)
-    {
-      std::ostringstream message;
-      message << "The joint conditions did not converge at t = " << now.time + dt << " s: relative residual "
-              << result.residual << " after " << result.iterations
-              << " Newton steps. A smaller time step usually helps (entry \"Motion/Time step\"), or more "
-                 "Newton steps "
-                 "(\"Contact/Maximum iterations\").";
-      throw ComputationError(message.str());
-    }
+      return false;
 
     // The impulse of each pair, from the mean of its force over the step.
     const double half_dt = .5 * dt;
@@ -279,7 +308,7 @@ namespace Voussoir
       now.force = force;
     else
       find_end_force(force);
-    return result;
+    return true;
   }
 
   double Newmark::kinetic_energy_of_pairs() const
@@ -314,15 +343,12 @@ namespace Voussoir
       // The velocity without any joint force of this step, then the impulse that the law allows.
       const Vector3 spent = get(impulse, p), lost = pair_inverse[p] * spent;
       Vector3       allowed =
-          law.solve(pair_inverse[p], {{jump[0] - lost[0], jump[1] - lost[1], jump[2] - lost[2]}}, closed);
-      const auto correction = [&] {
-        return Vector3{{allowed[0] - spent[0], allowed[1] - spent[1], allowed[2] - spent[2]}};
-      };
+          law.solve_impulse(pair_inverse[p], jump - lost, system.touching()[p]);
       if (rule == ImpactRule::mean_force && !law.is_tangentially_tied())
       {
         // Where loads tear at a pair more than it strikes, returning the friction of the step could give more
         // energy than the pair took: then only the normal row is corrected, which always takes energy.
-        const Vector3 f = correction(), gained = pair_inverse[p] * f;
+        const Vector3 f = allowed - spent, gained = pair_inverse[p] * f;
         double        gain = 0., size = 0.;
         for (unsigned int c = 0; c < 3; ++c)
         {
@@ -330,9 +356,9 @@ namespace Voussoir
           size += std::abs(f[c] * jump[c]) + std::abs(f[c] * gained[c]);
         }
         if (gain > -dot(spent, get(change, p)) / dt + 1e-12 * size)
-          allowed = {{std::max(0., spent[0] - jump[0] / pair_inverse[p][0]), spent[1], spent[2]}};
+          allowed = law.stop_normal(pair_inverse[p], jump, spent, system.touching()[p]);
       }
-      add_kick(pair, correction(), now.v);
+      add_kick(pair, allowed - spent, now.v);
       set(impulse, p, allowed);
     }
   }
@@ -378,7 +404,7 @@ namespace Voussoir
       }
       else if (closed || law.is_tangentially_tied())
         result = f =
-            law.solve_acceleration(pair_inverse[p], jump, structure.jump(pair, now.v), still, closed);
+            law.solve_acceleration(pair_inverse[p], jump, structure.jump(pair, now.v), still, system.touching()[p]);
       add_kick(pair, f, a);
       set(now.force, p, result);
     }

@@ -59,7 +59,7 @@ namespace Voussoir
     prm.add_parameter(
         "Model", model,
         "What happens in the joints: tied (the monolithic dam), FJA (flat, opens, Coulomb friction), FJB "
-        "(flat, opens, does not slip).",
+        "(flat, opens, does not slip), KSM (shear keys on a face that opens and slides: Keys).",
         Patterns::Selection(joint_law_names()));
     prm.add_parameter("Friction", friction, "Coefficient of friction [-].", Patterns::Double(0.));
     prm.add_parameter(
@@ -69,9 +69,23 @@ namespace Voussoir
         Patterns::Map(Patterns::Integer(1), Patterns::Selection(joint_law_names())));
     prm.add_parameter(
         "Equations", equations,
-        "Form of the friction equations: projection (slip angle of the trial force; always converges) or "
-        "paper (slip angle of the force itself, as printed; for comparison).",
-        Patterns::Selection("projection|paper"));
+        "Form of the joint equations: alart-curnier (the paper's, with the slip angle of the trial force; always "
+        "converges), paper (slip angle of the force itself, as printed) or fischer-burmeister; the last two for "
+        "comparison.",
+        Patterns::Selection(equations_names()));
+    prm.enter_subsection("Keys");
+    prm.add_parameter("Height", keys.height, "Height of the shear keys [m]; a joint that opens more is free.",
+                      Patterns::Double(0.));
+    prm.add_parameter("Clearance", keys.clearance, "Clearance of each flank of a key, normal to it [m].",
+                      Patterns::Double(0.));
+    prm.add_parameter("Flank angle", keys.flank_angle,
+                      "Angle between the flanks and the normal of the joint [degrees]; 0: rectangular keys.",
+                      Patterns::Double(0., 89.));
+    prm.add_parameter("Direction", keys.direction, "Direction of the slip that the keys restrain.",
+                      Patterns::Selection("radial|vertical|both"));
+    prm.add_parameter("Friction", keys.friction, "Coefficient of friction of the flanks [-].",
+                      Patterns::Double(0.));
+    prm.leave_subsection();
     prm.leave_subsection();
   }
 

@@ -123,19 +123,16 @@ namespace Voussoir
     const Structure  &structure = dam->structure;
     const std::size_t n_pairs = structure.pairs.size();
     JointSystem       system(structure, dam->laws, scene.contact, 0., 1., 0.);
-    Unknowns          gap, offset(3 * n_pairs, 0.);
+    Unknowns          gap(3 * n_pairs, 0.), start, offset(3 * n_pairs, 0.);
     statics.force.assign(3 * n_pairs, 0.);
     statics.u.assign(3 * structure.n_nodes(), 0.);
     unsigned int iterations = 0;
     for (unsigned int i = 1; i <= scene.statics.water_increments; ++i)
     {
       // slip is counted from the last increment
-      for (std::size_t p = 0; p < n_pairs; ++p)
-        if (const Vector3 jump = structure.jump(structure.pairs[p], statics.u);
-            !dam->laws.of_pair[p]->is_tangentially_tied())
-          offset[3 * p + 1] = -jump[1], offset[3 * p + 2] = -jump[2];
+      start = gap;
       statics.load = dam->static_load(double(i) / scene.statics.water_increments);
-      statics.contact = system.solve(statics.load, offset, statics.force, gap, statics.u);
+      statics.contact = system.solve(statics.load, offset, start, statics.force, gap, statics.u);
       iterations += statics.contact.iterations;
       if (!statics.contact.converged)
       {

@@ -1,7 +1,9 @@
 #ifndef voussoir_contact_solver_h
 #define voussoir_contact_solver_h
 
-#include <voussoir/joint_jacobian.h>
+#include <voussoir/contact_operator.h>
+
+#include <limits>
 
 namespace dealii
 {
@@ -12,56 +14,103 @@ namespace Voussoir
 {
   struct ContactParameters
   {
-    double       tolerance = 1e-10;   ///< relative residual that is accepted
-    unsigned int max_iterations = 60; ///< Newton steps
-    unsigned int sweeps = 2;          ///< Gauss-Seidel sweeps before the first Newton step
+    double       tolerance = 1e-10;    ///< relative residual that is accepted
+    unsigned int max_iterations = 500; ///< Newton steps in all
+    unsigned int sweeps = 2;           ///< Gauss-Seidel sweeps before the first Newton step
+    std::string  method = "newton";    ///< newton (with its fallbacks), proximal, sweeps
+    double       max_seconds = std::numeric_limits<double>::infinity(); ///< of wall time
 
-    void add_parameters(dealii::ParameterHandler &prm);
+    void               add_parameters(dealii::ParameterHandler &prm);
+    static std::string method_names(); ///< as a ParameterHandler selection
+  };
+
+  /** What a solution took, in the order in which the solver tries. */
+  enum class ContactPath : unsigned char
+  {
+    newton,  ///< Newton's method alone
+    sweeps,  ///< it stalled; Gauss-Seidel sweeps settled the states
+    proximal, ///< it stalled again: proximal point method
+    smaller_step ///< that failed, too: the time step was halved
   };
 
   struct ContactResult
   {
     bool         converged = false;
-    double       residual = 0.;      ///< |equations| / max(|force|, |rho b|), 2-norms
+    double       residual = 0.;      ///< natural map, relative: see ContactSolver
     unsigned int iterations = 0;     ///< Newton steps
     unsigned int krylov = 0;         ///< iterations of the linear solver
     unsigned int factorisations = 0; ///< of joints
     unsigned int sweeps = 0;         ///< Gauss-Seidel sweeps
+    ContactPath  path = ContactPath::newton;
   };
 
-  /** Finds the forces at the pairs of all joints: gap = W force + b, with a joint law at each pair.
+  /** Finds the forces at all pairs: gap = W force + b, with a joint law at each pair.
    *
    *  Semismooth Newton with a nonmonotone line search (Grippo, Lampariello and Lucidi 1986), its linear
-   * systems solved by JointJacobian to the accuracy that Newton can use (Eisenstat and Walker 1996). A few
-   * Gauss-Seidel sweeps with the exact solution of each pair settle the states before the first Newton step;
-   * more follow when Newton stalls. */
+   *  systems solved to the accuracy that Newton can use (Eisenstat and Walker 1996). A few Gauss-Seidel
+   *  sweeps with the exact solution of each pair settle the states before the first Newton step. When Newton
+   *  stalls, more sweeps follow; when it stalls again, the proximal point method, whose regularised problems
+   *  W + alpha D, alpha falling with the residual, Newton solves (reference: contact, 6).
+   *
+   *  Convergence is measured by the law's own error, |error|/max(|force|, |b|/w, |gap|/w) in 2-norms, w: mean
+   *  diagonal of W. For Coulomb's law this is the full relative natural-map error of Siconos on the problem
+   *  scaled to mean diagonal 1; it does not depend on units. */
   class ContactSolver
   {
   public:
     /** @p laws: one per pair; they and @p W must outlive the solver. */
-    ContactSolver(const InterfaceOperator &W, std::vector<const JointLaw *> laws,
+    ContactSolver(const ContactOperator &W, std::vector<const JointLaw *> laws,
                   const ContactParameters &parameters);
+    ~ContactSolver();
 
-    /** @p force: the initial guess, then the solution; @p gap: receives W force + b. All have three entries
-     * per pair. */
-    ContactResult solve(const Unknowns &b, Unknowns &force, Unknowns &gap);
+    /** @p start: gap at the start of the step; @p force: the initial guess, then the solution; @p gap:
+     *  receives W force + b. All have three entries per pair. Not converged: the best found. */
+    ContactResult solve(const Unknowns &b, const Unknowns &start, Unknowns &force, Unknowns &gap);
 
-    const std::vector<PairState> &states() const { return state; } ///< of the last solution
+    const std::vector<PairState>     &states() const { return state; } ///< of the last solution
+    const std::vector<unsigned char> &touching() const { return touch; } ///< surfaces, as in PairEquations
+
+    /** Smallest W_nn/|W_nt| of a pair: friction beyond it may jam (reference: contact, 5.2). */
+    double critical_friction() const;
 
   private:
-    void   evaluate(const Unknowns &force, const Unknowns &gap);
-    double merit() const;
-    double relative_residual(const Unknowns &b, const Unknowns &force) const;
-    void   sweep(Unknowns &force, Unknowns &gap) const;
+    struct Proximal ///< regularisation: gap + alpha D (force - centre)
+    {
+      double   alpha = 0.;
+      Unknowns centre;
+    };
+    struct Best
+    {
+      double   residual = std::numeric_limits<double>::infinity();
+      Unknowns force;
+    };
+    void     evaluate(const Unknowns &force, const Unknowns &gap);
+    double   merit() const;
+    double   residual(const Unknowns &force, const Unknowns &gap) const;
+    void     refresh_gap(const Unknowns &force, Unknowns &gap) const;
+    bool     newton(double target, unsigned int max_steps, Unknowns &force, Unknowns &gap);
+    double   line_search(double bound, const Unknowns &step, const Unknowns &d_gap, Unknowns &force, Unknowns &gap);
+    void     sweep(unsigned int count, Unknowns &force, Unknowns &gap);
+    bool     proximal_point(Unknowns &force, Unknowns &gap);
+    bool     out_of_time() const;
+    Vector3  shifted_gap(std::size_t pair, const Unknowns &force, const Unknowns &gap) const;
+    unsigned int steps_left() const;
 
-    const InterfaceOperator            &W;
+    const ContactOperator              &W;
     const std::vector<const JointLaw *> law;
     const ContactParameters             parameters;
-    JointJacobian                       jacobian;
-    std::vector<double>                 rho;
-    std::vector<Matrix3>                pair_W; ///< diagonal blocks of W
+    std::unique_ptr<ContactJacobian>    jacobian;
+    std::vector<double>                 rho;       ///< per pair [N/m]
+    double                              mean_rho;  ///< of the measure of convergence [N/m]
     std::vector<PairEquations>          equations;
     std::vector<PairState>              state;
+    std::vector<unsigned char>          touch;
+
+    const Unknowns *b = nullptr, *start = nullptr; ///< of the present problem
+    Proximal        proximal;
+    Best            best;
+    ContactResult   result;
+    double          deadline = 0.;
   };
 } // namespace Voussoir
 

@@ -1,15 +1,16 @@
 #ifndef voussoir_interface_operator_h
 #define voussoir_interface_operator_h
 
-#include <voussoir/structure.h>
+#include <voussoir/contact_operator.h>
 
 #include <map>
+#include <utility>
 
 namespace Voussoir
 {
   /** The symmetric operator W of the joints, gap = W force + b, in dense blocks by group of pairs (a joint).
    *  Two groups are coupled where one body touches both, so along an arch W is block tridiagonal. */
-  class InterfaceOperator
+  class InterfaceOperator : public ContactOperator
   {
   public:
     /** @p n_pairs: pairs in each group. */
@@ -28,12 +29,22 @@ namespace Voussoir
     }
 
     /** y = W x. */
-    void multiply(const Unknowns &x, Unknowns &y) const;
+    void multiply(const Unknowns &x, Unknowns &y) const override;
 
     /** y_j += factor * W_jk x_k for one pair of groups. */
     void add_coupling(unsigned int j, unsigned int k, double factor, const double *x, double *y) const;
 
-    Matrix3 diagonal(unsigned int pair) const;
+    Matrix3 diagonal(unsigned int pair) const override;
+
+    /** Groups of one colour run in parallel. */
+    void sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const override;
+
+    std::unique_ptr<ContactJacobian> make_jacobian() const override;
+
+    /** The groups by colour: coupled groups have different ones. Once all blocks are there. */
+    std::vector<std::vector<unsigned int>> colours() const;
+
+    unsigned int n_pairs() const override { return n() / 3; }
 
     unsigned int n_groups() const { return static_cast<unsigned int>(offset.size() - 1); }
     unsigned int n() const { return offset.back(); } ///< unknowns: three per pair

@@ -2,7 +2,6 @@
 #define voussoir_joint_jacobian_h
 
 #include <voussoir/interface_operator.h>
-#include <voussoir/joint_law.h>
 
 namespace Voussoir
 {
@@ -14,18 +13,13 @@ namespace Voussoir
    * preconditioner: J P^-1 v = v + U P^-1 v. Joints in which no pair changed its state keep their factors;
    * the small difference is added to the product. All this in single precision, half the memory traffic: it
    * only makes Newton's steps, whose residuals are evaluated in double precision. */
-  class JointJacobian
+  class JointJacobian : public ContactJacobian
   {
   public:
     explicit JointJacobian(const InterfaceOperator &W); ///< @p W must outlive this
 
-    /** Take new equations, one per pair; factorise the joints that need it. Returns their number. */
-    unsigned int update(const std::vector<PairEquations> &equations);
-
-    /** step = -J^-1 residual, to @p tolerance relative to the residual. Returns the GMRES iterations. */
-    unsigned int solve(double tolerance, Unknowns &step);
-
-    const std::vector<std::vector<unsigned int>> &colours() const { return groups_of_colour; }
+    unsigned int update(const std::vector<PairEquations> &equations) override;
+    unsigned int solve(double tolerance, Unknowns &step, Unknowns &d_gap) override;
 
   private:
     using Floats = std::vector<float>;
@@ -47,6 +41,8 @@ namespace Voussoir
     void add_couplings(const Floats &z, Floats &v, unsigned int group, bool later) const;
     void precondition(const Floats &v, Floats &z) const;
     void multiply(const Floats &v, const Floats &z, Floats &w) const;
+    void multiply_W(const Unknowns &x, Unknowns &y) const;
+    unsigned int gmres(const Unknowns &r, double target, Unknowns &step) const;
 
     const InterfaceOperator                                &W;
     std::map<std::pair<unsigned int, unsigned int>, Floats> blocks; ///< W in single precision

@@ -19,47 +19,96 @@ namespace Voussoir
    * Jacobian. */
   struct PairEquations
   {
-    Vector3 residual; ///< [N]
-    Matrix3 d_force;  ///< d residual / d force [-]
-    Matrix3 d_gap;    ///< d residual / d gap [N/m]
+    Vector3       residual;  ///< [N]
+    Matrix3       d_force;   ///< d residual / d force [-]
+    Matrix3       d_gap;     ///< d residual / d gap [N/m]
+    PairState     state;     ///< that the equations stand for
+    unsigned char touching;  ///< surfaces of the law that carry force, one bit each; bit 0 is the flat face
   };
 
   /** The conditions between the two faces of a joint at one pair, in the frame (n,a,b).
    *
-   *  force: of side 1 on side 2 [N]; force[0] > 0 is compression. gap[0]: opening [m], >= 0; gap[1..2]:
-   * tangential displacement of side 2 against side 1, increment of the step [m]. Friction opposes slip:
-   *  force_t = -mu force_n slip/|slip|. (The paper's P_tau has the opposite sign.) */
+   *  force: of side 1 on side 2 [N]; force[0] > 0 is compression. gap: displacement of side 2 against side 1
+   *  since the joint was closed [m]; gap[0]: opening, >= 0. start: the gap at the start of the step; friction
+   *  opposes gap - start: force_t = -mu force_n slip/|slip|. (The paper's P_tau has the opposite sign.) */
   class JointLaw
   {
   public:
     virtual ~JointLaw() = default;
 
-    /** The non-smooth equations of the paper, (2b), (3b), (4b), (5), (6), in forces. @p rho [N/m] makes them
-     *  independent of units; any positive value has the same solution. */
-    virtual PairState evaluate(const Vector3 &force, const Vector3 &gap, double rho,
-                               PairEquations &equations) const = 0;
+    /** The non-smooth equations of the pair, in forces. @p rho [N/m] makes them independent of units; any
+     *  positive value has the same solution. */
+    virtual void evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, double rho,
+                          PairEquations &equations) const = 0;
 
-    /** Exact solution for one pair alone: the force with gap = H force + b. @p closed: may the faces touch?
-     *  Also the law of impulses (H: inverse mass, b: velocity). */
-    virtual Vector3 solve(const Matrix3 &H, const Vector3 &b, bool closed) const = 0;
+    /** What the pair misses, in forces: the measure of convergence, the same for all formulations of a law.
+     *  For Coulomb's law the natural map of De Saxce (reference: contact, 3.1). */
+    virtual Vector3 error(const Vector3 &force, const Vector3 &gap, const Vector3 &start, double rho) const;
+
+    /** Exact solution for one pair alone: the force with gap = H force + b. */
+    virtual Vector3 solve(const Matrix3 &H, const Vector3 &b, const Vector3 &start) const = 0;
+
+    /** The impulse [N s] that the law allows when the velocity without it is @p v [m/s] and the surfaces
+     *  @p touching touch; @p H: inverse mass [1/kg]. */
+    virtual Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, unsigned char touching) const = 0;
+
+    /** As solve_impulse(), but the impulse @p spent stays, and only the velocity @p v normal to the touching
+     *  surfaces is removed: never gives energy. */
+    virtual Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
+                                unsigned char touching) const;
 
     /** The contact force that goes with the acceleration @p b, given the velocity @p slip_velocity of side 2.
      */
     virtual Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
-                                       double still, bool closed) const;
+                                       double still, unsigned char touching) const;
 
     /** Are the tangential conditions those of a tie, whether the faces touch or not? */
     virtual bool is_tangentially_tied() const { return false; }
+
+    /** Coefficient of friction if the law is Coulomb's on one flat face, -1 otherwise. */
+    virtual double flat_friction() const { return -1.; }
   };
 
-  /** The law of that name: FJA, FJB, tied; with the equations of that name: projection (Alart and Curnier's
-   *  form: the paper's equations with the slip angle of the trial force) or paper (the angle of the force
-   * itself). Throws InputError for an unknown name. @p friction: coefficient of friction [-]. */
-  std::unique_ptr<JointLaw> make_joint_law(const std::string &name, double friction,
-                                           const std::string &equations = "projection");
+  /** The equations that stand for a law. */
+  enum class Equations
+  {
+    alart_curnier,     ///< the paper's, with the angle of the trial force: a projection, Lipschitz everywhere
+    paper,             ///< the paper's own (2b), (3b), (4b): the angle of the force, undefined where it is 0
+    fischer_burmeister ///< on second-order cones; smooth merit
+  };
 
-  /** The names of the laws as a ParameterHandler selection: "tied|FJA|FJB". */
+  Equations   equations_from_name(const std::string &name); ///< throws InputError for an unknown name
+  std::string equations_names(); ///< as a ParameterHandler selection: "alart-curnier|paper|..."
+
+  /** Shear keys: trapezoidal, on a flat face that opens and slides (law KSM). Subsection "Joints/Keys". */
+  struct KeyParameters
+  {
+    double      height = .2;         ///< of the keys [m]: an opening beyond it frees them
+    double      clearance = 0.;      ///< of each flank, normal to it [m]
+    double      flank_angle = 0.;    ///< of the flanks to the joint's normal [degrees]; 0: rectangular
+    std::string direction = "both"; ///< of slip that is restrained: radial, vertical, both
+    double      friction = 0.;       ///< of the flanks [-]
+  };
+
+  /** The law of that name: tied, FJA, FJB, KSM. @p friction: of the flat face [-]. Throws InputError for an
+   *  unknown name, and for equations that the law does not have. */
+  std::unique_ptr<JointLaw> make_joint_law(const std::string &name, double friction,
+                                           Equations            equations = Equations::alart_curnier,
+                                           const KeyParameters &keys = KeyParameters());
+
+  /** The names of the laws as a ParameterHandler selection: "tied|FJA|FJB|KSM". */
   std::string joint_law_names();
+
+  /** Exact solution of Coulomb's law at one pair: gap = H force + b, gap_n >= 0, friction against the
+   *  tangential gap. @p H symmetric positive definite. */
+  Vector3 solve_coulomb(const Matrix3 &H, const Vector3 &b, double friction);
+
+  /** Alart and Curnier's equations of Coulomb's law; @p slip: tangential displacement of the step. */
+  void alart_curnier(const Vector3 &force, double opening, const std::array<double, 2> &slip, double friction,
+                     double rho, PairEquations &equations);
+
+  double  dot(const Vector3 &a, const Vector3 &b);
+  Vector3 operator-(const Vector3 &a, const Vector3 &b);
 } // namespace Voussoir
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <voussoir/condensed_body.h>
 #include <voussoir/contact_solver.h>
+#include <voussoir/interface_operator.h>
 
 namespace Voussoir
 {
@@ -28,14 +29,16 @@ namespace Voussoir
     JointSystem(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters,
                 double mass_factor, double stiffness_factor, double dashpot_factor);
 
-    /** @p force: guess, then solution, 3 per pair [N]; @p gap, 3 per pair [m]; @p u, 3 per node [m]. */
-    ContactResult solve(const Unknowns &load, const Unknowns &offset, Unknowns &force, Unknowns &gap,
-                        Unknowns &u);
+    /** @p start: gap at the start of the step, 3 per pair [m]; @p force: guess, then solution, 3 per pair [N];
+     *  @p gap, 3 per pair [m]; @p u, 3 per node [m]. */
+    ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &force,
+                        Unknowns &gap, Unknowns &u);
 
     /** The bodies without joint forces: A u = load. */
     void solve_free(const Unknowns &load, Unknowns &u);
 
     const std::vector<PairState> &states() const { return solver->states(); }
+    const std::vector<unsigned char> &touching() const { return solver->touching(); }
     double                        memory() const; ///< of factors and joint operator [bytes]
     const InterfaceOperator      &joint_operator() const { return W; }
 

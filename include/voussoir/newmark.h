@@ -60,8 +60,8 @@ namespace Voussoir
     void resume(const DynamicState &state, const Energy &first, double largest_energy,
                 const Unknowns &reference);
 
-    /** One step to time + dt, under @p load there. Throws ComputationError when the joints do not converge.
-     */
+    /** One step to time + dt, under @p load there. When the joints do not converge, two steps of half the
+     *  size take its place, and so on down to dt/8; then throws ComputationError. */
     ContactResult advance(const Unknowns &load);
 
     const DynamicState &state() const { return now; }
@@ -77,6 +77,8 @@ namespace Voussoir
     const JointSystem            &joint_system() const { return system; }
 
   private:
+    bool          step(const Unknowns &load, ContactResult &result);
+    ContactResult advance_in_halves(const Unknowns &load, const ContactResult &failed);
     void     correct_velocity(const Unknowns &change);
     void     find_end_force(const Unknowns &force);
     Unknowns right_hand_side(const Unknowns &load) const;
@@ -87,6 +89,7 @@ namespace Voussoir
 
     const Structure     &structure;
     const JointLaws     &laws;
+    const ContactParameters parameters;
     const double         dt;
     const ImpactRule     rule;
     JointSystem          system;
@@ -96,6 +99,8 @@ namespace Voussoir
     DynamicState         now;
     Energy               first; ///< at the start
     double               largest = 0.;
+    unsigned int         halvings_left = 3;
+    std::unique_ptr<Newmark> finer; ///< with half the time step; made when it is needed
   };
 } // namespace Voussoir
 

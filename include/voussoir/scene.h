@@ -32,7 +32,8 @@ namespace Voussoir
   {
     std::string                         model = "FJA";
     double                              friction = .8;
-    std::string                         equations = "projection";
+    std::string                         equations = "alart-curnier";
+    KeyParameters                       keys;
     std::map<unsigned int, std::string> overrides; ///< joint number -> model
     void                                add_parameters(dealii::ParameterHandler &prm);
     const std::string                  &model_of(const unsigned int joint) const

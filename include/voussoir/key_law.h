@@ -1,0 +1,54 @@
+#ifndef voussoir_key_law_h
+#define voussoir_key_law_h
+
+#include <voussoir/joint_law.h>
+
+#include <vector>
+
+namespace Voussoir
+{
+  /** One flat surface on which the two sides of a pair can touch. */
+  struct ContactSurface
+  {
+    Matrix3 axes;           ///< rows: normal from side 1 to side 2, two tangents; in the frame of the pair
+    double  clearance = 0.; ///< opening of the surface when the joint is closed [m]
+    double  friction = 0.;  ///< [-]
+  };
+
+  /** Solves gap = H sum_k Q_k^T r_k + b with Coulomb's law between r_k and Q_k gap on each surface: the sum
+   *  of the forces, in the frame of the pair. Gauss-Seidel over the surfaces, finished by Newton's method.
+   *  @p r: receives the force of each surface in its own axes (not unique where the surfaces are more than
+   *  the pair's three displacements; the sum is). */
+  Vector3 solve_surfaces(const std::vector<ContactSurface> &surfaces, const Matrix3 &H, const Vector3 &b,
+                         const Vector3 &start, std::vector<Vector3> &r);
+
+  /** A pair that touches on several flat surfaces: one admissible set, whatever their number. The equations
+   *  are force = force of these surfaces for the compliance 1/rho (for one surface: Alart and Curnier's). */
+  class SurfacesLaw : public JointLaw
+  {
+  public:
+    /** @p surfaces: at most 8; the first is the joint's face. */
+    explicit SurfacesLaw(std::vector<ContactSurface> surfaces) : surfaces(std::move(surfaces)) {}
+
+    void evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, double rho,
+                  PairEquations &equations) const override;
+    Vector3 solve(const Matrix3 &H, const Vector3 &b, const Vector3 &start) const override;
+    Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, unsigned char touching) const override;
+    Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
+                        unsigned char touching) const override;
+
+  protected:
+    /** The surfaces that can touch in a step that starts from @p start, and their bits. */
+    virtual void present(const Vector3 &start, std::vector<ContactSurface> &list,
+                         std::vector<unsigned char> &bits) const;
+
+    std::vector<ContactSurface> touching_surfaces(unsigned char touching, bool frictionless) const;
+
+    const std::vector<ContactSurface> surfaces;
+  };
+
+  /** Law KSM: a flat face with shear keys. Throws InputError for keys that cannot be. */
+  std::unique_ptr<JointLaw> make_key_law(double friction, Equations equations, const KeyParameters &keys);
+} // namespace Voussoir
+
+#endif

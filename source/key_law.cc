@@ -1,0 +1,377 @@
+#include <voussoir/error.h>
+#include <voussoir/key_law.h>
+
+#include <algorithm>
+#include <cmath>
+
+extern "C" void dgesv_(const int *, const int *, double *, const int *, int *, double *, const int *, int *);
+
+namespace Voussoir
+{
+  namespace
+  {
+    constexpr double pi = 3.141592653589793;
+
+    Vector3 transpose_times(const Matrix3 &a, const Vector3 &x)
+    {
+      return {{a[0] * x[0] + a[3] * x[1] + a[6] * x[2], a[1] * x[0] + a[4] * x[1] + a[7] * x[2],
+               a[2] * x[0] + a[5] * x[1] + a[8] * x[2]}};
+    }
+
+    /** a B c^T. */
+    Matrix3 triple(const Matrix3 &a, const Matrix3 &B, const Matrix3 &c)
+    {
+      Matrix3 result;
+      for (unsigned int j = 0; j < 3; ++j)
+      {
+        const Vector3 column = a * (B * Vector3{{c[3 * j], c[3 * j + 1], c[3 * j + 2]}});
+        for (unsigned int i = 0; i < 3; ++i)
+          result[3 * i + j] = column[i];
+      }
+      return result;
+    }
+
+    void add(Vector3 &y, const Vector3 &x)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        y[c] += x[c];
+    }
+
+    double norm(const Vector3 &x)
+    {
+      return std::sqrt(dot(x, x));
+    }
+
+    /** Alart and Curnier's equations of all surfaces of one pair, and their solution by Newton's method. */
+    class SurfaceEquations
+    {
+    public:
+      SurfaceEquations(const std::vector<ContactSurface> &surfaces, const Matrix3 &H, const Vector3 &b,
+                       const Vector3 &start)
+          : surfaces(surfaces), H(H), b(b), start(start), rho(3. / (H[0] + H[4] + H[8])),
+            equations(surfaces.size())
+      {}
+
+      Vector3 gap(const std::vector<Vector3> &r) const
+      {
+        Vector3 force{};
+        for (std::size_t k = 0; k < r.size(); ++k)
+          add(force, transpose_times(surfaces[k].axes, r[k]));
+        Vector3 result = H * force;
+        add(result, b);
+        return result;
+      }
+
+      /** The norm of the equations [N]. */
+      double evaluate(const std::vector<Vector3> &r)
+      {
+        const Vector3 g = gap(r);
+        double        sum = 0.;
+        for (std::size_t k = 0; k < r.size(); ++k)
+        {
+          const Vector3 local = surfaces[k].axes * g, slip = surfaces[k].axes * (g - start);
+          alart_curnier(r[k], local[0] + surfaces[k].clearance, {{slip[1], slip[2]}}, surfaces[k].friction, rho,
+                        equations[k]);
+          sum += dot(equations[k].residual, equations[k].residual);
+        }
+        return std::sqrt(sum);
+      }
+
+      /** Solves J x = right-hand sides (@p columns of them, in @p x); where the surfaces hold more than three
+       *  displacements J is singular, so each gets a very small compliance. */
+      bool solve(std::vector<double> &x, const int columns) const
+      {
+        const int           m = 3 * static_cast<int>(surfaces.size());
+        std::vector<double> J(m * m);
+        for (std::size_t k = 0; k < surfaces.size(); ++k)
+          for (std::size_t l = 0; l < surfaces.size(); ++l)
+          {
+            Matrix3 w = triple(surfaces[k].axes, H, surfaces[l].axes);
+            if (k == l)
+              for (unsigned int c = 0; c < 3; ++c)
+                w[4 * c] += 1e-9 / rho;
+            for (unsigned int i = 0; i < 3; ++i)
+              for (unsigned int j = 0; j < 3; ++j)
+              {
+                double value = k == l ? equations[k].d_force[3 * i + j] : 0.;
+                for (unsigned int c = 0; c < 3; ++c)
+                  value += equations[k].d_gap[3 * i + c] * w[3 * c + j];
+                J[(3 * l + j) * m + 3 * k + i] = value;
+              }
+          }
+        std::vector<int> pivots(m);
+        int              info = 0;
+        dgesv_(&m, &columns, J.data(), &m, pivots.data(), x.data(), &m, &info);
+        return info == 0;
+      }
+
+      /** d (sum of forces) / d b at the present equations. */
+      Matrix3 derivative() const
+      {
+        const std::size_t   m = 3 * surfaces.size();
+        std::vector<double> x(3 * m);
+        for (std::size_t k = 0; k < surfaces.size(); ++k)
+          for (unsigned int j = 0; j < 3; ++j)
+          {
+            const Matrix3 &q = surfaces[k].axes;
+            const Vector3  column = equations[k].d_gap * Vector3{{q[j], q[3 + j], q[6 + j]}};
+            for (unsigned int i = 0; i < 3; ++i)
+              x[j * m + 3 * k + i] = -column[i];
+          }
+        Matrix3 result{};
+        if (!solve(x, 3))
+          return result;
+        for (unsigned int j = 0; j < 3; ++j)
+          for (std::size_t k = 0; k < surfaces.size(); ++k)
+          {
+            const double *r = x.data() + j * m + 3 * k;
+            const Vector3 force = transpose_times(surfaces[k].axes, {{r[0], r[1], r[2]}});
+            for (unsigned int i = 0; i < 3; ++i)
+              result[3 * i + j] += force[i];
+          }
+        return result;
+      }
+
+      const std::vector<ContactSurface> &surfaces;
+      const Matrix3                      H;
+      const Vector3                      b, start;
+      const double                       rho; ///< [N/m]
+      std::vector<PairEquations>         equations;
+    };
+
+    /** The forces of the surfaces from r = 0. */
+    void find_forces(SurfaceEquations &system, std::vector<Vector3> &r)
+    {
+      r.assign(system.surfaces.size(), Vector3{});
+      Vector3 offsets{};
+      for (const ContactSurface &s : system.surfaces)
+        offsets[0] = std::max(offsets[0], std::abs(s.clearance));
+      const double scale = system.rho * (norm(system.b) + norm(system.start) + offsets[0]);
+      Vector3      g = system.gap(r);
+      for (unsigned int round = 0; round < 40; ++round)
+      {
+        for (unsigned int i = 0; i < 5; ++i) // Gauss-Seidel
+          for (std::size_t k = 0; k < r.size(); ++k)
+          {
+            const ContactSurface &s = system.surfaces[k];
+            const Matrix3         Hk = triple(s.axes, system.H, s.axes);
+            Vector3               local = s.axes * g;
+            const Vector3         slip_start = s.axes * system.start, own = Hk * r[k];
+            local[0] += s.clearance - own[0];
+            for (unsigned int c = 1; c < 3; ++c)
+              local[c] -= slip_start[c] + own[c];
+            const Vector3 force = solve_coulomb(Hk, local, s.friction);
+            add(g, system.H * transpose_times(s.axes, force - r[k]));
+            r[k] = force;
+          }
+        double               residual = system.evaluate(r);
+        std::vector<Vector3> best = r;
+        for (unsigned int i = 0; i < 6 && residual > 1e-15 * scale; ++i) // Newton
+        {
+          std::vector<double> x(3 * r.size());
+          for (std::size_t k = 0; k < r.size(); ++k)
+            for (unsigned int c = 0; c < 3; ++c)
+              x[3 * k + c] = -system.equations[k].residual[c];
+          if (!system.solve(x, 1))
+            break;
+          std::vector<Vector3> trial = r;
+          for (std::size_t k = 0; k < r.size(); ++k)
+            for (unsigned int c = 0; c < 3; ++c)
+              trial[k][c] += x[3 * k + c];
+          const double after = system.evaluate(trial);
+          if (!(after < residual))
+            break;
+          residual = after;
+          r = best = trial;
+        }
+        r = best;
+        g = system.gap(r);
+        if (residual <= 1e-13 * scale)
+          break;
+      }
+      system.evaluate(r);
+    }
+
+    Matrix3 identity(const double factor)
+    {
+      return {{factor, 0., 0., 0., factor, 0., 0., 0., factor}};
+    }
+  } // namespace
+
+  Vector3 solve_surfaces(const std::vector<ContactSurface> &surfaces, const Matrix3 &H, const Vector3 &b,
+                         const Vector3 &start, std::vector<Vector3> &r)
+  {
+    SurfaceEquations system(surfaces, H, b, start);
+    find_forces(system, r);
+    Vector3 force{};
+    for (std::size_t k = 0; k < r.size(); ++k)
+      add(force, transpose_times(surfaces[k].axes, r[k]));
+    return force;
+  }
+
+  void SurfacesLaw::present(const Vector3 &, std::vector<ContactSurface> &list,
+                            std::vector<unsigned char> &bits) const
+  {
+    list = surfaces;
+    for (std::size_t k = 0; k < surfaces.size(); ++k)
+      bits.push_back(static_cast<unsigned char>(1u << k));
+  }
+
+  void SurfacesLaw::evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, const double rho,
+                             PairEquations &e) const
+  {
+    std::vector<ContactSurface> list;
+    std::vector<unsigned char>  bits;
+    present(start, list, bits);
+    Vector3 b = gap;
+    for (unsigned int c = 0; c < 3; ++c)
+      b[c] -= force[c] / rho;
+
+    // Most pairs touch on their face only, or nowhere.
+    const Matrix3 &axes = list[0].axes;
+    if (axes == identity(1.))
+    {
+      alart_curnier(force, gap[0] + list[0].clearance, {{gap[1] - start[1], gap[2] - start[2]}},
+                    list[0].friction, rho, e);
+      Vector3 local_gap = b;
+      for (unsigned int c = 0; c < 3; ++c)
+        local_gap[c] += (force[c] - e.residual[c]) / rho;
+      bool alone = true;
+      for (std::size_t k = 1; k < list.size(); ++k)
+        alone = alone && (list[k].axes * local_gap)[0] + list[k].clearance >= 0.;
+      if (alone)
+        return;
+    }
+    SurfaceEquations     system(list, identity(1. / rho), b, start);
+    std::vector<Vector3> r;
+    find_forces(system, r);
+    e = {};
+    e.residual = force;
+    bool sticks = false;
+    for (std::size_t k = 0; k < r.size(); ++k)
+    {
+      e.residual = e.residual - transpose_times(list[k].axes, r[k]);
+      if (system.equations[k].state != PairState::open)
+      {
+        e.touching |= bits[k];
+        sticks = sticks || system.equations[k].state == PairState::stick;
+      }
+    }
+    const Matrix3 D = system.derivative();
+    for (unsigned int k = 0; k < 9; ++k)
+    {
+      e.d_force[k] = D[k] / rho + (k % 4 == 0 ? 1. : 0.);
+      e.d_gap[k] = -D[k];
+    }
+    e.state = e.touching == 0 ? PairState::open : (sticks ? PairState::stick : PairState::slip);
+  }
+
+  Vector3 SurfacesLaw::solve(const Matrix3 &H, const Vector3 &b, const Vector3 &start) const
+  {
+    std::vector<ContactSurface> list;
+    std::vector<unsigned char>  bits;
+    present(start, list, bits);
+    std::vector<Vector3> r;
+    return solve_surfaces(list, H, b, start, r);
+  }
+
+  std::vector<ContactSurface> SurfacesLaw::touching_surfaces(const unsigned char touching,
+                                                             const bool          frictionless) const
+  {
+    std::vector<ContactSurface> list;
+    for (std::size_t k = 0; k < surfaces.size(); ++k)
+      if (touching & (1u << k))
+        list.push_back({surfaces[k].axes, 0., frictionless ? 0. : surfaces[k].friction});
+    return list;
+  }
+
+  Vector3 SurfacesLaw::solve_impulse(const Matrix3 &H, const Vector3 &v, const unsigned char touching) const
+  {
+    std::vector<Vector3> r;
+    return touching ? solve_surfaces(touching_surfaces(touching, false), H, v, {}, r) : Vector3{};
+  }
+
+  Vector3 SurfacesLaw::stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
+                                   const unsigned char touching) const
+  {
+    std::vector<Vector3> r;
+    Vector3              result = spent;
+    if (touching)
+      add(result, solve_surfaces(touching_surfaces(touching, true), H, v, {}, r));
+    return result;
+  }
+
+  namespace
+  {
+    /** The flanks of a trapezoidal key that restrains slip in direction @p d (1 or 2): phi = g sin a -/+ d
+     *  cos a + c >= 0 (reference: dams, 8.2). */
+    void add_flanks(const unsigned int d, const KeyParameters &keys, std::vector<ContactSurface> &surfaces)
+    {
+      const double a = keys.flank_angle * pi / 180.;
+      // Exactly rectangular keys: cos(90 deg) and the like are not zero in round numbers.
+      const double s = keys.flank_angle == 0. ? 0. : std::sin(a), c = keys.flank_angle == 0. ? 1. : std::cos(a);
+      for (const double sign : {1., -1.})
+      {
+        ContactSurface flank;
+        flank.axes = {};
+        flank.axes[0] = s, flank.axes[d] = -sign * c;
+        flank.axes[3] = c, flank.axes[3 + d] = sign * s;
+        flank.axes[6 + 3 - d] = 1.;
+        flank.clearance = keys.clearance;
+        flank.friction = keys.friction;
+        surfaces.push_back(flank);
+      }
+    }
+
+    class KSM : public SurfacesLaw
+    {
+    public:
+      KSM(std::vector<ContactSurface> surfaces, const KeyParameters &keys)
+          : SurfacesLaw(std::move(surfaces)), height(keys.height)
+      {}
+
+    protected:
+      /** Keys out of their seats at the start of the step (opening >= height) hold nothing; when they are
+       *  out of line, too, the joint cannot close but on their crests. A flank that was passed by while the
+       *  key was out is taken as it lies. */
+      void present(const Vector3 &start, std::vector<ContactSurface> &list,
+                   std::vector<unsigned char> &bits) const override
+      {
+        list.assign(1, surfaces[0]);
+        bits.assign(1, 1);
+        if (start[0] >= height * (1. - 1e-9))
+        {
+          for (std::size_t k = 1; k < surfaces.size(); ++k)
+            if ((surfaces[k].axes * Vector3{{height, start[1], start[2]}})[0] + surfaces[k].clearance < 0.)
+              list[0].clearance = -height;
+          return;
+        }
+        for (std::size_t k = 1; k < surfaces.size(); ++k)
+        {
+          list.push_back(surfaces[k]);
+          list.back().clearance = std::max(surfaces[k].clearance, -(surfaces[k].axes * start)[0]);
+          bits.push_back(static_cast<unsigned char>(1u << k));
+        }
+      }
+
+    private:
+      const double height;
+    };
+  } // namespace
+
+  std::unique_ptr<JointLaw> make_key_law(const double friction, const Equations equations,
+                                         const KeyParameters &keys)
+  {
+    if (equations != Equations::alart_curnier)
+      throw InputError("Joints/Equations: the law KSM has the equations \"alart-curnier\" only, since a pair with "
+                       "keys touches on several surfaces at once.");
+    if (!(keys.flank_angle >= 0. && keys.flank_angle < 90.))
+      throw InputError("Joints/Keys/Flank angle must be at least 0 and less than 90 degrees.");
+    std::vector<ContactSurface> surfaces(1, {identity(1.), 0., friction});
+    if (keys.height > 0. && keys.direction != "vertical")
+      add_flanks(1, keys, surfaces);
+    if (keys.height > 0. && keys.direction != "radial")
+      add_flanks(2, keys, surfaces);
+    return std::make_unique<KSM>(std::move(surfaces), keys);
+  }
+} // namespace Voussoir
