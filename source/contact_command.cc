@@ -22,7 +22,8 @@ namespace Voussoir
       return groups.size.size() > 1 && W.n_rows() >= 8 * groups.size.size() && is_symmetric(W);
     }
 
-    std::string path_name(const ContactParameters &parameters, const Equations equations, const ContactPath path)
+    std::string path_name(const ContactParameters &parameters, const Equations equations,
+                          const ContactPath path)
     {
       std::string name = equations == Equations::paper                ? "paper"
                          : equations == Equations::fischer_burmeister ? "fischer-burmeister"
@@ -114,15 +115,15 @@ namespace Voussoir
       const ContactResult   &result = solution.result;
       failures += !result.converged;
       const std::string text = Json()
-                             .add("file", file)
-                             .add("contacts", problem.W.n_rows())
-                             .add_flag("converged", result.converged)
-                             .add("residual", result.residual)
-                             .add("iterations", result.iterations)
-                             .add("seconds", seconds)
-                             .add("solver", solution.solver)
-                             .add("sweeps", result.sweeps)
-                             .line();
+                                   .add("file", file)
+                                   .add("contacts", problem.W.n_rows())
+                                   .add_flag("converged", result.converged)
+                                   .add("residual", result.residual)
+                                   .add("iterations", result.iterations)
+                                   .add("seconds", seconds)
+                                   .add("solver", solution.solver)
+                                   .add("sweeps", result.sweeps)
+                                   .line();
       std::cout << text << std::endl;
       if (!options.solutions.empty())
       {

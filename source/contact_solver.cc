@@ -81,8 +81,8 @@ namespace Voussoir
 
   ContactSolver::ContactSolver(const ContactOperator &W, std::vector<const JointLaw *> laws,
                                const ContactParameters &parameters)
-      : W(W), law(std::move(laws)), parameters(parameters), jacobian(W.make_jacobian()), equations(law.size()),
-        state(law.size(), PairState::open), touch(law.size(), 0)
+      : W(W), law(std::move(laws)), parameters(parameters), jacobian(W.make_jacobian()),
+        equations(law.size()), state(law.size(), PairState::open), touch(law.size(), 0)
   {
     double trace = 0.;
     for (std::size_t i = 0; i < law.size(); ++i)
@@ -150,7 +150,11 @@ namespace Voussoir
         u += (g[c] - before) * (g[c] - before);
       }
     }
-    const double scale = std::max({std::sqrt(p), mean_rho * std::sqrt(q), mean_rho * std::sqrt(u)});
+    const double force_size = std::sqrt(p), load_size = mean_rho * std::sqrt(q);
+    const double scale = std::max({force_size, load_size, mean_rho * std::sqrt(u)});
+    // A singular step leaves forces without bound, which would make any error look small.
+    if (!std::isfinite(f + scale) || force_size > 1e10 * load_size)
+      return std::numeric_limits<double>::infinity();
     return scale > 0. ? std::sqrt(f) / scale : 0.;
   }
 
@@ -204,7 +208,8 @@ namespace Voussoir
 
   /** Newton's method from @p force for the present (regularised) problem. False when it stalls; @p force is
    *  then the best that was found. */
-  bool ContactSolver::newton(const double target, const unsigned int max_steps, Unknowns &force, Unknowns &gap)
+  bool ContactSolver::newton(const double target, const unsigned int max_steps, Unknowns &force,
+                             Unknowns &gap)
   {
     evaluate(force, gap);
     double             now = residual(force, gap), previous = now;
@@ -225,20 +230,19 @@ namespace Voussoir
       const double tolerance = std::clamp(.9 * ratio * ratio, std::min(loosest, .3 * target / now), loosest);
       result.krylov += jacobian->solve(tolerance, step, d_gap);
       ++result.iterations;
-      merits.push_back(
-          line_search(*std::max_element(merits.begin(), merits.end()), step, d_gap, force, gap));
+      merits.push_back(line_search(*std::max_element(merits.begin(), merits.end()), step, d_gap, force, gap));
       if (merits.size() > 5)
         merits.pop_front();
       previous = now;
       now = residual(force, gap);
+      if (!std::isfinite(now)) // singular
+        break;
       if (now <= target) // free of the round-off of the updates?
       {
         refresh_gap(force, gap);
         evaluate(force, gap);
         now = residual(force, gap);
       }
-      if (!(now < 1e30)) // singular
-        break;
       stalled = now < .9 * found.residual ? 0 : stalled + 1;
       if (now < found.residual)
         found = {now, force};
@@ -290,8 +294,8 @@ namespace Voussoir
     return now <= parameters.tolerance;
   }
 
-  ContactResult ContactSolver::solve(const Unknowns &right_hand_side, const Unknowns &start_gap, Unknowns &force,
-                                     Unknowns &gap)
+  ContactResult ContactSolver::solve(const Unknowns &right_hand_side, const Unknowns &start_gap,
+                                     Unknowns &force, Unknowns &gap)
   {
     b = &right_hand_side;
     start = &start_gap;
@@ -318,7 +322,8 @@ namespace Voussoir
     if (!result.converged && parameters.method == "sweeps")
     {
       result.path = ContactPath::sweeps;
-      while (!result.converged && !out_of_time() && result.sweeps < 1000 * std::size_t(parameters.max_iterations))
+      while (!result.converged && !out_of_time() &&
+             result.sweeps < 1000 * std::size_t(parameters.max_iterations))
       {
         sweep(10, force, gap);
         refresh_gap(force, gap);

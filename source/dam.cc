@@ -31,7 +31,8 @@ namespace Voussoir
     {
       const std::string &law = tie_all ? "tied" : scene.joints.model_of(j);
       tied = tied && law == "tied";
-      laws.of_joint.push_back(make_joint_law(law, scene.joints.friction, equations_from_name(scene.joints.equations), scene.joints.keys));
+      laws.of_joint.push_back(make_joint_law(law, scene.joints.friction,
+                                             equations_from_name(scene.joints.equations), scene.joints.keys));
     }
     for (const auto &entry : scene.joints.overrides)
       if (entry.first > n_joints)

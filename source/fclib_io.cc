@@ -88,13 +88,14 @@ namespace Voussoir
     {
       const Inspector in(file);
       if (!in.has("/fclib_local"))
-        refuse(file, in.has("/fclib_global")
-                         ? "this is a global problem; `voussoir contact` solves local ones (\"fclib_local\"): condense "
-                           "it first, W = H^T M^-1 H, q = H^T M^-1 f + w."
-                         : "there is no \"fclib_local\" problem in it.");
+        refuse(file, in.has("/fclib_global") ? "this is a global problem; `voussoir contact` solves local "
+                                               "ones (\"fclib_local\"): condense "
+                                               "it first, W = H^T M^-1 H, q = H^T M^-1 f + w."
+                                             : "there is no \"fclib_local\" problem in it.");
       const std::string W = "/fclib_local/W/", vectors = "/fclib_local/vectors/";
       if (const int dimension = in.integer("/fclib_local/spacedim"); dimension != 3)
-        refuse(file, "the problem has " + std::to_string(dimension) + " dimensions; Voussoir solves those with 3.");
+        refuse(file,
+               "the problem has " + std::to_string(dimension) + " dimensions; Voussoir solves those with 3.");
       if (in.has("/fclib_local/V") || in.has("/fclib_local/R"))
         refuse(file, "the problem has a bilateral part (V, R), which Voussoir does not solve.");
       const long long m = in.integer(W + "m"), n = in.integer(W + "n"), nzmax = in.integer(W + "nzmax"),
@@ -105,8 +106,8 @@ namespace Voussoir
       if (nz < -2 || nz > nzmax)
         refuse(file, "W/nz must be -2 (by rows), -1 (by columns) or the number of triplets.");
       const long long pointers = nz >= 0 ? nzmax : m + 1;
-      if (in.size(W + "p", true) < (nz >= 0 ? nz : pointers) || in.size(W + "i", true) < (nz >= 0 ? nz : nzmax) ||
-          in.size(W + "x", false) < (nz >= 0 ? nz : nzmax))
+      if (in.size(W + "p", true) < (nz >= 0 ? nz : pointers) ||
+          in.size(W + "i", true) < (nz >= 0 ? nz : nzmax) || in.size(W + "x", false) < (nz >= 0 ? nz : nzmax))
         refuse(file, "W/p, W/i or W/x is shorter than W/nzmax says.");
       if (in.size(vectors + "q", false) != m)
         refuse(file, "vectors/q must have " + std::to_string(m) + " entries, as W has rows.");
@@ -120,7 +121,7 @@ namespace Voussoir
 
     BlockSparseMatrix blocks(const std::string &file, const fclib_matrix &W)
     {
-      const unsigned int                         n = W.m / 3;
+      const unsigned int                           n = W.m / 3;
       std::vector<std::map<unsigned int, Matrix3>> rows(n);
       const auto add = [&](const int row, const int column, const double value)
       {

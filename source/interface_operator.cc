@@ -108,8 +108,7 @@ namespace Voussoir
           double            *f = &force[3 * pair], *d = &gap[begin(j)];
           const Matrix3      H = diagonal(pair);
           const Vector3      Hf = H * Vector3{{f[0], f[1], f[2]}};
-          const Vector3      solution =
-              solve_pair(pair, H, {{d[i] - Hf[0], d[i + 1] - Hf[1], d[i + 2] - Hf[2]}});
+          const Vector3 solution = solve_pair(pair, H, {{d[i] - Hf[0], d[i + 1] - Hf[1], d[i + 2] - Hf[2]}});
           for (unsigned int c = 0; c < 3; ++c)
           {
             const double delta = solution[c] - f[c];

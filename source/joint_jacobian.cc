@@ -263,7 +263,7 @@ namespace Voussoir
   unsigned int JointJacobian::gmres(const Unknowns &r, double target, Unknowns &step) const
   {
     const unsigned int n = W.n(), max_iterations = 100;
-    double norm = 0.;
+    double             norm = 0.;
     for (const double x : r)
       norm += x * x;
     norm = std::sqrt(norm);

@@ -108,7 +108,8 @@ namespace Voussoir
         no_slip(gap[1], gap[2], rho, e);
         e.state = e.touching ? PairState::stick : PairState::open;
       }
-      Vector3 error(const Vector3 &force, const Vector3 &gap, const Vector3 &, const double rho) const override
+      Vector3 error(const Vector3 &force, const Vector3 &gap, const Vector3 &,
+                    const double rho) const override
       {
         return {{std::min(force[0], rho * gap[0]), rho * gap[1], rho * gap[2]}};
       }
@@ -286,7 +287,7 @@ namespace Voussoir
         const double  s1 = gap[1] - start[1], s2 = gap[2] - start[2], slip = length(s1, s2);
         const Vector3 X = {{rho * (gap[0] + mu * slip), rho * mu * s1, rho * mu * s2}},
                       Y = {{mu * force[0], force[1], force[2]}};
-        const double  w0 = dot(X, X) + dot(Y, Y), w1 = 2. * (X[0] * X[1] + Y[0] * Y[1]),
+        const double w0 = dot(X, X) + dot(Y, Y), w1 = 2. * (X[0] * X[1] + Y[0] * Y[1]),
                      w2 = 2. * (X[0] * X[2] + Y[0] * Y[2]), w = length(w1, w2);
         const double low = std::sqrt(std::max(0., w0 - w)), high = std::sqrt(w0 + w);
         Vector3      z = {{.5 * (high + low), 0., 0.}};
@@ -302,7 +303,8 @@ namespace Voussoir
           z = {{1., 0., 0.}}, x = y = {{std::sqrt(.5), 0., 0.}};
         else if (low < 1e-8 * high) // on the boundary of the cone: a member close by
           z[0] += 1e-8 * high;
-        const Matrix3 a = arrow_inverse_times(z, arrow_times(x, dX)), b = arrow_inverse_times(z, arrow_times(y, dY));
+        const Matrix3 a = arrow_inverse_times(z, arrow_times(x, dX)),
+                      b = arrow_inverse_times(z, arrow_times(y, dY));
         for (unsigned int k = 0; k < 9; ++k)
         {
           e.d_gap[k] = dX[k] - a[k];
@@ -446,7 +448,8 @@ namespace Voussoir
       return Equations::paper;
     if (name == "fischer-burmeister")
       return Equations::fischer_burmeister;
-    throw InputError("There are no equations \"" + name + "\". The equations are: " + equations_names() + ".");
+    throw InputError("There are no equations \"" + name + "\". The equations are: " + equations_names() +
+                     ".");
   }
 
   std::string equations_names()

@@ -50,7 +50,8 @@ namespace Voussoir
                        const Vector3 &start)
           : surfaces(surfaces), H(H), b(b), start(start), rho(3. / (H[0] + H[4] + H[8])),
             equations(surfaces.size())
-      {}
+      {
+      }
 
       Vector3 gap(const std::vector<Vector3> &r) const
       {
@@ -70,8 +71,8 @@ namespace Voussoir
         for (std::size_t k = 0; k < r.size(); ++k)
         {
           const Vector3 local = surfaces[k].axes * g, slip = surfaces[k].axes * (g - start);
-          alart_curnier(r[k], local[0] + surfaces[k].clearance, {{slip[1], slip[2]}}, surfaces[k].friction, rho,
-                        equations[k]);
+          alart_curnier(r[k], local[0] + surfaces[k].clearance, {{slip[1], slip[2]}}, surfaces[k].friction,
+                        rho, equations[k]);
           sum += dot(equations[k].residual, equations[k].residual);
         }
         return std::sqrt(sum);
@@ -309,7 +310,8 @@ namespace Voussoir
     {
       const double a = keys.flank_angle * pi / 180.;
       // Exactly rectangular keys: cos(90 deg) and the like are not zero in round numbers.
-      const double s = keys.flank_angle == 0. ? 0. : std::sin(a), c = keys.flank_angle == 0. ? 1. : std::cos(a);
+      const double s = keys.flank_angle == 0. ? 0. : std::sin(a),
+                   c = keys.flank_angle == 0. ? 1. : std::cos(a);
       for (const double sign : {1., -1.})
       {
         ContactSurface flank;
@@ -328,7 +330,8 @@ namespace Voussoir
     public:
       KSM(std::vector<ContactSurface> surfaces, const KeyParameters &keys)
           : SurfacesLaw(std::move(surfaces)), height(keys.height)
-      {}
+      {
+      }
 
     protected:
       /** Keys out of their seats at the start of the step (opening >= height) hold nothing; when they are
@@ -363,8 +366,9 @@ namespace Voussoir
                                          const KeyParameters &keys)
   {
     if (equations != Equations::alart_curnier)
-      throw InputError("Joints/Equations: the law KSM has the equations \"alart-curnier\" only, since a pair with "
-                       "keys touches on several surfaces at once.");
+      throw InputError(
+          "Joints/Equations: the law KSM has the equations \"alart-curnier\" only, since a pair with "
+          "keys touches on several surfaces at once.");
     if (!(keys.flank_angle >= 0. && keys.flank_angle < 90.))
       throw InputError("Joints/Keys/Flank angle must be at least 0 and less than 90 degrees.");
     std::vector<ContactSurface> surfaces(1, {identity(1.), 0., friction});

@@ -198,9 +198,9 @@ namespace Voussoir
     if (halvings_left == 0)
     {
       std::ostringstream message;
-      message << "The joint conditions did not converge at t = " << now.time + dt << " s, not with time steps of "
-              << dt << " s either: relative residual " << failed.residual << " after " << failed.iterations
-              << " Newton steps and " << failed.sweeps
+      message << "The joint conditions did not converge at t = " << now.time + dt
+              << " s, not with time steps of " << dt << " s either: relative residual " << failed.residual
+              << " after " << failed.iterations << " Newton steps and " << failed.sweeps
               << " sweeps. See entries \"Motion/Time step\" and \"Contact/Maximum iterations\".";
       throw ComputationError(message.str());
     }
@@ -342,8 +342,7 @@ namespace Voussoir
       }
       // The velocity without any joint force of this step, then the impulse that the law allows.
       const Vector3 spent = get(impulse, p), lost = pair_inverse[p] * spent;
-      Vector3       allowed =
-          law.solve_impulse(pair_inverse[p], jump - lost, system.touching()[p]);
+      Vector3       allowed = law.solve_impulse(pair_inverse[p], jump - lost, system.touching()[p]);
       if (rule == ImpactRule::mean_force && !law.is_tangentially_tied())
       {
         // Where loads tear at a pair more than it strikes, returning the friction of the step could give more
@@ -403,8 +402,8 @@ namespace Voussoir
           result[c] = force[3 * p + c] + f[c];
       }
       else if (closed || law.is_tangentially_tied())
-        result = f =
-            law.solve_acceleration(pair_inverse[p], jump, structure.jump(pair, now.v), still, system.touching()[p]);
+        result = f = law.solve_acceleration(pair_inverse[p], jump, structure.jump(pair, now.v), still,
+                                            system.touching()[p]);
       add_kick(pair, f, a);
       set(now.force, p, result);
     }

@@ -67,12 +67,13 @@ namespace Voussoir
         "Models of single joints, as \"number: model, number: model\"; joints are numbered from the right "
         "bank.",
         Patterns::Map(Patterns::Integer(1), Patterns::Selection(joint_law_names())));
-    prm.add_parameter(
-        "Equations", equations,
-        "Form of the joint equations: alart-curnier (the paper's, with the slip angle of the trial force; always "
-        "converges), paper (slip angle of the force itself, as printed) or fischer-burmeister; the last two for "
-        "comparison.",
-        Patterns::Selection(equations_names()));
+    prm.add_parameter("Equations", equations,
+                      "Form of the joint equations: alart-curnier (the paper's, with the slip angle of the "
+                      "trial force; always "
+                      "converges), paper (slip angle of the force itself, as printed) or fischer-burmeister; "
+                      "the last two for "
+                      "comparison.",
+                      Patterns::Selection(equations_names()));
     prm.enter_subsection("Keys");
     prm.add_parameter("Height", keys.height, "Height of the shear keys [m]; a joint that opens more is free.",
                       Patterns::Double(0.));

@@ -23,8 +23,10 @@ namespace Voussoir
     class DirectJacobian : public ContactJacobian
     {
     public:
-      explicit DirectJacobian(const SparseContactOperator &op) : op(op), W(op.matrix()), position(3 * W.n_rows())
-      {}
+      explicit DirectJacobian(const SparseContactOperator &op)
+          : op(op), W(op.matrix()), position(3 * W.n_rows())
+      {
+      }
       ~DirectJacobian() override { umfpack_di_free_numeric(&numeric); }
 
       unsigned int update(const std::vector<PairEquations> &new_equations) override
@@ -127,9 +129,11 @@ namespace Voussoir
         }
         // Row by row is the transpose column by column.
         void *symbolic = nullptr;
-        int   status = umfpack_di_symbolic(n, n, start.data(), column.data(), value.data(), &symbolic, nullptr, nullptr);
+        int   status =
+            umfpack_di_symbolic(n, n, start.data(), column.data(), value.data(), &symbolic, nullptr, nullptr);
         if (status == UMFPACK_OK)
-          status = umfpack_di_numeric(start.data(), column.data(), value.data(), symbolic, &numeric, nullptr, nullptr);
+          status = umfpack_di_numeric(start.data(), column.data(), value.data(), symbolic, &numeric, nullptr,
+                                      nullptr);
         umfpack_di_free_symbolic(&symbolic);
         singular = status != UMFPACK_OK;
       }
@@ -213,7 +217,8 @@ namespace Voussoir
   {
     std::map<std::vector<unsigned int>, std::vector<unsigned int>> groups; // columns -> rows
     for (unsigned int i = 0; i < W.n_rows(); ++i)
-      groups[std::vector<unsigned int>(W.column.begin() + W.start[i], W.column.begin() + W.start[i + 1])].push_back(i);
+      groups[std::vector<unsigned int>(W.column.begin() + W.start[i], W.column.begin() + W.start[i + 1])]
+          .push_back(i);
     PairGroups result;
     for (const auto &group : groups)
     {

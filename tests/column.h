@@ -244,11 +244,11 @@ namespace Columns
   }
 
   inline JointLaws make_laws(const Structure &structure, const std::string &name, const double friction,
-                             const std::string &equations = "projection")
+                             const std::string &equations = "alart-curnier")
   {
     JointLaws laws;
     for (unsigned int j = 0; j < structure.n_joints; ++j)
-      laws.of_joint.push_back(make_joint_law(name, friction, equations));
+      laws.of_joint.push_back(make_joint_law(name, friction, equations_from_name(equations)));
     for (const Pair &pair : structure.pairs)
       laws.of_pair.push_back(laws.of_joint[pair.joint].get());
     return laws;

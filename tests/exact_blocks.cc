@@ -82,7 +82,7 @@ namespace
     }
     const JointLaws laws = make_laws(structure, "FJA", mu);
     JointSystem     system(structure, laws, tight(), 0., 1., 0.);
-    ContactResult   result = system.solve(load, offset, force, gap, u);
+    ContactResult   result = system.solve(load, offset, Unknowns(offset.size(), 0.), force, gap, u);
     const double    scale = -traction[0] * 3. / n;
     for (std::size_t p = 0; p < n; ++p)
     {
@@ -108,7 +108,7 @@ namespace
     for (std::size_t p = 0; p < n; ++p)
       offset[3 * p] = 1e-3;
     Unknowns free;
-    result = system.solve(load, offset, force, gap, u);
+    result = system.solve(load, offset, Unknowns(offset.size(), 0.), force, gap, u);
     system.solve_free(load, free);
     for (std::size_t i = 0; i < u.size(); ++i)
       difference[i] = u[i] - free[i];
@@ -138,7 +138,8 @@ namespace
     const JointLaws laws = make_laws(jointed, "tied", 0.), none;
     JointSystem     system(jointed, laws, tight(), 0., 1., 0.), reference(whole, none, tight(), 0., 1., 0.);
     Unknowns        offset(3 * jointed.pairs.size(), 0.), force = offset, gap, u, v;
-    const auto      result = system.solve(smooth_load(two, 1e6), offset, force, gap, u);
+    const auto      result =
+        system.solve(smooth_load(two, 1e6), offset, Unknowns(offset.size(), 0.), force, gap, u);
     reference.solve_free(smooth_load(one, 1e6), v);
     double       error = 0.;
     unsigned int matched = 0;
@@ -177,7 +178,7 @@ namespace
     Unknowns         offset(3 * n, 0.), force = offset, gap, u;
     for (std::size_t p = 0; p < n; ++p)
       offset[3 * p] = 1e-2;
-    system.solve(smooth_load(model, 1e6), offset, force, gap, u);
+    system.solve(smooth_load(model, 1e6), offset, Unknowns(offset.size(), 0.), force, gap, u);
     double     normal = 0., tangential = 0., slip = 0.;
     const bool open = std::all_of(system.states().begin(), system.states().end(),
                                   [](const PairState s) { return s == PairState::open; });

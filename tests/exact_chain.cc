@@ -32,7 +32,7 @@ namespace
       f = 1e7 * random_number();
     for (double &d : offset)
       d = 2e-3 * random_number();
-    const ContactResult result = system.solve(load, offset, force, gap, u);
+    const ContactResult result = system.solve(load, offset, Unknowns(offset.size(), 0.), force, gap, u);
     structure.multiply_stiffness(u, Ku);
     Unknowns residual = load;
     double   error_gap = 0., cone = 0., least_gap = 0.;
@@ -84,7 +84,7 @@ namespace
         f = 1e7 * random_number();
       for (double &d : offset)
         d = 2e-3 * random_number();
-      const ContactResult result = system.solve(load, offset, force, gap, u);
+      const ContactResult result = system.solve(load, offset, Unknowns(offset.size(), 0.), force, gap, u);
       failures += !result.converged;
       iterations += result.iterations;
     }

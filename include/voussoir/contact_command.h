@@ -8,9 +8,10 @@ namespace Voussoir
 {
   struct FrictionSolution
   {
-    ContactResult result; ///< residual: Siconos' full relative natural-map error, mean diagonal of W scaled to 1
-    Unknowns      force, gap;
-    std::string   solver; ///< what it took: "newton", "newton+sweeps", ...
+    ContactResult
+             result; ///< residual: Siconos' full relative natural-map error, mean diagonal of W scaled to 1
+    Unknowns force, gap;
+    std::string solver; ///< what it took: "newton", "newton+sweeps", ...
   };
 
   /** Solves a friction problem from zero forces. @p equations: of the contacts. Pairs that are coupled in
@@ -21,12 +22,12 @@ namespace Voussoir
   struct ContactOptions
   {
     std::string tolerance = "1e-12", solver = "newton", max_seconds = "10"; ///< as on the command line
-    std::string solutions;                                                   ///< directory, may be empty
+    std::string solutions;                                                  ///< directory, may be empty
   };
 
-  /** `voussoir contact`: solves the FCLib problems @p files and prints a JSON object for each. Throws InputError
-   *  for files that cannot be read, before anything is solved, and for unknown solvers; ComputationError at the
-   *  end if problems did not converge. */
+  /** `voussoir contact`: solves the FCLib problems @p files and prints a JSON object for each. Throws
+   * InputError for files that cannot be read, before anything is solved, and for unknown solvers;
+   * ComputationError at the end if problems did not converge. */
   void run_contact(const std::vector<std::string> &files, const ContactOptions &options);
 } // namespace Voussoir
 

@@ -27,9 +27,9 @@ namespace Voussoir
   /** What a solution took, in the order in which the solver tries. */
   enum class ContactPath : unsigned char
   {
-    newton,  ///< Newton's method alone
-    sweeps,  ///< it stalled; Gauss-Seidel sweeps settled the states
-    proximal, ///< it stalled again: proximal point method
+    newton,      ///< Newton's method alone
+    sweeps,      ///< it stalled; Gauss-Seidel sweeps settled the states
+    proximal,    ///< it stalled again: proximal point method
     smaller_step ///< that failed, too: the time step was halved
   };
 
@@ -67,7 +67,7 @@ namespace Voussoir
      *  receives W force + b. All have three entries per pair. Not converged: the best found. */
     ContactResult solve(const Unknowns &b, const Unknowns &start, Unknowns &force, Unknowns &gap);
 
-    const std::vector<PairState>     &states() const { return state; } ///< of the last solution
+    const std::vector<PairState>     &states() const { return state; }   ///< of the last solution
     const std::vector<unsigned char> &touching() const { return touch; } ///< surfaces, as in PairEquations
 
     /** Smallest W_nn/|W_nt| of a pair: friction beyond it may jam (reference: contact, 5.2). */
@@ -84,24 +84,25 @@ namespace Voussoir
       double   residual = std::numeric_limits<double>::infinity();
       Unknowns force;
     };
-    void     evaluate(const Unknowns &force, const Unknowns &gap);
-    double   merit() const;
-    double   residual(const Unknowns &force, const Unknowns &gap) const;
-    void     refresh_gap(const Unknowns &force, Unknowns &gap) const;
-    bool     newton(double target, unsigned int max_steps, Unknowns &force, Unknowns &gap);
-    double   line_search(double bound, const Unknowns &step, const Unknowns &d_gap, Unknowns &force, Unknowns &gap);
-    void     sweep(unsigned int count, Unknowns &force, Unknowns &gap);
-    bool     proximal_point(Unknowns &force, Unknowns &gap);
-    bool     out_of_time() const;
-    Vector3  shifted_gap(std::size_t pair, const Unknowns &force, const Unknowns &gap) const;
+    void         evaluate(const Unknowns &force, const Unknowns &gap);
+    double       merit() const;
+    double       residual(const Unknowns &force, const Unknowns &gap) const;
+    void         refresh_gap(const Unknowns &force, Unknowns &gap) const;
+    bool         newton(double target, unsigned int max_steps, Unknowns &force, Unknowns &gap);
+    double       line_search(double bound, const Unknowns &step, const Unknowns &d_gap, Unknowns &force,
+                             Unknowns &gap);
+    void         sweep(unsigned int count, Unknowns &force, Unknowns &gap);
+    bool         proximal_point(Unknowns &force, Unknowns &gap);
+    bool         out_of_time() const;
+    Vector3      shifted_gap(std::size_t pair, const Unknowns &force, const Unknowns &gap) const;
     unsigned int steps_left() const;
 
     const ContactOperator              &W;
     const std::vector<const JointLaw *> law;
     const ContactParameters             parameters;
     std::unique_ptr<ContactJacobian>    jacobian;
-    std::vector<double>                 rho;       ///< per pair [N/m]
-    double                              mean_rho;  ///< of the measure of convergence [N/m]
+    std::vector<double>                 rho;      ///< per pair [N/m]
+    double                              mean_rho; ///< of the measure of convergence [N/m]
     std::vector<PairEquations>          equations;
     std::vector<PairState>              state;
     std::vector<unsigned char>          touch;

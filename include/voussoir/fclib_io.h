@@ -16,8 +16,8 @@ namespace Voussoir
     std::string         title;
   };
 
-  /** Reads an "fclib_local" problem, 3-D, without bilateral part (FCLib, Acary et al.; W in triplets, by rows or
-   *  by columns). Throws InputError, naming the file and what is wrong with it. */
+  /** Reads an "fclib_local" problem, 3-D, without bilateral part (FCLib, Acary et al.; W in triplets, by rows
+   * or by columns). Throws InputError, naming the file and what is wrong with it. */
   FrictionProblem read_fclib(const std::string &file);
 
   /** Writes the problem; @p guess: initial forces and gaps, may be empty. Throws InputError if the file is

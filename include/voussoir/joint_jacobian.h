@@ -34,14 +34,14 @@ namespace Voussoir
       bool                       exact = false; ///< is it that of the present equations?
     };
 
-    bool needs_factor(unsigned int group) const;
-    void factorise(unsigned int group);
-    void apply_factor(unsigned int group, float *x) const;
-    void multiply_block(unsigned int j, unsigned int k, const float *x, float *y) const;
-    void add_couplings(const Floats &z, Floats &v, unsigned int group, bool later) const;
-    void precondition(const Floats &v, Floats &z) const;
-    void multiply(const Floats &v, const Floats &z, Floats &w) const;
-    void multiply_W(const Unknowns &x, Unknowns &y) const;
+    bool         needs_factor(unsigned int group) const;
+    void         factorise(unsigned int group);
+    void         apply_factor(unsigned int group, float *x) const;
+    void         multiply_block(unsigned int j, unsigned int k, const float *x, float *y) const;
+    void         add_couplings(const Floats &z, Floats &v, unsigned int group, bool later) const;
+    void         precondition(const Floats &v, Floats &z) const;
+    void         multiply(const Floats &v, const Floats &z, Floats &w) const;
+    void         multiply_W(const Unknowns &x, Unknowns &y) const;
     unsigned int gmres(const Unknowns &r, double target, Unknowns &step) const;
 
     const InterfaceOperator                                &W;

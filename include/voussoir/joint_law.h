@@ -19,11 +19,11 @@ namespace Voussoir
    * Jacobian. */
   struct PairEquations
   {
-    Vector3       residual;  ///< [N]
-    Matrix3       d_force;   ///< d residual / d force [-]
-    Matrix3       d_gap;     ///< d residual / d gap [N/m]
-    PairState     state;     ///< that the equations stand for
-    unsigned char touching;  ///< surfaces of the law that carry force, one bit each; bit 0 is the flat face
+    Vector3       residual; ///< [N]
+    Matrix3       d_force;  ///< d residual / d force [-]
+    Matrix3       d_gap;    ///< d residual / d gap [N/m]
+    PairState     state;    ///< that the equations stand for
+    unsigned char touching; ///< surfaces of the law that carry force, one bit each; bit 0 is the flat face
   };
 
   /** The conditions between the two faces of a joint at one pair, in the frame (n,a,b).
@@ -83,11 +83,11 @@ namespace Voussoir
   /** Shear keys: trapezoidal, on a flat face that opens and slides (law KSM). Subsection "Joints/Keys". */
   struct KeyParameters
   {
-    double      height = .2;         ///< of the keys [m]: an opening beyond it frees them
-    double      clearance = 0.;      ///< of each flank, normal to it [m]
-    double      flank_angle = 0.;    ///< of the flanks to the joint's normal [degrees]; 0: rectangular
+    double      height = .2;        ///< of the keys [m]: an opening beyond it frees them
+    double      clearance = 0.;     ///< of each flank, normal to it [m]
+    double      flank_angle = 0.;   ///< of the flanks to the joint's normal [degrees]; 0: rectangular
     std::string direction = "both"; ///< of slip that is restrained: radial, vertical, both
-    double      friction = 0.;       ///< of the flanks [-]
+    double      friction = 0.;      ///< of the flanks [-]
   };
 
   /** The law of that name: tied, FJA, FJB, KSM. @p friction: of the flat face [-]. Throws InputError for an

@@ -29,7 +29,8 @@ namespace Voussoir
     JointSystem(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters,
                 double mass_factor, double stiffness_factor, double dashpot_factor);
 
-    /** @p start: gap at the start of the step, 3 per pair [m]; @p force: guess, then solution, 3 per pair [N];
+    /** @p start: gap at the start of the step, 3 per pair [m]; @p force: guess, then solution, 3 per pair
+     * [N];
      *  @p gap, 3 per pair [m]; @p u, 3 per node [m]. */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &force,
                         Unknowns &gap, Unknowns &u);
@@ -37,10 +38,10 @@ namespace Voussoir
     /** The bodies without joint forces: A u = load. */
     void solve_free(const Unknowns &load, Unknowns &u);
 
-    const std::vector<PairState> &states() const { return solver->states(); }
+    const std::vector<PairState>     &states() const { return solver->states(); }
     const std::vector<unsigned char> &touching() const { return solver->touching(); }
-    double                        memory() const; ///< of factors and joint operator [bytes]
-    const InterfaceOperator      &joint_operator() const { return W; }
+    double                            memory() const; ///< of factors and joint operator [bytes]
+    const InterfaceOperator          &joint_operator() const { return W; }
 
     SystemTimes times;
 

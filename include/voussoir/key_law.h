@@ -30,8 +30,8 @@ namespace Voussoir
     /** @p surfaces: at most 8; the first is the joint's face. */
     explicit SurfacesLaw(std::vector<ContactSurface> surfaces) : surfaces(std::move(surfaces)) {}
 
-    void evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, double rho,
-                  PairEquations &equations) const override;
+    void    evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, double rho,
+                     PairEquations &equations) const override;
     Vector3 solve(const Matrix3 &H, const Vector3 &b, const Vector3 &start) const override;
     Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, unsigned char touching) const override;
     Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,

@@ -51,8 +51,11 @@ namespace Voussoir
     Json &add(const std::string &key, const std::string &text);
     Json &add(const std::string &key, const char *text) { return add(key, std::string(text)); }
     Json &add(const std::string &key, double number);
-    Json &add_flag(const std::string &key, const bool value) { return add_raw(key, value ? "true" : "false"); }
-    Json &add(const std::string &key, const Json &object);
+    Json &add_flag(const std::string &key, const bool value)
+    {
+      return add_raw(key, value ? "true" : "false");
+    }
+    Json                          &add(const std::string &key, const Json &object);
     template <class Numbers> Json &add_list(const std::string &key, const Numbers &numbers)
     {
       std::string list;

@@ -79,27 +79,27 @@ namespace Voussoir
   private:
     bool          step(const Unknowns &load, ContactResult &result);
     ContactResult advance_in_halves(const Unknowns &load, const ContactResult &failed);
-    void     correct_velocity(const Unknowns &change);
-    void     find_end_force(const Unknowns &force);
-    Unknowns right_hand_side(const Unknowns &load) const;
-    double   kinetic_energy_of_pairs() const;
-    void     account_states();
+    void          correct_velocity(const Unknowns &change);
+    void          find_end_force(const Unknowns &force);
+    Unknowns      right_hand_side(const Unknowns &load) const;
+    double        kinetic_energy_of_pairs() const;
+    void          account_states();
     /** v += M^-1 G^T f of one pair. */
     void add_kick(const Pair &pair, const Vector3 &f, Unknowns &v) const;
 
-    const Structure     &structure;
-    const JointLaws     &laws;
-    const ContactParameters parameters;
-    const double         dt;
-    const ImpactRule     rule;
-    JointSystem          system;
-    std::vector<Matrix3> inverse_mass; ///< per node
-    std::vector<Matrix3> pair_inverse; ///< G M^-1 G^T per pair
-    Unknowns             reference, impulse, gap;
-    DynamicState         now;
-    Energy               first; ///< at the start
-    double               largest = 0.;
-    unsigned int         halvings_left = 3;
+    const Structure         &structure;
+    const JointLaws         &laws;
+    const ContactParameters  parameters;
+    const double             dt;
+    const ImpactRule         rule;
+    JointSystem              system;
+    std::vector<Matrix3>     inverse_mass; ///< per node
+    std::vector<Matrix3>     pair_inverse; ///< G M^-1 G^T per pair
+    Unknowns                 reference, impulse, gap;
+    DynamicState             now;
+    Energy                   first; ///< at the start
+    double                   largest = 0.;
+    unsigned int             halvings_left = 3;
     std::unique_ptr<Newmark> finer; ///< with half the time step; made when it is needed
   };
 } // namespace Voussoir

@@ -13,10 +13,10 @@ namespace Voussoir
   public:
     explicit SparseContactOperator(BlockSparseMatrix W) : W(std::move(W)) {}
 
-    unsigned int                     n_pairs() const override { return W.n_rows(); }
-    Matrix3                          diagonal(unsigned int pair) const override;
-    void                             multiply(const Unknowns &x, Unknowns &y) const override;
-    void                             sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const override;
+    unsigned int n_pairs() const override { return W.n_rows(); }
+    Matrix3      diagonal(unsigned int pair) const override;
+    void         multiply(const Unknowns &x, Unknowns &y) const override;
+    void         sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const override;
     std::unique_ptr<ContactJacobian> make_jacobian() const override;
 
     const BlockSparseMatrix &matrix() const { return W; }
