@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <set>
 
 namespace Voussoir
 {
@@ -14,8 +13,9 @@ namespace Voussoir
   {
     using Vector = std::array<double, 3>;
 
-    constexpr double growth = 1.35;      ///< largest ratio of the sizes of neighbours, where possible
-    constexpr double largest_size = 1.7; ///< of the element size, where grid lines are long
+    constexpr double growth = 1.35;        ///< largest ratio of the sizes of neighbours, where possible
+    constexpr double largest_size = 1.7;   ///< of the element size, where grid lines are long
+    constexpr double smallest_size = 0.35; ///< likewise, mean where they are short
 
     /** 1 at x = 0, 0 at x = 1, level at both. */
     double fade(const double x)
@@ -169,17 +169,27 @@ namespace Voussoir
         surface_size = 0.6 * rock.element_size;
         const double largest = largest_size * rock.element_size;
 
-        for (unsigned int c = 0; c <= n_columns; ++c)
+        const double smallest = smallest_size * rock.element_size;
+        const auto   count_lines = [&](const bool is_upstream)
         {
-          n_upstream = std::max(n_upstream, n_graded(foot(c, 0)[0] - x_upstream - n * h_upstream,
-                                                     foot_size(c, true), h_upstream, largest));
-          n_downstream =
-              std::max(n_downstream, n_graded(x_downstream - n * h_downstream - foot(c, n_dam_layers)[0],
-                                              foot_size(c, false), h_downstream, largest));
-        }
+          unsigned int wanted = 0, limit = 1000000;
+          for (unsigned int c = 0; c <= n_columns; ++c)
+          {
+            const double length = is_upstream ? foot(c, 0)[0] - x_upstream - n * h_upstream
+                                              : x_downstream - n * h_downstream - foot(c, n_dam_layers)[0];
+            wanted = std::max(wanted, n_graded(length, foot_size(c, is_upstream),
+                                               is_upstream ? h_upstream : h_downstream, largest));
+            limit = std::min<unsigned int>(limit, std::ceil(length / smallest));
+          }
+          return std::clamp(limit, 2u, wanted);
+        };
+        n_upstream = count_lines(true);
+        n_downstream = count_lines(false);
         column_size = y_end - valley[n_columns - 1][0];
         n_side = n_graded(y_side - n * h_side - y_end, column_size, h_side, rock.element_size);
-        n_down = n_graded(plateau - z_bottom - n * h_bottom, surface_size, h_bottom, largest);
+        const double below_valley = -z_bottom - n * h_bottom;
+        n_down = std::clamp<unsigned int>(std::ceil(below_valley / smallest), 2,
+                                          n_graded(plateau + below_valley, surface_size, h_bottom, largest));
 
         first_column = n + n_side;
         first_layer = n + n_upstream;
@@ -299,21 +309,33 @@ namespace Voussoir
         return std::min(1., double(steps) / n_side);
       }
 
-      /** Evens out the lines across the valley, the more the farther they are from the dam. */
+      /** Evens out the lines across the valley over about 100 m, the more the farther they are from the dam.
+       *  Elements may lose a third of their length at most. */
       void smooth()
       {
-        for (unsigned int sweep = 0; sweep < 100; ++sweep)
+        const std::vector<Vector> unsmoothed = surface;
+        const auto                gap = [&](const unsigned int i, const unsigned int j)
+        {
+          const Vector *at = &unsmoothed[i * (n_j + 1) + j];
+          return at[1][0] - at[0][0];
+        };
+        const double       column = 2 * y_end / n_columns;
+        const unsigned int n_sweeps = std::min(1000., std::ceil(std::pow(100 / column, 2)));
+        for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
           for (unsigned int j = n + 1; j + n < n_j; ++j)
           {
             Vector before = ground(n, j);
             for (unsigned int i = n + 1; i + n < n_i; ++i)
             {
-              const Vector  here = ground(i, j);
-              const Vector &after = ground(i + 1, j);
-              const double  middle =
-                  before[0] + (after[0] - before[0]) * (here[1] - before[1]) / (after[1] - before[1]);
               const double share = 1 - fade(std::max(distance(j), distance_of_column(i)));
-              ground(i, j)[0] += 0.5 * share * (middle - here[0]);
+              const Vector here = ground(i, j), &after = ground(i + 1, j);
+              const double middle =
+                  before[0] + (after[0] - before[0]) * (here[1] - before[1]) / (after[1] - before[1]);
+              const double lower = ground(i, j - 1)[0] + 2. / 3 * gap(i, j - 1),
+                           upper = ground(i, j + 1)[0] - 2. / 3 * gap(i, j);
+              if (lower < upper)
+                ground(i, j)[0] = std::clamp(here[0] + 0.5 * share * (middle - here[0]),
+                                             std::min(lower, here[0]), std::max(upper, here[0]));
               before = here;
             }
           }
@@ -379,12 +401,12 @@ namespace Voussoir
 
       void release_end_walls()
       {
-        const std::set<unsigned int> of_rock(number.begin(), number.end());
-        const auto                   is_end_wall = [&](const HexMesh::Face &face)
+        const auto is_end_wall = [&](const HexMesh::Face &face)
         {
           return face.surface == PhysicalId::base &&
                  std::any_of(face.nodes.begin(), face.nodes.end(),
-                             [&](const unsigned int node) { return of_rock.count(node) == 0; });
+                             [&](const unsigned int node)
+                             { return node / (n_dam_layers + 1) % (dam.elements_up + 1) != 0; });
         };
         mesh.faces.erase(std::remove_if(mesh.faces.begin(), mesh.faces.end(), is_end_wall), mesh.faces.end());
       }
@@ -394,14 +416,14 @@ namespace Voussoir
       HexMesh                           &mesh;
       std::vector<std::array<double, 2>> valley; // (y, z) of each of the dam's columns
       const unsigned int                 n_columns, n_dam_layers, n;
-      double              h_upstream, h_downstream, h_side, h_bottom; // [m], of the boundary's layers
-      double              x_upstream, x_downstream, y_side, y_end, z_bottom, plateau; // [m]
-      double              surface_size, column_size; // [m], below the ground and beside the dam
-      unsigned int        n_upstream = 0, n_downstream = 0, n_side, n_down; // elements between dam and layers
-      unsigned int        first_column, first_layer;                        // of the dam
-      unsigned int        n_i, n_j, n_k; // elements across, along the stream, down
-      std::vector<Vector> surface;       // ground and foot, by i and j
-      std::vector<unsigned int> number;  // of the node i, j, k
+      double                    h_upstream, h_downstream, h_side, h_bottom; // [m], of the boundary's layers
+      double                    x_upstream, x_downstream, y_side, y_end, z_bottom, plateau; // [m]
+      double                    surface_size, column_size; // [m], below the ground and beside the dam
+      unsigned int              n_upstream, n_downstream, n_side, n_down; // elements between dam and layers
+      unsigned int              first_column, first_layer;                // of the dam
+      unsigned int              n_i, n_j, n_k; // elements across, along the stream, down
+      std::vector<Vector>       surface;       // ground and foot, by i and j
+      std::vector<unsigned int> number;        // of the node i, j, k
     };
   } // namespace
 
@@ -414,10 +436,10 @@ namespace Voussoir
     prm.add_parameter("Enabled", enabled, "Mesh the rock around the dam, too. Otherwise the base is rigid.",
                       Bool());
     const std::string from = " [m], from the dam's outermost foot to the artificial boundary.";
-    prm.add_parameter("Upstream", upstream, "Length of the rock upstream" + from, Double(20, 1e5));
-    prm.add_parameter("Downstream", downstream, "Length of the rock downstream" + from, Double(20, 1e5));
-    prm.add_parameter("Sides", sides, "Length of the rock on either side" + from, Double(20, 1e5));
-    prm.add_parameter("Depth", depth, "Depth of the rock" + from, Double(20, 1e5));
+    prm.add_parameter("Upstream", upstream, "Length of the rock upstream" + from, Double(50, 1e5));
+    prm.add_parameter("Downstream", downstream, "Length of the rock downstream" + from, Double(50, 1e5));
+    prm.add_parameter("Sides", sides, "Length of the rock on either side" + from, Double(50, 1e5));
+    prm.add_parameter("Depth", depth, "Depth of the rock" + from, Double(50, 1e5));
     prm.add_parameter(
         "Element size", element_size,
         "Size of the elements far from the dam [m]. Across the valley, the dam's columns decide "
@@ -438,9 +460,9 @@ namespace Voussoir
     const std::string section = "Mesh/Arch210/Rock: ";
     for (const auto &length : {std::make_pair("Upstream", upstream), std::make_pair("Downstream", downstream),
                                std::make_pair("Sides", sides), std::make_pair("Depth", depth)})
-      if (!(length.second >= 20))
+      if (!(length.second >= 50))
         throw InputError(section + "'" + length.first + "' is " + std::to_string(length.second) +
-                         " m. Choose at least 20 m; one height of the dam is usual.");
+                         " m. Choose at least 50 m; one height of the dam is usual.");
     if (!(element_size >= 1))
       throw InputError(section + "'Element size' is " + std::to_string(element_size) +
                        " m. Choose at least 1 m.");
