@@ -227,4 +227,21 @@ namespace Voussoir
       mesh.names[{2, face.surface}] = physical_name(2, face.surface);
     return mesh;
   }
+
+  std::vector<std::array<double, 2>> arch210_valley(const Arch210Parameters &parameters)
+  {
+    std::vector<std::array<double, 2>> valley;
+    for (const double s : columns(parameters))
+    {
+      const Column column(crest_y(std::abs(s)));
+      const auto   foot = column.node(column.foot(0), 0);
+      valley.push_back({s < 0 ? -foot[1] : foot[1], foot[2]});
+    }
+    return valley;
+  }
+
+  double arch210_half_width(const double z)
+  {
+    return half_width(z);
+  }
 } // namespace Voussoir

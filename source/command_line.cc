@@ -146,6 +146,25 @@ Exit status: 0 done; 1 the computation failed; 2 bad input.
         throw InputError("`voussoir parameters` prints prm, json or markdown, not \"" + format + "\".");
     }
 
+    void print_mesh(const HexMesh &mesh)
+    {
+      std::printf("%zu nodes, %zu hexahedra\n", mesh.nodes.size(), mesh.cells.size());
+      for (const bool of_rock : {false, true})
+      {
+        const auto n_cells =
+            std::count_if(mesh.cells.begin(), mesh.cells.end(),
+                          [&](const auto &cell) { return is_monolith(cell.volume) != of_rock; });
+        if (n_cells == 0)
+          continue;
+        const MeshQuality quality = mesh_quality(mesh, of_rock);
+        std::printf("%s: %td hexahedra, edges %.3g to %.3g m, smallest height %.3g m at %s, smallest scaled "
+                    "Jacobian %.2f\n",
+                    of_rock ? "rock" : "dam ", n_cells, quality.shortest_edge, quality.longest_edge,
+                    quality.smallest_height, place(quality.smallest_height_at).c_str(),
+                    quality.smallest_scaled_jacobian);
+      }
+    }
+
     void print_modes(const Scene &scene, const std::string &count_text)
     {
       unsigned int count = 0;
@@ -230,8 +249,9 @@ Exit status: 0 done; 1 the computation failed; 2 bad input.
       {
         if (arguments.format != "4.1" && arguments.format != "2.2")
           throw InputError("--format must be 4.1 or 2.2, not \"" + arguments.format + "\".");
-        write_gmsh(make_mesh(scene.mesh, scene.directory), arguments.output,
-                   arguments.format == "2.2" ? 2.2 : 4.1);
+        const HexMesh mesh = make_mesh(scene.mesh, scene.directory);
+        write_gmsh(mesh, arguments.output, arguments.format == "2.2" ? 2.2 : 4.1);
+        print_mesh(mesh);
       }
       else
       {

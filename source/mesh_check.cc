@@ -21,7 +21,12 @@ namespace Voussoir
     class Check
     {
     public:
-      Check(const HexMesh &mesh, const std::string &source) : mesh(mesh), source(source), table(mesh) {}
+      Check(const HexMesh &mesh, const std::string &source)
+          : mesh(mesh), source(source), table(mesh),
+            has_rock(std::any_of(mesh.cells.begin(), mesh.cells.end(),
+                                 [](const auto &cell) { return !is_monolith(cell.volume); }))
+      {
+      }
 
       void nodes() const
       {
@@ -96,16 +101,49 @@ namespace Voussoir
             fail(where + " is also in surface " + group_name(mesh, 2, other.first->second) +
                  ". Leave it in one physical surface only.");
         }
+        if (has_rock)
+          rock_faces(surface_of);
+      }
+
+      /** With rock, 'base' is where dam and rock meet, all of it; the ground and the boundary are rock's. */
+      void rock_faces(const std::map<std::array<unsigned int, 4>, int> &surface_of) const
+      {
+        for (const auto &face : surface_of)
+        {
+          const auto        owners = table.owners(face.first);
+          const std::string where = "a face of surface " + group_name(mesh, 2, face.second) + " at " +
+                                    place(centre(mesh, face.first));
+          if (face.second == PhysicalId::base && owners.second == nullptr)
+            fail(where + " does not lie between dam and rock: it belongs to one hexahedron only. Let dam and "
+                         "rock share their nodes there (gmsh: Coherence, or remove duplicate nodes), or take "
+                         "it out of the surface if there is no rock.");
+          if ((face.second == PhysicalId::artificial || face.second == PhysicalId::free_surface) &&
+              is_monolith(mesh.cells[owners.first->cell].volume))
+            fail(where + " belongs to the dam. Only rock has this surface: take the face out of it.");
+        }
+        for (auto entry = table.entries().begin(); entry + 1 < table.entries().end(); ++entry)
+        {
+          const auto &other = *(entry + 1);
+          if (entry->key == other.key &&
+              is_monolith(mesh.cells[entry->cell].volume) != is_monolith(mesh.cells[other.cell].volume) &&
+              surface_of.count(entry->key) == 0)
+            fail("the face between dam and rock at " + place(centre(mesh, entry->key)) +
+                 " is in no surface. Put all faces where they meet into the surface 'base' (id 1).");
+        }
       }
 
       void supports() const
       {
-        const bool has_rock = std::any_of(mesh.cells.begin(), mesh.cells.end(),
-                                          [](const auto &cell) { return !is_monolith(cell.volume); });
-        for (const auto &face : mesh.faces)
-          if (face.surface == PhysicalId::artificial ||
-              (face.surface == PhysicalId::base && table.owners(face.nodes).second == nullptr))
-            return;
+        const auto has = [&](const int surface)
+        {
+          return std::any_of(mesh.faces.begin(), mesh.faces.end(),
+                             [&](const auto &face) { return face.surface == surface; });
+        };
+        if (has_rock && !has(PhysicalId::base))
+          fail("dam and rock do not touch: no hexahedra of both share a face. Let them share their nodes "
+               "(gmsh: Coherence, or remove duplicate nodes).");
+        if (has(has_rock ? PhysicalId::artificial : PhysicalId::base))
+          return;
         if (has_rock)
           fail("nothing holds the rock: there is no surface 'artificial boundary' (id 6). Put the rock's cut "
                "faces into it.");
@@ -156,6 +194,7 @@ namespace Voussoir
       const HexMesh     &mesh;
       const std::string &source;
       const FaceTable    table;
+      const bool         has_rock;
     };
   } // namespace
 

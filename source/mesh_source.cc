@@ -75,13 +75,17 @@ namespace Voussoir
                       Selection("m|mm|ft"));
     prm.leave_subsection();
     arch210.add_parameters(prm);
+    arch210_rock.add_parameters(prm);
   }
 
   void MeshParameters::check() const
   {
     parse_axes(axes);
     if (source == "arch210")
+    {
       arch210.check();
+      arch210_rock.check();
+    }
     else if (file.empty())
       throw InputError(
           "Mesh: 'Source' is 'file', but the entry 'File' is empty. Give the path of a gmsh mesh, "
@@ -93,7 +97,9 @@ namespace Voussoir
     parameters.check();
     if (parameters.source == "arch210")
     {
-      const HexMesh mesh = make_arch210(parameters.arch210);
+      HexMesh mesh = make_arch210(parameters.arch210);
+      if (parameters.arch210_rock.enabled)
+        add_arch210_rock(parameters.arch210, parameters.arch210_rock, mesh);
       check_mesh(mesh, "arch210");
       return mesh;
     }

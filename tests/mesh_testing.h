@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -81,6 +82,28 @@ namespace MeshTesting
   {
     const double scale = 0.7310587e6; // no decimal fraction is halfway between two integers
     return {std::lround(p[0] * scale), std::lround(p[1] * scale), std::lround(p[2] * scale)};
+  }
+
+  inline void expect_same(const HexMesh &a, const HexMesh &b)
+  {
+    expect(a.nodes.size() == b.nodes.size() && a.cells.size() == b.cells.size() &&
+               a.faces.size() == b.faces.size(),
+           "different numbers of nodes, cells or faces");
+    for (unsigned int n = 0; n < a.nodes.size(); ++n)
+      for (unsigned int d = 0; d < 3; ++d)
+        expect(std::abs(a.nodes[n][d] - b.nodes[n][d]) <= 1e-15 * 300, "different coordinates");
+    for (unsigned int c = 0; c < a.cells.size(); ++c)
+      expect(a.cells[c].nodes == b.cells[c].nodes && a.cells[c].volume == b.cells[c].volume,
+             "different cells");
+    const auto sorted = [](const HexMesh &mesh)
+    {
+      std::multiset<std::pair<int, std::array<unsigned int, 4>>> faces;
+      for (const auto &face : mesh.faces)
+        faces.insert({face.surface, face.nodes});
+      return faces;
+    };
+    expect(sorted(a) == sorted(b), "different faces");
+    expect(a.names == b.names, "different names");
   }
 
   /** Runs the tests, prints "name: OK" or what failed; returns main's status. */

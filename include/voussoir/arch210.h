@@ -33,6 +33,13 @@ namespace Voussoir
    *  The node of column i along, row k up and layer l through the dam has the number
    *  (i (elements_up + 1) + k) (elements_through + 1) + l. */
   HexMesh make_arch210(const Arch210Parameters &parameters);
+
+  /** The section of the valley: (y, z) of the foot of the centre line at each column of nodes [m], from the
+   *  right bank to the left. The last ones are as high as the foot of the dam's ends. */
+  std::vector<std::array<double, 2>> arch210_valley(const Arch210Parameters &parameters);
+
+  /** Half the width of the valley at height z, which is the dam's half chord [m]. */
+  double arch210_half_width(double z);
 } // namespace Voussoir
 
 #endif

@@ -107,7 +107,7 @@ namespace Voussoir
   /** Throws InputError, beginning with @p source (the file), if the mesh cannot be computed with: nodes that
    *  are not finite, inverted or degenerate cells, monoliths not numbered 1, 2, ..., faces of no cell, inside
    *  the dam or in two surfaces, monoliths that lie face to face unconnected, or nothing that fixes the dam.
-   */
+   *  With rock, 'base' must be all faces between dam and rock, and nothing else. */
   void check_mesh(const HexMesh &mesh, const std::string &source);
 
   /** Number of monoliths (the largest volume id below PhysicalId::first_rock). */
@@ -116,6 +116,18 @@ namespace Voussoir
   /** Smallest determinant of the Jacobian of a cell's map from the unit cube, over its corners and its
    *  centre [m^3]. */
   double min_jacobian(const HexMesh &mesh, const HexMesh::Cell &cell);
+
+  /** What a set of hexahedra does to accuracy and to the time step. All are taken at the cells' corners. */
+  struct MeshQuality
+  {
+    double                shortest_edge, longest_edge; ///< [m]
+    double                smallest_height;             ///< [m], between opposite faces
+    std::array<double, 3> smallest_height_at;          ///< centre of that cell
+    double                smallest_scaled_jacobian;    ///< 1 for right angles, 0 for flat cells
+  };
+
+  /** Of the rock or of the dam, which must have cells. */
+  MeshQuality mesh_quality(const HexMesh &mesh, bool of_rock);
 
   /** Volume of each physical volume [m^3], exact for the trilinear cells. */
   std::map<int, double> volumes(const HexMesh &mesh);

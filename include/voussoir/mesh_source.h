@@ -1,7 +1,7 @@
 #ifndef voussoir_mesh_source_h
 #define voussoir_mesh_source_h
 
-#include <voussoir/arch210.h>
+#include <voussoir/arch210_rock.h>
 #include <voussoir/mesh.h>
 
 #include <string>
@@ -11,11 +11,12 @@ namespace Voussoir
   /** Where the mesh comes from: subsection "Mesh" of the scene. */
   struct MeshParameters
   {
-    std::string       source = "arch210"; ///< "arch210" or "file"
-    std::string       file = "";          ///< gmsh file, relative to the scene's directory
-    std::string       axes = "x y z";     ///< the file's axes downstream, to the left bank, up
-    std::string       length_unit = "m";  ///< of the file: "m", "mm" or "ft"
-    Arch210Parameters arch210;
+    std::string           source = "arch210"; ///< "arch210" or "file"
+    std::string           file = "";          ///< gmsh file, relative to the scene's directory
+    std::string           axes = "x y z";     ///< the file's axes downstream, to the left bank, up
+    std::string           length_unit = "m";  ///< of the file: "m", "mm" or "ft"
+    Arch210Parameters     arch210;
+    Arch210RockParameters arch210_rock;
 
     void add_parameters(dealii::ParameterHandler &prm);
 
