@@ -23,6 +23,14 @@ namespace Voussoir
       return {{x[3 * i], x[3 * i + 1], x[3 * i + 2]}};
     }
 
+    double norm_square(const Unknowns &x)
+    {
+      double sum = 0.;
+      for (const double y : x)
+        sum += y * y;
+      return sum;
+    }
+
     double wall_time()
     {
       return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -71,6 +79,12 @@ namespace Voussoir
                       "newton (falls back on sweeps, then on the proximal point method), proximal, or sweeps "
                       "(Gauss-Seidel alone).",
                       Selection(method_names()));
+    prm.add_parameter(
+        "Write problems", write_problems,
+        "Write the contact problems of the joints to OUTPUT/contact in FCLib's format, with the initial "
+        "guess; for FJA, whose problems are Coulomb's. `voussoir contact` solves them.");
+    prm.add_parameter("Write interval", write_interval, "Problems between two that are written [-].",
+                      Integer(1));
     prm.leave_subsection();
   }
 
@@ -134,7 +148,7 @@ namespace Voussoir
     return sum;
   }
 
-  double ContactSolver::residual(const Unknowns &force, const Unknowns &gap) const
+  double ContactSolver::residual(const Unknowns &force, const Unknowns &gap)
   {
     double f = 0., p = 0., q = 0., u = 0.;
     for (std::size_t i = 0; i < law.size(); ++i)
@@ -151,16 +165,22 @@ namespace Voussoir
       }
     }
     const double force_size = std::sqrt(p), load_size = mean_rho * std::sqrt(q);
-    const double scale = std::max({force_size, load_size, mean_rho * std::sqrt(u)});
+    scale = std::max({force_size, load_size, mean_rho * std::sqrt(u)});
     // A singular step leaves forces without bound, which would make any error look small.
     if (!std::isfinite(f + scale) || force_size > 1e10 * load_size)
       return std::numeric_limits<double>::infinity();
     return scale > 0. ? std::sqrt(f) / scale : 0.;
   }
 
-  void ContactSolver::refresh_gap(const Unknowns &force, Unknowns &gap) const
+  /** gap = W force + b, free of the round-off of updates; the last product is kept for the next step. */
+  void ContactSolver::refresh_gap(const Unknowns &force, Unknowns &gap)
   {
-    W.multiply(force, gap);
+    if (multiplied != force || product.empty())
+    {
+      W.multiply(force, product);
+      multiplied = force;
+    }
+    gap = product;
     add(gap, 1., *b);
   }
 
@@ -182,7 +202,7 @@ namespace Voussoir
       W.sweep(solve_pair, force, gap);
   }
 
-  /** Moves along @p step; returns the merit there. None decreases: the whole step is taken. */
+  /** Moves along @p step; returns by how much of it. None decreases: the whole step is taken. */
   double ContactSolver::line_search(const double bound, const Unknowns &step, const Unknowns &d_gap,
                                     Unknowns &force, Unknowns &gap)
   {
@@ -195,15 +215,24 @@ namespace Voussoir
       add(trial_force, t, step);
       add(trial_gap, t, d_gap);
       evaluate(trial_force, trial_gap);
-      const double found = merit();
-      if (found <= (1. - 2e-4 * t) * bound || halving == 12)
+      if (merit() <= (1. - 2e-4 * t) * bound || halving == 12)
       {
         force.swap(trial_force);
         gap.swap(trial_gap);
-        return found;
+        return t;
       }
     }
-    return bound;
+    return 1.;
+  }
+
+  /** How exact the linear solver must be: as Newton is about to become (Eisenstat and Walker 1996, choice 2),
+   *  but not looser than 1e-3 when it stalls: a loose step misses the soft modes of bodies that only their
+   *  neighbours hold. */
+  double ContactSolver::forcing_term(const double now, const double previous, const double target,
+                                     const bool stalls) const
+  {
+    const double ratio = now / previous, loosest = stalls ? 1e-3 : .1;
+    return std::clamp(.9 * ratio * ratio, std::min(loosest, .3 * target / now), loosest);
   }
 
   /** Newton's method from @p force for the present (regularised) problem. False when it stalls; @p force is
@@ -213,6 +242,7 @@ namespace Voussoir
   {
     evaluate(force, gap);
     double             now = residual(force, gap), previous = now;
+    double             drift = 0.; // bound of what single precision steps have made of the gap, like now
     Best               found{now, force};
     std::deque<double> merits(1, merit());
     Unknowns           step, d_gap;
@@ -224,25 +254,26 @@ namespace Voussoir
           for (unsigned int c = 0; c < 9; ++c)
             equations[i].d_force[c] += proximal.alpha / rho[i] * equations[i].d_gap[c];
       result.factorisations += jacobian->update(equations);
-      // As exact as Newton is about to become (Eisenstat and Walker 1996, choice 2), but not looser than 1e-3
-      // when it stalls: a loose step misses the soft modes of bodies that only their neighbours hold.
-      const double ratio = k == 0 ? 1. : now / previous, loosest = stalled > 0 ? 1e-3 : .1;
-      const double tolerance = std::clamp(.9 * ratio * ratio, std::min(loosest, .3 * target / now), loosest);
-      result.krylov += jacobian->solve(tolerance, step, d_gap);
+      result.krylov += jacobian->solve(forcing_term(now, previous, target, stalled > 0), step, d_gap);
       ++result.iterations;
-      merits.push_back(line_search(*std::max_element(merits.begin(), merits.end()), step, d_gap, force, gap));
-      if (merits.size() > 5)
-        merits.pop_front();
+      // Nonmonotone, until it cycles.
+      const double bound = stalled > 2 ? merits.back() : *std::max_element(merits.begin(), merits.end());
+      const double t = line_search(bound, step, d_gap, force, gap);
       previous = now;
       now = residual(force, gap);
       if (!std::isfinite(now)) // singular
         break;
-      if (now <= target) // free of the round-off of the updates?
+      drift += 1e-6 * t * mean_rho * std::sqrt(norm_square(d_gap)) / scale;
+      if (now <= target || drift > .1 * now)
       {
         refresh_gap(force, gap);
         evaluate(force, gap);
         now = residual(force, gap);
+        drift = 0.;
       }
+      merits.push_back(merit());
+      if (merits.size() > 5)
+        merits.pop_front();
       stalled = now < .9 * found.residual ? 0 : stalled + 1;
       if (now < found.residual)
         found = {now, force};

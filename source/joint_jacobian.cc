@@ -8,6 +8,8 @@ extern "C"
   void sgetrf_(const int *, const int *, float *, const int *, int *, int *);
   void sgetrs_(const char *, const int *, const int *, const float *, const int *, const int *, float *,
                const int *, int *);
+  void sgemm_(const char *, const char *, const int *, const int *, const int *, const float *, const float *,
+              const int *, const float *, const int *, const float *, float *, const int *);
   void sgemv_(const char *, const int *, const int *, const float *, const float *, const int *,
               const float *, const int *, const float *, float *, const int *);
 }
@@ -37,15 +39,25 @@ namespace Voussoir
   } // namespace
 
   JointJacobian::JointJacobian(const InterfaceOperator &W)
-      : W(W), factors(W.n_groups()), groups_of_colour(W.colours()), colour(W.n_groups(), 0)
+      : W(W), factors(W.n_groups()), groups_of_colour(W.colours()), colour(W.n_groups(), 0),
+        below(W.n_groups()), above(W.n_groups())
   {
     for (unsigned int c = 0; c < groups_of_colour.size(); ++c)
       for (const unsigned int g : groups_of_colour[c])
         colour[g] = c;
     for (unsigned int g = 0; g < W.n_groups(); ++g)
       for (unsigned int k = g; k < W.n_groups(); ++k)
-        if (const std::vector<double> *block = W.find_block(g, k))
+        if (const std::vector<double> *block = W.find_block(g, k); block && !block->empty())
+        {
           blocks[{g, k}].assign(block->begin(), block->end());
+          keys.push_back({g, k});
+          is_chain = is_chain && k <= g + 1;
+        }
+  }
+
+  const JointJacobian::Floats &JointJacobian::coupling(const unsigned int j, const unsigned int k) const
+  {
+    return blocks.at({std::min(j, k), std::max(j, k)});
   }
 
   bool JointJacobian::needs_factor(const unsigned int group) const
@@ -53,12 +65,11 @@ namespace Voussoir
     // Stale factors still precondition well when only directions of slip have turned a little.
     constexpr double tolerated = .3;
     const Factor    &factor = factors[group];
-    const auto      *present = equations->data() + W.begin(group) / 3;
     if (factor.equations.empty())
       return true;
     for (std::size_t i = 0; i < factor.equations.size(); ++i)
     {
-      const PairEquations &a = factor.equations[i], &b = present[i];
+      const PairEquations &a = factor.equations[i], &b = present(group)[i];
       for (unsigned int k = 0; k < 3; ++k)
         if (row_is_trivial(a, k) != row_is_trivial(b, k))
           return true;
@@ -72,6 +83,11 @@ namespace Voussoir
   unsigned int JointJacobian::update(const std::vector<PairEquations> &new_equations)
   {
     equations = &new_equations;
+    if (chain)
+    {
+      factorise_chain();
+      return W.n_groups();
+    }
     unsigned int count = 0;
 #pragma omp parallel for schedule(dynamic) reduction(+ : count)
     for (int g = 0; g < static_cast<int>(W.n_groups()); ++g)
@@ -82,30 +98,29 @@ namespace Voussoir
           factorise(g);
           ++count;
         }
-        const auto *present = equations->data() + W.begin(g) / 3;
-        Factor     &factor = factors[g];
-        factor.exact = std::equal(factor.equations.begin(), factor.equations.end(), present,
+        Factor &factor = factors[g];
+        factor.exact = std::equal(factor.equations.begin(), factor.equations.end(), present(g),
                                   [](const PairEquations &a, const PairEquations &b)
                                   { return a.d_force == b.d_force && a.d_gap == b.d_gap; });
       }
     return count;
   }
 
-  void JointJacobian::factorise(const unsigned int group)
+  /** The joint's own block of J, in the rows and columns that are not trivial. */
+  void JointJacobian::take_active_rows(const unsigned int group)
   {
-    const auto        *present = equations->data() + W.begin(group) / 3;
     const unsigned int n_pairs = W.size(group) / 3;
     Factor            &factor = factors[group];
-    factor.equations.assign(present, present + n_pairs);
+    factor.equations.assign(present(group), present(group) + n_pairs);
     factor.active.clear();
     for (unsigned int i = 0; i < n_pairs; ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        if (!row_is_trivial(present[i], c))
+        if (!row_is_trivial(present(group)[i], c))
           factor.active.push_back(3 * i + c);
+    factor.lu.resize(factor.active.size() * factor.active.size());
+    factor.pivots.resize(factor.active.size());
     const Floats &w = blocks.at({group, group});
     const int     n = factor.active.size(), ld = W.size(group);
-    factor.lu.resize(std::size_t(n) * n);
-    factor.pivots.resize(n);
     for (int column = 0; column < n; ++column)
     {
       const unsigned int k = factor.active[column];
@@ -113,14 +128,21 @@ namespace Voussoir
       float             *out = factor.lu.data() + std::size_t(column) * n;
       for (int row = 0; row < n; ++row)
       {
-        const unsigned int j = factor.active[row], pair = j / 3, c = 3 * (j % 3);
-        const double      *g = present[pair].d_gap.data() + c;
-        out[row] =
-            static_cast<float>(g[0] * w_k[3 * pair] + g[1] * w_k[3 * pair + 1] + g[2] * w_k[3 * pair + 2] +
-                               (k / 3 == pair ? present[pair].d_force[c + k % 3] : 0.));
+        const unsigned int   j = factor.active[row], pair = j / 3, c = 3 * (j % 3);
+        const PairEquations &e = factor.equations[pair];
+        const double        *g = e.d_gap.data() + c;
+        out[row] = static_cast<float>(g[0] * w_k[3 * pair] + g[1] * w_k[3 * pair + 1] +
+                                      g[2] * w_k[3 * pair + 2] + (k / 3 == pair ? e.d_force[c + k % 3] : 0.));
       }
     }
-    int info = 0;
+  }
+
+  void JointJacobian::factorise(const unsigned int group)
+  {
+    take_active_rows(group);
+    Factor   &factor = factors[group];
+    const int n = factor.active.size();
+    int       info = 0;
     if (n > 0)
       sgetrf_(&n, &n, factor.lu.data(), &n, factor.pivots.data(), &info);
   }
@@ -144,83 +166,233 @@ namespace Voussoir
   void JointJacobian::multiply_block(const unsigned int j, const unsigned int k, const float *x,
                                      float *y) const
   {
-    const Floats &block = blocks.at({std::min(j, k), std::max(j, k)});
+    const Floats &block = coupling(j, k);
     const int     rows = W.size(std::min(j, k)), columns = W.size(std::max(j, k)), stride = 1;
     const float   one = 1.f;
-    if (!block.empty())
-      sgemv_(j <= k ? "N" : "T", &rows, &columns, &one, block.data(), &rows, x, &stride, &one, y, &stride);
+    sgemv_(j <= k ? "N" : "T", &rows, &columns, &one, block.data(), &rows, x, &stride, &one, y, &stride);
   }
 
-  /** v_group += (-) d_gap sum_k W_k z_k over the neighbours of later (earlier) colour. */
-  void JointJacobian::add_couplings(const Floats &z, Floats &v, const unsigned int group,
-                                    const bool later) const
+  /** y += factor * d_gap x, in the rows of a group. */
+  void JointJacobian::multiply_by_d_gap(const unsigned int group, const float factor, const float *x,
+                                        float *y) const
   {
-    Floats w(W.size(group), 0.f);
-    bool   any = false;
-    for (const unsigned int k : W.neighbours(group))
-      if ((colour[k] > colour[group]) == later)
-      {
-        multiply_block(group, k, z.data() + W.begin(k), w.data());
-        any = true;
-      }
-    for (unsigned int i = 0; any && i < W.size(group) / 3; ++i)
+    for (unsigned int i = 0; i < W.size(group) / 3; ++i)
     {
-      const Vector3 x =
-          (*equations)[W.begin(group) / 3 + i].d_gap * Vector3{{w[3 * i], w[3 * i + 1], w[3 * i + 2]}};
+      const Vector3 g = present(group)[i].d_gap * Vector3{{x[3 * i], x[3 * i + 1], x[3 * i + 2]}};
       for (unsigned int c = 0; c < 3; ++c)
-        v[W.begin(group) + 3 * i + c] += static_cast<float>(later ? x[c] : -x[c]);
+        y[3 * i + c] += factor * static_cast<float>(g[c]);
     }
   }
 
-  /** z = P^-1 v. */
-  void JointJacobian::precondition(const Floats &v, Floats &z) const
+  /** y = W x. Each block serves both of its groups while it is in the cache. */
+  void JointJacobian::multiply_W(const Floats &x, Floats &y) const
+  {
+    std::vector<std::array<Floats, 2>> products(keys.size());
+#pragma omp parallel for schedule(dynamic)
+    for (int i = 0; i < static_cast<int>(keys.size()); ++i)
+    {
+      const unsigned int j = keys[i].first, k = keys[i].second;
+      products[i][0].assign(W.size(j), 0.f);
+      multiply_block(j, k, x.data() + W.begin(k), products[i][0].data());
+      if (j != k)
+      {
+        products[i][1].assign(W.size(k), 0.f);
+        multiply_block(k, j, x.data() + W.begin(j), products[i][1].data());
+      }
+    }
+    y.assign(W.n(), 0.f);
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      for (unsigned int side = 0; side < 2; ++side)
+      {
+        float *out = y.data() + W.begin(side == 0 ? keys[i].first : keys[i].second);
+        for (const float p : products[i][side])
+          *out++ += p;
+      }
+  }
+
+  /** y = W x for an @p x with few entries. */
+  void JointJacobian::multiply_W_sparse(const Unknowns &x, Floats &y) const
+  {
+    y.assign(W.n(), 0.f);
+    for (unsigned int k = 0; k < W.n_groups(); ++k)
+    {
+      std::vector<unsigned int> entries;
+      for (unsigned int i = 0; i < W.size(k); ++i)
+        if (x[W.begin(k) + i] != 0.)
+          entries.push_back(i);
+      if (entries.empty())
+        continue;
+      std::vector<unsigned int> groups = W.neighbours(k);
+      groups.push_back(k);
+      for (const unsigned int j : groups)
+      {
+        const Floats     &block = coupling(j, k);
+        const std::size_t along = j <= k ? 1 : W.size(k), across = j <= k ? W.size(j) : 1; // strides
+        float            *out = y.data() + W.begin(j);
+        for (const unsigned int i : entries)
+        {
+          const float  factor = static_cast<float>(x[W.begin(k) + i]);
+          const float *column = block.data() + i * across;
+          for (unsigned int row = 0; row < W.size(j); ++row)
+            out[row] += factor * column[row * along];
+        }
+      }
+    }
+  }
+
+  /** z = P^-1 v and w = J z. */
+  void JointJacobian::apply(const Floats &v, Floats &z, Floats &w) const
   {
     z = v;
+    if (chain)
+    {
+      apply_chain(v, z);
+      multiply_J(z, w);
+      return;
+    }
+    w = v;
+    std::vector<std::vector<Floats>> back(W.n_groups()); // W_kg z_g for the earlier neighbours k of g
+    const auto                       for_earlier = [this](const unsigned int g, const auto &action)
+    {
+      for (const unsigned int k : W.neighbours(g))
+        if (colour[k] < colour[g] && W.size(k) > 0 && W.size(g) > 0)
+          action(k);
+    };
     for (const auto &groups : groups_of_colour)
 #pragma omp parallel for schedule(dynamic)
       for (int i = 0; i < static_cast<int>(groups.size()); ++i)
       {
-        add_couplings(z, z, groups[i], false);
-        apply_factor(groups[i], z.data() + W.begin(groups[i]));
+        const unsigned int g = groups[i];
+        float             *z_g = z.data() + W.begin(g);
+        Floats             sum(W.size(g), 0.f);
+        for_earlier(g,
+                    [&](const unsigned int k) { multiply_block(g, k, z.data() + W.begin(k), sum.data()); });
+        multiply_by_d_gap(g, -1.f, sum.data(), z_g);
+        apply_factor(g, z_g);
+        for_earlier(g,
+                    [&](const unsigned int k)
+                    {
+                      back[g].emplace_back(W.size(k), 0.f);
+                      multiply_block(k, g, z_g, back[g].back().data());
+                    });
       }
-  }
-
-  /** w = J z, where z = P^-1 v. */
-  void JointJacobian::multiply(const Floats &v, const Floats &z, Floats &w) const
-  {
-    w = v;
+    for (unsigned int g = 0; g < W.n_groups(); ++g)
+    {
+      auto product = back[g].begin();
+      for_earlier(g, [&](const unsigned int k)
+                  { multiply_by_d_gap(k, 1.f, (product++)->data(), w.data() + W.begin(k)); });
+    }
 #pragma omp parallel for schedule(dynamic)
     for (int g = 0; g < static_cast<int>(W.n_groups()); ++g)
+      if (!factors[g].exact && W.size(g) > 0)
+        correct_stale(g, z, w);
+  }
+
+  /** w = J z. */
+  void JointJacobian::multiply_J(const Floats &z, Floats &w) const
+  {
+    Floats Wz;
+    multiply_W(z, Wz);
+    w.assign(W.n(), 0.f);
+    for (unsigned int g = 0; g < W.n_groups(); ++g)
     {
-      add_couplings(z, w, g, true);
-      if (factors[g].exact || W.size(g) == 0)
-        continue;
-      Floats Wz(W.size(g), 0.f);
-      multiply_block(g, g, z.data() + W.begin(g), Wz.data());
-      for (unsigned int i = 0; i < W.size(g) / 3; ++i)
-      {
-        const PairEquations &a = factors[g].equations[i], &b = (*equations)[W.begin(g) / 3 + i];
-        for (unsigned int c = 0; c < 9; ++c)
-          w[W.begin(g) + 3 * i + c / 3] +=
-              static_cast<float>((b.d_force[c] - a.d_force[c]) * z[W.begin(g) + 3 * i + c % 3] +
-                                 (b.d_gap[c] - a.d_gap[c]) * Wz[3 * i + c % 3]);
-      }
+      multiply_by_d_gap(g, 1.f, Wz.data() + W.begin(g), w.data() + W.begin(g));
+      for (unsigned int i = 0; i < W.size(g); ++i)
+        for (unsigned int c = 0; c < 3; ++c)
+          w[W.begin(g) + i] +=
+              static_cast<float>(present(g)[i / 3].d_force[3 * (i % 3) + c] * z[W.begin(g) + i - i % 3 + c]);
     }
   }
 
-  /** y = W x. */
-  void JointJacobian::multiply_W(const Unknowns &x, Unknowns &y) const
+  /** w += (J - D - L - U) z in the rows of a group whose factors are of older equations. */
+  void JointJacobian::correct_stale(const unsigned int g, const Floats &z, Floats &w) const
   {
-    const Floats in(x.begin(), x.end());
-    Floats       out(x.size(), 0.f);
-#pragma omp parallel for schedule(dynamic)
-    for (int j = 0; j < static_cast<int>(W.n_groups()); ++j)
+    Floats Wz(W.size(g), 0.f);
+    multiply_block(g, g, z.data() + W.begin(g), Wz.data());
+    for (unsigned int i = 0; i < W.size(g) / 3; ++i)
     {
-      multiply_block(j, j, in.data() + W.begin(j), out.data() + W.begin(j));
-      for (const unsigned int k : W.neighbours(j))
-        multiply_block(j, k, in.data() + W.begin(k), out.data() + W.begin(j));
+      const PairEquations &a = factors[g].equations[i], &b = present(g)[i];
+      for (unsigned int c = 0; c < 9; ++c)
+        w[W.begin(g) + 3 * i + c / 3] +=
+            static_cast<float>((b.d_force[c] - a.d_force[c]) * z[W.begin(g) + 3 * i + c % 3] +
+                               (b.d_gap[c] - a.d_gap[c]) * Wz[3 * i + c % 3]);
     }
-    y.assign(out.begin(), out.end());
+  }
+
+  /** The active rows and columns of d_gap W_jk. */
+  void JointJacobian::fill_coupling(const unsigned int j, const unsigned int k, Floats &out) const
+  {
+    const auto       &rows = factors[j].active, &columns = factors[k].active;
+    const Floats     &block = coupling(j, k);
+    const std::size_t along = j <= k ? 1 : W.size(k), across = j <= k ? W.size(j) : 1;
+    out.resize(rows.size() * columns.size());
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      for (std::size_t r = 0; r < rows.size(); ++r)
+      {
+        const unsigned int pair = rows[r] / 3;
+        const double      *g = present(j)[pair].d_gap.data() + 3 * (rows[r] % 3);
+        const float       *w = block.data() + columns[c] * across + 3 * pair * along;
+        out[c * rows.size() + r] = static_cast<float>(g[0] * w[0] + g[1] * w[along] + g[2] * w[2 * along]);
+      }
+  }
+
+  /** S_g = J_gg - J_g,g-1 S_g-1^-1 J_g-1,g, from one end to the other. */
+  void JointJacobian::factorise_chain()
+  {
+    const float one = 1.f, minus = -1.f;
+    int         info = 0, before = 0;
+    for (unsigned int g = 0; g < W.n_groups(); ++g)
+    {
+      Factor &factor = factors[g];
+      if (W.size(g) > 0)
+        take_active_rows(g);
+      const int n = factor.active.size();
+      if (n > 0 && before > 0)
+      {
+        const Factor &last = factors[g - 1];
+        fill_coupling(g, g - 1, below[g]);
+        fill_coupling(g - 1, g, above[g]);
+        sgetrs_("N", &before, &n, last.lu.data(), &before, last.pivots.data(), above[g].data(), &before,
+                &info);
+        sgemm_("N", "N", &n, &n, &before, &minus, below[g].data(), &n, above[g].data(), &before, &one,
+               factor.lu.data(), &n);
+      }
+      if (n > 0)
+        sgetrf_(&n, &n, factor.lu.data(), &n, factor.pivots.data(), &info);
+      before = n;
+    }
+  }
+
+  void JointJacobian::apply_chain(const Floats &v, Floats &z) const
+  {
+    const int           stride = 1;
+    const float         one = 1.f, minus = -1.f;
+    const unsigned int  n_groups = W.n_groups();
+    std::vector<Floats> y(n_groups);
+    int                 info = 0;
+    for (unsigned int g = 0; g < n_groups; ++g)
+    {
+      const Factor &factor = factors[g];
+      const int     n = factor.active.size(), before = g > 0 ? static_cast<int>(y[g - 1].size()) : 0;
+      y[g].resize(n);
+      for (int i = 0; i < n; ++i)
+        y[g][i] = v[W.begin(g) + factor.active[i]];
+      if (n > 0 && before > 0)
+        sgemv_("N", &n, &before, &minus, below[g].data(), &n, y[g - 1].data(), &stride, &one, y[g].data(),
+               &stride);
+      if (n > 0)
+        sgetrs_("N", &n, &stride, factor.lu.data(), &n, factor.pivots.data(), y[g].data(), &n, &info);
+    }
+    for (unsigned int g = n_groups; g-- > 0;)
+    {
+      const int n = static_cast<int>(y[g].size()),
+                after = g + 1 < n_groups ? static_cast<int>(y[g + 1].size()) : 0;
+      if (n > 0 && after > 0)
+        sgemv_("N", &n, &after, &minus, above[g + 1].data(), &n, y[g + 1].data(), &stride, &one, y[g].data(),
+               &stride);
+      for (int i = 0; i < n; ++i)
+        z[W.begin(g) + factors[g].active[i]] = y[g][i];
+    }
   }
 
   unsigned int JointJacobian::solve(const double tolerance, Unknowns &step, Unknowns &d_gap)
@@ -243,19 +415,23 @@ namespace Voussoir
           trivial = true;
         }
       }
+    Floats w;
     if (trivial)
     {
-      multiply_W(step, d_gap);
+      multiply_W_sparse(step, w);
       for (std::size_t i = 0; i < equations->size(); ++i)
       {
         const Vector3 f = (*equations)[i].d_force * Vector3{{step[3 * i], step[3 * i + 1], step[3 * i + 2]}},
-                      g = (*equations)[i].d_gap * Vector3{{d_gap[3 * i], d_gap[3 * i + 1], d_gap[3 * i + 2]}};
+                      g = (*equations)[i].d_gap * Vector3{{w[3 * i], w[3 * i + 1], w[3 * i + 2]}};
         for (unsigned int c = 0; c < 3; ++c)
           r[3 * i + c] -= f[c] + g[c];
       }
     }
     const unsigned int iterations = gmres(r, tolerance * std::sqrt(all), step);
-    multiply_W(step, d_gap);
+    if (iterations > 20)
+      chain = is_chain; // from the next equations on
+    multiply_W(Floats(step.begin(), step.end()), w);
+    d_gap.assign(w.begin(), w.end());
     return iterations;
   }
 
@@ -279,9 +455,8 @@ namespace Voussoir
     for (bool breakdown = false; k < max_iterations && std::abs(g[k]) > target && !breakdown; ++k)
     {
       z.emplace_back();
-      precondition(v[k], z[k]);
       Floats w;
-      multiply(v[k], z[k], w);
+      apply(v[k], z[k], w);
       std::vector<double> column(k + 2);
       for (unsigned int i = 0; i <= k; ++i)
       {

@@ -1,10 +1,13 @@
 #include <voussoir/joint_system.h>
 
 #include <voussoir/error.h>
+#include <voussoir/fclib_io.h>
+#include <voussoir/sparse_contact.h>
 
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <optional>
 
 namespace Voussoir
@@ -41,7 +44,8 @@ namespace Voussoir
   JointSystem::JointSystem(const Structure &structure, const JointLaws &laws,
                            const ContactParameters &parameters, const double mass_factor,
                            const double stiffness_factor, const double dashpot_factor)
-      : structure(structure), sides(structure.pairs.size()), W(pairs_per_joint(structure))
+      : structure(structure), parameters(parameters), laws(laws.of_pair), sides(structure.pairs.size()),
+        W(pairs_per_joint(structure))
   {
     const int                                 n_bodies = structure.bodies.size();
     std::vector<std::optional<CondensedBody>> condensed(n_bodies);
@@ -148,6 +152,8 @@ namespace Voussoir
               for (unsigned int i = 0; i < 3; ++i)
                 b[3 * p + i] += structure.pairs[p].frame[i][c] * x;
             }
+      if (parameters.write_problems && n_solved++ % parameters.write_interval == 0)
+        write_problem(b, start, force);
       result = solver->solve(b, start, force, gap);
       for (auto &f : interface)
         std::fill(f.begin(), f.end(), 0.);
@@ -170,6 +176,32 @@ namespace Voussoir
     times.sweeps += middle - begin + now() - after;
     times.joints += after - middle;
     return result;
+  }
+
+  void JointSystem::write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &force) const
+  {
+    FrictionProblem problem;
+    problem.W = sparse_matrix(W);
+    problem.q = b;
+    for (std::size_t p = 0; p < laws.size(); ++p)
+    {
+      problem.mu.push_back(laws[p]->flat_friction());
+      if (problem.mu.back() < 0.)
+        throw InputError(
+            "Contact/Write problems: only problems with Coulomb friction on flat joints can be written; "
+            "use the joint model FJA.");
+      for (unsigned int c = 1; c < 3; ++c)
+        problem.q[3 * p + c] -= start[3 * p + c];
+    }
+    Unknowns gap;
+    W.multiply(force, gap);
+    for (std::size_t k = 0; k < gap.size(); ++k)
+      gap[k] += problem.q[k];
+    char name[40];
+    std::snprintf(name, sizeof(name), "/problem-%06u.hdf5", n_solved);
+    problem.title = "joints of a dam, gap = W force + q [m, N]";
+    std::filesystem::remove(parameters.write_directory + name); // of a run that was resumed
+    write_fclib(parameters.write_directory + name, problem, force, gap);
   }
 
   void JointSystem::solve_free(const Unknowns &load, Unknowns &u)

@@ -206,7 +206,9 @@ namespace Voussoir
     }
     if (!finer)
     {
-      finer = std::make_unique<Newmark>(structure, laws, parameters, .5 * dt, rule);
+      ContactParameters quiet = parameters;
+      quiet.write_problems = false;
+      finer = std::make_unique<Newmark>(structure, laws, quiet, .5 * dt, rule);
       finer->halvings_left = halvings_left - 1;
     }
     Unknowns middle = load;

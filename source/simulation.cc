@@ -117,12 +117,22 @@ namespace Voussoir
     }
   }
 
+  /** Those of the scene; the problems of this @p stage go to a directory of their own. */
+  ContactParameters Simulation::contact_parameters(const std::string &stage) const
+  {
+    ContactParameters parameters = scene.contact;
+    parameters.write_directory = directory + "/contact/" + stage;
+    if (parameters.write_problems)
+      std::filesystem::create_directories(parameters.write_directory);
+    return parameters;
+  }
+
   void Simulation::find_static_state()
   {
     const Stopwatch   watch;
     const Structure  &structure = dam->structure;
     const std::size_t n_pairs = structure.pairs.size();
-    JointSystem       system(structure, dam->laws, scene.contact, 0., 1., 0.);
+    JointSystem       system(structure, dam->laws, contact_parameters("static"), 0., 1., 0.);
     Unknowns          gap(3 * n_pairs, 0.), start, offset(3 * n_pairs, 0.);
     statics.force.assign(3 * n_pairs, 0.);
     statics.u.assign(3 * structure.n_nodes(), 0.);
@@ -160,7 +170,7 @@ namespace Voussoir
   {
     const Stopwatch  watch;
     const Structure &structure = dam->structure;
-    newmark = std::make_unique<Newmark>(structure, dam->laws, scene.contact, motion.dt,
+    newmark = std::make_unique<Newmark>(structure, dam->laws, contact_parameters("shaking"), motion.dt,
                                         impact_rule(scene.impact_rule));
     Unknowns load = statics.load;
     if (n_steps > 0)

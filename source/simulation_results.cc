@@ -21,6 +21,11 @@ namespace Voussoir
                               .count(name) > 0)
         std::filesystem::remove(entry.path());
     }
+    for (const char *stage : {"/contact/static", "/contact/shaking"})
+      if (std::filesystem::is_directory(directory + stage))
+        for (const auto &entry : std::filesystem::directory_iterator(directory + stage))
+          if (entry.path().extension() == ".hdf5")
+            std::filesystem::remove(entry.path());
     if (std::filesystem::is_directory(directory + "/figures"))
       for (const auto &entry : std::filesystem::directory_iterator(directory + "/figures"))
         if (entry.path().extension() == ".png")

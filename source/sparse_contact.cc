@@ -278,4 +278,43 @@ namespace Voussoir
       }
     return result;
   }
+
+  BlockSparseMatrix sparse_matrix(const InterfaceOperator &W)
+  {
+    std::vector<std::vector<unsigned int>> columns(W.n_pairs());
+    const auto                             for_each_block = [&](const auto &action)
+    {
+      for (unsigned int j = 0; j < W.n_groups(); ++j)
+        for (unsigned int k = j; k < W.n_groups(); ++k)
+          if (const std::vector<double> *block = W.find_block(j, k))
+            for (unsigned int p = 0; p < W.size(j) / 3; ++p)
+              for (unsigned int q = 0; q < W.size(k) / 3; ++q)
+                action(j, k, p, q, *block);
+    };
+    for_each_block(
+        [&](const unsigned int j, const unsigned int k, const unsigned int p, const unsigned int q,
+            const auto &)
+        {
+          columns[W.begin(j) / 3 + p].push_back(W.begin(k) / 3 + q);
+          if (j != k)
+            columns[W.begin(k) / 3 + q].push_back(W.begin(j) / 3 + p);
+        });
+    for (auto &list : columns)
+      std::sort(list.begin(), list.end());
+    BlockSparseMatrix result(columns);
+    for_each_block(
+        [&](const unsigned int j, const unsigned int k, const unsigned int p, const unsigned int q,
+            const auto &block)
+        {
+          Matrix3           a, transpose;
+          const std::size_t rows = W.size(j);
+          for (unsigned int r = 0; r < 3; ++r)
+            for (unsigned int c = 0; c < 3; ++c)
+              a[3 * r + c] = transpose[3 * c + r] = block[(3 * q + c) * rows + 3 * p + r];
+          result.add(W.begin(j) / 3 + p, W.begin(k) / 3 + q, a);
+          if (j != k)
+            result.add(W.begin(k) / 3 + q, W.begin(j) / 3 + p, transpose);
+        });
+    return result;
+  }
 } // namespace Voussoir

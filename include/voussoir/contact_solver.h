@@ -19,6 +19,9 @@ namespace Voussoir
     unsigned int sweeps = 2;           ///< Gauss-Seidel sweeps before the first Newton step
     std::string  method = "newton";    ///< newton (with its fallbacks), proximal, sweeps
     double       max_seconds = std::numeric_limits<double>::infinity(); ///< of wall time
+    bool         write_problems = false;                                ///< in FCLib's format
+    unsigned int write_interval = 1;                                    ///< of the problems
+    std::string  write_directory;                                       ///< not an entry: set by the run
 
     void               add_parameters(dealii::ParameterHandler &prm);
     static std::string method_names(); ///< as a ParameterHandler selection
@@ -86,8 +89,9 @@ namespace Voussoir
     };
     void         evaluate(const Unknowns &force, const Unknowns &gap);
     double       merit() const;
-    double       residual(const Unknowns &force, const Unknowns &gap) const;
-    void         refresh_gap(const Unknowns &force, Unknowns &gap) const;
+    double       residual(const Unknowns &force, const Unknowns &gap);
+    double       forcing_term(double now, double previous, double target, bool stalls) const;
+    void         refresh_gap(const Unknowns &force, Unknowns &gap);
     bool         newton(double target, unsigned int max_steps, Unknowns &force, Unknowns &gap);
     double       line_search(double bound, const Unknowns &step, const Unknowns &d_gap, Unknowns &force,
                              Unknowns &gap);
@@ -107,7 +111,9 @@ namespace Voussoir
     std::vector<PairState>              state;
     std::vector<unsigned char>          touch;
 
+    Unknowns        multiplied, product;           ///< product = W multiplied, of the last refresh
     const Unknowns *b = nullptr, *start = nullptr; ///< of the present problem
+    double          scale = 0.;                    ///< of the last residual [N]
     Proximal        proximal;
     Best            best;
     ContactResult   result;

@@ -8,11 +8,15 @@ namespace Voussoir
   /** The linear systems of Newton's method for the joints: J = d_force + d_gap W.
    *
    *  GMRES, preconditioned by P = D + L: D are the joints' own blocks, dense LU; L are the couplings to
-   * joints of earlier colour (neighbouring joints have different colours), so that P is block Gauss-Seidel
-   * and joints of one colour run in parallel. With J = D + L + U a product costs little more than the
-   * preconditioner: J P^-1 v = v + U P^-1 v. Joints in which no pair changed its state keep their factors;
-   * the small difference is added to the product. All this in single precision, half the memory traffic: it
-   * only makes Newton's steps, whose residuals are evaluated in double precision. */
+   *  joints of earlier colour (neighbouring joints have different colours), so that P is block Gauss-Seidel
+   *  and joints of one colour run in parallel. With J = D + L + U a product costs nothing beyond the
+   *  preconditioner, J P^-1 v = v + U P^-1 v, since each coupling is used for L and U while it is in the
+   *  cache. Joints in which no pair changed its state keep their factors; the small difference is added to
+   * the product. All this in single precision, half the memory traffic: it only makes Newton's steps, whose
+   *  residuals are evaluated in double precision.
+   *
+   *  Where the joints depend on each other so much that this takes many iterations (statics), and each is
+   *  coupled to its neighbours only, the preconditioner is the block LU decomposition of the whole chain. */
   class JointJacobian : public ContactJacobian
   {
   public:
@@ -23,7 +27,6 @@ namespace Voussoir
 
   private:
     using Floats = std::vector<float>;
-    using Block = std::array<float, 9>;
     struct Factor
     {
       std::vector<unsigned int>
@@ -34,22 +37,34 @@ namespace Voussoir
       bool                       exact = false; ///< is it that of the present equations?
     };
 
-    bool         needs_factor(unsigned int group) const;
-    void         factorise(unsigned int group);
-    void         apply_factor(unsigned int group, float *x) const;
-    void         multiply_block(unsigned int j, unsigned int k, const float *x, float *y) const;
-    void         add_couplings(const Floats &z, Floats &v, unsigned int group, bool later) const;
-    void         precondition(const Floats &v, Floats &z) const;
-    void         multiply(const Floats &v, const Floats &z, Floats &w) const;
-    void         multiply_W(const Unknowns &x, Unknowns &y) const;
-    unsigned int gmres(const Unknowns &r, double target, Unknowns &step) const;
+    const PairEquations *present(unsigned int group) const { return equations->data() + W.begin(group) / 3; }
+    const Floats        &coupling(unsigned int j, unsigned int k) const;
+    bool                 needs_factor(unsigned int group) const;
+    void                 take_active_rows(unsigned int group);
+    void                 factorise(unsigned int group);
+    void                 apply_factor(unsigned int group, float *x) const;
+    void                 multiply_block(unsigned int j, unsigned int k, const float *x, float *y) const;
+    void                 multiply_by_d_gap(unsigned int group, float factor, const float *x, float *y) const;
+    void                 multiply_J(const Floats &z, Floats &w) const;
+    void                 multiply_W(const Floats &x, Floats &y) const;
+    void                 multiply_W_sparse(const Unknowns &x, Floats &y) const;
+    void                 apply(const Floats &v, Floats &z, Floats &w) const;
+    void                 correct_stale(unsigned int group, const Floats &z, Floats &w) const;
+    unsigned int         gmres(const Unknowns &r, double target, Unknowns &step) const;
+
+    void factorise_chain();
+    void fill_coupling(unsigned int row_group, unsigned int column_group, Floats &block) const;
+    void apply_chain(const Floats &v, Floats &z) const;
 
     const InterfaceOperator                                &W;
     std::map<std::pair<unsigned int, unsigned int>, Floats> blocks; ///< W in single precision
+    std::vector<std::pair<unsigned int, unsigned int>>      keys;   ///< of the blocks
     const std::vector<PairEquations>                       *equations = nullptr;
     std::vector<Factor>                                     factors;
     std::vector<std::vector<unsigned int>>                  groups_of_colour;
     std::vector<unsigned int>                               colour;
+    bool                is_chain = true, chain = false; ///< can, and does, the block LU decomposition serve?
+    std::vector<Floats> below, above;                   ///< of the chain: J_g,g-1, and S_g-1^-1 J_g-1,g
   };
 } // namespace Voussoir
 

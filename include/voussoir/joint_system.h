@@ -51,13 +51,17 @@ namespace Voussoir
       unsigned int body = rigid_ground, node = 0;
     };
     void condense();
+    void write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &force) const;
 
-    const Structure                 &structure;
-    std::vector<CondensedBody>       bodies;
-    std::vector<std::array<Side, 2>> sides; ///< per pair
-    InterfaceOperator                W;
-    std::unique_ptr<ContactSolver>   solver;
-    std::vector<std::vector<double>> interface; ///< work space per body
+    const Structure                    &structure;
+    const ContactParameters             parameters;
+    const std::vector<const JointLaw *> laws;
+    std::vector<CondensedBody>          bodies;
+    std::vector<std::array<Side, 2>>    sides; ///< per pair
+    InterfaceOperator                   W;
+    std::unique_ptr<ContactSolver>      solver;
+    std::vector<std::vector<double>>    interface; ///< work space per body
+    unsigned int                        n_solved = 0;
   };
 } // namespace Voussoir
 

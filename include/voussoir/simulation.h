@@ -25,20 +25,21 @@ namespace Voussoir
     void run();
 
   private:
-    void remove_old_results();
-    void report_setup();
-    void find_static_state();
-    void start_shaking();
-    void advance();
-    void record();
-    void report_step();
-    void write_solution();
-    void write_tables();
-    void write_results();
-    void write_summary();
-    void draw_figures();
-    void save_checkpoint();
-    void load_checkpoint();
+    void              remove_old_results();
+    void              report_setup();
+    void              find_static_state();
+    ContactParameters contact_parameters(const std::string &stage) const;
+    void              start_shaking();
+    void              advance();
+    void              record();
+    void              report_step();
+    void              write_solution();
+    void              write_tables();
+    void              write_results();
+    void              write_summary();
+    void              draw_figures();
+    void              save_checkpoint();
+    void              load_checkpoint();
 
     const Scene       scene;
     const std::string scene_text;

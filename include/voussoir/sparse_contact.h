@@ -37,6 +37,9 @@ namespace Voussoir
   /** Is W equal to its transpose, to round-off? */
   bool is_symmetric(const BlockSparseMatrix &W);
 
+  /** The operator as one sparse matrix, joint after joint. */
+  BlockSparseMatrix sparse_matrix(const InterfaceOperator &W);
+
   /** The same operator in dense blocks by group; @p W symmetric. */
   InterfaceOperator make_interface_operator(const BlockSparseMatrix &W, const PairGroups &groups);
 } // namespace Voussoir
