@@ -87,6 +87,7 @@ namespace Voussoir
     void         evaluate(const Unknowns &force, const Unknowns &gap);
     double       merit() const;
     double       residual(const Unknowns &force, const Unknowns &gap) const;
+    double       remember(const Unknowns &force, const Unknowns &gap); ///< if it is the best; its residual
     void         refresh_gap(const Unknowns &force, Unknowns &gap) const;
     bool         newton(double target, unsigned int max_steps, Unknowns &force, Unknowns &gap);
     double       line_search(double bound, const Unknowns &step, const Unknowns &d_gap, Unknowns &force,
