@@ -11,6 +11,7 @@
 #include <iostream>
 #include <map>
 #include <omp.h>
+#include <set>
 
 namespace Voussoir
 {
@@ -90,6 +91,8 @@ namespace Voussoir
       throw InputError("`voussoir contact` needs FCLib files. `voussoir --help` shows how.");
     ContactParameters parameters;
     parameters.tolerance = positive_number("--tolerance", options.tolerance);
+    if (!std::isfinite(parameters.tolerance))
+      throw InputError("--tolerance must be a finite number, not \"" + options.tolerance + "\".");
     parameters.max_seconds = positive_number("--max-seconds", options.max_seconds);
     parameters.max_iterations = 1000000; // time is the limit
     Equations equations = Equations::alart_curnier;
@@ -101,7 +104,18 @@ namespace Voussoir
       throw InputError("There is no solver \"" + options.solver +
                        "\". The solvers are: newton, proximal, sweeps, paper, fischer-burmeister.");
     if (!options.solutions.empty())
-      std::filesystem::create_directories(options.solutions);
+    {
+      std::error_code error;
+      std::filesystem::create_directories(options.solutions, error);
+      if (error || !std::filesystem::is_directory(options.solutions, error))
+        throw InputError("--write-solutions: the directory " + options.solutions + " cannot be made.");
+      std::set<std::string> names;
+      for (const std::string &file : files)
+        if (!names.insert(std::filesystem::path(file).stem().string()).second)
+          throw InputError("--write-solutions: two of the files are called " +
+                           std::filesystem::path(file).stem().string() +
+                           ", and their solutions would be, too. Solve them one by one.");
+    }
     if (files.size() > 1)
       for (const std::string &file : files) // before any work is done
         read_fclib(file);

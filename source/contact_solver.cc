@@ -31,6 +31,11 @@ namespace Voussoir
       return sum;
     }
 
+    bool is_finite(const Unknowns &x)
+    {
+      return std::all_of(x.begin(), x.end(), [](const double y) { return std::isfinite(y); });
+    }
+
     double wall_time()
     {
       return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -184,6 +189,14 @@ namespace Voussoir
     add(gap, 1., *b);
   }
 
+  double ContactSolver::remember(const Unknowns &force, const Unknowns &gap)
+  {
+    const double r = residual(force, gap);
+    if (r < best.residual)
+      best = {r, force};
+    return r;
+  }
+
   bool ContactSolver::out_of_time() const
   {
     return wall_time() > deadline;
@@ -294,10 +307,7 @@ namespace Voussoir
     const auto here = [&]
     {
       proximal.alpha = 0.;
-      const double r = residual(force, gap);
-      if (r < best.residual)
-        best = {r, force};
-      return r;
+      return remember(force, gap);
     };
     double       now = here(), boost = 1.;
     unsigned int failures = 0, n_sweeps = 20;
@@ -335,19 +345,35 @@ namespace Voussoir
     best = Best();
     deadline = wall_time() + parameters.max_seconds;
 
+    if (!is_finite(force))
+      force.assign(force.size(), 0.);
     refresh_gap(force, gap);
-    evaluate(force, gap);
-    result.converged = residual(force, gap) <= parameters.tolerance;
+    const bool defined = is_finite(*b) && is_finite(*start);
+    if (defined)
+    {
+      best = {residual(force, gap), force};
+      // Nothing touches? Newton comes close to zero forces only, which is not enough where b is zero, too.
+      const Unknowns none(force.size(), 0.);
+      if (best.residual > parameters.tolerance && residual(none, *b) <= parameters.tolerance)
+      {
+        force = none;
+        gap = *b;
+        best = {residual(force, gap), force};
+      }
+      evaluate(force, gap);
+    }
+    result.converged = !defined || best.residual <= parameters.tolerance; // looked at again below
     if (!result.converged && parameters.method == "newton")
     {
       sweep(parameters.sweeps, force, gap);
       result.converged = newton(parameters.tolerance, steps_left(), force, gap);
+      remember(force, gap);
       if (!result.converged)
       {
         result.path = ContactPath::sweeps;
-        best = {residual(force, gap), force};
         sweep(20, force, gap);
         result.converged = newton(parameters.tolerance, steps_left(), force, gap);
+        remember(force, gap);
       }
     }
     if (!result.converged && parameters.method == "sweeps")
@@ -358,7 +384,7 @@ namespace Voussoir
       {
         sweep(10, force, gap);
         refresh_gap(force, gap);
-        result.converged = residual(force, gap) <= parameters.tolerance;
+        result.converged = remember(force, gap) <= parameters.tolerance;
       }
     }
     else if (!result.converged)

@@ -105,18 +105,30 @@ namespace Voussoir
                          "; it must be square, with three rows per contact.");
       if (nz < -2 || nz > nzmax)
         refuse(file, "W/nz must be -2 (by rows), -1 (by columns) or the number of triplets.");
-      const long long pointers = nz >= 0 ? nzmax : m + 1;
-      if (in.size(W + "p", true) < (nz >= 0 ? nz : pointers) ||
-          in.size(W + "i", true) < (nz >= 0 ? nz : nzmax) || in.size(W + "x", false) < (nz >= 0 ? nz : nzmax))
-        refuse(file, "W/p, W/i or W/x is shorter than W/nzmax says.");
+      // libfclib reads whole data sets into arrays of these sizes.
+      const auto fits =
+          [&](const char *name, const bool integers, const long long least, const long long most)
+      {
+        const long long size = in.size(W + name, integers);
+        if (size < least || size > most)
+          refuse(file, "W/" + std::string(name) + " has " + std::to_string(size) + " entries; " +
+                           (nz < 0 && name[0] == 'p' ? "with " + std::to_string(m) + " rows it must have "
+                                                     : "by W/nzmax and W/nz it must have ") +
+                           std::to_string(most) + ".");
+      };
+      fits("p", true, nz >= 0 ? nz : m + 1, nz >= 0 ? nzmax : m + 1);
+      fits("i", true, nz >= 0 ? nz : nzmax, nzmax);
+      fits("x", false, nz >= 0 ? nz : nzmax, nzmax);
       if (in.size(vectors + "q", false) != m)
         refuse(file, "vectors/q must have " + std::to_string(m) + " entries, as W has rows.");
       if (in.size(vectors + "mu", false) != m / 3)
         refuse(file, "vectors/mu must have " + std::to_string(m / 3) + " entries, one per contact.");
-      if (in.has("/fclib_local/info"))
-        for (const char *name : {"title", "description", "math_info"})
-          if (in.has(std::string("/fclib_local/info/") + name) == false)
-            continue;
+      if (in.has(W + "conditioning")) // then libfclib reads these, too, and ends the program without them
+      {
+        in.size(W + "conditioning", false);
+        in.size(W + "determinant", false);
+        in.integer(W + "rank");
+      }
     }
 
     BlockSparseMatrix blocks(const std::string &file, const fclib_matrix &W)
@@ -138,7 +150,7 @@ namespace Voussoir
       else
         for (int line = 0; line < W.m; ++line)
         {
-          if (W.p[line] < 0 || W.p[line + 1] < W.p[line] || W.p[line + 1] > W.nzmax)
+          if (W.p[0] != 0 || W.p[line + 1] < W.p[line] || W.p[line + 1] > W.nzmax)
             refuse(file, "the pointers W/p do not ascend from 0 to W/nzmax.");
           for (int k = W.p[line]; k < W.p[line + 1]; ++k)
             W.nz == -2 ? add(line, W.i[k], W.x[k]) : add(W.i[k], line, W.x[k]);
@@ -185,7 +197,7 @@ namespace Voussoir
       const Matrix3 &H = result.W.value[std::lower_bound(result.W.column.begin() + result.W.start[i],
                                                          result.W.column.begin() + result.W.start[i + 1], i) -
                                         result.W.column.begin()];
-      if (!(H[0] > 0.))
+      if (!(H[0] > 0.) || (result.mu[i] > 0. && !(H[4] > 0. && H[8] > 0.)))
         refuse(file, "the diagonal of W is not positive at contact " + std::to_string(i) + ".");
     }
     return result;

@@ -149,7 +149,7 @@ namespace Voussoir
         offsets[0] = std::max(offsets[0], std::abs(s.clearance));
       const double scale = system.rho * (norm(system.b) + norm(system.start) + offsets[0]);
       Vector3      g = system.gap(r);
-      for (unsigned int round = 0; round < 40; ++round)
+      for (unsigned int round = 0; round < 300; ++round) // nearly always one; wedges may take long
       {
         for (unsigned int i = 0; i < 5; ++i) // Gauss-Seidel
           for (std::size_t k = 0; k < r.size(); ++k)
@@ -295,11 +295,20 @@ namespace Voussoir
   Vector3 SurfacesLaw::stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
                                    const unsigned char touching) const
   {
+    if (touching == 1)
+      return face->stop_normal(H, v, spent, touching);
     std::vector<Vector3> r;
     Vector3              result = spent;
     if (touching)
       add(result, solve_surfaces(touching_surfaces(touching, true), H, v, {}, r));
     return result;
+  }
+
+  Vector3 SurfacesLaw::solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
+                                          const double still, const unsigned char touching) const
+  {
+    return touching == 1 ? face->solve_acceleration(H, b, slip_velocity, still, touching)
+                         : solve_impulse(H, b, touching);
   }
 
   namespace

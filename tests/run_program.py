@@ -476,6 +476,115 @@ def doubled():
     same("built_in", "turned")
 
 
+def natural_map_error(file, force):
+    """Siconos' full relative error on the problem scaled to mean diagonal 1; None without numpy and h5py."""
+    try:
+        import h5py
+        import numpy as np
+    except ImportError:
+        return None
+    with h5py.File(file) as h:
+        local = h["fclib_local"]
+        expect(local["W/nz"][0] == -2, f"{file}: W is not stored by rows")
+        p, column, value = (local[f"W/{name}"][:] for name in "pix")
+        q, mu = local["vectors/q"][:], local["vectors/mu"][:]
+    row = np.repeat(np.arange(len(q)), np.diff(p))
+    omega = value[row == column].sum() / len(q)
+    u = (q + np.bincount(row, value * force[column], len(q))).reshape(-1, 3)
+    r = omega * force.reshape(-1, 3)
+    x = r - u
+    x[:, 0] -= mu * np.hypot(u[:, 1], u[:, 2])
+    t = np.hypot(x[:, 1], x[:, 2])
+    projection = np.zeros_like(x)
+    inside = t <= mu * x[:, 0]
+    slips = ~inside & (mu * t > -x[:, 0])
+    projection[inside] = x[inside]
+    n = (x[:, 0] + mu * t) / (1 + mu**2)
+    projection[slips, 0] = n[slips]
+    projection[slips, 1:] = (mu * n / np.where(t > 0, t, 1))[slips, None] * x[slips, 1:]
+    return np.linalg.norm(r - projection) / max(np.linalg.norm(y) for y in (q, r, u))
+
+
+def contact():
+    samples = sorted(str(f) for f in (Path(__file__).resolve().parent / "fclib").glob("*.hdf5"))
+    expect(len(samples) == 5, "tests/fclib")
+    keys = {"file", "contacts", "converged", "residual", "iterations", "seconds", "solver", "sweeps"}
+
+    def solved(*arguments):
+        lines = [json.loads(line) for line in runs("contact", *arguments).splitlines()]
+        for line in lines:
+            expect(set(line) == keys, f"keys {sorted(line)}")
+            print("   ", Path(line["file"]).name, *(f"{k} {line[k]}" for k in sorted(keys - {"file"})))
+        return lines
+
+    checked = True
+    for arguments in ([], ["--tolerance", "1e-6"], ["--solver", "proximal"]):
+        tolerance = 1e-6 if "1e-6" in arguments else 1e-12
+        lines = solved(*samples, *arguments, "--write-solutions", "solutions")
+        expect([line["file"] for line in lines] == samples, "one line per file, in their order")
+        for line in lines:
+            expect(line["converged"] is True and 0 <= line["residual"] <= tolerance, f"{line}")
+            expect(line["seconds"] < 10 and line["contacts"] > 0, f"{line}")
+            text = Path("solutions", Path(line["file"]).stem + ".txt").read_text().split()
+            expect(len(text) == 3 * line["contacts"], "forces written")
+            try:
+                import numpy
+                error = natural_map_error(line["file"], numpy.array([float(x) for x in text]))
+            except ImportError:
+                error = None
+            if error is None:
+                checked = False
+            else:
+                print(f"        recomputed {error:.2e}")
+                expect(error <= tolerance + 1e-14, f"{line}: recomputed {error}")
+    small = [f for f in samples if "Example1" in f or "damS" in f]
+    for solver in ("sweeps", "fischer-burmeister", "paper"):
+        for line in solved(small[0], "--solver", solver):
+            expect(line["converged"], f"{line}")
+
+    # Not solved: status 1, "converged" false, a line for each file nevertheless
+    result = voussoir("contact", *samples, "--tolerance", "1e-30", "--max-seconds", "0.05")
+    lines = [json.loads(line) for line in result.stdout.splitlines()]
+    expect(result.returncode == 1 and result.stderr.startswith("voussoir: failed: "), result.stderr)
+    expect(len(lines) == 5 and not all(line["converged"] for line in lines), result.stdout)
+    print("   ", result.stderr.strip())
+
+    good = small[0]
+    for tolerance in ("0", "-1", "nan", "inf", "small", "", "1e-12x"):
+        refused(["contact", good, "--tolerance", tolerance], "--tolerance")
+    for limit in ("0", "-1", "nan", "soon"):
+        refused(["contact", good, "--max-seconds", limit], "--max-seconds")
+    refused(["contact", good, "--solver", "bfgs"], "bfgs", "newton")
+    refused(["contact", good, "--tolerance"], "--tolerance", "needs a value")
+    refused(["contact"], "FCLib files")
+    refused(["contact", "nothing.hdf5"], "nothing.hdf5", "no such file")
+    refused(["contact", "."], "no such file")
+    write("a_file", "")
+    refused(["contact", good, "--write-solutions", "a_file"], "a_file")
+    refused(["contact", good, "--write-solutions", "a_file/below"], "a_file/below")
+    # Two files of one name would overwrite each other's solution.
+    Path("other").mkdir(exist_ok=True)
+    shutil.copy(good, "other")
+    refused(["contact", good, f"other/{Path(good).name}", "--write-solutions", "both"], Path(good).stem)
+
+    # The bad files of test_contact_files
+    bad = Path("../../contact_files").resolve()
+    expect((bad / "good.hdf5").exists(), f"{bad}: run the test contact_files first")
+    for name, part in {"text": "not an HDF5 file", "cut": "damaged", "plane": "2 dimensions", "short_q": "vectors/q",
+                       "few_pointers": "W/p", "negative_mu": "friction", "nan_q": "vectors/q", "index": "column 9",
+                       "negative_index": "column -1", "values_too_many": "W/x",
+                       "bilateral": "bilateral", "global": "global problem", "no_mu": "vectors/mu"}.items():
+        refused(["contact", str(bad / f"{name}.hdf5")], f"{name}.hdf5", part)
+    # A bad file among good ones stops the program before it works.
+    result = voussoir("contact", good, str(bad / "nan_q.hdf5"))
+    expect(result.returncode == 2 and result.stdout == "", "a bad file among good ones")
+    shutil.copy(good, 'a "name" with blanks.hdf5')
+    expect(solved('a "name" with blanks.hdf5')[0]["file"] == 'a "name" with blanks.hdf5', "quoted name")
+    if not checked:
+        print("SKIPPED: there is no numpy or no h5py for this python; the residuals were not recomputed")
+        sys.exit(77)
+
+
 def ranks():
     """Until the program is parallel, more than one rank is refused: both would write the same files."""
     mpirun = shutil.which("mpirun")
@@ -493,7 +602,7 @@ def ranks():
 
 def main():
     cases = {c.__name__: c for c in (command_line, scenes, meshes, motions, outputs, laws, resume, threads, doubled,
-                                     ranks)}
+                                     contact, ranks)}
     if len(sys.argv) < 3 or any(name not in cases for name in sys.argv[2:]):
         sys.exit(f"{__doc__}\nCases: {' '.join(cases)}")
     start = Path.cwd()

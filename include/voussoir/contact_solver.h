@@ -92,6 +92,7 @@ namespace Voussoir
     double       residual(const Unknowns &force, const Unknowns &gap);
     double       forcing_term(double now, double previous, double target, bool stalls) const;
     void         refresh_gap(const Unknowns &force, Unknowns &gap);
+    double       remember(const Unknowns &force, const Unknowns &gap); ///< if it is the best; its residual
     bool         newton(double target, unsigned int max_steps, Unknowns &force, Unknowns &gap);
     double       line_search(double bound, const Unknowns &step, const Unknowns &d_gap, Unknowns &force,
                              Unknowns &gap);

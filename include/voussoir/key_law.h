@@ -28,7 +28,10 @@ namespace Voussoir
   {
   public:
     /** @p surfaces: at most 8; the first is the joint's face. */
-    explicit SurfacesLaw(std::vector<ContactSurface> surfaces) : surfaces(std::move(surfaces)) {}
+    explicit SurfacesLaw(std::vector<ContactSurface> surfaces)
+        : surfaces(std::move(surfaces)), face(make_joint_law("FJA", this->surfaces[0].friction))
+    {
+    }
 
     void    evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, double rho,
                      PairEquations &equations) const override;
@@ -36,6 +39,8 @@ namespace Voussoir
     Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, unsigned char touching) const override;
     Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
                         unsigned char touching) const override;
+    Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity, double still,
+                               unsigned char touching) const override;
 
   protected:
     /** The surfaces that can touch in a step that starts from @p start, and their bits. */
@@ -45,6 +50,7 @@ namespace Voussoir
     std::vector<ContactSurface> touching_surfaces(unsigned char touching, bool frictionless) const;
 
     const std::vector<ContactSurface> surfaces;
+    const std::unique_ptr<JointLaw>   face; ///< the law where nothing but the joint's face touches
   };
 
   /** Law KSM: a flat face with shear keys. Throws InputError for keys that cannot be. */
