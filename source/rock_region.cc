@@ -1,6 +1,10 @@
 #include <voussoir/error.h>
 #include <voussoir/rock_region.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+
 namespace Voussoir
 {
   namespace
@@ -35,6 +39,51 @@ namespace Voussoir
       throw InputError("there is no artificial boundary \"" + name +
                        "\"; use mtf1, mtf2, mtf3, mtf4, viscous-spring, viscous or fixed");
     return region;
+  }
+
+  std::string stability_warning(const RockRegionParameters &p, const TransmittingFormula *formula)
+  {
+    // Needed: 6 layers without damping; without layers a stiffness damping of 0.2 dt (boxes of 12 cells).
+    constexpr unsigned int enough_layers = 6;
+    constexpr double       enough_damping = .2;
+    if (!is_transmitting(p))
+      return "";
+    std::string text;
+    if (!p.rock.nodal_everywhere && p.rock.nodal_layers < enough_layers &&
+        p.damping.stiffness < enough_damping * p.dt)
+      text = "the transmitting boundary will be unstable: use nodal quadrature in 6 layers of rock at the "
+             "artificial boundary, or stiffness-proportional damping of at least 0.2 time steps";
+    const auto f = formula_of(p, formula);
+    const auto rigid = [](const TransmittingFactor &factor)
+    { return factor.gamma_p <= 0. && factor.gamma_s <= 0.; };
+    if (f.order() > 1 && std::all_of(f.factors.begin(), f.factors.end(), rigid))
+      text += std::string(text.empty() ? "" : "; ") +
+              "the transmitting boundary will drift without its term of geometric spreading (gamma)";
+    return text;
+  }
+
+  double noise_growth(const RockModel &model, const RockRegionParameters &parameters,
+                      const unsigned int n_steps, const TransmittingFormula *formula)
+  {
+    const auto   region = make_region(model, parameters, formula);
+    std::mt19937 engine(7);
+    Unknowns     u(3 * std::size_t(region->n_nodes()), 0.), v = u;
+    for (double &x : v)
+      x = engine() / 2147483647.5 - 1.;
+    for (const BoundaryLine &line : model.lines)
+      std::fill_n(v.begin() + 3 * std::size_t(line.nodes[0]), 3, 0.);
+    region->keep_energy();
+    region->start(u, v);
+    double early = 0.;
+    for (unsigned int i = 1; i <= n_steps; ++i)
+    {
+      region->advance();
+      if (i == n_steps / 10)
+        early = region->energy().kinetic;
+      if (!(region->energy().kinetic < 1e100))
+        return HUGE_VAL;
+    }
+    return region->energy().kinetic / early;
   }
 
   namespace

@@ -22,6 +22,16 @@ namespace Voussoir
   std::unique_ptr<ExplicitRegion> make_region(const RockModel &model, const RockRegionParameters &parameters,
                                               const TransmittingFormula *formula = nullptr);
 
+  /** Why a transmitting boundary may be unstable with these parameters, for the user; empty if it should not:
+   * Gauss points near it, or no term against drift, without the damping that suppresses it. */
+  std::string stability_warning(const RockRegionParameters &parameters,
+                                const TransmittingFormula  *formula = nullptr);
+
+  /** The check itself: kinetic energy of the region after @p n_steps from random motion, relative to that
+   * after a tenth of them. Stable regions lose energy: below 1. */
+  double noise_growth(const RockModel &model, const RockRegionParameters &parameters,
+                      unsigned int n_steps = 2000, const TransmittingFormula *formula = nullptr);
+
   /** The motion without dam, as yet without points. */
   std::unique_ptr<FreeField> make_free_field(const HexMesh &mesh, const RockModel &model,
                                              const RockRegionParameters &parameters, const IncidentWave &wave,
