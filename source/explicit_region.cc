@@ -136,6 +136,7 @@ namespace Voussoir
     for (const Dashpot &dashpot : dashpots)
     {
       own_number.push_back(number(dashpot.node));
+      first_neighbour.push_back(neighbour_number.size());
       for (std::size_t k = stiffness.start[dashpot.node]; k < stiffness.start[dashpot.node + 1]; ++k)
         neighbour_number.push_back(number(stiffness.column[k]));
     }
@@ -284,7 +285,7 @@ namespace Voussoir
   }
 
   /** Force of the free field on a dashpot's node: what keeps it moving as if there were no boundary. */
-  Vector3 ExplicitRegion::free_field_force(const unsigned int d, std::size_t &neighbour) const
+  Vector3 ExplicitRegion::free_field_force(const unsigned int d) const
   {
     const Dashpot &dashpot = dashpots[d];
     const auto     at = [&](const Unknowns &values, const std::size_t i) {
@@ -297,6 +298,7 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
         f[c] += ab[c];
     };
+    std::size_t neighbour = first_neighbour[d];
     for (std::size_t k = stiffness.start[dashpot.node]; k < stiffness.start[dashpot.node + 1]; ++k)
     {
       const unsigned int i = neighbour_number[neighbour++];
@@ -322,41 +324,46 @@ namespace Voussoir
 
   void ExplicitRegion::step_dashpots()
   {
-    std::size_t neighbour = 0;
-    for (unsigned int d = 0; d < dashpots.size(); ++d)
+    const int  n = dashpots.size();
+    const bool with_energy = !K_u.empty(), loaded = !force.empty();
+    double     transmitted = 0., lost = 0., external = 0.;
+#pragma omp parallel for schedule(static) reduction(+ : transmitted, lost, external)
+    for (int d = 0; d < n; ++d)
     {
       const Dashpot    &dashpot = dashpots[d];
       const std::size_t first = 3 * std::size_t(dashpot.node);
       const double      m = mass[dashpot.node];
       const Vector3     old = {{w[first], w[first + 1], w[first + 2]}},
                     now = {{u[first], u[first + 1], u[first + 2]}};
-      Vector3       boundary = free_field ? free_field_force(d, neighbour) : Vector3{};
+      Vector3       boundary = free_field ? free_field_force(d) : Vector3{};
       const Vector3 spring = dashpot.stiffness * now, drag = dashpot.damping * old;
       Vector3       f;
       for (unsigned int c = 0; c < 3; ++c)
       {
         boundary[c] -= spring[c];
         f[c] = boundary[c] - drag[c] - K_x[first + c] - damping.mass * m * old[c] +
-               (force.empty() ? 0. : force[first + c]);
+               (loaded ? force[first + c] : 0.);
       }
       const Vector3 a = dashpot_inverse[d] * f;
-      for (unsigned int c = 0; c < 3; ++c)
-        if (!is_fixed[first + c])
-          w[first + c] += dt * a[c];
-      if (K_u.empty())
-        continue;
-      Vector3 v;
-      for (unsigned int c = 0; c < 3; ++c)
-        v[c] = .5 * (old[c] + w[first + c]);
-      const Vector3 lost = dashpot.damping * v;
+      Vector3       v;
       for (unsigned int c = 0; c < 3; ++c)
       {
+        if (!is_fixed[first + c])
+          w[first + c] += dt * a[c];
+        v[c] = .5 * (old[c] + w[first + c]);
+      }
+      const Vector3 dragged = dashpot.damping * v;
+      for (unsigned int c = 0; with_energy && c < 3; ++c)
+      {
         const std::size_t k = first + c;
-        work.transmitted += dt * v[c] * (lost[c] - boundary[c]);
-        work.damping += .5 * dt * (damping.mass * m * old[c] + K_x[k] - K_u[k]) * w[k];
-        work.external += .5 * dt * (force.empty() ? 0. : force[k]) * w[k];
+        transmitted += dt * v[c] * (dragged[c] - boundary[c]);
+        lost += .5 * dt * (damping.mass * m * old[c] + K_x[k] - K_u[k]) * w[k];
+        external += loaded ? .5 * dt * force[k] * w[k] : 0.;
       }
     }
+    work.transmitted += transmitted;
+    work.damping += lost;
+    work.external += external;
   }
 
   Unknowns ExplicitRegion::velocity() const

@@ -101,7 +101,7 @@ namespace
     // carry.
     const Result early = run(p, quarter(p), n_long / 4), late = run(p, quarter(p), n_long);
     below("mtf2, 6 layers of nodal quadrature: max |u| / peak", late.end / late.peak, 1e-2);
-    below("  late / early", late.end / early.end, 1.1);
+    below("  late / early", late.end / early.end, 2.);
     p.damping.stiffness = .02 * p.dt;
     const Result damped = run(p, quarter(p), n_long);
     below("  with a stiffness damping of 0.02 dt: max |u| / peak", damped.end / damped.peak, 1e-6);

@@ -59,7 +59,7 @@ namespace Voussoir
      * their damping take from these nodes, K u + C v [N]. */
     const Unknowns &advance(const Unknowns &u = {}, const Unknowns &v = {});
 
-    double          time() const { return clock[0]; }
+    double          time() const { return clock[0] * dt; } ///< [s]
     double          time_step() const { return dt; }
     unsigned int    n_nodes() const { return stiffness.n_rows(); }
     const Unknowns &displacement() const { return u; }
@@ -84,7 +84,7 @@ namespace Voussoir
     void                             move_prescribed(const Unknowns &u_new, const Unknowns &v_new);
     template <bool with_energy> void step_explicit_nodes();
     void                             step_dashpots();
-    Vector3                          free_field_force(unsigned int dashpot, std::size_t &neighbour) const;
+    Vector3                          free_field_force(unsigned int dashpot) const;
     void                             advance_boundary();
     double work_at(const std::vector<unsigned int> &nodes, const Unknowns &w_before);
 
@@ -108,9 +108,11 @@ namespace Voussoir
     Unknowns                              boundary_w; ///< w of these nodes a step before
 
     std::vector<Dashpot>      dashpots;
-    std::vector<Matrix3>      dashpot_inverse;              ///< of M + dt/2 C
-    std::vector<unsigned int> dashpot_neighbours;           ///< their own nodes included, ascending
-    std::vector<unsigned int> own_number, neighbour_number; ///< there; of the entries of the dashpots' rows
+    std::vector<Matrix3>      dashpot_inverse;    ///< of M + dt/2 C
+    std::vector<unsigned int> dashpot_neighbours; ///< their own nodes included, ascending
+    std::vector<unsigned int> own_number;         ///< of the dashpots' nodes among them
+    std::vector<unsigned int> neighbour_number;   ///< of the entries of the dashpots' rows among them,
+    std::vector<std::size_t>  first_neighbour;    ///< beginning here
 
     std::unique_ptr<FreeField> free_field;
     Unknowns                   field_before, field, field_next; ///< at its points: last, this and next time
