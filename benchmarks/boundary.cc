@@ -323,8 +323,9 @@ namespace
   {
     const CanyonMesh canyon(h, size, plane);
     auto             p = parameters(boundary, 1.);
-    const auto       master = plane ? tie_layer(canyon.mesh, 1) : std::vector<unsigned int>();
-    const RockModel  model = make_rock_model(canyon.mesh, p.rock, master);
+    p.rock.nodal_everywhere = plane; // Gauss points where the cells are bent in three dimensions
+    const auto      master = plane ? tie_layer(canyon.mesh, 1) : std::vector<unsigned int>();
+    const RockModel model = make_rock_model(canyon.mesh, p.rock, master);
     p.dt = .9 * critical_time_step(largest_frequency(model.stiffness, model.mass), {});
     auto         region = make_region(model, p, given);
     const double f0 = .4, t0 = 3.5, end = 2. * size + 16. + t0;

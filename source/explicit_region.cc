@@ -109,6 +109,27 @@ namespace Voussoir
       exclude(inverse_mass, boundary_nodes.back());
     }
     boundary_w.resize(3 * boundary_nodes.size());
+    check_prescribed();
+  }
+
+  /** Transmitting boundaries of order 3 and 4 were seen to explode with prescribed nodes on their lines. */
+  void ExplicitRegion::check_prescribed() const
+  {
+    if (!transmitting || prescribed.empty())
+      return;
+    const std::vector<bool> is_prescribed = [&]
+    {
+      std::vector<bool> marks(n_nodes(), false);
+      for (const unsigned int node : prescribed)
+        marks[node] = true;
+      return marks;
+    }();
+    for (const unsigned int node : transmitting->nodes())
+      if (is_prescribed[node])
+        throw InputError(
+            "the base of the dam is too near the artificial boundary of the rock: there must be " +
+            std::to_string(transmitting->nodes_per_line()) +
+            " layers of rock cells between them for this transmitting boundary");
   }
 
   void ExplicitRegion::set_boundary(std::vector<Dashpot> list)
@@ -154,6 +175,7 @@ namespace Voussoir
   void ExplicitRegion::set_prescribed(const std::vector<unsigned int> &nodes)
   {
     prescribed = nodes;
+    check_prescribed();
     for (const unsigned int node : nodes)
     {
       exclude(inverse_mass, node);
@@ -189,8 +211,8 @@ namespace Voussoir
     const bool with_energy = !K_u.empty();
     if (with_energy)
     {
-      work.transmitted -= work_at(boundary_nodes, boundary_w);
-      work.prescribed += work_at(prescribed, prescribed_w);
+      work[gone_through_boundary] -= work_at(boundary_nodes, boundary_w);
+      work[done_by_prescribed] += work_at(prescribed, prescribed_w);
     }
     const int n = u.size();
 #pragma omp parallel for simd schedule(static)
@@ -246,11 +268,15 @@ namespace Voussoir
     }
     if (with_energy)
     {
-      account = work; // until now; what follows belongs to the next half step
+      // Until now; what follows belongs to the next half step.
+      account.damping = work[lost_in_damping];
+      account.external = work[done_by_forces];
+      account.transmitted = work[gone_through_boundary];
+      account.prescribed = work[done_by_prescribed];
       account.kinetic = .5 * kinetic;
       account.strain = .5 * strain;
-      work.damping += .5 * dt * lost;
-      work.external += .5 * dt * external;
+      work[lost_in_damping] += .5 * dt * lost;
+      work[done_by_forces] += .5 * dt * external;
     }
   }
 
@@ -264,8 +290,8 @@ namespace Voussoir
         const double      m = mass[nodes[i]], old = w_before[3 * i + c], f = force.empty() ? 0. : force[k];
         const double      reaction = m * ((w[k] - old) / dt + damping.mass * old) + K_x[k] - f;
         sum += .5 * dt * reaction * (old + w[k]);
-        work.damping += .5 * dt * (damping.mass * m * old + K_x[k] - K_u[k]) * w[k];
-        work.external += .5 * dt * f * w[k];
+        work[lost_in_damping] += .5 * dt * (damping.mass * m * old + K_x[k] - K_u[k]) * w[k];
+        work[done_by_forces] += .5 * dt * f * w[k];
       }
     return sum;
   }
@@ -361,9 +387,9 @@ namespace Voussoir
         external += loaded ? .5 * dt * force[k] * w[k] : 0.;
       }
     }
-    work.transmitted += transmitted;
-    work.damping += lost;
-    work.external += external;
+    work[gone_through_boundary] += transmitted;
+    work[lost_in_damping] += lost;
+    work[done_by_forces] += external;
   }
 
   Unknowns ExplicitRegion::velocity() const
@@ -399,7 +425,7 @@ namespace Voussoir
       x[i] = u[i] + dt * w[i];
     stiffness.multiply(x.data(), K_x.data());
     for (std::size_t i = 0; i < u.size(); ++i)
-      work.external += .5 * (mass[i / 3] * w[i] * w[i] + u[i] * K_x[i]);
+      work[done_by_forces] += .5 * (mass[i / 3] * w[i] * w[i] + u[i] * K_x[i]);
     stiffness.multiply(u.data(), K_u.data());
     std::fill(K_x.begin(), K_x.end(), 0.);
   }
@@ -407,7 +433,7 @@ namespace Voussoir
   std::vector<std::vector<double> *> ExplicitRegion::state()
   {
     std::vector<std::vector<double> *> arrays = {
-        &clock, &u, &w, &K_x, &K_u, &field, &field_before, &field_next, &boundary_w, &prescribed_w};
+        &clock, &work, &u, &w, &K_x, &K_u, &field, &field_before, &field_next, &boundary_w, &prescribed_w};
     if (transmitting)
       for (auto *array : transmitting->state())
         arrays.push_back(array);

@@ -48,7 +48,8 @@ namespace Voussoir
     void fix(const std::vector<unsigned int> &components);
     void fix_nodes(const std::vector<unsigned int> &nodes);
 
-    /** Nodes whose motion is handed in. Their masses do not count here. */
+    /** Nodes whose motion is handed in. Their masses do not count here. InputError if they lie on lines of
+     * the transmitting boundary. */
     void set_prescribed(const std::vector<unsigned int> &nodes);
 
     /** External forces, three per node [N], kept until changed. Empty at first: none. */
@@ -86,6 +87,7 @@ namespace Voussoir
     void                             step_dashpots();
     Vector3                          free_field_force(unsigned int dashpot) const;
     void                             advance_boundary();
+    void                             check_prescribed() const;
     double work_at(const std::vector<unsigned int> &nodes, const Unknowns &w_before);
 
     BlockSparseMatrix   stiffness;
@@ -116,7 +118,15 @@ namespace Voussoir
 
     std::unique_ptr<FreeField> free_field;
     Unknowns                   field_before, field, field_next; ///< at its points: last, this and next time
-    RegionEnergy               account, work;                   ///< work: up to now
+    enum Work                                                   ///< what has been done up to now [J]
+    {
+      lost_in_damping,
+      done_by_forces,
+      gone_through_boundary,
+      done_by_prescribed
+    };
+    std::vector<double> work = {0., 0., 0., 0.};
+    RegionEnergy        account;
   };
 
   /** Largest circular frequency of M^-1 K [1/s], from above: power iteration, with the residual added. */
