@@ -482,8 +482,11 @@ namespace
       const std::vector<double> etas = {.5, 1.};
       const auto                run =
           canyon_run(h, 3., false, 0, boundary, nullptr, etas,
-                     [](const std::array<double, 3> &x) {
-                       return (std::abs(x[0]) < 1e-9 || std::abs(x[1]) < 1e-9) && std::hypot(x[0], x[1]) < 2.;
+                     [](const std::array<double, 3> &x)
+                     {
+                       return (std::abs(x[0]) < 1e-9 || std::abs(x[1]) < 1e-9) &&
+                              std::hypot(x[0], x[1]) < 2. &&
+                              (std::hypot(x[0], x[1]) < .9 || std::hypot(x[0], x[1]) > 1. - 1e-9);
                      });
       double error[2] = {0., 0.};
       for (unsigned int e = 0; e < 2; ++e)
