@@ -1,0 +1,197 @@
+// Earthquake input: without dam and topography the total motion is the free field; so it is in a prismatic
+// valley, with the section's motion as free field.
+
+#include "box.h"
+#include "column.h"
+
+namespace
+{
+  using namespace Boxes;
+  using Columns::above;
+  using Columns::below;
+  using Columns::note;
+
+  RockRegionParameters parameters(const std::string &boundary, const bool nodal)
+  {
+    RockRegionParameters p;
+    p.rock.materials[rock] = unit_rock();
+    p.rock.nodal_everywhere = nodal;
+    p.rock.nodal_layers = 3;
+    p.rock.centre = {{7., 6.5, 12.}};
+    p.dt = .3;
+    p.boundary = boundary;
+    return p;
+  }
+
+  /** A pulse of all three components. */
+  Vector3 pulse(const double t)
+  {
+    return {{ricker(t, .05, 30.), .7 * ricker(t, .04, 35.), .5 * ricker(t, .06, 28.)}};
+  }
+
+  /** NaN if one of them is. */
+  double larger(const double a, const double b)
+  {
+    return a >= b ? a : b;
+  }
+
+  struct Result
+  {
+    double error = 0., peak = 0., energy_error = 0.;
+  };
+
+  /** Largest difference between the region and its free field in the nodes of @p column. */
+  Result run(const HexMesh &mesh, const RockRegionParameters &p, const unsigned int n_steps)
+  {
+    const RockModel model = make_rock_model(mesh, p.rock);
+    auto            region = make_region(model, p);
+    shake(*region, mesh, model, p, pulse, n_steps);
+    region->keep_energy();
+
+    // The same free field once more, at all nodes.
+    const auto                field = make_free_field(mesh, model, p, pulse, n_steps);
+    std::vector<unsigned int> all(model.points.size());
+    for (unsigned int i = 0; i < all.size(); ++i)
+      all[i] = i;
+    field->add_nodes(model, all);
+    Unknowns expected;
+    Result   result;
+    double   largest = 0.;
+    for (unsigned int i = 0; i < n_steps; ++i)
+    {
+      region->advance();
+      field->advance();
+      field->evaluate(expected);
+      for (unsigned int k = 0; k < expected.size(); ++k)
+      {
+        result.error = larger(result.error, std::abs(region->displacement()[k] - expected[k]));
+        result.peak = larger(result.peak, std::abs(expected[k]));
+      }
+      largest = std::max(largest, region->energy().kinetic + region->energy().strain);
+      result.energy_error = larger(result.energy_error, std::abs(region->energy().balance()));
+    }
+    result.energy_error /= largest;
+    return result;
+  }
+
+  Vector3 unit_cells(const double i, const double j, const double k)
+  {
+    return {{i, j, k}};
+  }
+
+  const std::vector<std::string> open_box = {"x-", "x+", "y-", "y+", "z-"};
+
+  void flat(const std::string &boundary, const bool nodal, const RayleighDamping &damping)
+  {
+    auto p = parameters(boundary, nodal);
+    p.damping = damping;
+    p.free_field = "columns";
+    const Result r = run(box({14, 13, 12}, open_box, unit_cells), p, 400);
+    below("flat, " + boundary + (nodal ? ", nodal" : ", Gauss inside") +
+              (damping.stiffness > 0. ? ", damped" : "") + ": total - free field / peak",
+          r.error / r.peak, 1e-10);
+    below("  energy account / largest energy", r.energy_error, 1e-10);
+  }
+
+  /** Motion at the ground above is twice the incident wave. */
+  void surface_factor()
+  {
+    auto p = parameters("mtf2", true);
+    p.free_field = "columns";
+    const HexMesh   mesh = box({10, 10, 20}, open_box, unit_cells);
+    const RockModel model = make_rock_model(mesh, p.rock);
+    FreeField       field(model, p.damping, p.dt, 600,
+                          [](const double t) -> Vector3 {
+                      return {{ricker(t, .02, 70.), 0., ricker(t, .02, 70.)}};
+                    });
+    field.add_nodes(model, {static_cast<unsigned int>(model.points.size()) - 1});
+    Unknowns u;
+    double   error_s = 0., error_p = 0.;
+    for (unsigned int i = 1; i <= 600; ++i)
+    {
+      field.advance();
+      field.evaluate(u);
+      const double depth = 21.; // of where the wave enters
+      error_s = std::max(error_s, std::abs(u[0] - 2. * ricker(i * p.dt - depth, .02, 70.)));
+      error_p = std::max(error_p, std::abs(u[2] - 2. * ricker(i * p.dt - depth / std::sqrt(3.), .02, 70.)));
+    }
+    below("column, 50 points per S wavelength: surface - 2 incident, S", error_s, .03);
+    below("  P", error_p, .01);
+  }
+
+  /** Valley along x: the ground's height over y is lowered in the middle, vertical lines stay vertical. */
+  Vector3 valley(const double i, const double j, const double k)
+  {
+    const double y = j - 10., depth = std::abs(y) < 6. ? 2.5 * (1. + std::cos(pi * y / 6.)) : 0.;
+    return {{i, y, k < 6. ? k : 6. + (k - 6.) * (8. - depth) / 8.}};
+  }
+
+  void prismatic(const std::string &free_field, const bool nodal)
+  {
+    auto p = parameters("mtf2", nodal);
+    p.dt = .13;
+    p.free_field = free_field;
+    const HexMesh   mesh = box({12, 20, 14}, open_box, valley);
+    const RockModel model = make_rock_model(mesh, p.rock);
+    auto            region = make_region(model, p);
+    shake(*region, mesh, model, p, pulse, 900);
+    // Prismatic: the motion depends on y and z only.
+    double error = 0., peak = 0.;
+    for (unsigned int i = 0; i < 900; ++i)
+    {
+      region->advance();
+      const Unknowns &u = region->displacement();
+      for (unsigned int k = 0; k < u.size(); ++k)
+      {
+        const unsigned int in_section = k / 39 * 39 + k % 3;
+        error = larger(error, std::abs(u[k] - u[in_section]));
+        peak = larger(peak, std::abs(u[k]));
+      }
+    }
+    const std::string what = "prismatic valley, " + free_field + (nodal ? ", nodal" : ", Gauss inside");
+    if (free_field == "sections" && nodal)
+    {
+      below(what + ": total - section / peak", error / peak, 1e-9);
+      const Result r = run(mesh, p, 300);
+      below("  total - free field / peak", r.error / r.peak, 1e-9);
+    }
+    else
+      note(what + ": variation along the valley / peak", error / peak);
+  }
+
+  void refuses()
+  {
+    auto            p = parameters("mtf2", true);
+    const RockModel model = make_rock_model(box({6, 6, 6}, open_box, unit_cells), p.rock);
+    p.dt = .5;
+    std::string message;
+    try
+    {
+      make_region(model, p);
+    }
+    catch (const std::exception &error)
+    {
+      message = error.what();
+    }
+    Columns::report("too large a time step is refused", .5, message.substr(0, 20),
+                    message.find("critical time step") != std::string::npos);
+    const double w = largest_frequency(model.stiffness, model.mass);
+    // Cube with nodal quadrature, nu = 0.25: c_p dt/h = 0.775
+    Columns::between("critical time step of a cube, c_p dt/h", std::sqrt(3.) * critical_time_step(w, {}), .74,
+                     .78);
+  }
+} // namespace
+
+int main()
+{
+  return Columns::run_all({refuses, surface_factor, [] { flat("mtf2", true, {}); },
+                           [] { flat("mtf2", false, {}); }, [] { flat("mtf3", true, {}); },
+                           [] {
+                             flat("mtf2", true, {.01, .05});
+                           },
+                           [] {
+                             flat("viscous", true, {.01, .05});
+                           },
+                           [] { flat("viscous-spring", true, {}); }, [] { prismatic("sections", true); },
+                           [] { prismatic("sections", false); }, [] { prismatic("columns", true); }});
+}
