@@ -186,6 +186,7 @@ namespace Voussoir
       multiplied = force;
     }
     gap = product;
+    drift = 0.;
     add(gap, 1., *b);
   }
 
@@ -213,6 +214,7 @@ namespace Voussoir
     { return law[pair]->solve(H, free, get(*start, pair)); };
     for (unsigned int i = 0; i < count && !out_of_time(); ++i, ++result.sweeps)
       W.sweep(solve_pair, force, gap);
+    drift += 1e-6;
   }
 
   /** Moves along @p step; returns by how much of it. None decreases: the whole step is taken. */
@@ -238,6 +240,17 @@ namespace Voussoir
     return 1.;
   }
 
+  /** The residual, free of the round-off of single precision where that matters. */
+  double ContactSolver::checked_residual(const double target, const Unknowns &force, Unknowns &gap)
+  {
+    const double now = residual(force, gap);
+    if (drift == 0. || (now > target && drift <= .1 * now))
+      return now;
+    refresh_gap(force, gap);
+    evaluate(force, gap);
+    return residual(force, gap);
+  }
+
   /** How exact the linear solver must be: as Newton is about to become (Eisenstat and Walker 1996, choice 2),
    *  but not looser than 1e-3 when it stalls: a loose step misses the soft modes of bodies that only their
    *  neighbours hold. */
@@ -254,8 +267,7 @@ namespace Voussoir
                              Unknowns &gap)
   {
     evaluate(force, gap);
-    double             now = residual(force, gap), previous = now;
-    double             drift = 0.; // bound of what single precision steps have made of the gap, like now
+    double             now = checked_residual(target, force, gap), previous = now;
     Best               found{now, force};
     std::deque<double> merits(1, merit());
     Unknowns           step, d_gap;
@@ -273,17 +285,10 @@ namespace Voussoir
       const double bound = stalled > 2 ? merits.back() : *std::max_element(merits.begin(), merits.end());
       const double t = line_search(bound, step, d_gap, force, gap);
       previous = now;
-      now = residual(force, gap);
-      if (!std::isfinite(now)) // singular
+      if (!std::isfinite(residual(force, gap))) // singular
         break;
       drift += 1e-6 * t * mean_rho * std::sqrt(norm_square(d_gap)) / scale;
-      if (now <= target || drift > .1 * now)
-      {
-        refresh_gap(force, gap);
-        evaluate(force, gap);
-        now = residual(force, gap);
-        drift = 0.;
-      }
+      now = checked_residual(target, force, gap);
       merits.push_back(merit());
       if (merits.size() > 5)
         merits.pop_front();

@@ -6,6 +6,9 @@
 extern "C" void dgemv_(const char *, const int *, const int *, const double *, const double *, const int *,
                        const double *, const int *, const double *, double *, const int *);
 
+extern "C" void sgemv_(const char *, const int *, const int *, const float *, const float *, const int *,
+                       const float *, const int *, const float *, float *, const int *);
+
 namespace Voussoir
 {
   InterfaceOperator::InterfaceOperator(const std::vector<unsigned int> &n_pairs)
@@ -91,39 +94,78 @@ namespace Voussoir
     return result;
   }
 
+  void InterfaceOperator::finish()
+  {
+    single.clear();
+    for (const auto &b : blocks)
+      single[b.first].assign(b.second.begin(), b.second.end());
+  }
+
+  void InterfaceOperator::add_single(const unsigned int j, const unsigned int k, const float *x,
+                                     float *y) const
+  {
+    const std::vector<float> &b = single.at({std::min(j, k), std::max(j, k)});
+    const int                 rows = size(std::min(j, k)), columns = size(std::max(j, k)), stride = 1;
+    const float               one = 1.f;
+    if (!b.empty())
+      sgemv_(j <= k ? "N" : "T", &rows, &columns, &one, b.data(), &rows, x, &stride, &one, y, &stride);
+  }
+
   void InterfaceOperator::sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const
   {
+    std::vector<float> change(n());
     for (const auto &groups : colours())
     {
-      std::vector<std::vector<double>> change(groups.size());
 #pragma omp parallel for schedule(dynamic)
       for (int index = 0; index < static_cast<int>(groups.size()); ++index)
+        sweep_group(groups[index], solve_pair, force, gap, change);
+        // What the change does to the other groups; each of them is the work of one thread.
+#pragma omp parallel for schedule(dynamic)
+      for (int k = 0; k < static_cast<int>(n_groups()); ++k)
       {
-        const unsigned int         j = groups[index], m = size(j);
-        const std::vector<double> &w = block(j, j);
-        change[index].assign(m, 0.);
-        for (unsigned int i = 0; i < m; i += 3)
-        {
-          const unsigned int pair = (begin(j) + i) / 3;
-          double            *f = &force[3 * pair], *d = &gap[begin(j)];
-          const Matrix3      H = diagonal(pair);
-          const Vector3      Hf = H * Vector3{{f[0], f[1], f[2]}};
-          const Vector3 solution = solve_pair(pair, H, {{d[i] - Hf[0], d[i + 1] - Hf[1], d[i + 2] - Hf[2]}});
-          for (unsigned int c = 0; c < 3; ++c)
+        std::vector<float> sum(size(k), 0.f);
+        bool               any = false;
+        for (const unsigned int j : coupled[k])
+          if (std::binary_search(groups.begin(), groups.end(), j))
           {
-            const double delta = solution[c] - f[c];
-            f[c] = solution[c];
-            change[index][i + c] = delta;
-            const double *column = w.data() + std::size_t(i + c) * m;
-            if (delta != 0.)
-              for (unsigned int row = 0; row < m; ++row)
-                d[row] += delta * column[row];
+            add_single(k, j, change.data() + begin(j), sum.data());
+            any = true;
           }
-        }
+        for (unsigned int i = 0; any && i < size(k); ++i)
+          gap[begin(k) + i] += sum[i];
       }
-      for (std::size_t index = 0; index < groups.size(); ++index)
-        for (const unsigned int k : coupled[groups[index]])
-          add_coupling(k, groups[index], 1., change[index].data(), gap.data() + begin(k));
+    }
+  }
+
+  /** The pairs of one group, one after the other; @p change: of their forces. */
+  void InterfaceOperator::sweep_group(const unsigned int j, const PairSolver &solve_pair, Unknowns &force,
+                                      Unknowns &gap, std::vector<float> &change) const
+  {
+    const unsigned int         m = size(j);
+    const std::vector<double> &exact = blocks.at({j, j});
+    const std::vector<float>  &w = single.at({j, j});
+    double                    *d = gap.data() + begin(j);
+    for (unsigned int i = 0; i < m; i += 3)
+    {
+      double *f = force.data() + begin(j) + i;
+      Matrix3 H;
+      for (unsigned int r = 0; r < 3; ++r)
+        for (unsigned int c = 0; c < 3; ++c)
+          H[3 * r + c] = exact[std::size_t(i + c) * m + i + r];
+      const Vector3 Hf = H * Vector3{{f[0], f[1], f[2]}};
+      const Vector3 solution =
+          solve_pair((begin(j) + i) / 3, H, {{d[i] - Hf[0], d[i + 1] - Hf[1], d[i + 2] - Hf[2]}});
+      float *delta = change.data() + begin(j) + i;
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        delta[c] = static_cast<float>(solution[c] - f[c]);
+        f[c] = solution[c];
+      }
+      if (delta[0] == 0.f && delta[1] == 0.f && delta[2] == 0.f)
+        continue;
+      const float *w0 = w.data() + std::size_t(i) * m, *w1 = w0 + m, *w2 = w1 + m;
+      for (unsigned int row = 0; row < m; ++row)
+        d[row] += delta[0] * w0[row] + delta[1] * w1[row] + delta[2] * w2[row];
     }
   }
 
@@ -148,7 +190,7 @@ namespace Voussoir
   {
     double bytes = 0;
     for (const auto &b : blocks)
-      bytes += 8. * b.second.size();
+      bytes += 12. * b.second.size();
     return bytes;
   }
 } // namespace Voussoir

@@ -10,8 +10,9 @@ extern "C"
                const int *, int *);
   void sgemm_(const char *, const char *, const int *, const int *, const int *, const float *, const float *,
               const int *, const float *, const int *, const float *, float *, const int *);
-  void sgemv_(const char *, const int *, const int *, const float *, const float *, const int *,
-              const float *, const int *, const float *, float *, const int *);
+  float sdot_(const int *, const float *, const int *, const float *, const int *);
+  void  sgemv_(const char *, const int *, const int *, const float *, const float *, const int *,
+               const float *, const int *, const float *, float *, const int *);
 }
 
 namespace Voussoir
@@ -49,15 +50,9 @@ namespace Voussoir
       for (unsigned int k = g; k < W.n_groups(); ++k)
         if (const std::vector<double> *block = W.find_block(g, k); block && !block->empty())
         {
-          blocks[{g, k}].assign(block->begin(), block->end());
           keys.push_back({g, k});
           is_chain = is_chain && k <= g + 1;
         }
-  }
-
-  const JointJacobian::Floats &JointJacobian::coupling(const unsigned int j, const unsigned int k) const
-  {
-    return blocks.at({std::min(j, k), std::max(j, k)});
   }
 
   bool JointJacobian::needs_factor(const unsigned int group) const
@@ -119,7 +114,7 @@ namespace Voussoir
           factor.active.push_back(3 * i + c);
     factor.lu.resize(factor.active.size() * factor.active.size());
     factor.pivots.resize(factor.active.size());
-    const Floats &w = blocks.at({group, group});
+    const Floats &w = coupling(group, group);
     const int     n = factor.active.size(), ld = W.size(group);
     for (int column = 0; column < n; ++column)
     {
@@ -162,16 +157,6 @@ namespace Voussoir
       x[factor.active[i]] = z[i];
   }
 
-  /** y += W_jk x. */
-  void JointJacobian::multiply_block(const unsigned int j, const unsigned int k, const float *x,
-                                     float *y) const
-  {
-    const Floats &block = coupling(j, k);
-    const int     rows = W.size(std::min(j, k)), columns = W.size(std::max(j, k)), stride = 1;
-    const float   one = 1.f;
-    sgemv_(j <= k ? "N" : "T", &rows, &columns, &one, block.data(), &rows, x, &stride, &one, y, &stride);
-  }
-
   /** y += factor * d_gap x, in the rows of a group. */
   void JointJacobian::multiply_by_d_gap(const unsigned int group, const float factor, const float *x,
                                         float *y) const
@@ -193,11 +178,11 @@ namespace Voussoir
     {
       const unsigned int j = keys[i].first, k = keys[i].second;
       products[i][0].assign(W.size(j), 0.f);
-      multiply_block(j, k, x.data() + W.begin(k), products[i][0].data());
+      W.add_single(j, k, x.data() + W.begin(k), products[i][0].data());
       if (j != k)
       {
         products[i][1].assign(W.size(k), 0.f);
-        multiply_block(k, j, x.data() + W.begin(j), products[i][1].data());
+        W.add_single(k, j, x.data() + W.begin(j), products[i][1].data());
       }
     }
     y.assign(W.n(), 0.f);
@@ -265,15 +250,14 @@ namespace Voussoir
         const unsigned int g = groups[i];
         float             *z_g = z.data() + W.begin(g);
         Floats             sum(W.size(g), 0.f);
-        for_earlier(g,
-                    [&](const unsigned int k) { multiply_block(g, k, z.data() + W.begin(k), sum.data()); });
+        for_earlier(g, [&](const unsigned int k) { W.add_single(g, k, z.data() + W.begin(k), sum.data()); });
         multiply_by_d_gap(g, -1.f, sum.data(), z_g);
         apply_factor(g, z_g);
         for_earlier(g,
                     [&](const unsigned int k)
                     {
                       back[g].emplace_back(W.size(k), 0.f);
-                      multiply_block(k, g, z_g, back[g].back().data());
+                      W.add_single(k, g, z_g, back[g].back().data());
                     });
       }
     for (unsigned int g = 0; g < W.n_groups(); ++g)
@@ -307,15 +291,20 @@ namespace Voussoir
   /** w += (J - D - L - U) z in the rows of a group whose factors are of older equations. */
   void JointJacobian::correct_stale(const unsigned int g, const Floats &z, Floats &w) const
   {
-    Floats Wz(W.size(g), 0.f);
-    multiply_block(g, g, z.data() + W.begin(g), Wz.data());
-    for (unsigned int i = 0; i < W.size(g) / 3; ++i)
+    const Floats &block = coupling(g, g);
+    const float  *z_g = z.data() + W.begin(g);
+    const int     m = W.size(g), stride = 1;
+    for (int i = 0; i < m; i += 3)
     {
-      const PairEquations &a = factors[g].equations[i], &b = present(g)[i];
+      const PairEquations &a = factors[g].equations[i / 3], &b = present(g)[i / 3];
+      if (a.d_force == b.d_force && a.d_gap == b.d_gap)
+        continue;
+      float Wz[3]; // rows are columns
+      for (unsigned int c = 0; c < 3; ++c)
+        Wz[c] = sdot_(&m, block.data() + std::size_t(i + c) * m, &stride, z_g, &stride);
       for (unsigned int c = 0; c < 9; ++c)
-        w[W.begin(g) + 3 * i + c / 3] +=
-            static_cast<float>((b.d_force[c] - a.d_force[c]) * z[W.begin(g) + 3 * i + c % 3] +
-                               (b.d_gap[c] - a.d_gap[c]) * Wz[3 * i + c % 3]);
+        w[W.begin(g) + i + c / 3] += static_cast<float>((b.d_force[c] - a.d_force[c]) * z_g[i + c % 3] +
+                                                        (b.d_gap[c] - a.d_gap[c]) * Wz[c % 3]);
     }
   }
 

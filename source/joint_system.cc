@@ -69,6 +69,7 @@ namespace Voussoir
       bodies.push_back(std::move(*body));
     }
     condense();
+    W.finish();
     solver = std::make_unique<ContactSolver>(W, laws.of_pair, parameters);
   }
 

@@ -276,6 +276,7 @@ namespace Voussoir
           for (unsigned int c = 0; c < 3; ++c)
             block[(column + c) * rows + row + r] = W.value[k][3 * r + c];
       }
+    result.finish();
     return result;
   }
 

@@ -148,6 +148,7 @@ namespace
             for (unsigned int c = 0; c < W.size(k); ++c)
               W.block(j, k)[std::size_t(c) * W.size(j) + r] = p(W.begin(j) + r, W.begin(k) + c);
       }
+    W.finish();
     return W;
   }
 

@@ -16,7 +16,7 @@ namespace Voussoir
   {
     double       tolerance = 1e-10;    ///< relative residual that is accepted
     unsigned int max_iterations = 500; ///< Newton steps in all
-    unsigned int sweeps = 2;           ///< Gauss-Seidel sweeps before the first Newton step
+    unsigned int sweeps = 4;           ///< Gauss-Seidel sweeps before the first Newton step
     std::string  method = "newton";    ///< newton (with its fallbacks), proximal, sweeps
     double       max_seconds = std::numeric_limits<double>::infinity(); ///< of wall time
     bool         write_problems = false;                                ///< in FCLib's format
@@ -90,6 +90,7 @@ namespace Voussoir
     void         evaluate(const Unknowns &force, const Unknowns &gap);
     double       merit() const;
     double       residual(const Unknowns &force, const Unknowns &gap);
+    double       checked_residual(double target, const Unknowns &force, Unknowns &gap);
     double       forcing_term(double now, double previous, double target, bool stalls) const;
     void         refresh_gap(const Unknowns &force, Unknowns &gap);
     double       remember(const Unknowns &force, const Unknowns &gap); ///< if it is the best; its residual
@@ -115,6 +116,7 @@ namespace Voussoir
     Unknowns        multiplied, product;           ///< product = W multiplied, of the last refresh
     const Unknowns *b = nullptr, *start = nullptr; ///< of the present problem
     double          scale = 0.;                    ///< of the last residual [N]
+    double          drift = 0.; ///< of gap from W force + b, by single precision; relative, as the residual
     Proximal        proximal;
     Best            best;
     ContactResult   result;

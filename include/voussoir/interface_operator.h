@@ -36,7 +36,7 @@ namespace Voussoir
 
     Matrix3 diagonal(unsigned int pair) const override;
 
-    /** Groups of one colour run in parallel. */
+    /** Groups of one colour run in parallel. In single precision: @p gap is off by round-off of that size. */
     void sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const override;
 
     std::unique_ptr<ContactJacobian> make_jacobian() const override;
@@ -53,10 +53,21 @@ namespace Voussoir
     const std::vector<unsigned int> &neighbours(const unsigned int group) const { return coupled[group]; }
     double                           memory() const; ///< [bytes]
 
+    /** Make the copy in single precision, once all blocks are filled in. */
+    void                      finish();
+    const std::vector<float> &single_block(unsigned int j, unsigned int k) const { return single.at({j, k}); }
+
+    /** y += W_jk x in single precision, also for j > k. */
+    void add_single(unsigned int j, unsigned int k, const float *x, float *y) const;
+
   private:
+    void sweep_group(unsigned int j, const PairSolver &solve_pair, Unknowns &force, Unknowns &gap,
+                     std::vector<float> &change) const;
+
     std::vector<unsigned int>                                            offset;
     std::vector<std::vector<unsigned int>>                               coupled;
     std::map<std::pair<unsigned int, unsigned int>, std::vector<double>> blocks;
+    std::map<std::pair<unsigned int, unsigned int>, std::vector<float>>  single; ///< the same
   };
 } // namespace Voussoir
 

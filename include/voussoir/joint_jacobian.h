@@ -38,31 +38,33 @@ namespace Voussoir
     };
 
     const PairEquations *present(unsigned int group) const { return equations->data() + W.begin(group) / 3; }
-    const Floats        &coupling(unsigned int j, unsigned int k) const;
-    bool                 needs_factor(unsigned int group) const;
-    void                 take_active_rows(unsigned int group);
-    void                 factorise(unsigned int group);
-    void                 apply_factor(unsigned int group, float *x) const;
-    void                 multiply_block(unsigned int j, unsigned int k, const float *x, float *y) const;
-    void                 multiply_by_d_gap(unsigned int group, float factor, const float *x, float *y) const;
-    void                 multiply_J(const Floats &z, Floats &w) const;
-    void                 multiply_W(const Floats &x, Floats &y) const;
-    void                 multiply_W_sparse(const Unknowns &x, Floats &y) const;
-    void                 apply(const Floats &v, Floats &z, Floats &w) const;
-    void                 correct_stale(unsigned int group, const Floats &z, Floats &w) const;
-    unsigned int         gmres(const Unknowns &r, double target, Unknowns &step) const;
+    const Floats        &coupling(unsigned int j, unsigned int k) const
+    {
+      return W.single_block(std::min(j, k), std::max(j, k));
+    }
+    bool         needs_factor(unsigned int group) const;
+    void         take_active_rows(unsigned int group);
+    void         factorise(unsigned int group);
+    void         apply_factor(unsigned int group, float *x) const;
+    void         multiply_block(unsigned int j, unsigned int k, const float *x, float *y) const;
+    void         multiply_by_d_gap(unsigned int group, float factor, const float *x, float *y) const;
+    void         multiply_J(const Floats &z, Floats &w) const;
+    void         multiply_W(const Floats &x, Floats &y) const;
+    void         multiply_W_sparse(const Unknowns &x, Floats &y) const;
+    void         apply(const Floats &v, Floats &z, Floats &w) const;
+    void         correct_stale(unsigned int group, const Floats &z, Floats &w) const;
+    unsigned int gmres(const Unknowns &r, double target, Unknowns &step) const;
 
     void factorise_chain();
     void fill_coupling(unsigned int row_group, unsigned int column_group, Floats &block) const;
     void apply_chain(const Floats &v, Floats &z) const;
 
-    const InterfaceOperator                                &W;
-    std::map<std::pair<unsigned int, unsigned int>, Floats> blocks; ///< W in single precision
-    std::vector<std::pair<unsigned int, unsigned int>>      keys;   ///< of the blocks
-    const std::vector<PairEquations>                       *equations = nullptr;
-    std::vector<Factor>                                     factors;
-    std::vector<std::vector<unsigned int>>                  groups_of_colour;
-    std::vector<unsigned int>                               colour;
+    const InterfaceOperator                           &W;
+    std::vector<std::pair<unsigned int, unsigned int>> keys; ///< of the blocks
+    const std::vector<PairEquations>                  *equations = nullptr;
+    std::vector<Factor>                                factors;
+    std::vector<std::vector<unsigned int>>             groups_of_colour;
+    std::vector<unsigned int>                          colour;
     bool                is_chain = true, chain = false; ///< can, and does, the block LU decomposition serve?
     std::vector<Floats> below, above;                   ///< of the chain: J_g,g-1, and S_g-1^-1 J_g-1,g
   };
