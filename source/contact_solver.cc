@@ -171,7 +171,7 @@ namespace Voussoir
     }
     // Where slip is a small part of the gap, no better than the round-off of the gap can be asked.
     const double force_size = std::sqrt(p), load_size = mean_rho * std::sqrt(q),
-                 round_off = 1e-15 * mean_rho * std::sqrt(norm_square(*b));
+                 round_off = 1e-15 * mean_rho * std::sqrt(norm_square(*start));
     scale = std::max({force_size, load_size, mean_rho * std::sqrt(u), round_off / parameters.tolerance});
     // A singular step leaves forces without bound, which would make any error look small.
     if (!std::isfinite(f + scale) || force_size > 1e8 * (load_size + round_off))
