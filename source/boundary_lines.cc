@@ -35,7 +35,7 @@ namespace Voussoir
       {
       }
 
-      std::vector<BoundaryLine> run()
+      std::vector<GridLine> run()
       {
         std::vector<std::pair<CutFace, const FaceTable::Entry *>> faces;
         for (const auto &face : mesh.faces)
@@ -49,7 +49,7 @@ namespace Voussoir
                          [](const auto &a, const auto &b) { return a.first < b.first; });
         for (const auto &face : faces)
           follow(face.first, *face.second);
-        for (const BoundaryLine &line : lines)
+        for (const GridLine &line : lines)
           check(line);
         std::sort(lines.begin(), lines.end(),
                   [](const auto &a, const auto &b) { return a.nodes[0] < b.nodes[0]; });
@@ -161,7 +161,7 @@ namespace Voussoir
         }
       }
 
-      void check(const BoundaryLine &line) const
+      void check(const GridLine &line) const
       {
         const unsigned int axis = normal_axis(line.face);
         const Vector      &start = mesh.nodes[line.nodes[0]];
@@ -198,7 +198,7 @@ namespace Voussoir
       const FaceTable                 table;
       const std::pair<Vector, Vector> box;
       std::vector<unsigned int>       line_of; // index into lines, by boundary node
-      std::vector<BoundaryLine>       lines;
+      std::vector<GridLine>       lines;
     };
   } // namespace
 
@@ -224,7 +224,7 @@ namespace Voussoir
     return face == CutFace::bottom ? 2 : (face == CutFace::right || face == CutFace::left ? 1 : 0);
   }
 
-  std::vector<BoundaryLine> boundary_lines(const HexMesh &mesh, const unsigned int n_layers,
+  std::vector<GridLine> boundary_lines(const HexMesh &mesh, const unsigned int n_layers,
                                            const std::string &source)
   {
     return Search(mesh, n_layers, source).run();

@@ -51,6 +51,9 @@ namespace Voussoir
              largest = newmark->largest_energy();
       archive << decisive << step << wall << cpu << state << first << largest << count << history << energy
               << *joints << *envelope << solutions;
+      if (dam->foundation)
+        for (const std::vector<double> *array : dam->foundation->state())
+          archive << *array;
       if (!out.flush())
         throw boost::archive::archive_exception(boost::archive::archive_exception::output_stream_error);
     }
@@ -84,6 +87,15 @@ namespace Voussoir
       const std::vector<std::string> columns = history.columns;
       archive >> step >> clock_before >> cpu_before >> state >> first >> largest >> count >> history >>
           energy >> *joints >> *envelope >> solutions;
+      if (dam->foundation)
+        for (std::vector<double> *array : dam->foundation->state())
+        {
+          const std::size_t size = array->size();
+          archive >> *array;
+          if (array->size() != size)
+            throw InputError("The checkpoint " + file +
+                             " belongs to another rock mesh. Run without --resume.");
+        }
       if (state.u.size() != statics.u.size() || state.force.size() != statics.force.size() ||
           step > n_steps || envelope->maximum.size() != dam->model->n_nodes())
         throw InputError(

@@ -4,25 +4,70 @@
 
 #include <cmath>
 #include <numeric>
+#include <set>
 
 namespace Voussoir
 {
+  namespace
+  {
+    /** The dam without the rock. */
+    HexMesh monoliths_only(const HexMesh &mesh)
+    {
+      HexMesh result = mesh;
+      result.cells.clear();
+      result.faces.clear();
+      std::vector<bool> used(mesh.nodes.size(), false);
+      for (const HexMesh::Cell &cell : mesh.cells)
+        if (is_monolith(cell.volume))
+        {
+          result.cells.push_back(cell);
+          for (const unsigned int node : cell.nodes)
+            used[node] = true;
+        }
+      for (const HexMesh::Face &face : mesh.faces)
+        if (face.surface != PhysicalId::free_surface && face.surface != PhysicalId::artificial)
+          result.faces.push_back(face);
+      std::vector<unsigned int> number(mesh.nodes.size(), 0);
+      result.nodes.clear();
+      for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+        if (used[i])
+        {
+          number[i] = result.nodes.size();
+          result.nodes.push_back(mesh.nodes[i]);
+        }
+      for (HexMesh::Cell &cell : result.cells)
+        for (unsigned int &node : cell.nodes)
+          node = number[node];
+      for (HexMesh::Face &face : result.faces)
+        for (unsigned int &node : face.nodes)
+          node = number[node];
+      return result;
+    }
+  } // namespace
+
   Dam::Dam(const Scene &scene, const bool tie_all) : scene(scene)
   {
     const HexMesh mesh = make_mesh(scene.mesh, scene.directory);
-    for (const HexMesh::Cell &cell : mesh.cells)
-      if (!is_monolith(cell.volume))
-        throw InputError(
-            "The mesh has rock (volumes from id 1000 on). This version computes dams on a rigid base only: "
-            "leave the rock out and mark the dam's foot as the surface \"base\".");
-    volume = Voussoir::volume(mesh);
-    crest_length = Voussoir::crest_length(mesh);
-    const auto box = bounding_box(mesh);
+    const HexMesh concrete = monoliths_only(mesh);
+    const bool    has_rock = concrete.cells.size() < mesh.cells.size(),
+               on_rock = scene.foundation.model == "rock";
+    if (on_rock && !has_rock)
+      throw InputError("Foundation/Model is rock, but the mesh has none (volumes from id 1000 on). Set "
+                       "Mesh/Arch210/Rock/Enabled = true, or give a mesh with rock.");
+    if (has_rock && !on_rock && scene.mesh.source == "file")
+      throw InputError(
+          "The mesh has rock (volumes from id 1000 on), but Foundation/Model is rigid: set it to rock, or "
+          "leave the rock out of the mesh.");
+    if (on_rock && scene.elements.degree != 1)
+      throw InputError("Foundation/Model = rock needs Elements/Degree = 1: dam and rock share their nodes.");
+    volume = Voussoir::volume(concrete);
+    crest_length = Voussoir::crest_length(concrete);
+    const auto box = bounding_box(concrete);
     size =
         std::hypot(box.second[0] - box.first[0], box.second[1] - box.first[1], box.second[2] - box.first[2]);
-    n_cells = mesh.cells.size();
-    n_monoliths = Voussoir::n_monoliths(mesh);
-    const HexMesh opened = open_joints(mesh);
+    n_cells = concrete.cells.size();
+    n_monoliths = Voussoir::n_monoliths(concrete);
+    const HexMesh opened = open_joints(concrete);
     for (const Joint &joint : joints_of(opened))
       n_joints = std::max<unsigned int>(n_joints, joint.number);
 
@@ -46,7 +91,14 @@ namespace Voussoir
     geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
     initial_stress.assign(model->n_nodes(), Stress{});
     if (scene.statics.self_weight == "staged")
-      stage_self_weight();
+      stage_self_weight(); // on a rigid base: displacements count from there
+    if (on_rock)
+    {
+      model->free_base();
+      structure = assemble_structure(*model, {scene.concrete}, incompatible_modes);
+      pairs = find_pairs(*model, n_joints);
+      geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
+    }
     if (tied && n_joints > 0)
     {
       model->tie_joints(n_joints);
@@ -58,8 +110,14 @@ namespace Voussoir
     structure.mass_damping = scene.damping.mass_factor();
     structure.stiffness_damping = scene.damping.stiffness_factor();
     structure.collect_interfaces();
+    std::set<unsigned int> base; // the feet of the joints are tied: the rock does not open there
+    for (unsigned int i = 0; i < model->n_nodes(); ++i)
+      if (on_rock && model->on_surface(i, PhysicalId::base))
+        base.insert(model->equation[i]);
+    laws.of_joint.push_back(make_joint_law("tied", 0.));
     for (const Pair &pair : structure.pairs)
-      laws.of_pair.push_back(laws.of_joint[pair.joint].get());
+      laws.of_pair.push_back(
+          (base.count(pair.node_1) > 0 ? laws.of_joint.back() : laws.of_joint[pair.joint]).get());
 
     const std::size_t n = 3 * structure.n_nodes();
     weight.assign(n, 0.);
@@ -72,6 +130,14 @@ namespace Voussoir
         added_mass = add_westergaard_mass(*model, scene.reservoir, structure);
     }
     inertia = inertial_loads(structure);
+    if (on_rock)
+    {
+      foundation = std::make_unique<Foundation>(scene.foundation, mesh, *model,
+                                                scene.mesh.source == "file" ? scene.mesh.file : "arch210");
+      foundation->add_mass(structure);
+      for (Unknowns &load : inertia) // the earthquake comes through the rock, and displacements are absolute
+        std::fill(load.begin(), load.end(), 0.);
+    }
 
     double top = -1e300, bottom = 1e300;
     for (unsigned int i = 0; i < model->n_nodes(); ++i)

@@ -156,7 +156,9 @@ namespace Voussoir
 
   double Newmark::energy_error() const
   {
-    return largest > 0. ? std::abs(now.energy.balance(first)) / largest : 0.;
+    // Before the motion has begun there is only the round-off of the static state.
+    const double scale = std::max(largest, 1e-6 * std::abs(first.strain));
+    return scale > 0. ? std::abs(now.energy.balance(first)) / scale : 0.;
   }
 
   /** The sum of the equations of motion at both ends of the step, in which accelerations cancel:

@@ -171,7 +171,13 @@ namespace Voussoir
     joints.add_parameters(prm);
     statics.add_parameters(prm);
     motion.add_parameters(prm);
+    foundation.add_parameters(prm);
     prm.enter_subsection("Dynamics");
+    prm.add_parameter(
+        "Steps per sample", steps_per_sample,
+        "Time steps in each sampling interval of the ground motion, which is linear between its samples. "
+        "With rock the time step must be below the critical one (--validate prints it).",
+        Patterns::Integer(1));
     prm.add_parameter(
         "Impact", impact_rule,
         "Joint forces and velocities of touching faces: mean-force (forces are means over the step, so that "

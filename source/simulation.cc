@@ -14,6 +14,69 @@ namespace Voussoir
   {
   }
 
+  namespace
+  {
+    /** The motion with @p n steps in each sampling interval. */
+    GroundMotion refined(const GroundMotion &motion, const unsigned int n)
+    {
+      if (n == 1 || motion.acceleration.empty())
+        return motion;
+      GroundMotion result;
+      result.dt = motion.dt / n;
+      for (std::size_t k = 0; k + 1 < motion.acceleration.size(); ++k)
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          std::array<double, 3> a;
+          for (unsigned int c = 0; c < 3; ++c)
+            a[c] = motion.acceleration[k][c] +
+                   double(i) / n * (motion.acceleration[k + 1][c] - motion.acceleration[k][c]);
+          result.acceleration.push_back(a);
+        }
+      result.acceleration.push_back(motion.acceleration.back());
+      return result;
+    }
+
+    /** x += f - sum of g (dx + df), the coefficients g those that make f - sum of g df smallest. */
+    void accelerate(std::vector<Unknowns> df, std::vector<Unknowns> dx, Unknowns f, Unknowns &x)
+    {
+      const auto dot_product = [](const Unknowns &a, const Unknowns &b)
+      {
+        double sum = 0.;
+        for (std::size_t k = 0; k < a.size(); ++k)
+          sum += a[k] * b[k];
+        return sum;
+      };
+      for (std::size_t j = df.size(); j-- > 0;) // the newest first: Gram-Schmidt
+      {
+        const double before = dot_product(df[j], df[j]);
+        for (std::size_t i = df.size(); i-- > j + 1;)
+          if (const double square = dot_product(df[i], df[i]); square > 0.)
+          {
+            const double factor = dot_product(df[i], df[j]) / square;
+            for (std::size_t k = 0; k < x.size(); ++k)
+            {
+              df[j][k] -= factor * df[i][k];
+              dx[j][k] -= factor * dx[i][k];
+            }
+          }
+        const double square = dot_product(df[j], df[j]);
+        if (square <= 1e-20 * before)
+        {
+          std::fill(df[j].begin(), df[j].end(), 0.);
+          continue;
+        }
+        const double factor = dot_product(df[j], f) / square;
+        for (std::size_t k = 0; k < x.size(); ++k)
+        {
+          f[k] -= factor * df[j][k];
+          x[k] -= factor * dx[j][k];
+        }
+      }
+      for (std::size_t k = 0; k < x.size(); ++k)
+        x[k] += f[k];
+    }
+  } // namespace
+
   void Simulation::run()
   {
     if (options.resume && !std::filesystem::exists(directory + "/checkpoint.bin"))
@@ -33,7 +96,7 @@ namespace Voussoir
       if (!options.resume) // else only when the checkpoint belongs to this scene
         std::ofstream(directory + "/scene.prm") << scene_text;
     }
-    motion = make_motion(scene.motion, scene.directory);
+    motion = refined(make_motion(scene.motion, scene.directory), scene.steps_per_sample);
     n_steps = scene.motion.source == "none" ? 0 : motion.acceleration.size() - 1;
     dam = std::make_unique<Dam>(scene);
     count.seconds_setup = clock.seconds();
@@ -110,8 +173,12 @@ namespace Voussoir
       for (const Body &body : dam->structure.bodies)
         entries += 9. * body.stiffness.value.size();
       log.line("Unknowns  %u of the bodies, %zu of the joints", 3 * n_nodes, 3 * dam->structure.pairs.size());
-      log.line("Steps     %u of %g s; the scheme is implicit: there is no critical time step", n_steps,
-               motion.dt);
+      if (dam->foundation)
+        log.line("Steps     %u of %g s; critical time step of the rock %.4g s", n_steps, motion.dt,
+                 dam->foundation->critical_time_step());
+      else
+        log.line("Steps     %u of %g s; the scheme is implicit: there is no critical time step", n_steps,
+                 motion.dt);
       log.line("Memory    about %.1f GiB",
                (8. * (entries * 5. + pairs * 3.) + 1e3 * 27 * n_nodes) / std::pow(2., 30));
     }
@@ -132,8 +199,15 @@ namespace Voussoir
     const Stopwatch   watch;
     const Structure  &structure = dam->structure;
     const std::size_t n_pairs = structure.pairs.size();
-    JointSystem       system(structure, dam->laws, contact_parameters("static"), 0., 1., 0.);
-    Unknowns          gap(3 * n_pairs, 0.), start, offset(3 * n_pairs, 0.);
+    Unknowns          springs;
+    if (dam->foundation) // between dam and rock, for the static iteration only
+    {
+      springs = dam->foundation->static_springs(structure);
+      dam->structure.dashpots = springs;
+    }
+    JointSystem system(structure, dam->laws, contact_parameters("static"), 0., 1., 1.);
+    dam->structure.dashpots.clear();
+    Unknowns gap(3 * n_pairs, 0.), start, offset(3 * n_pairs, 0.);
     statics.force.assign(3 * n_pairs, 0.);
     statics.u.assign(3 * structure.n_nodes(), 0.);
     unsigned int iterations = 0;
@@ -142,7 +216,10 @@ namespace Voussoir
       // slip is counted from the last increment
       start = gap;
       statics.load = dam->static_load(double(i) / scene.statics.water_increments);
-      statics.contact = system.solve(statics.load, offset, start, statics.force, gap, statics.u);
+      if (dam->foundation)
+        settle(system, springs, start, gap);
+      else
+        statics.contact = system.solve(statics.load, offset, start, statics.force, gap, statics.u);
       iterations += statics.contact.iterations;
       if (!statics.contact.converged)
       {
@@ -166,6 +243,76 @@ namespace Voussoir
              count.seconds_static);
   }
 
+  /** The static state of dam and rock: the rock gives way under the forces of the dam, the dam follows
+   * through stiff springs with the force that they carried before, so that they are without force in the end.
+   * Anderson's acceleration of the displacements of the base (Walker and Ni 2011). */
+  void Simulation::settle(JointSystem &system, const Unknowns &springs, const Unknowns &start, Unknowns &gap)
+  {
+    Foundation           &rock = *dam->foundation;
+    const std::size_t     n = 3 * rock.feet().size();
+    const Unknowns        external = statics.load, offset(gap.size(), 0.);
+    Unknowns              base(n, 0.), r(external.size(), 0.), settled;
+    std::vector<Unknowns> df, dx; // differences of residuals and of bases
+    Unknowns              last_f, last_base;
+    double                error = 1.;
+    unsigned int          iterations = 0, round = 0;
+    for (; round < 60 && error > 1e-9; ++round)
+    {
+      Unknowns load = external;
+      for (std::size_t i = 0; i < n / 3; ++i)
+        for (const unsigned int node : rock.feet()[i].nodes)
+          for (unsigned int c = 0; c < 3; ++c)
+            load[3 * node + c] += springs[3 * node + c] * base[3 * i + c] - r[3 * node + c];
+      statics.contact = system.solve(load, offset, start, statics.force, gap, statics.u);
+      iterations += statics.contact.iterations;
+      if (!statics.contact.converged)
+        break;
+      double slack = 0., size = 1e-300;
+      for (std::size_t i = 0; i < n / 3; ++i)
+        for (const unsigned int node : rock.feet()[i].nodes)
+          for (unsigned int c = 0; c < 3; ++c)
+          {
+            const double difference = statics.u[3 * node + c] - base[3 * i + c];
+            r[3 * node + c] += springs[3 * node + c] * difference;
+            slack = std::max(slack, std::abs(difference));
+          }
+      rock.settle(r, settled);
+      Unknowns f = settled;
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        f[k] -= base[k];
+        slack = std::max(slack, std::abs(f[k]));
+        size = std::max(size, std::abs(settled[k]));
+      }
+      error = slack / size;
+      if (round > 0)
+      {
+        df.push_back(f);
+        dx.push_back(base);
+        for (std::size_t k = 0; k < n; ++k)
+        {
+          df.back()[k] -= last_f[k];
+          dx.back()[k] -= last_base[k];
+        }
+        if (df.size() > 25)
+        {
+          df.erase(df.begin());
+          dx.erase(dx.begin());
+        }
+      }
+      last_f = f;
+      last_base = base;
+      accelerate(df, dx, f, base);
+    }
+    statics.contact.iterations = iterations;
+    if (error > 1e-9)
+      throw ComputationError("The static state of dam and rock did not converge: relative error " +
+                             std::to_string(error) + " after " + std::to_string(round) + " rounds.");
+    for (std::size_t k = 0; k < r.size(); ++k)
+      statics.load[k] -= r[k];
+    log.line("Rock      %u nodes; static state of dam and rock after %u rounds", rock.n_nodes(), round);
+  }
+
   void Simulation::start_shaking()
   {
     const Stopwatch  watch;
@@ -177,6 +324,12 @@ namespace Voussoir
       for (unsigned int d = 0; d < 3; ++d)
         for (std::size_t k = 0; k < load.size(); ++k)
           load[k] += motion.acceleration[0][d] * dam->inertia[d][k];
+    if (dam->foundation)
+    {
+      dam->foundation->start(motion, motion.dt, n_steps, statics.u, structure.mass_damping);
+      if (const std::string warning = dam->foundation->warning(motion.dt); !warning.empty())
+        log.line("warning: %s", warning.c_str());
+    }
     newmark->start(statics.u, Unknowns(statics.u.size(), 0.), statics.force, load,
                    Unknowns(3 * structure.pairs.size(), 0.));
 
@@ -217,8 +370,15 @@ namespace Voussoir
     const auto     &a = motion.acceleration[step + 1];
     for (std::size_t k = 0; k < load.size(); ++k)
       load[k] += a[0] * dam->inertia[0][k] + a[1] * dam->inertia[1][k] + a[2] * dam->inertia[2][k];
+    if (dam->foundation)
+      dam->foundation->advance(newmark->state(), load);
     const SystemTimes   before = newmark->joint_system().times;
     const ContactResult result = newmark->advance(load);
+    if (dam->foundation)
+    {
+      dam->foundation->follow(newmark->state());
+      count.seconds_rock = dam->foundation->seconds;
+    }
     ++step;
     const SystemTimes &after = newmark->joint_system().times;
     count.seconds_sweeps += after.sweeps - before.sweeps;
@@ -257,9 +417,8 @@ namespace Voussoir
     std::vector<double> row = {state.time};
     for (std::size_t i = 0; i < probes.size(); ++i)
     {
-      const unsigned int e = dam->model->equation[probes[i]];
-      for (unsigned int c = 0; c < 3; ++c)
-        row.push_back(e == rigid_ground ? 0. : state.u[3 * e + c]);
+      const Vector3 u = relative_to_base(probes[i]);
+      row.insert(row.end(), u.begin(), u.end());
       if (i == 0)
         row.insert(row.end(), motion.acceleration[step].begin(), motion.acceleration[step].end());
     }
@@ -270,6 +429,17 @@ namespace Voussoir
     if (scene.output.solution_interval > 0 && step % scene.output.solution_interval == 0)
       write_solution();
     count.seconds_output += watch.seconds();
+  }
+
+  /** Displacement of a node against the base (on rock: against its lowest part), the static one included. */
+  Vector3 Simulation::relative_to_base(const unsigned int node) const
+  {
+    const Unknowns    &u = newmark->state().u;
+    const unsigned int e = dam->model->equation[node];
+    Vector3            result{};
+    if (e != rigid_ground)
+      result = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};
+    return dam->foundation ? result - dam->foundation->base_motion(u) : result;
   }
 
   void Simulation::report_step()

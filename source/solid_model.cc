@@ -94,6 +94,14 @@ namespace Voussoir
     number_equations(fixed, master);
   }
 
+  void SolidModel::free_base()
+  {
+    base_is_fixed = false;
+    std::vector<unsigned int> master(n_nodes());
+    std::iota(master.begin(), master.end(), 0);
+    number_equations(std::vector<bool>(n_nodes(), false), master);
+  }
+
   void SolidModel::number_equations(const std::vector<bool> &fixed, const std::vector<unsigned int> &master)
   {
     equation.assign(n_nodes(), rigid_ground);
@@ -302,7 +310,7 @@ namespace Voussoir
     {
       master[i] = root(i);
       if (on_surface(i, PhysicalId::base)) // of one monolith is enough
-        fixed[master[i]] = true;
+        fixed[master[i]] = base_is_fixed;
     }
     std::fill(body.begin(), body.end(), 0);
     body_numbers.resize(1);

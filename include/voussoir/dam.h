@@ -2,6 +2,7 @@
 #define voussoir_dam_h
 
 #include <voussoir/dam_geometry.h>
+#include <voussoir/foundation.h>
 #include <voussoir/joint_system.h>
 #include <voussoir/scene.h>
 #include <voussoir/solid_model.h>
@@ -30,6 +31,7 @@ namespace Voussoir
     Structure                    structure;
     JointLaws                    laws;
     std::unique_ptr<DamGeometry> geometry;
+    std::unique_ptr<Foundation>  foundation;      ///< if the dam stands on rock
     Unknowns                     weight, water;   ///< [N]
     std::array<Unknowns, 3>      inertia;         ///< load per unit base acceleration
     double                       added_mass = 0.; ///< for motion along x [kg]

@@ -3,6 +3,7 @@
 
 #include <voussoir/contact_solver.h>
 #include <voussoir/dam_loads.h>
+#include <voussoir/foundation_parameters.h>
 #include <voussoir/material.h>
 #include <voussoir/mesh_source.h>
 #include <voussoir/motion.h>
@@ -67,19 +68,21 @@ namespace Voussoir
   /** All entries of a scene file. */
   struct Scene
   {
-    std::string         name;      ///< of the file, without directory and .prm
-    std::string         directory; ///< of the file: paths in it are relative to this
-    std::string         impact_rule = "mean-force";
-    MeshParameters      mesh;
-    ElementParameters   elements;
-    Material            concrete;
-    DampingParameters   damping;
-    ReservoirParameters reservoir;
-    JointParameters     joints;
-    ContactParameters   contact;
-    StaticParameters    statics;
-    MotionParameters    motion;
-    OutputParameters    output;
+    std::string          name;      ///< of the file, without directory and .prm
+    std::string          directory; ///< of the file: paths in it are relative to this
+    std::string          impact_rule = "mean-force";
+    MeshParameters       mesh;
+    ElementParameters    elements;
+    Material             concrete;
+    DampingParameters    damping;
+    ReservoirParameters  reservoir;
+    JointParameters      joints;
+    ContactParameters    contact;
+    StaticParameters     statics;
+    FoundationParameters foundation;
+    unsigned int         steps_per_sample = 1; ///< of the ground motion
+    MotionParameters     motion;
+    OutputParameters     output;
 
     void add_parameters(dealii::ParameterHandler &prm);
     void check() const;

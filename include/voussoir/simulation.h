@@ -25,9 +25,11 @@ namespace Voussoir
     void run();
 
   private:
-    void              remove_old_results();
-    void              report_setup();
-    void              find_static_state();
+    void    remove_old_results();
+    void    report_setup();
+    void    find_static_state();
+    void    settle(JointSystem &system, const Unknowns &springs, const Unknowns &start, Unknowns &gap);
+    Vector3 relative_to_base(unsigned int node) const;
     ContactParameters contact_parameters(const std::string &stage) const;
     void              start_shaking();
     void              advance();
@@ -65,12 +67,14 @@ namespace Voussoir
 
     struct Counters
     {
+      double seconds_rock = 0.;
       double newton = 0., newton_max = 0., krylov = 0., factorisations = 0., sweeps = 0., residual = 0.,
              energy_error = 0.;
       double seconds_setup = 0., seconds_static = 0., seconds_sweeps = 0., seconds_joints = 0.,
              seconds_stepping = 0., seconds_stresses = 0., seconds_output = 0., seconds_shaking = 0.;
       template <class Archive> void serialize(Archive &archive, unsigned int)
       {
+        archive                                                               &seconds_rock;
         archive &newton &newton_max &krylov &factorisations &sweeps &residual &energy_error;
         archive &seconds_setup &seconds_static &seconds_sweeps &seconds_joints &seconds_stepping
             &seconds_stresses &seconds_output &seconds_shaking;

@@ -24,12 +24,16 @@ namespace Voussoir
     /** @p mesh: opened, see open_joints(). Nodes on the surface "base" are fixed. */
     SolidModel(const HexMesh &mesh, unsigned int degree);
 
+    /** Number the nodes of the base, too: the dam stands on rock. */
+    void free_base();
+
     /** Number the free nodes anew; nodes with the same @p master (a node of the same body) move as one. */
     void number_equations(const std::vector<bool> &fixed, const std::vector<unsigned int> &master);
 
     /** Make one body of all: coincident nodes on the two sides of joints 1..n_joints move as one. */
     void tie_joints(unsigned int n_joints);
 
+    bool         base_is_fixed = true;
     unsigned int n_nodes() const { return static_cast<unsigned int>(points.size()); }
     unsigned int n_bodies() const { return static_cast<unsigned int>(body_numbers.size()); }
     bool         on_surface(const unsigned int node, const int surface) const
