@@ -5,10 +5,28 @@
 #include <voussoir/error.h>
 
 #include <exception>
+#include <cstdlib>
 #include <iostream>
+#include <unistd.h>
+
+namespace
+{
+  /** Threads that wait for the others must not keep a core busy that another program needs: on a machine with
+   *  other work, their usual long spinning makes a run ten times slower. The OpenMP library reads this setting
+   *  when it is loaded, so the program starts itself again with it. */
+  void wait_politely(char *argv[])
+  {
+    if (std::getenv("GOMP_SPINCOUNT") == nullptr && std::getenv("OMP_WAIT_POLICY") == nullptr)
+    {
+      setenv("GOMP_SPINCOUNT", "1000", 1);
+      execv("/proc/self/exe", argv); // comes back only if it fails, and then all is as before
+    }
+  }
+} // namespace
 
 int main(int argc, char *argv[])
 {
+  wait_politely(argv);
   try
   {
     dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
