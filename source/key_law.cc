@@ -149,22 +149,35 @@ namespace Voussoir
         offsets[0] = std::max(offsets[0], std::abs(s.clearance));
       const double scale = system.rho * (norm(system.b) + norm(system.start) + offsets[0]);
       Vector3      g = system.gap(r);
+      std::vector<Matrix3> own_H;
+      std::vector<Vector3> slip_start;
+      for (const ContactSurface &s : system.surfaces)
+      {
+        own_H.push_back(triple(s.axes, system.H, s.axes));
+        slip_start.push_back(s.axes * system.start);
+      }
       for (unsigned int round = 0; round < 300; ++round) // nearly always one; wedges may take long
       {
-        for (unsigned int i = 0; i < 5; ++i) // Gauss-Seidel
+        double change = scale;
+        for (unsigned int i = 0; i < 5 && change > 1e-15 * scale; ++i) // Gauss-Seidel
+        {
+          change = 0.;
           for (std::size_t k = 0; k < r.size(); ++k)
           {
             const ContactSurface &s = system.surfaces[k];
-            const Matrix3         Hk = triple(s.axes, system.H, s.axes);
             Vector3               local = s.axes * g;
-            const Vector3         slip_start = s.axes * system.start, own = Hk * r[k];
+            const Vector3         own = own_H[k] * r[k];
             local[0] += s.clearance - own[0];
             for (unsigned int c = 1; c < 3; ++c)
-              local[c] -= slip_start[c] + own[c];
-            const Vector3 force = solve_coulomb(Hk, local, s.friction);
-            add(g, system.H * transpose_times(s.axes, force - r[k]));
+              local[c] -= slip_start[k][c] + own[c];
+            const Vector3 force = solve_coulomb(own_H[k], local, s.friction), difference = force - r[k];
+            if (difference == Vector3{})
+              continue;
+            change = std::max(change, norm(difference));
+            add(g, system.H * transpose_times(s.axes, difference));
             r[k] = force;
           }
+        }
         double               residual = system.evaluate(r);
         std::vector<Vector3> best = r;
         for (unsigned int i = 0; i < 6 && residual > 1e-15 * scale; ++i) // Newton
@@ -210,7 +223,7 @@ namespace Voussoir
     return force;
   }
 
-  void SurfacesLaw::present(const Vector3 &, std::vector<ContactSurface> &list,
+  void SurfacesLaw::present(Vector3 &, std::vector<ContactSurface> &list,
                             std::vector<unsigned char> &bits) const
   {
     list = surfaces;
@@ -218,9 +231,10 @@ namespace Voussoir
       bits.push_back(static_cast<unsigned char>(1u << k));
   }
 
-  void SurfacesLaw::evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, const double rho,
-                             PairEquations &e) const
+  void SurfacesLaw::evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &step_start,
+                             const double rho, PairEquations &e) const
   {
+    Vector3                     start = step_start;
     std::vector<ContactSurface> list;
     std::vector<unsigned char>  bits;
     present(start, list, bits);
@@ -267,8 +281,9 @@ namespace Voussoir
     e.state = e.touching == 0 ? PairState::open : (sticks ? PairState::stick : PairState::slip);
   }
 
-  Vector3 SurfacesLaw::solve(const Matrix3 &H, const Vector3 &b, const Vector3 &start) const
+  Vector3 SurfacesLaw::solve(const Matrix3 &H, const Vector3 &b, const Vector3 &step_start) const
   {
+    Vector3                     start = step_start;
     std::vector<ContactSurface> list;
     std::vector<unsigned char>  bits;
     present(start, list, bits);
@@ -345,8 +360,9 @@ namespace Voussoir
     protected:
       /** Keys out of their seats at the start of the step (opening >= height) hold nothing; when they are
        *  out of line, too, the joint cannot close but on their crests. A flank that was passed by while the
-       *  key was out is taken as it lies. */
-      void present(const Vector3 &start, std::vector<ContactSurface> &list,
+       *  key was out is taken as it lies. A start within round-off of a surface is moved onto it: otherwise
+       *  the direction of friction would hang on a slip of 1e-14 m before the flank stops it. */
+      void present(Vector3 &start, std::vector<ContactSurface> &list,
                    std::vector<unsigned char> &bits) const override
       {
         list.assign(1, surfaces[0]);
@@ -357,6 +373,17 @@ namespace Voussoir
             if ((surfaces[k].axes * Vector3{{height, start[1], start[2]}})[0] + surfaces[k].clearance < 0.)
               list[0].clearance = -height;
           return;
+        }
+        const double round_off = 1e-9 * height;
+        if (std::abs(start[0]) <= round_off)
+          start[0] = 0.;
+        for (std::size_t k = 1; k < surfaces.size(); ++k)
+        {
+          const Vector3      normal = {{surfaces[k].axes[0], surfaces[k].axes[1], surfaces[k].axes[2]}};
+          const unsigned int d = normal[1] != 0. ? 1 : 2; // of the slip that it restrains
+          const double       phi = dot(normal, start) + surfaces[k].clearance;
+          if (std::abs(phi) <= round_off)
+            start[d] -= phi / normal[d];
         }
         for (std::size_t k = 1; k < surfaces.size(); ++k)
         {

@@ -395,6 +395,39 @@ namespace
     below("tight rectangular keys: slip", slip, 1e-12);
   }
 
+  /** A step that starts within round-off of a flank starts on it: the direction of friction must not hang on
+   *  the 1e-14 m that are left of the play, which took all rounds of the iteration and was still not found. */
+  void test_start_on_flank()
+  {
+    double worst = 0., worst_solve = 0.;
+    for (const KeyParameters &k : {keys(.2, 0., 0., "both", 0.), keys(.2, 0., 0., "both", .5),
+                                   keys(.2, .005, 0., "both", 0.), keys(.2, .005, 0., "radial", .5)})
+    {
+      const auto law = make_joint_law("KSM", .8, Equations::alart_curnier, k);
+      for (unsigned int trial = 0; trial < 2000; ++trial)
+      {
+        const double  rho = 1e11;
+        const Vector3 exact = {{0., trial % 2 ? k.clearance : -k.clearance, 0.}};
+        Vector3       start = plus(exact, random_vector(1e-14));
+        if (k.clearance > 0.)
+          start[2] = 0.; // far from the other flanks the slip of the step counts as it is
+        const Vector3 force = random_vector(5e8), gap = plus(exact, random_vector(1e-3));
+        PairEquations a, b;
+        law->evaluate(force, gap, start, rho, a);
+        law->evaluate(force, gap, exact, rho, b);
+        worst = std::max(worst, norm(a.residual - b.residual) / (rho * 1e-3));
+        Matrix3 H = random_flexibility();
+        for (double &h : H)
+          h *= 1e-11;
+        const Vector3 offset = plus(exact, random_vector(1e-3));
+        const Vector3 f = law->solve(H, offset, start), g = law->solve(H, offset, exact);
+        worst_solve = std::max(worst_solve, norm(f - g) * 1e-8);
+      }
+    }
+    below("start within round-off of a flank: equations", worst, 1e-13);
+    below("start within round-off of a flank: one pair alone", worst_solve, 1e-12);
+  }
+
   /** Frictionless keys are a convex set of gaps: f (gap' - gap) >= 0 for every other gap' of it. */
   void test_variational()
   {
@@ -584,5 +617,6 @@ namespace
 int main()
 {
   return run_all({test_derivatives, test_solve, test_impulses, test_units, test_error, test_no_keys,
-                  test_rectangular, test_variational, test_kinematics, test_structures});
+                  test_rectangular, test_variational, test_kinematics, test_structures,
+                  test_start_on_flank});
 }

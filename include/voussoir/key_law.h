@@ -43,8 +43,9 @@ namespace Voussoir
                                unsigned char touching) const override;
 
   protected:
-    /** The surfaces that can touch in a step that starts from @p start, and their bits. */
-    virtual void present(const Vector3 &start, std::vector<ContactSurface> &list,
+    /** The surfaces that can touch in a step that starts from @p start, and their bits. May free @p start of
+     *  round-off. */
+    virtual void present(Vector3 &start, std::vector<ContactSurface> &list,
                          std::vector<unsigned char> &bits) const;
 
     std::vector<ContactSurface> touching_surfaces(unsigned char touching, bool frictionless) const;
