@@ -11,7 +11,6 @@
 #include <iostream>
 #include <map>
 #include <omp.h>
-#include <set>
 
 namespace Voussoir
 {
@@ -109,9 +108,9 @@ namespace Voussoir
       std::filesystem::create_directories(options.solutions, error);
       if (error || !std::filesystem::is_directory(options.solutions, error))
         throw InputError("--write-solutions: the directory " + options.solutions + " cannot be made.");
-      std::set<std::string> names;
+      std::map<std::string, std::string> names; // and their files: a file may repeat
       for (const std::string &file : files)
-        if (!names.insert(std::filesystem::path(file).stem().string()).second)
+        if (names.try_emplace(std::filesystem::path(file).stem().string(), file).first->second != file)
           throw InputError("--write-solutions: two of the files are called " +
                            std::filesystem::path(file).stem().string() +
                            ", and their solutions would be, too. Solve them one by one.");
