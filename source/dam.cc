@@ -58,8 +58,7 @@ namespace Voussoir
     structure.mass_damping = scene.damping.mass_factor();
     structure.stiffness_damping = scene.damping.stiffness_factor();
     structure.collect_interfaces();
-    for (const Pair &pair : structure.pairs)
-      laws.of_pair.push_back(laws.of_joint[pair.joint].get());
+    laws.assign(structure.pairs);
 
     const std::size_t n = 3 * structure.n_nodes();
     weight.assign(n, 0.);
