@@ -51,7 +51,7 @@ namespace Voussoir
       {
         std::vector<ContactSurface> surfaces;
         for (const Matrix3 &plane : pair.planes)
-          surfaces.push_back({plane, 0., friction});
+          surfaces.push_back({plane, 0., friction, 0});
         of_edges.push_back(std::make_unique<SurfacesLaw>(std::move(surfaces)));
         law = of_edges.back().get();
       }
