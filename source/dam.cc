@@ -110,14 +110,15 @@ namespace Voussoir
     structure.mass_damping = scene.damping.mass_factor();
     structure.stiffness_damping = scene.damping.stiffness_factor();
     structure.collect_interfaces();
+    laws.assign(structure.pairs);
     std::set<unsigned int> base; // the feet of the joints are tied: the rock does not open there
     for (unsigned int i = 0; i < model->n_nodes(); ++i)
       if (on_rock && model->on_surface(i, PhysicalId::base))
         base.insert(model->equation[i]);
     laws.of_joint.push_back(make_joint_law("tied", 0.));
-    for (const Pair &pair : structure.pairs)
-      laws.of_pair.push_back(
-          (base.count(pair.node_1) > 0 ? laws.of_joint.back() : laws.of_joint[pair.joint]).get());
+    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+      if (base.count(structure.pairs[p].node_1) > 0)
+        laws.of_pair[p] = laws.of_joint.back().get();
 
     const std::size_t n = 3 * structure.n_nodes();
     weight.assign(n, 0.);

@@ -2,6 +2,7 @@
 
 #include <voussoir/error.h>
 #include <voussoir/fclib_io.h>
+#include <voussoir/key_law.h>
 #include <voussoir/sparse_contact.h>
 
 #include <algorithm>
@@ -40,6 +41,23 @@ namespace Voussoir
       return result;
     }
   } // namespace
+
+  void JointLaws::assign(const std::vector<Pair> &pairs)
+  {
+    for (const Pair &pair : pairs)
+    {
+      const JointLaw *law = of_joint[pair.joint].get();
+      if (const double friction = law->flat_friction(); friction >= 0. && !pair.planes.empty())
+      {
+        std::vector<ContactSurface> surfaces;
+        for (const Matrix3 &plane : pair.planes)
+          surfaces.push_back({plane, 0., friction, 0});
+        of_edges.push_back(std::make_unique<SurfacesLaw>(std::move(surfaces)));
+        law = of_edges.back().get();
+      }
+      of_pair.push_back(law);
+    }
+  }
 
   JointSystem::JointSystem(const Structure &structure, const JointLaws &laws,
                            const ContactParameters &parameters, const double mass_factor,

@@ -140,8 +140,9 @@ namespace Voussoir
       std::vector<PairEquations>         equations;
     };
 
-    /** The forces of the surfaces from r = 0. */
-    void find_forces(SurfaceEquations &system, std::vector<Vector3> &r)
+    /** The forces of the surfaces from r = 0; where there are several solutions, the order in which they are
+     *  swept decides. Returns whether they were found. */
+    bool find_forces(SurfaceEquations &system, std::vector<Vector3> &r, const bool last_first = false)
     {
       r.assign(system.surfaces.size(), Vector3{});
       Vector3 offsets{};
@@ -156,14 +157,15 @@ namespace Voussoir
         own_H.push_back(triple(s.axes, system.H, s.axes));
         slip_start.push_back(s.axes * system.start);
       }
-      for (unsigned int round = 0; round < 300; ++round) // nearly always one; wedges may take long
+      for (unsigned int round = 0; round < 100; ++round) // nearly always one
       {
         double change = scale;
         for (unsigned int i = 0; i < 5 && change > 1e-15 * scale; ++i) // Gauss-Seidel
         {
           change = 0.;
-          for (std::size_t k = 0; k < r.size(); ++k)
+          for (std::size_t l = 0; l < r.size(); ++l)
           {
+            const std::size_t     k = last_first ? r.size() - 1 - l : l;
             const ContactSurface &s = system.surfaces[k];
             Vector3               local = s.axes * g;
             const Vector3         own = own_H[k] * r[k];
@@ -178,9 +180,12 @@ namespace Voussoir
             r[k] = force;
           }
         }
-        double               residual = system.evaluate(r);
-        std::vector<Vector3> best = r;
-        for (unsigned int i = 0; i < 6 && residual > 1e-15 * scale; ++i) // Newton
+        // Newton's method, not held to decrease: a small slip turns its friction by a full step, which the
+        // next one mends. What does not converge goes back to Gauss-Seidel.
+        double                     smallest = system.evaluate(r), residual = smallest;
+        const std::vector<Vector3> swept = r;
+        std::vector<Vector3>       best = r;
+        for (unsigned int i = 0; i < 20 && smallest > 1e-15 * scale; ++i)
         {
           std::vector<double> x(3 * r.size());
           for (std::size_t k = 0; k < r.size(); ++k)
@@ -188,22 +193,107 @@ namespace Voussoir
               x[3 * k + c] = -system.equations[k].residual[c];
           if (!system.solve(x, 1))
             break;
-          std::vector<Vector3> trial = r;
           for (std::size_t k = 0; k < r.size(); ++k)
             for (unsigned int c = 0; c < 3; ++c)
-              trial[k][c] += x[3 * k + c];
-          const double after = system.evaluate(trial);
-          if (!(after < residual))
+              r[k][c] += x[3 * k + c];
+          residual = system.evaluate(r);
+          if (!std::isfinite(residual) || (smallest <= 1e-13 * scale && !(residual < .5 * smallest)))
             break;
-          residual = after;
-          r = best = trial;
+          if (residual < smallest)
+          {
+            smallest = residual;
+            best = r;
+          }
         }
-        r = best;
+        residual = smallest;
+        r = residual <= 1e-13 * scale ? best : swept;
         g = system.gap(r);
         if (residual <= 1e-13 * scale)
           break;
       }
-      system.evaluate(r);
+      return system.evaluate(r) <= 1e-12 * scale;
+    }
+
+    /** The equations of those surfaces that may carry force together, and the forces that satisfy them. */
+    struct Solution
+    {
+      std::vector<ContactSurface> surfaces; ///< those of @p which
+      std::vector<std::size_t>    which;
+      SurfaceEquations            system;
+      std::vector<Vector3>        r;
+
+      Solution(std::vector<ContactSurface> list, std::vector<std::size_t> which, const Matrix3 &H,
+               const Vector3 &b, const Vector3 &start)
+          : surfaces(std::move(list)), which(std::move(which)), system(surfaces, H, b, start)
+      {
+      }
+      Solution(const Solution &) = delete;
+
+      Vector3 force() const
+      {
+        Vector3 sum{};
+        for (std::size_t k = 0; k < r.size(); ++k)
+          add(sum, transpose_times(surfaces[k].axes, r[k]));
+        return sum;
+      }
+    };
+
+    /** One flank of each key at a time: the limit of a clearance that vanishes. Without this rule the flanks
+     * of a tight key could press against each other, and against friction, by any amount. */
+    std::unique_ptr<Solution> find_solution(const std::vector<ContactSurface> &surfaces, const Matrix3 &H,
+                                            const Vector3 &b, const Vector3 &start,
+                                            const bool last_first = false)
+    {
+      int n_keys = 0;
+      for (const ContactSurface &s : surfaces)
+        n_keys = std::max(n_keys, s.key);
+      // How far the displacement without any flank goes into each of them.
+      std::vector<double> distance(surfaces.size());
+      Vector3             g = b;
+      if (n_keys > 0)
+      {
+        Solution alone({surfaces[0]}, {0}, H, b, start);
+        find_forces(alone.system, alone.r);
+        g = alone.system.gap(alone.r);
+      }
+      for (std::size_t k = 0; k < surfaces.size(); ++k)
+        distance[k] = (surfaces[k].axes * g)[0] + surfaces[k].clearance;
+      std::unique_ptr<Solution> best;
+      double                    smallest = 0.;
+      for (unsigned int choice = 0; choice < 1u << n_keys; ++choice) // bit i: the other flank of key i + 1
+      {
+        std::vector<ContactSurface> list;
+        std::vector<std::size_t>    which, left_out;
+        for (std::size_t k = 0; k < surfaces.size(); ++k)
+        {
+          bool takes_part = true;
+          for (std::size_t l = 0; l < surfaces.size() && surfaces[k].key > 0; ++l)
+            if (l != k && surfaces[l].key == surfaces[k].key)
+            {
+              const bool nearer = distance[k] < distance[l] || (distance[k] == distance[l] && k < l);
+              takes_part = nearer != bool(choice >> (surfaces[k].key - 1) & 1);
+            }
+          if (takes_part)
+            which.push_back(k), list.push_back(surfaces[k]);
+          else
+            left_out.push_back(k);
+        }
+        auto         trial = std::make_unique<Solution>(list, which, H, b, start);
+        const bool   solved = find_forces(trial->system, trial->r, last_first);
+        const double size = norm(b) + norm(start);
+        double       worst = solved ? 0. : 1e-3 * size;
+        g = trial->system.gap(trial->r);
+        for (const std::size_t k : left_out)
+          worst = std::max(worst, -((surfaces[k].axes * g)[0] + surfaces[k].clearance));
+        if (!best || worst < smallest)
+        {
+          best = std::move(trial);
+          smallest = worst;
+        }
+        if (smallest <= 1e-12 * size)
+          break;
+      }
+      return best;
     }
 
     Matrix3 identity(const double factor)
@@ -215,12 +305,11 @@ namespace Voussoir
   Vector3 solve_surfaces(const std::vector<ContactSurface> &surfaces, const Matrix3 &H, const Vector3 &b,
                          const Vector3 &start, std::vector<Vector3> &r)
   {
-    SurfaceEquations system(surfaces, H, b, start);
-    find_forces(system, r);
-    Vector3 force{};
-    for (std::size_t k = 0; k < r.size(); ++k)
-      add(force, transpose_times(surfaces[k].axes, r[k]));
-    return force;
+    const auto solution = find_solution(surfaces, H, b, start);
+    r.assign(surfaces.size(), Vector3{});
+    for (std::size_t k = 0; k < solution->r.size(); ++k)
+      r[solution->which[k]] = solution->r[k];
+    return solution->force();
   }
 
   void SurfacesLaw::present(Vector3 &, std::vector<ContactSurface> &list,
@@ -251,27 +340,44 @@ namespace Voussoir
       Vector3 local_gap = b;
       for (unsigned int c = 0; c < 3; ++c)
         local_gap[c] += (force[c] - e.residual[c]) / rho;
-      bool alone = true;
+      const double size = norm(b) + norm(start);
+      bool         alone = true, clear = true; // of the flanks, where the face alone leads; of them, here
       for (std::size_t k = 1; k < list.size(); ++k)
+      {
         alone = alone && (list[k].axes * local_gap)[0] + list[k].clearance >= 0.;
+        clear = clear && (list[k].axes * gap)[0] + list[k].clearance > 1e-9 * size;
+      }
+      alone = alone && (clear || norm(e.residual) <= 1e-12 * rho * size);
       if (alone)
         return;
     }
-    SurfaceEquations     system(list, identity(1. / rho), b, start);
-    std::vector<Vector3> r;
-    find_forces(system, r);
+    auto          solution = find_solution(list, identity(1. / rho), b, start);
+    const Vector3 first = force - solution->force();
+    if (norm(first) > 1e-12 * rho * (norm(b) + norm(start))) // one of two solutions: the nearer one
+    {
+      auto other = find_solution(list, identity(1. / rho), b, start, true);
+      if (norm(force - other->force()) < (1. - 1e-6) * norm(first))
+        solution = std::move(other);
+    }
+    const SurfaceEquations     &system = solution->system;
+    const std::vector<Vector3> &r = solution->r;
     e = {};
     e.residual = force;
     bool sticks = false;
     for (std::size_t k = 0; k < r.size(); ++k)
     {
-      e.residual = e.residual - transpose_times(list[k].axes, r[k]);
+      e.residual = e.residual - transpose_times(solution->surfaces[k].axes, r[k]);
       if (system.equations[k].state != PairState::open)
       {
-        e.touching |= bits[k];
+        e.touching |= bits[solution->which[k]];
         sticks = sticks || system.equations[k].state == PairState::stick;
       }
     }
+    // Those that touch without force: the other flank of a tight key, too.
+    const Vector3 solved_gap = system.gap(r);
+    for (std::size_t k = 0; k < list.size() && e.touching != 0; ++k)
+      if ((list[k].axes * solved_gap)[0] + list[k].clearance <= 1e-10 * (norm(b) + norm(start)))
+        e.touching |= bits[k];
     const Matrix3 D = system.derivative();
     for (unsigned int k = 0; k < 9; ++k)
     {
@@ -297,7 +403,7 @@ namespace Voussoir
     std::vector<ContactSurface> list;
     for (std::size_t k = 0; k < surfaces.size(); ++k)
       if (touching & (1u << k))
-        list.push_back({surfaces[k].axes, 0., frictionless ? 0. : surfaces[k].friction});
+        list.push_back({surfaces[k].axes, 0., frictionless ? 0. : surfaces[k].friction, surfaces[k].key});
     return list;
   }
 
@@ -332,6 +438,7 @@ namespace Voussoir
      *  cos a + c >= 0 (reference: dams, 8.2). */
     void add_flanks(const unsigned int d, const KeyParameters &keys, std::vector<ContactSurface> &surfaces)
     {
+      const int    number = surfaces.back().key + 1;
       const double a = keys.flank_angle * pi / 180.;
       // Exactly rectangular keys: cos(90 deg) and the like are not zero in round numbers.
       const double s = keys.flank_angle == 0. ? 0. : std::sin(a),
@@ -345,6 +452,7 @@ namespace Voussoir
         flank.axes[6 + 3 - d] = 1.;
         flank.clearance = keys.clearance;
         flank.friction = keys.friction;
+        flank.key = number;
         surfaces.push_back(flank);
       }
     }
@@ -407,7 +515,7 @@ namespace Voussoir
           "keys touches on several surfaces at once.");
     if (!(keys.flank_angle >= 0. && keys.flank_angle < 90.))
       throw InputError("Joints/Keys/Flank angle must be at least 0 and less than 90 degrees.");
-    std::vector<ContactSurface> surfaces(1, {identity(1.), 0., friction});
+    std::vector<ContactSurface> surfaces(1, {identity(1.), 0., friction, 0});
     if (keys.height > 0. && keys.direction != "vertical")
       add_flanks(1, keys, surfaces);
     if (keys.height > 0. && keys.direction != "radial")

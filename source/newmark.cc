@@ -338,7 +338,8 @@ namespace Voussoir
       if (rule == ImpactRule::paper)
       {
         const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
-        const Vector3 f = tie_rows(pair_inverse[p], jump, {{closed, tied, tied}});
+        const bool    face = system.touching()[p] & 1; // not of a pair that touches on a flank only
+        const Vector3 f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
         add_kick(pair, f, now.v);
         for (unsigned int c = 0; c < 3; ++c)
           impulse[3 * p + c] += f[c];
@@ -401,7 +402,8 @@ namespace Voussoir
       if (rule == ImpactRule::paper)
       {
         const bool tied = law.is_tangentially_tied() || (closed && system.states()[p] == PairState::stick);
-        f = tie_rows(pair_inverse[p], jump, {{closed, tied, tied}});
+        const bool face = system.touching()[p] & 1;
+        f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
         for (unsigned int c = 0; c < 3; ++c)
           result[c] = force[3 * p + c] + f[c];
       }

@@ -185,18 +185,46 @@ namespace Voussoir
     /** Two coincident nodes of a joint, and the tributary area vector, from side 1 to side 2. */
     struct NodePair
     {
-      unsigned int joint, node_1, node_2;
-      Tensor<1, 3> area;
+      unsigned int              joint, node_1, node_2;
+      Tensor<1, 3>              area;
+      std::vector<Tensor<1, 3>> planes; ///< its parts, where faces meet at an edge; else empty
     };
+
+    /** Adds the area vector of a face to the plane that it lies in, within 20 degrees. */
+    void add_to_planes(std::vector<Tensor<1, 3>> &planes, const Tensor<1, 3> &area)
+    {
+      for (Tensor<1, 3> &plane : planes)
+        if (plane * area > std::cos(20. * numbers::PI / 180.) * plane.norm() * area.norm())
+        {
+          plane += area;
+          return;
+        }
+      planes.push_back(area);
+    }
+
+    std::array<Vector3, 3> frame_of(const Tensor<1, 3> &area)
+    {
+      const Tensor<1, 3> n = area / area.norm();
+      Tensor<1, 3>       up;
+      up[std::abs(n[2]) < .9 ? 2 : 1] = 1.;
+      Tensor<1, 3> b = up - (up * n) * n;
+      b /= b.norm();
+      const Tensor<1, 3>     a = cross_product_3d(b, n);
+      std::array<Vector3, 3> frame;
+      for (unsigned int d = 0; d < 3; ++d)
+        frame[0][d] = n[d], frame[1][d] = a[d], frame[2][d] = b[d];
+      return frame;
+    }
 
     std::vector<NodePair> match_joint_nodes(const SolidModel &model, const unsigned int n_joints)
     {
       // Area vectors of the nodes of each side 1: outward from side 1, that is from side 1 to side 2.
-      std::vector<std::map<unsigned int, Tensor<1, 3>>> side_1(n_joints);
-      std::vector<std::set<unsigned int>>               side_2(n_joints);
-      FEFaceValues<3>                                   values(model.fe, QGauss<2>(model.fe.degree + 1),
-                                                               update_values | update_normal_vectors | update_JxW_values);
-      std::vector<types::global_dof_index>              dofs(model.fe.n_dofs_per_cell());
+      std::vector<std::map<unsigned int, Tensor<1, 3>>>              side_1(n_joints);
+      std::vector<std::map<unsigned int, std::vector<Tensor<1, 3>>>> planes(n_joints);
+      std::vector<std::set<unsigned int>>                            side_2(n_joints);
+      FEFaceValues<3>                      values(model.fe, QGauss<2>(model.fe.degree + 1),
+                                                  update_values | update_normal_vectors | update_JxW_values);
+      std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
       for (const auto &cell : model.dof_handler.active_cell_iterators())
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary() && is_joint_side(cell->face(f)->boundary_id()))
@@ -213,9 +241,17 @@ namespace Voussoir
                 if (is_side_2)
                   side_2[joint].insert(dofs[i]);
                 else
+                {
+                  Tensor<1, 3> of_face;
                   for (const unsigned int q : values.quadrature_point_indices())
-                    side_1[joint][dofs[i]] +=
+                  {
+                    const Tensor<1, 3> part =
                         values.shape_value(i, q) * values.JxW(q) * values.normal_vector(q);
+                    side_1[joint][dofs[i]] += part;
+                    of_face += part;
+                  }
+                  add_to_planes(planes[joint][dofs[i]], of_face);
+                }
               }
           }
 
@@ -223,6 +259,9 @@ namespace Voussoir
       for (unsigned int j = 0; j < n_joints; ++j)
       {
         std::set<unsigned int> free = side_2[j];
+        Tensor<1, 3>           mean;
+        for (const auto &node : side_1[j])
+          mean += node.second;
         for (const auto &node : side_1[j])
         {
           const Point<3> &p = model.points[node.first];
@@ -246,7 +285,12 @@ namespace Voussoir
             throw InputError(message.str());
           }
           free.erase(nearest);
-          matched.push_back({j, node.first, nearest, node.second});
+          std::vector<Tensor<1, 3>> &parts = planes[j][node.first];
+          std::stable_sort(parts.begin(), parts.end(),
+                           [&](const Tensor<1, 3> &x, const Tensor<1, 3> &y)
+                           { return x * mean / x.norm() > y * mean / y.norm() + 1e-9 * mean.norm(); });
+          matched.push_back(
+              {j, node.first, nearest, node.second, parts.size() > 1 ? parts : std::vector<Tensor<1, 3>>()});
         }
       }
       return matched;
@@ -277,14 +321,20 @@ namespace Voussoir
       pair.area = match.area.norm();
       for (unsigned int d = 0; d < 3; ++d)
         pair.place[d] = model.points[match.node_1][d];
-      const Tensor<1, 3> n = match.area / match.area.norm();
-      Tensor<1, 3>       up;
-      up[std::abs(n[2]) < .9 ? 2 : 1] = 1.;
-      Tensor<1, 3> b = up - (up * n) * n;
-      b /= b.norm();
-      const Tensor<1, 3> a = cross_product_3d(b, n);
-      for (unsigned int d = 0; d < 3; ++d)
-        pair.frame[0][d] = n[d], pair.frame[1][d] = a[d], pair.frame[2][d] = b[d];
+      pair.frame = frame_of(match.planes.empty() ? match.area : match.planes[0]);
+      if (!match.planes.empty())
+        pair.area = 0.;
+      for (const Tensor<1, 3> &plane : match.planes)
+      {
+        const std::array<Vector3, 3> axes = frame_of(plane);
+        Matrix3                      in_frame;
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int k = 0; k < 3; ++k)
+            in_frame[3 * i + k] =
+                axes[i][0] * pair.frame[k][0] + axes[i][1] * pair.frame[k][1] + axes[i][2] * pair.frame[k][2];
+        pair.planes.push_back(pair.planes.empty() ? Matrix3{{1., 0., 0., 0., 1., 0., 0., 0., 1.}} : in_frame);
+        pair.area += plane.norm();
+      }
       pairs.push_back(pair);
     }
     return pairs;

@@ -249,8 +249,7 @@ namespace Columns
     JointLaws laws;
     for (unsigned int j = 0; j < structure.n_joints; ++j)
       laws.of_joint.push_back(make_joint_law(name, friction, equations_from_name(equations)));
-    for (const Pair &pair : structure.pairs)
-      laws.of_pair.push_back(laws.of_joint[pair.joint].get());
+    laws.assign(structure.pairs);
     return laws;
   }
 

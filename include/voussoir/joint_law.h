@@ -19,11 +19,12 @@ namespace Voussoir
    * Jacobian. */
   struct PairEquations
   {
-    Vector3       residual; ///< [N]
-    Matrix3       d_force;  ///< d residual / d force [-]
-    Matrix3       d_gap;    ///< d residual / d gap [N/m]
-    PairState     state;    ///< that the equations stand for
-    unsigned char touching; ///< surfaces of the law that carry force, one bit each; bit 0 is the flat face
+    Vector3   residual; ///< [N]
+    Matrix3   d_force;  ///< d residual / d force [-]
+    Matrix3   d_gap;    ///< d residual / d gap [N/m]
+    PairState state;    ///< that the equations stand for
+    unsigned char
+        touching; ///< surfaces of the law that touch, one bit each, if any carries force; bit 0: the face
   };
 
   /** The conditions between the two faces of a joint at one pair, in the frame (n,a,b).

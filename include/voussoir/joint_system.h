@@ -7,11 +7,16 @@
 
 namespace Voussoir
 {
-  /** The joint laws of a structure, one per pair; owned once per joint. */
+  /** The joint laws of a structure, one per pair; owned once per joint, but for the pairs on edges. */
   struct JointLaws
   {
     std::vector<std::unique_ptr<JointLaw>> of_joint;
+    std::vector<std::unique_ptr<JointLaw>> of_edges; ///< of single pairs
     std::vector<const JointLaw *>          of_pair;
+
+    /** Gives every pair the law of its joint. A pair on an edge of a joint with Coulomb friction (FJA)
+     * touches on all its planes, with that friction; the other laws do not know edges. */
+    void assign(const std::vector<Pair> &pairs);
   };
 
   /** Wall seconds spent in the stages of a linear solution with joints. */

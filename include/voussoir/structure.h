@@ -60,6 +60,9 @@ namespace Voussoir
     double                 area = 1.;              ///< tributary area [m^2]
     Vector3                place = {{0., 0., 0.}}; ///< position [m]
     unsigned int           joint = 0;              ///< index of its joint
+    /** On an edge of the joint: axes (n, two tangents; rows) of each plane that meets there, in the frame of
+     *  the pair, which is that of the first of them. Empty where the joint is smooth. */
+    std::vector<Matrix3> planes;
   };
 
   /** Everything linear: bodies, masses, damping; and the pairs along which the bodies meet.
