@@ -15,6 +15,7 @@ namespace
     std::unique_ptr<JointLaw> law;
     double                    opening = 1.; ///< size of the gaps that are interesting [m]
     double                    friction = 0.;
+    KeyParameters             keys = {};
   };
 
   KeyParameters keys(const double height, const double clearance, const double angle,
@@ -64,7 +65,7 @@ namespace
     for (const double mu : {0., .8})
       for (const KeyParameters &k : key_sets())
         list.push_back({name_of(k) + ", face " + text(mu),
-                        make_joint_law("KSM", mu, Equations::alart_curnier, k), k.height, mu});
+                        make_joint_law("KSM", mu, Equations::alart_curnier, k), k.height, mu, k});
     return list;
   }
 
@@ -114,12 +115,23 @@ namespace
     }
   }
 
-  /** Pairs that wedge between several surfaces, some with friction: their forces are not always found, or not
-   * the only ones that the laws of the surfaces allow. Known; of 2000, not more than @p most. */
+  /** Of 2000 random states, those that miss a limit; not more than @p most, which is zero but where forces
+   * are not unique (see SurfacesLaw). */
   void few(const std::string &what, const unsigned int number, const unsigned int most)
   {
-    missed(what + ", of 2000", number, 1.);
-    below(what + ", not more than now", number, most);
+    below(what + ", of 2000", number, most + .5);
+  }
+
+  /** How many states with several forces the test may meet: more where the face's friction is above what a
+   *  flank needs to ride, or the flanks' friction jams the key. */
+  unsigned int ambiguous(const NamedLaw &l)
+  {
+    if (l.keys.friction == 0. && (l.friction == 0. || l.keys.flank_angle == 0.))
+      return 0;
+    const double a = l.keys.flank_angle * pi / 180., needed = .5 * pi - a + std::atan(l.keys.friction);
+    if (l.keys.friction < l.friction && std::atan(l.friction) > needed)
+      return 200;
+    return 40;
   }
 
   void test_derivatives()
@@ -180,7 +192,7 @@ namespace
       below("derivatives, " + l.name, worst, 2e-6);
       below("  of " + text(n) + " points, near kinks", kinks, .02 * n);
       if (has_keys)
-        few("  with another derivative", wrong, 40);
+        few("  with another derivative", wrong, 0);
       const bool is_tied = l.name.find("tied") == 0, is_FJB = l.name.find("FJB") == 0;
       if (!is_tied)
         above("  open, sticking, slipping points: the fewest",
@@ -226,7 +238,7 @@ namespace
             l.name.find("fischer") == std::string::npos ? 1e-11 : 1e-7); // the root of a round-off
       below("  error", worst_error, 1e-11);
       if (has_keys)
-        few("  not solved", wrong, 450);
+        few("  not solved", wrong, ambiguous(l));
     }
   }
 
@@ -259,7 +271,7 @@ namespace
       below("impulse, " + l.name + ": energy gained / size", gain, 1e-10);
       below("  approach of touching faces", approach, 1e-10);
       if (wrong > 0)
-        few("  not stopped", wrong, 10);
+        few("  not stopped", wrong, 0);
       below("  energy gained by stop_normal / size", gain_stop, 1e-10);
     }
   }
@@ -303,7 +315,7 @@ namespace
         }
     below("KSM in other units: equations", worst, 1e-10); // the forces are found to 1e-13 of what moves them
     below("KSM in other units: one pair alone", worst_solve, 1e-10);
-    few("KSM in other units: other solutions of one pair", other_solutions * 2000 / 8800, 10);
+    few("KSM in other units: other solutions of one pair", other_solutions * 2000 / 8800, 0);
   }
 
   /** The measure of convergence: the same for all formulations; for FJA Siconos' formula, written anew. */
@@ -595,12 +607,7 @@ namespace
       above(what + ": opening in time / displacement", opened / most, 1e-3);
       const std::string which = rule == ImpactRule::mean_force ? "mean force" : "impulse-consistent";
       below(what + ", " + which + ": displacements", difference / most, 1e-9);
-      // The rule for velocities knows the flank that carries force, not the one on its other side, which
-      // touches, too.
-      if (name[0] == "FJB" && rule == ImpactRule::impulse_consistent)
-        missed(what + ", " + which + ": velocities", velocity / fastest, 1e-9);
-      else
-        below(what + ", " + which + ": velocities", velocity / fastest, 1e-9);
+      below(what + ", " + which + ": velocities", velocity / fastest, 1e-9);
       below(what + ", " + which + ": energy account", y.energy_error(), 1e-10);
     }
     below(what + ": displacements in statics", statics, 1e-9);
