@@ -99,6 +99,16 @@ namespace Voussoir
     motion = refined(make_motion(scene.motion, scene.directory), scene.steps_per_sample);
     n_steps = scene.motion.source == "none" ? 0 : motion.acceleration.size() - 1;
     dam = std::make_unique<Dam>(scene);
+    if (dam->foundation && n_steps > 0)
+      if (const double critical = dam->foundation->critical_time_step(); motion.dt > critical)
+      {
+        std::ostringstream message;
+        message << "The time step " << motion.dt << " s is too large for the rock: its critical time step is "
+                << critical << " s. Raise \"Dynamics/Steps per sample\" to "
+                << std::ceil(scene.steps_per_sample * motion.dt / critical)
+                << ", take larger rock elements, or less \"Foundation/Stiffness damping\".";
+        throw InputError(message.str());
+      }
     count.seconds_setup = clock.seconds();
     report_setup();
     if (options.validate)
