@@ -3,9 +3,9 @@
 # Usage: scripts/setup.sh
 set -euo pipefail
 
-required=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev libfclib-dev
+required=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev libfclib-dev libhdf5-dev
           gmsh numdiff ninja-build ccache cmake g++ git python3-matplotlib)
-optional=(calculix-ccx) # only benchmarks/calculix.py uses it
+optional=(calculix-ccx python3-siconos python3-h5py) # only benchmarks/calculix.py and contact.py use them
 
 missing() # PACKAGE...: those that are not installed
 {
