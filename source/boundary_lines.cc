@@ -198,7 +198,7 @@ namespace Voussoir
       const FaceTable                 table;
       const std::pair<Vector, Vector> box;
       std::vector<unsigned int>       line_of; // index into lines, by boundary node
-      std::vector<GridLine>       lines;
+      std::vector<GridLine>           lines;
     };
   } // namespace
 
@@ -225,7 +225,7 @@ namespace Voussoir
   }
 
   std::vector<GridLine> boundary_lines(const HexMesh &mesh, const unsigned int n_layers,
-                                           const std::string &source)
+                                       const std::string &source)
   {
     return Search(mesh, n_layers, source).run();
   }

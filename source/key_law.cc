@@ -148,8 +148,8 @@ namespace Voussoir
       Vector3 offsets{};
       for (const ContactSurface &s : system.surfaces)
         offsets[0] = std::max(offsets[0], std::abs(s.clearance));
-      const double scale = system.rho * (norm(system.b) + norm(system.start) + offsets[0]);
-      Vector3      g = system.gap(r);
+      const double         scale = system.rho * (norm(system.b) + norm(system.start) + offsets[0]);
+      Vector3              g = system.gap(r);
       std::vector<Matrix3> own_H;
       std::vector<Vector3> slip_start;
       for (const ContactSurface &s : system.surfaces)

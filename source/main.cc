@@ -4,16 +4,16 @@
 #include <voussoir/command_line.h>
 #include <voussoir/error.h>
 
-#include <exception>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <unistd.h>
 
 namespace
 {
   /** Threads that wait for the others must not keep a core busy that another program needs: on a machine with
-   *  other work, their usual long spinning makes a run ten times slower. The OpenMP library reads this setting
-   *  when it is loaded, so the program starts itself again with it. */
+   *  other work, their usual long spinning makes a run ten times slower. The OpenMP library reads this
+   * setting when it is loaded, so the program starts itself again with it. */
   void wait_politely(char *argv[])
   {
     if (std::getenv("GOMP_SPINCOUNT") == nullptr && std::getenv("OMP_WAIT_POLICY") == nullptr)

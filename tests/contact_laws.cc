@@ -408,7 +408,8 @@ namespace
   }
 
   /** A step that starts within round-off of a flank starts on it: the direction of friction must not hang on
-   *  the 1e-14 m that are left of the play, which took all rounds of the iteration and was still not found. */
+   *  the 1e-14 m that are left of the play, which took all rounds of the iteration and was still not found.
+   */
   void test_start_on_flank()
   {
     double worst = 0., worst_solve = 0.;
@@ -623,6 +624,5 @@ namespace
 int main()
 {
   return run_all({test_derivatives, test_solve, test_impulses, test_units, test_error, test_no_keys,
-                  test_rectangular, test_variational, test_kinematics, test_structures,
-                  test_start_on_flank});
+                  test_rectangular, test_variational, test_kinematics, test_structures, test_start_on_flank});
 }

@@ -44,8 +44,7 @@ namespace Voussoir
    * @p source (the file), if a face is not plane, not normal to an axis or not outermost, or a line leaves
    * the rock within @p n_layers elements, is bent, not normal to the face, of unequal spacing, or changes the
    * material. Deviations up to 1e-5 of the spacing are allowed. */
-  std::vector<GridLine> boundary_lines(const HexMesh &mesh, unsigned int n_layers,
-                                           const std::string &source);
+  std::vector<GridLine> boundary_lines(const HexMesh &mesh, unsigned int n_layers, const std::string &source);
 } // namespace Voussoir
 
 #endif
