@@ -21,7 +21,7 @@ namespace Voussoir
 
   template <class Archive> void serialize(Archive &archive, DynamicState &s, unsigned int)
   {
-    archive &s.time &s.u &s.v &s.force &s.load &s.Ku &s.energy;
+    archive &s.time &s.u &s.v &s.force &s.load &s.Ku &s.base_velocity &s.energy;
   }
 
   namespace

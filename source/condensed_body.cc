@@ -12,6 +12,8 @@ extern "C"
 {
   void dtrsv_(const char *, const char *, const char *, const int *, const double *, const int *, double *,
               const int *);
+  void dsyrk_(const char *, const char *, const int *, const int *, const double *, const double *,
+              const int *, const double *, double *, const int *);
   void dpotri_(const char *, const int *, double *, const int *, int *);
 }
 
@@ -197,6 +199,28 @@ namespace Voussoir
       u[permutation[i]] = x[i];
   }
 
+  namespace
+  {
+    /** Fills the upper triangle of the m x m matrix from the lower one. */
+    void mirror(std::vector<double> &S, const int m)
+    {
+      for (int j = 0; j < m; ++j)
+        for (int i = j + 1; i < m; ++i)
+          S[std::size_t(i) * m + j] = S[std::size_t(j) * m + i];
+    }
+  } // namespace
+
+  std::vector<double> CondensedBody::stiffness() const
+  {
+    std::vector<double> S(dense.size());
+    const int           m = n_interface();
+    const double        one = 1., zero = 0.;
+    if (m > 0)
+      dsyrk_("L", "N", &m, &m, &one, dense.data(), &m, &zero, S.data(), &m);
+    mirror(S, m);
+    return S;
+  }
+
   std::vector<double> CondensedBody::flexibility() const
   {
     std::vector<double> S = dense;
@@ -204,9 +228,7 @@ namespace Voussoir
     int                 info = 0;
     if (m > 0)
       dpotri_("L", &m, S.data(), &m, &info);
-    for (int j = 0; j < m; ++j)
-      for (int i = j + 1; i < m; ++i)
-        S[std::size_t(i) * m + j] = S[std::size_t(j) * m + i];
+    mirror(S, m);
     return S;
   }
 

@@ -1,5 +1,6 @@
 #include <voussoir/dam.h>
 #include <voussoir/error.h>
+#include <voussoir/massless_rock.h>
 #include <voussoir/mesh_joints.h>
 
 #include <cmath>
@@ -16,31 +17,13 @@ namespace Voussoir
       HexMesh result = mesh;
       result.cells.clear();
       result.faces.clear();
-      std::vector<bool> used(mesh.nodes.size(), false);
       for (const HexMesh::Cell &cell : mesh.cells)
         if (is_monolith(cell.volume))
-        {
           result.cells.push_back(cell);
-          for (const unsigned int node : cell.nodes)
-            used[node] = true;
-        }
       for (const HexMesh::Face &face : mesh.faces)
         if (face.surface != PhysicalId::free_surface && face.surface != PhysicalId::artificial)
           result.faces.push_back(face);
-      std::vector<unsigned int> number(mesh.nodes.size(), 0);
-      result.nodes.clear();
-      for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-        if (used[i])
-        {
-          number[i] = result.nodes.size();
-          result.nodes.push_back(mesh.nodes[i]);
-        }
-      for (HexMesh::Cell &cell : result.cells)
-        for (unsigned int &node : cell.nodes)
-          node = number[node];
-      for (HexMesh::Face &face : result.faces)
-        for (unsigned int &node : face.nodes)
-          node = number[node];
+      normalize(result); // drops the rock's nodes
       return result;
     }
   } // namespace
@@ -50,14 +33,16 @@ namespace Voussoir
     const HexMesh mesh = make_mesh(scene.mesh, scene.directory);
     const HexMesh concrete = monoliths_only(mesh);
     const bool    has_rock = concrete.cells.size() < mesh.cells.size(),
-               on_rock = scene.foundation.model == "rock";
-    if (on_rock && !has_rock)
-      throw InputError("Foundation/Model is rock, but the mesh has none (volumes from id 1000 on). Set "
+               on_rock = scene.foundation.model == "rock", massless = scene.foundation.model == "massless";
+    const std::string source = scene.mesh.source == "file" ? scene.mesh.file : "arch210";
+    if ((on_rock || massless) && !has_rock)
+      throw InputError("Foundation/Model is " + scene.foundation.model +
+                       ", but the mesh has no rock (volumes from id 1000 on). Set "
                        "Mesh/Arch210/Rock/Enabled = true, or give a mesh with rock.");
-    if (has_rock && !on_rock && scene.mesh.source == "file")
+    if (has_rock && !on_rock && !massless && scene.mesh.source == "file")
       throw InputError(
-          "The mesh has rock (volumes from id 1000 on), but Foundation/Model is rigid: set it to rock, or "
-          "leave the rock out of the mesh.");
+          "The mesh has rock (volumes from id 1000 on), but Foundation/Model is rigid: set it to rock or "
+          "massless, or leave the rock out of the mesh.");
     if (on_rock && scene.elements.degree != 1)
       throw InputError("Foundation/Model = rock needs Elements/Degree = 1: dam and rock share their nodes.");
     volume = Voussoir::volume(concrete);
@@ -92,9 +77,11 @@ namespace Voussoir
     initial_stress.assign(model->n_nodes(), Stress{});
     if (scene.statics.self_weight == "staged")
       stage_self_weight(); // on a rigid base: displacements count from there
-    if (on_rock)
+    if (on_rock || massless)
     {
       model->free_base();
+      if (massless)
+        model->tie_joints(n_joints, true); // the rock joins all monoliths
       structure = assemble_structure(*model, {scene.concrete}, incompatible_modes);
       pairs = find_pairs(*model, n_joints);
       geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
@@ -106,6 +93,8 @@ namespace Voussoir
     }
     else
       structure.pairs = std::move(pairs);
+    if (massless)
+      add_massless_rock(scene.foundation, mesh, *model, incompatible_modes, source, structure);
     structure.n_joints = tied ? 0 : n_joints;
     structure.mass_damping = scene.damping.mass_factor();
     structure.stiffness_damping = scene.damping.stiffness_factor();
@@ -133,13 +122,13 @@ namespace Voussoir
     inertia = inertial_loads(structure);
     if (on_rock)
     {
-      foundation = std::make_unique<Foundation>(scene.foundation, mesh, *model,
-                                                scene.mesh.source == "file" ? scene.mesh.file : "arch210");
+      foundation = std::make_unique<Foundation>(scene.foundation, mesh, *model, source);
       foundation->add_mass(structure);
       for (Unknowns &load : inertia) // the earthquake comes through the rock, and displacements are absolute
         std::fill(load.begin(), load.end(), 0.);
     }
 
+    find_lowest_base();
     double top = -1e300, bottom = 1e300;
     for (unsigned int i = 0; i < model->n_nodes(); ++i)
       if (model->on_surface(i, PhysicalId::upstream))
@@ -152,6 +141,27 @@ namespace Voussoir
                        " m, above the dam, which ends at " + std::to_string(top) +
                        " m. Lower the water, or check the axes and the length unit of the mesh.");
     has_water = scene.reservoir.density > 0. && scene.reservoir.level > bottom;
+  }
+
+  void Dam::find_lowest_base()
+  {
+    double bottom = 1e300;
+    for (unsigned int i = 0; i < model->n_nodes(); ++i)
+      if (model->on_surface(i, PhysicalId::base))
+        bottom = std::min(bottom, model->points[i][2]);
+    for (unsigned int i = 0; i < model->n_nodes(); ++i)
+      if (model->on_surface(i, PhysicalId::base) && model->equation[i] != rigid_ground &&
+          model->points[i][2] < bottom + 1e-3)
+        lowest_base.push_back(model->equation[i]);
+  }
+
+  Vector3 Dam::base_motion(const Unknowns &u) const
+  {
+    Vector3 mean{};
+    for (const unsigned int node : lowest_base)
+      for (unsigned int c = 0; c < 3; ++c)
+        mean[c] += u[3 * node + c] / lowest_base.size();
+    return mean;
   }
 
   void Dam::stage_self_weight()

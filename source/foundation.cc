@@ -16,10 +16,12 @@ namespace Voussoir
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Foundation");
-    prm.add_parameter(
-        "Model", model,
-        "rigid (the base moves as the ground motion says) or rock (explicit, with the rock of the mesh).",
-        Selection("rigid|rock"));
+    prm.add_parameter("Model", model,
+                      "rigid (the base moves as the ground motion says), rock (the rock of the mesh, "
+                      "explicit, the earthquake "
+                      "from below) or massless (its stiffness only, on a rigid ground that moves as the "
+                      "ground motion says).",
+                      Selection("rigid|rock|massless"));
     prm.add_parameter("Young's modulus", rock.young, "Modulus of elasticity of the rock [Pa].", Double(1.));
     prm.add_parameter("Poisson's ratio", rock.poisson, "Poisson's ratio of the rock [-].", Double(0., .45));
     prm.add_parameter("Density", rock.density, "Density of the rock [kg/m^3].", Double(1e-3));
@@ -31,9 +33,11 @@ namespace Voussoir
         Double(0.));
     prm.add_parameter(
         "Boundary", boundary,
-        "Artificial boundary: mtf1 to mtf4 (Multi-Transmitting Formula of that order), viscous-spring, "
-        "viscous.",
-        Selection("mtf1|mtf2|mtf3|mtf4|viscous-spring|viscous"));
+        "Artificial boundary: mtf1 to mtf4 (Multi-Transmitting Formula of that order), mtf2-plain (that of "
+        "order 2 "
+        "with one speed and without geometric spreading: drifts), viscous-spring, viscous, or fixed (moves "
+        "with the free field, and throws the dam's waves back).",
+        Selection("mtf1|mtf2|mtf3|mtf4|mtf2-plain|viscous-spring|viscous|fixed"));
     prm.add_parameter(
         "Free field", free_field,
         "Motion without the dam at the artificial boundary: sections (slices of the mesh where it cuts "
@@ -45,6 +49,10 @@ namespace Voussoir
         "needs to be exact; else only the layers at the boundary.");
     prm.add_parameter("Nodal layers", nodal_layers, "Layers of nodal quadrature at the artificial boundary.",
                       Integer(0));
+    prm.add_parameter("Substeps", substeps,
+                      "Explicit steps of the rock in each step of the dam. More than one make the base "
+                      "heavier: see doc/rock.md for the error.",
+                      Integer(1, 100));
     prm.leave_subsection();
   }
 
@@ -132,6 +140,28 @@ namespace Voussoir
     }
   } // namespace
 
+  std::vector<Foot> find_feet(const SolidModel &dam, const std::vector<std::array<double, 3>> &points,
+                              const std::string &source)
+  {
+    std::map<Key, std::vector<unsigned int>> base;
+    for (unsigned int i = 0; i < dam.n_nodes(); ++i)
+      if (dam.on_surface(i, PhysicalId::base))
+        base[key_of(dam.points[i])].push_back(dam.equation[i]);
+    std::vector<Foot> feet;
+    for (unsigned int i = 0; i < points.size(); ++i)
+      if (const auto found = base.find(key_of(points[i])); found != base.end())
+      {
+        std::vector<unsigned int> &nodes = found->second;
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        feet.push_back({i, nodes});
+      }
+    if (feet.size() != base.size())
+      throw InputError(source + ": the dam's base and the rock must share their nodes; " +
+                       std::to_string(base.size() - feet.size()) + " nodes of the base are not in the rock.");
+    return feet;
+  }
+
   Foundation::Foundation(const FoundationParameters &parameters, const HexMesh &mesh, const SolidModel &dam,
                          const std::string &source)
       : parameters(parameters), mesh(mesh)
@@ -141,35 +171,19 @@ namespace Voussoir
         cell.volume = PhysicalId::first_rock;
     if (parameters.boundary.compare(0, 3, "mtf") == 0)
       boundary_lines(this->mesh, 6, source);
-    std::map<Key, std::vector<unsigned int>> base;
-    std::array<double, 3>                    centre{};
-    unsigned int                             count = 0;
-    double                                   bottom = 1e300;
+    std::array<double, 3> centre{};
+    unsigned int          count = 0;
     for (unsigned int i = 0; i < dam.n_nodes(); ++i)
       if (dam.on_surface(i, PhysicalId::base))
       {
-        base[key_of(dam.points[i])].push_back(dam.equation[i]);
         for (unsigned int c = 0; c < 3; ++c)
           centre[c] += dam.points[i][c];
-        bottom = std::min(bottom, dam.points[i][2]);
         ++count;
       }
     for (double &c : centre)
       c /= count;
     model = make_rock_model(this->mesh, region_parameters(parameters, centre, 0.).rock);
-    for (unsigned int i = 0; i < model.points.size(); ++i)
-      if (const auto found = base.find(key_of(model.points[i])); found != base.end())
-      {
-        std::vector<unsigned int> &nodes = found->second;
-        std::sort(nodes.begin(), nodes.end());
-        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-        if (model.points[i][2] < bottom + 1e-3)
-          lowest.push_back(foot.size());
-        foot.push_back({i, nodes});
-      }
-    if (foot.size() != base.size())
-      throw InputError(source + ": the dam's base and the rock must share their nodes; " +
-                       std::to_string(base.size() - foot.size()) + " nodes of the base are not in the rock.");
+    foot = find_feet(dam, model.points, source);
   }
 
   void Foundation::add_mass(Structure &structure) const
@@ -233,23 +247,46 @@ namespace Voussoir
         u_base[3 * i + c] = rock_static[3 * foot[i].rock + c];
   }
 
+  /** See the class. The bound of the stiffness is that of Gershgorin. */
+  void Foundation::add_interface_mass(Structure &structure) const
+  {
+    std::vector<bool> is_foot(n_nodes(), false);
+    for (const Foot &f : foot)
+      is_foot[f.rock] = true;
+    const double             factor = .25 * dt * dt * std::min(1., 2. / parameters.substeps);
+    const BlockSparseMatrix &K = model.stiffness;
+    for (const Foot &f : foot)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        double bound = 0.;
+        for (std::size_t k = K.start[f.rock]; k < K.start[f.rock + 1]; ++k)
+          for (unsigned int d = 0; is_foot[K.column[k]] && d < 3; ++d)
+            bound += std::abs(K.value[k][3 * c + d]);
+        for (const unsigned int node : f.nodes)
+          structure.mass[node][4 * c] += factor * bound / f.nodes.size();
+      }
+  }
+
   void Foundation::start(const GroundMotion &outcrop, const double time_step, const unsigned int n_steps,
-                         const Unknowns &u, const double mass_damping)
+                         const Unknowns &u, Structure &structure)
   {
     dt = time_step;
-    dam_mass_damping = mass_damping;
+    const unsigned int m = parameters.substeps;
+    if (m > 1)
+      add_interface_mass(structure);
     std::array<double, 3> centre{};
     for (const Foot &f : foot)
       for (unsigned int c = 0; c < 3; ++c)
         centre[c] += model.points[f.rock][c] / foot.size();
-    const RockRegionParameters p = region_parameters(parameters, centre, dt);
+    const RockRegionParameters p = region_parameters(parameters, centre, dt / m);
     region = make_region(model, p);
     if (n_steps > 0)
-      shake(*region, mesh, model, p, incident_wave(outcrop), n_steps + 2);
+      shake(*region, mesh, model, p, incident_wave(outcrop), m * n_steps + 2);
     std::vector<unsigned int> nodes;
     for (const Foot &f : foot)
       nodes.push_back(f.rock);
     region->set_prescribed(nodes);
+    region->keep_energy();
     const std::size_t n = 3 * foot.size();
     rest.assign(n, 0.);
     for (std::size_t i = 0; i < foot.size(); ++i)
@@ -262,7 +299,10 @@ namespace Voussoir
 
   void Foundation::advance(const DynamicState &state, Unknowns &load)
   {
-    const Stopwatch watch;
+    const Stopwatch    watch;
+    const unsigned int m = parameters.substeps;
+    const std::size_t  n = 3 * foot.size();
+    const Unknowns     u_before = u_predicted, v_before = v_predicted;
     for (std::size_t i = 0; i < foot.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
       {
@@ -273,16 +313,28 @@ namespace Voussoir
         u_predicted[k] = u - rest[k] + dt * v[k] + .25 * dt * dt * a[k];
         v_predicted[k] = v[k] + .5 * dt * a[k];
       }
-    const Unknowns &force = region->advance(u_predicted, v_predicted);
-    for (std::size_t i = 0; i < foot.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
+    Unknowns u(n), v_now(n), force(n, 0.);
+    for (unsigned int j = 1; j <= m; ++j)
+    {
+      const double part = double(j) / m;
+      for (std::size_t k = 0; k < n; ++k)
       {
-        // The damping of the rock's mass at the base is the dam's.
-        const std::size_t k = 3 * i + c;
-        const double      f = force[k] - parameters.mass_damping * model.mass[foot[i].rock] * v_predicted[k];
-        for (const unsigned int node : foot[i].nodes)
-          load[3 * node + c] -= f / foot[i].nodes.size();
+        u[k] = u_before[k] + part * (u_predicted[k] - u_before[k]);
+        v_now[k] = v_before[k] + part * (v_predicted[k] - v_before[k]);
       }
+      const Unknowns &now = region->advance(u, v_now);
+      for (std::size_t i = 0; i < foot.size(); ++i)
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          // The damping of the rock's mass at the base is the dam's.
+          const std::size_t k = 3 * i + c;
+          force[k] += (now[k] - parameters.mass_damping * model.mass[foot[i].rock] * v_now[k]) / m;
+        }
+    }
+    for (std::size_t i = 0; i < foot.size(); ++i)
+      for (const unsigned int node : foot[i].nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+          load[3 * node + c] -= force[3 * i + c] / foot[i].nodes.size();
     seconds += watch.seconds();
   }
 
@@ -300,20 +352,20 @@ namespace Voussoir
       }
   }
 
-  Vector3 Foundation::base_motion(const Unknowns &u) const
+  Vector3 Foundation::base_velocity() const
   {
     Vector3 result{};
-    for (const unsigned int i : lowest)
+    for (std::size_t i = 0; i < foot.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        result[c] += u[3 * foot[i].nodes[0] + c] / lowest.size();
+        result[c] += v_predicted[3 * i + c] / foot.size();
     return result;
   }
 
   std::vector<std::vector<double> *> Foundation::state()
   {
     std::vector<std::vector<double> *> arrays = region->state();
-    arrays.push_back(&v);
-    arrays.push_back(&a);
+    for (Unknowns *array : {&v, &a, &u_predicted, &v_predicted})
+      arrays.push_back(array);
     return arrays;
   }
 } // namespace Voussoir

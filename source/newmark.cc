@@ -162,8 +162,9 @@ namespace Voussoir
   }
 
   /** The sum of the equations of motion at both ends of the step, in which accelerations cancel:
-   *  S u_new = load + load_old + M (4/dt^2 u + 4/dt v) + 2/dt C u - K u + G^T (force + force_old). */
-  Unknowns Newmark::right_hand_side(const Unknowns &load) const
+   *  S u_new = load + load_old + M (4/dt^2 u + 4/dt v) + 2/dt C u - K u + G^T (force + force_old), and the
+   *  damping's part of the moving base. */
+  Unknowns Newmark::right_hand_side(const Unknowns &load, const Vector3 &base_velocity) const
   {
     Unknowns     rhs(load.size());
     const double c_m = 4. / (dt * dt) + 2. / dt * structure.mass_damping,
@@ -173,7 +174,8 @@ namespace Voussoir
     {
       Vector3 x;
       for (unsigned int c = 0; c < 3; ++c)
-        x[c] = c_m * now.u[3 * i + c] + 4. / dt * now.v[3 * i + c];
+        x[c] = c_m * now.u[3 * i + c] + 4. / dt * now.v[3 * i + c] +
+               structure.mass_damping * (now.base_velocity[c] + base_velocity[c]);
       const Vector3 Mx = structure.mass[i] * x;
       for (unsigned int c = 0; c < 3; ++c)
       {
@@ -189,13 +191,14 @@ namespace Voussoir
     return rhs;
   }
 
-  ContactResult Newmark::advance(const Unknowns &load)
+  ContactResult Newmark::advance(const Unknowns &load, const Vector3 &base_velocity)
   {
     ContactResult result;
-    return step(load, result) ? result : advance_in_halves(load, result);
+    return step(load, base_velocity, result) ? result : advance_in_halves(load, base_velocity, result);
   }
 
-  ContactResult Newmark::advance_in_halves(const Unknowns &load, const ContactResult &failed)
+  ContactResult Newmark::advance_in_halves(const Unknowns &load, const Vector3 &base_velocity,
+                                           const ContactResult &failed)
   {
     if (halvings_left == 0)
     {
@@ -216,9 +219,12 @@ namespace Voussoir
     Unknowns middle = load;
     for (std::size_t k = 0; k < load.size(); ++k)
       middle[k] = .5 * (load[k] + now.load[k]);
+    Vector3 middle_base;
+    for (unsigned int c = 0; c < 3; ++c)
+      middle_base[c] = .5 * (base_velocity[c] + now.base_velocity[c]);
     finer->resume(now, first, largest, reference);
-    ContactResult       result = finer->advance(middle);
-    const ContactResult second = finer->advance(load);
+    ContactResult       result = finer->advance(middle, middle_base);
+    const ContactResult second = finer->advance(load, base_velocity);
     const double        end = now.time + dt; // free of the round-off of halves
     now = finer->now;
     now.time = end;
@@ -234,7 +240,7 @@ namespace Voussoir
   }
 
   /** One step; false when the joints do not converge: then nothing has changed. */
-  bool Newmark::step(const Unknowns &load, ContactResult &result)
+  bool Newmark::step(const Unknowns &load, const Vector3 &base_velocity, ContactResult &result)
   {
     const std::size_t n_pairs = structure.pairs.size();
     Unknowns          offset(3 * n_pairs), start(3 * n_pairs), force = now.force, u_new;
@@ -247,7 +253,7 @@ namespace Voussoir
     if (rule == ImpactRule::mean_force)
       for (double &f : force)
         f *= 2.;
-    result = system.solve(right_hand_side(load), offset, start, force, gap, u_new);
+    result = system.solve(right_hand_side(load, base_velocity), offset, start, force, gap, u_new);
     if (!result.converged)
       return false;
 
@@ -271,7 +277,10 @@ namespace Voussoir
     }
     Unknowns Ku;
     structure.multiply_stiffness(u_new, Ku);
-    double input = 0., damping = 0.;
+    double  input = 0., damping = 0.;
+    Vector3 base; // its mean velocity
+    for (unsigned int c = 0; c < 3; ++c)
+      base[c] = .5 * (now.base_velocity[c] + base_velocity[c]);
     for (unsigned int i = 0; i < structure.n_nodes(); ++i)
     {
       Vector3 du;
@@ -286,10 +295,14 @@ namespace Voussoir
         now.v[k] = 2. / dt * du[c] - now.v[k];
         now.u[k] = u_new[k];
       }
-      damping += structure.mass_damping / dt * dot(du, structure.mass[i] * du);
+      const Vector3 relative = {{du[0] - dt * base[0], du[1] - dt * base[1], du[2] - dt * base[2]}};
+      const Vector3 momentum = structure.mass[i] * relative;
+      damping += structure.mass_damping / dt * dot(relative, momentum);
+      input -= structure.mass_damping * dot(base, momentum);
     }
     now.Ku.swap(Ku);
     now.load = load;
+    now.base_velocity = base_velocity;
     now.time += dt;
     if (!std::isfinite(input))
       throw ComputationError("The displacements are not finite at t = " + std::to_string(now.time) + " s.");
@@ -377,7 +390,7 @@ namespace Voussoir
     double fastest = 0.;
     for (std::size_t i = 0; i < n; ++i)
     {
-      Vector3 f = structure.mass[i] * get(now.v, i);
+      Vector3 f = structure.mass[i] * (get(now.v, i) - now.base_velocity);
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * i + c;

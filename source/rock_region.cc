@@ -9,9 +9,10 @@ namespace Voussoir
 {
   namespace
   {
+    /** Does the boundary follow from a transmitting formula? A fixed one is that of order 0. */
     bool is_transmitting(const RockRegionParameters &parameters)
     {
-      return parameters.boundary.compare(0, 3, "mtf") == 0;
+      return parameters.boundary.compare(0, 3, "mtf") == 0 || parameters.boundary == "fixed";
     }
 
     TransmittingFormula formula_of(const RockRegionParameters &parameters, const TransmittingFormula *given)
@@ -32,9 +33,6 @@ namespace Voussoir
       region->set_boundary(viscous_boundary(model, parameters.rock.centre, 0., 0.));
     else if (name == "viscous-spring")
       region->set_boundary(viscous_boundary(model, parameters.rock.centre, 4. / 3., 2. / 3.));
-    else if (name == "fixed")
-      for (const BoundaryFace &face : model.faces)
-        region->fix_nodes({face.nodes.begin(), face.nodes.end()});
     else
       throw InputError("there is no artificial boundary \"" + name +
                        "\"; use mtf1, mtf2, mtf3, mtf4, viscous-spring, viscous or fixed");
@@ -46,7 +44,7 @@ namespace Voussoir
     // Needed: 6 layers without damping; without layers a stiffness damping of 0.2 dt (boxes of 12 cells).
     constexpr unsigned int enough_layers = 6;
     constexpr double       enough_damping = .2;
-    if (!is_transmitting(p))
+    if (!is_transmitting(p) || formula_of(p, formula).order() == 0)
       return "";
     std::string text;
     if (!p.rock.nodal_everywhere && p.rock.nodal_layers < enough_layers &&
@@ -125,8 +123,6 @@ namespace Voussoir
              const RockRegionParameters &parameters, const IncidentWave &wave, const unsigned int n_steps,
              const TransmittingFormula *formula)
   {
-    if (parameters.boundary == "fixed")
-      throw InputError("an earthquake cannot come in through a fixed artificial boundary; use another one");
     auto field = make_free_field(mesh, model, parameters, wave, n_steps, formula);
     add_points(*field, region, model, parameters, formula);
     region.set_free_field(std::move(field));

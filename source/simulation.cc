@@ -100,12 +100,15 @@ namespace Voussoir
     n_steps = scene.motion.source == "none" ? 0 : motion.acceleration.size() - 1;
     dam = std::make_unique<Dam>(scene);
     if (dam->foundation && n_steps > 0)
-      if (const double critical = dam->foundation->critical_time_step(); motion.dt > critical)
+      if (const double critical = dam->foundation->critical_time_step(),
+          rock_dt = motion.dt / scene.foundation.substeps;
+          rock_dt > critical)
       {
         std::ostringstream message;
-        message << "The time step " << motion.dt << " s is too large for the rock: its critical time step is "
+        message << "The time step " << rock_dt << " s is too large for the rock: its critical time step is "
                 << critical << " s. Raise \"Dynamics/Steps per sample\" to "
-                << std::ceil(scene.steps_per_sample * motion.dt / critical)
+                << std::ceil(scene.steps_per_sample * rock_dt / critical) << " or \"Foundation/Substeps\" to "
+                << std::ceil(motion.dt / critical)
                 << ", take larger rock elements, or less \"Foundation/Stiffness damping\".";
         throw InputError(message.str());
       }
@@ -184,8 +187,8 @@ namespace Voussoir
         entries += 9. * body.stiffness.value.size();
       log.line("Unknowns  %u of the bodies, %zu of the joints", 3 * n_nodes, 3 * dam->structure.pairs.size());
       if (dam->foundation)
-        log.line("Steps     %u of %g s; critical time step of the rock %.4g s", n_steps, motion.dt,
-                 dam->foundation->critical_time_step());
+        log.line("Steps     %u of %g s, %u of the rock in each; its critical time step is %.4g s", n_steps,
+                 motion.dt, scene.foundation.substeps, dam->foundation->critical_time_step());
       else
         log.line("Steps     %u of %g s; the scheme is implicit: there is no critical time step", n_steps,
                  motion.dt);
@@ -327,6 +330,12 @@ namespace Voussoir
   {
     const Stopwatch  watch;
     const Structure &structure = dam->structure;
+    if (dam->foundation)
+    {
+      dam->foundation->start(motion, motion.dt, n_steps, statics.u, dam->structure);
+      if (const std::string warning = dam->foundation->warning(motion.dt); !warning.empty())
+        log.line("warning: %s", warning.c_str());
+    }
     newmark = std::make_unique<Newmark>(structure, dam->laws, contact_parameters("shaking"), motion.dt,
                                         impact_rule(scene.impact_rule));
     Unknowns load = statics.load;
@@ -334,12 +343,6 @@ namespace Voussoir
       for (unsigned int d = 0; d < 3; ++d)
         for (std::size_t k = 0; k < load.size(); ++k)
           load[k] += motion.acceleration[0][d] * dam->inertia[d][k];
-    if (dam->foundation)
-    {
-      dam->foundation->start(motion, motion.dt, n_steps, statics.u, structure.mass_damping);
-      if (const std::string warning = dam->foundation->warning(motion.dt); !warning.empty())
-        log.line("warning: %s", warning.c_str());
-    }
     newmark->start(statics.u, Unknowns(statics.u.size(), 0.), statics.force, load,
                    Unknowns(3 * structure.pairs.size(), 0.));
 
@@ -354,6 +357,9 @@ namespace Voussoir
                        "base_acceleration_x",
                        "base_acceleration_y",
                        "base_acceleration_z"};
+    if (!dam->base_is_held())
+      for (const char *name : {"base_x", "base_y", "base_z"})
+        history.columns.push_back(name);
     probes = {dam->geometry->crown};
     for (const auto &probe : scene.output.probe_places())
     {
@@ -364,6 +370,10 @@ namespace Voussoir
     }
     energy.columns = {"time",     "kinetic", "strain", "added_mass", "damping",
                       "friction", "impact",  "input",  "balance"};
+    if (dam->foundation)
+      for (const char *name :
+           {"rock_kinetic", "rock_strain", "rock_damping", "rock_feet", "transmitted", "rock_balance"})
+        energy.columns.push_back(name);
     count.seconds_static += watch.seconds();
     if (n_steps > 0)
     {
@@ -376,6 +386,7 @@ namespace Voussoir
   void Simulation::advance()
   {
     const Stopwatch watch;
+    const double    rock_before = dam->foundation ? dam->foundation->seconds : 0.;
     Unknowns        load = statics.load;
     const auto     &a = motion.acceleration[step + 1];
     for (std::size_t k = 0; k < load.size(); ++k)
@@ -383,18 +394,24 @@ namespace Voussoir
     if (dam->foundation)
       dam->foundation->advance(newmark->state(), load);
     const SystemTimes   before = newmark->joint_system().times;
-    const ContactResult result = newmark->advance(load);
+    const Vector3       base_velocity = dam->foundation ? dam->foundation->base_velocity() : Vector3{};
+    const ContactResult result = newmark->advance(load, base_velocity);
     if (dam->foundation)
     {
       dam->foundation->follow(newmark->state());
-      count.seconds_rock = dam->foundation->seconds;
+      const RegionEnergy &rock = dam->foundation->energy();
+      count.rock_energy = std::max(count.rock_energy, rock.kinetic + rock.strain);
+      count.rock_imbalance = std::max(count.rock_imbalance, std::abs(rock.balance()));
     }
+    ++count.path[static_cast<unsigned int>(result.path)];
     ++step;
+    const double rock_seconds = dam->foundation ? dam->foundation->seconds - rock_before : 0.;
+    count.seconds_rock += rock_seconds;
     const SystemTimes &after = newmark->joint_system().times;
     count.seconds_sweeps += after.sweeps - before.sweeps;
     count.seconds_joints += after.joints - before.joints;
     count.seconds_stepping +=
-        watch.seconds() - (after.sweeps - before.sweeps) - (after.joints - before.joints);
+        watch.seconds() - (after.sweeps - before.sweeps) - (after.joints - before.joints) - rock_seconds;
     count.newton += result.iterations;
     count.newton_max = std::max<double>(count.newton_max, result.iterations);
     count.krylov += result.krylov;
@@ -431,11 +448,23 @@ namespace Voussoir
       row.insert(row.end(), u.begin(), u.end());
       if (i == 0)
         row.insert(row.end(), motion.acceleration[step].begin(), motion.acceleration[step].end());
+      if (i == 0 && !dam->base_is_held())
+      {
+        const Vector3 base = dam->base_motion(state.u);
+        row.insert(row.end(), base.begin(), base.end());
+      }
     }
     history.rows.push_back(row);
     const Energy &e = state.energy, &e0 = newmark->initial_energy();
     energy.rows.push_back({state.time, e.kinetic, e.strain - e0.strain, e.added_mass, e.damping, e.friction,
                            e.impact, e.input, e.balance(e0)});
+    if (dam->foundation)
+    {
+      const RegionEnergy &rock = dam->foundation->energy();
+      for (const double value :
+           {rock.kinetic, rock.strain, rock.damping, rock.prescribed, rock.transmitted, rock.balance()})
+        energy.rows.back().push_back(value);
+    }
     if (scene.output.solution_interval > 0 && step % scene.output.solution_interval == 0)
       write_solution();
     count.seconds_output += watch.seconds();
@@ -449,7 +478,7 @@ namespace Voussoir
     Vector3            result{};
     if (e != rigid_ground)
       result = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};
-    return dam->foundation ? result - dam->foundation->base_motion(u) : result;
+    return result - dam->base_motion(u);
   }
 
   void Simulation::report_step()

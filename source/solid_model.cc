@@ -305,7 +305,7 @@ namespace Voussoir
       Pair pair;
       pair.node_1 = model.equation[match.node_1];
       pair.node_2 = model.equation[match.node_2];
-      if (pair.node_1 == rigid_ground && pair.node_2 == rigid_ground)
+      if (pair.node_1 == pair.node_2) // both fixed, or tied
         continue;
       const auto same = std::find_if(pairs.begin(), pairs.end(),
                                      [&](const Pair &other) {
@@ -340,7 +340,7 @@ namespace Voussoir
     return pairs;
   }
 
-  void SolidModel::tie_joints(const unsigned int n_joints)
+  void SolidModel::tie_joints(const unsigned int n_joints, const bool feet_only)
   {
     std::vector<unsigned int> master(n_nodes());
     std::iota(master.begin(), master.end(), 0);
@@ -352,6 +352,8 @@ namespace Voussoir
     };
     for (const NodePair &match : match_joint_nodes(*this, n_joints))
     {
+      if (feet_only && !on_surface(match.node_1, PhysicalId::base))
+        continue;
       const unsigned int a = root(match.node_1), b = root(match.node_2);
       master[std::max(a, b)] = std::min(a, b);
     }

@@ -22,7 +22,7 @@ namespace Voussoir
   void Simulation::write_summary()
   {
     const Structure &structure = dam->structure;
-    Json             mesh, seconds, newton, statics_json, extremes, summary;
+    Json             mesh, seconds, newton, path, statics_json, extremes, summary;
     mesh.add("cells", dam->n_cells)
         .add("degree", scene.elements.degree)
         .add("nodes", structure.n_nodes())
@@ -40,6 +40,7 @@ namespace Voussoir
         .add("sweeps", count.seconds_sweeps)
         .add("joints", count.seconds_joints)
         .add("stepping", count.seconds_stepping)
+        .add("rock", count.seconds_rock)
         .add("stresses", count.seconds_stresses)
         .add("output", count.seconds_output)
         .add("per_second_of_earthquake", n_steps > 0 ? count.seconds_shaking / (n_steps * motion.dt) : 0.);
@@ -49,6 +50,10 @@ namespace Voussoir
         .add("linear_iterations_mean", count.krylov / n)
         .add("joint_factorisations_mean", count.factorisations / n)
         .add("sweeps", count.sweeps);
+    path.add("newton", count.path[0])
+        .add("sweeps", count.path[1])
+        .add("proximal", count.path[2])
+        .add("smaller_step", count.path[3]);
     const auto &crown = dam->model->points[dam->geometry->crown];
     statics_json.add_list("crest_point", Vector3{{crown[0], crown[1], crown[2]}})
         .add_list("crest_displacement", statics.crown)
@@ -77,10 +82,24 @@ namespace Voussoir
         .add("seconds", seconds)
         .add("memory_bytes", 1024. * usage.ru_maxrss)
         .add("newton_iterations", newton)
+        .add("contact_path", path)
         .add("contact_residual", count.residual)
         .add("energy_balance_error", count.energy_error)
         .add("static", statics_json)
         .add("extremes", extremes);
+    if (const Foundation *rock = dam->foundation.get())
+    {
+      Json json;
+      json.add("nodes", rock->n_nodes())
+          .add("dofs", 3. * rock->n_nodes())
+          .add("boundary", scene.foundation.boundary)
+          .add("time_step", motion.dt / scene.foundation.substeps)
+          .add("critical_time_step", rock->critical_time_step());
+      if (step > 0)
+        json.add("transmitted_energy", rock->energy().transmitted)
+            .add("energy_balance_error", count.rock_imbalance / std::max(count.rock_energy, 1e-300));
+      summary.add("rock", json);
+    }
     std::ofstream out(directory + "/summary.json");
     out << summary.text() << "\n";
     if (!out.flush())

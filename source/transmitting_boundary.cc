@@ -74,6 +74,8 @@ namespace Voussoir
             formula.order(), formula.n_nodes(), line.nodes.size());
         throw InputError(text);
       }
+      if (courant.empty())
+        return;
       const double dx = smallest_spacing(line.position),
                    step = *std::max_element(courant.begin(), courant.end());
       if (step > dx * (1. + 1e-12))
@@ -93,6 +95,8 @@ namespace Voussoir
   {
     constexpr double    surface = .92, middle = 1.35; // Rayleigh waves; between S and P
     TransmittingFormula formula;
+    if (name == "fixed")
+      return formula;
     if (name == "mtf1")
       formula.factors = {{0., 1., 0., 1.}};
     else if (name == "mtf2")
@@ -168,17 +172,18 @@ namespace Voussoir
   const Unknowns &TransmittingBoundary::advance(const Unknowns &u, const Unknowns &free_field,
                                                 const Unknowns &next_free_field)
   {
-    std::rotate(history.begin(), history.end() - 1, history.end());
-    Unknowns  &latest = history.front();
+    if (!history.empty())
+      std::rotate(history.begin(), history.end() - 1, history.end());
     const bool incident = !free_field.empty();
     const int  lines = n_lines();
 #pragma omp parallel for schedule(static)
     for (int line = 0; line < lines; ++line)
     {
       const std::size_t first = std::size_t(line) * n_points;
-      for (std::size_t i = first; i < first + n_points; ++i)
+      for (std::size_t i = first; !history.empty() && i < first + n_points; ++i)
         for (unsigned int c = 0; c < 3; ++c)
-          latest[3 * i + c] = u[3 * std::size_t(node[i]) + c] - (incident ? free_field[3 * i + c] : 0.);
+          history.front()[3 * i + c] =
+              u[3 * std::size_t(node[i]) + c] - (incident ? free_field[3 * i + c] : 0.);
       const double *w = weights.data() + first * history.size();
       Vector3       sum{};
       for (const Unknowns &scattered : history)

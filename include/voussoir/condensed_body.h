@@ -40,6 +40,9 @@ namespace Voussoir
      */
     unsigned int position(const unsigned int i, const unsigned int c) const { return slot[3 * i + c]; }
 
+    /** S itself, in the same order [N/m]. */
+    std::vector<double> stiffness() const;
+
     /** S^-1, n_interface() x n_interface(), column by column (it is symmetric) [m/N]. */
     std::vector<double> flexibility() const;
 

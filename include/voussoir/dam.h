@@ -21,6 +21,11 @@ namespace Voussoir
     /** @p tie_all: the monolithic dam, whatever the joint models say (for natural frequencies). */
     explicit Dam(const Scene &scene, bool tie_all = false);
 
+    bool base_is_held() const { return lowest_base.empty(); } ///< does the dam stand on rigid ground?
+
+    /** Mean displacement of the lowest part of the base, zero where it is held [m]. */
+    Vector3 base_motion(const Unknowns &u) const;
+
     Unknowns static_load(double water_part) const; ///< water, and the weight if it is not staged [N]
 
     const Scene &scene;
@@ -42,6 +47,9 @@ namespace Voussoir
 
   private:
     void stage_self_weight();
+    void find_lowest_base();
+
+    std::vector<unsigned int> lowest_base; ///< free nodes there
   };
 } // namespace Voussoir
 

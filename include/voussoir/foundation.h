@@ -10,10 +10,28 @@ namespace Voussoir
 {
   struct GroundMotion;
 
+  /** One foot of the dam: a node of the rock and the free nodes of the dam that stand on it. */
+  struct Foot
+  {
+    unsigned int              rock;
+    std::vector<unsigned int> nodes; ///< equations of the dam
+  };
+
+  /** The feet of the dam on the rock nodes at @p points; @p source names the mesh. Throws InputError where a
+   * node of the dam's base has no rock. */
+  std::vector<Foot> find_feet(const SolidModel &dam, const std::vector<std::array<double, 3>> &points,
+                              const std::string &source);
+
   /** The rock under and around the dam: explicit, in the element partition of Hughes and Liu (1978): the
    * nodes of the dam's base are the dam's, with the rock's mass lumped to them; the rock's elements act on
    * them with the forces of their predicted motion, u + dt v + dt^2/4 a. Displacements of the rock are those
-   * of the earthquake; the static state is superposed. */
+   * of the earthquake; the static state is superposed.
+   *
+   *  With m substeps the rock makes m steps in one of the dam: the feet go evenly from one prediction to the
+   * next (Belytschko, Yen and Mullen 1979), and the dam feels the mean force. Predictions over so long a step
+   * would make the feet unstable, as they are lighter than the rock's stiffness there asks; so for m > 1 each
+   * foot carries in addition the mass dt^2/4 k min(1, 2/m), k bounding the rock's stiffness between the
+   * feet. It delays the base by an error of order dt; doc/rock.md has its size. */
   class Foundation
   {
   public:
@@ -36,10 +54,10 @@ namespace Voussoir
      *  per node of the dam [N]; only at the base, 3 per foot [m]. */
     void settle(const Unknowns &r, Unknowns &u_base);
 
-    /** Make ready for shaking from the static displacement @p u of the dam, at rest. @p mass_damping: of the
-     * dam [1/s]. */
+    /** Make ready for @p n_steps of the dam of size @p dt [s] from its static displacement @p u, at rest;
+     * adds the mass that substeps need to the feet in @p structure. */
     void start(const GroundMotion &outcrop, double dt, unsigned int n_steps, const Unknowns &u,
-               double mass_damping);
+               Structure &structure);
 
     /** One step of the rock, to the time of the next step of the dam, whose state is still that before it;
      *  subtracts the forces of the rock from @p load [N]. */
@@ -48,32 +66,31 @@ namespace Voussoir
     /** The dam has made its step. */
     void follow(const DynamicState &state);
 
-    /** Mean displacement of the lowest part of the base [m]. */
-    Vector3 base_motion(const Unknowns &u) const;
+    /** Mean velocity of the feet as predicted for the end of the step, after advance() [m/s]. */
+    Vector3 base_velocity() const;
+
+    /** Energies of the rock, half a step of its own before the dam's time [J]. */
+    const RegionEnergy &energy() const { return region->energy(); }
 
     double seconds = 0.; ///< of wall time in advance()
 
-    /** One foot of the dam: a rock node and the one or two free nodes of the dam that stand on it. */
-    struct Foot
-    {
-      unsigned int              rock;
-      std::vector<unsigned int> nodes; ///< equations of the dam
-    };
     const std::vector<Foot> &feet() const { return foot; }
 
     std::vector<std::vector<double> *> state(); ///< for checkpoints, after start()
 
   private:
+    void add_interface_mass(Structure &structure) const;
+
     const FoundationParameters      parameters;
     HexMesh                         mesh;
     RockModel                       model;
     std::vector<Foot>               foot;
-    std::vector<unsigned int>       lowest; ///< feet
     std::unique_ptr<ExplicitRegion> region;
-    double                          dt = 0., dam_mass_damping = 0.;
+    double                          dt = 0.; ///< of the dam [s]
     Unknowns rock_static;                    ///< displacement of the whole rock in the static state: guess
     Unknowns rest;                           ///< of the feet [m]
-    Unknowns v, a, u_predicted, v_predicted; ///< of the feet
+    Unknowns v, a;                           ///< of the feet
+    Unknowns u_predicted, v_predicted;       ///< for the end of the step
   };
 } // namespace Voussoir
 

@@ -28,7 +28,7 @@ namespace Voussoir
     double balance(const Energy &start) const;
   };
 
-  /** Displacement and velocity relative to the base, and joint forces, at one time. */
+  /** Displacement and velocity, and joint forces, at one time; on a rigid base relative to it. */
   struct DynamicState
   {
     double   time = 0.;
@@ -36,6 +36,7 @@ namespace Voussoir
     Unknowns force; ///< [N], 3 per pair, in the frame of the pair: mean over the last step, or at its end
     Unknowns load;  ///< [N], that of this time
     Unknowns Ku;    ///< stiffness times displacement [N]
+    Vector3  base_velocity = {{0., 0., 0.}}; ///< see Newmark::advance() [m/s]
     Energy   energy;
   };
 
@@ -61,8 +62,10 @@ namespace Voussoir
                 const Unknowns &reference);
 
     /** One step to time + dt, under @p load there. When the joints do not converge, two steps of half the
-     *  size take its place, and so on down to dt/8; then throws ComputationError. */
-    ContactResult advance(const Unknowns &load);
+     *  size take its place, and so on down to dt/8; then throws ComputationError. @p base_velocity: at that
+     * time, where the displacements are absolute: the mass-proportional damping acts on the velocity relative
+     * to it, as on a rigid base [m/s]. */
+    ContactResult advance(const Unknowns &load, const Vector3 &base_velocity = {{0., 0., 0.}});
 
     const DynamicState &state() const { return now; }
     const Energy       &initial_energy() const { return first; }
@@ -77,11 +80,12 @@ namespace Voussoir
     const JointSystem            &joint_system() const { return system; }
 
   private:
-    bool          step(const Unknowns &load, ContactResult &result);
-    ContactResult advance_in_halves(const Unknowns &load, const ContactResult &failed);
+    bool          step(const Unknowns &load, const Vector3 &base_velocity, ContactResult &result);
+    ContactResult advance_in_halves(const Unknowns &load, const Vector3 &base_velocity,
+                                    const ContactResult &failed);
     void          correct_velocity(const Unknowns &change);
     void          find_end_force(const Unknowns &force);
-    Unknowns      right_hand_side(const Unknowns &load) const;
+    Unknowns      right_hand_side(const Unknowns &load, const Vector3 &base_velocity) const;
     double        kinetic_energy_of_pairs() const;
     void          account_states();
     /** v += M^-1 G^T f of one pair. */

@@ -67,14 +67,17 @@ namespace Voussoir
 
     struct Counters
     {
-      double seconds_rock = 0.;
+      double                      seconds_rock = 0., rock_energy = 0., rock_imbalance = 0.; // largest [J]
+      std::array<unsigned int, 4> path{}; ///< steps by ContactPath
       double newton = 0., newton_max = 0., krylov = 0., factorisations = 0., sweeps = 0., residual = 0.,
              energy_error = 0.;
       double seconds_setup = 0., seconds_static = 0., seconds_sweeps = 0., seconds_joints = 0.,
              seconds_stepping = 0., seconds_stresses = 0., seconds_output = 0., seconds_shaking = 0.;
       template <class Archive> void serialize(Archive &archive, unsigned int)
       {
-        archive                                                               &seconds_rock;
+        archive &seconds_rock &rock_energy &rock_imbalance;
+        for (unsigned int &n : path)
+          archive &n;
         archive &newton &newton_max &krylov &factorisations &sweeps &residual &energy_error;
         archive &seconds_setup &seconds_static &seconds_sweeps &seconds_joints &seconds_stepping
             &seconds_stresses &seconds_output &seconds_shaking;

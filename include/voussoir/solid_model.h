@@ -30,8 +30,9 @@ namespace Voussoir
     /** Number the free nodes anew; nodes with the same @p master (a node of the same body) move as one. */
     void number_equations(const std::vector<bool> &fixed, const std::vector<unsigned int> &master);
 
-    /** Make one body of all: coincident nodes on the two sides of joints 1..n_joints move as one. */
-    void tie_joints(unsigned int n_joints);
+    /** Make one body of all: coincident nodes on the two sides of joints 1..n_joints move as one, or only
+     * those on the base, when @p feet_only. */
+    void tie_joints(unsigned int n_joints, bool feet_only = false);
 
     bool         base_is_fixed = true;
     unsigned int n_nodes() const { return static_cast<unsigned int>(points.size()); }
@@ -61,7 +62,8 @@ namespace Voussoir
 
   /** The pairs of all joints 1..n_joints, in joint order: nodes of surfaces 100 + j and 200 + j that
    * coincide, with frame {n, a, b}: n from side 1 to side 2, b upwards in the joint, a = b x n. Throws
-   * InputError for nodes that do not match. Pairs of two fixed nodes are left out.
+   * InputError for nodes that do not match. Pairs of two fixed nodes, and of nodes that
+   * move as one, are left out.
    *
    *  Where faces meet at an edge (their normals differ by more than 20 degrees, as at meshed shear keys) the
    *  pair has several planes, and the frame of the one that is nearest to the joint's mean normal. */
