@@ -280,7 +280,7 @@ namespace Voussoir
         centre[c] += model.points[f.rock][c] / foot.size();
     const RockRegionParameters p = region_parameters(parameters, centre, dt / m);
     region = make_region(model, p);
-    if (n_steps > 0)
+    if (n_steps > 0) // else without an earthquake
       shake(*region, mesh, model, p, incident_wave(outcrop), m * n_steps + 2);
     std::vector<unsigned int> nodes;
     for (const Foot &f : foot)
@@ -313,7 +313,8 @@ namespace Voussoir
         u_predicted[k] = u - rest[k] + dt * v[k] + .25 * dt * dt * a[k];
         v_predicted[k] = v[k] + .5 * dt * a[k];
       }
-    Unknowns u(n), v_now(n), force(n, 0.);
+    Unknowns        u(n), v_now(n);
+    const Unknowns *force = nullptr;
     for (unsigned int j = 1; j <= m; ++j)
     {
       const double part = double(j) / m;
@@ -322,19 +323,17 @@ namespace Voussoir
         u[k] = u_before[k] + part * (u_predicted[k] - u_before[k]);
         v_now[k] = v_before[k] + part * (v_predicted[k] - v_before[k]);
       }
-      const Unknowns &now = region->advance(u, v_now);
-      for (std::size_t i = 0; i < foot.size(); ++i)
-        for (unsigned int c = 0; c < 3; ++c)
-        {
-          // The damping of the rock's mass at the base is the dam's.
-          const std::size_t k = 3 * i + c;
-          force[k] += (now[k] - parameters.mass_damping * model.mass[foot[i].rock] * v_now[k]) / m;
-        }
+      force = &region->advance(u, v_now);
     }
     for (std::size_t i = 0; i < foot.size(); ++i)
-      for (const unsigned int node : foot[i].nodes)
-        for (unsigned int c = 0; c < 3; ++c)
-          load[3 * node + c] -= force[3 * i + c] / foot[i].nodes.size();
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        // The damping of the rock's mass at the base is the dam's.
+        const std::size_t k = 3 * i + c;
+        const double f = (*force)[k] - parameters.mass_damping * model.mass[foot[i].rock] * v_predicted[k];
+        for (const unsigned int node : foot[i].nodes)
+          load[3 * node + c] -= f / foot[i].nodes.size();
+      }
     seconds += watch.seconds();
   }
 

@@ -330,7 +330,7 @@ namespace Voussoir
   {
     const Stopwatch  watch;
     const Structure &structure = dam->structure;
-    if (dam->foundation)
+    if (dam->foundation && n_steps > 0)
     {
       dam->foundation->start(motion, motion.dt, n_steps, statics.u, dam->structure);
       if (const std::string warning = dam->foundation->warning(motion.dt); !warning.empty())
@@ -370,7 +370,7 @@ namespace Voussoir
     }
     energy.columns = {"time",     "kinetic", "strain", "added_mass", "damping",
                       "friction", "impact",  "input",  "balance"};
-    if (dam->foundation)
+    if (dam->foundation && n_steps > 0)
       for (const char *name :
            {"rock_kinetic", "rock_strain", "rock_damping", "rock_feet", "transmitted", "rock_balance"})
         energy.columns.push_back(name);
@@ -458,7 +458,7 @@ namespace Voussoir
     const Energy &e = state.energy, &e0 = newmark->initial_energy();
     energy.rows.push_back({state.time, e.kinetic, e.strain - e0.strain, e.added_mass, e.damping, e.friction,
                            e.impact, e.input, e.balance(e0)});
-    if (dam->foundation)
+    if (dam->foundation && n_steps > 0)
     {
       const RegionEnergy &rock = dam->foundation->energy();
       for (const double value :
