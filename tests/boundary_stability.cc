@@ -42,15 +42,15 @@ namespace
                            p.rock);
   }
 
-  /** Plane strain in x and z, a half. */
-  RockModel half_plane(const RockRegionParameters &p)
+  /** Plane strain in x and z, a half, the ground on top. */
+  RockModel half_plane(const RockRegionParameters &p, const unsigned int nx, const unsigned int nz)
   {
-    const HexMesh mesh = box({40, 1, 20}, {"x+", "z-"},
+    const HexMesh mesh = box({nx, 1, nz}, {"x+", "z-"},
                              [](const double i, const double j, const double k) -> Vector3 {
                                return {{i, j, k}};
                              });
     auto          rock = p.rock;
-    rock.centre = {{0., 0., 20.}};
+    rock.centre = {{0., 0., double(nz)}};
     return make_rock_model(mesh, rock, tie_layer(mesh, 1));
   }
 
@@ -202,7 +202,7 @@ namespace
     {
       const auto   p = parameters(name);
       const Result box = run(p, with_diagonal_lines(quarter(p), {n, n, n}, false), 5000);
-      const Result sheet = run(p, with_diagonal_lines(half_plane(p), {40, 1, 20}, true), 5000);
+      const Result sheet = run(p, with_diagonal_lines(half_plane(p, 40, 20), {40, 1, 20}, true), 5000);
       if (name == "mtf3")
       {
         below("diagonal lines at edges, mtf3: steps until it blows up", box.steps, 4000.);
@@ -215,8 +215,27 @@ namespace
       }
     }
     const auto   p = parameters("mtf3");
-    const Result side = run(p, half_plane(p), n_long);
+    const Result side = run(p, half_plane(p, 40, 20), n_long);
     below("mtf3 in plane strain, lines normal to the side: max |u| / peak", side.end / side.peak, 1e-6);
+  }
+
+  /** The gamma of a box falls with its number of cells: in a large one it does not hold mtf3 where the Gauss
+   * points in the middle meet the layers. */
+  void large()
+  {
+    for (const bool nodal : {false, true})
+      for (const std::string name : {"mtf2", "mtf3"})
+      {
+        auto p = parameters(name);
+        p.rock.nodal_everywhere = nodal;
+        const Result      r = run(p, half_plane(p, 120, 120), 4000);
+        const std::string what = "120 x 120 cells in plane strain, " + name +
+                                 (nodal ? ", nodal quadrature" : ", 6 nodal layers") + ": end / peak";
+        if (name == "mtf3" && !nodal)
+          above(what, r.end / r.peak, 1.);
+        else
+          below(what, r.end / r.peak, 1e-2);
+      }
   }
 } // namespace
 
@@ -224,5 +243,5 @@ int main(const int argc, char **argv)
 {
   if (argc > 1)
     n_long = std::stoi(argv[1]);
-  return Columns::run_all({gauss, drift, diagonal, stable});
+  return Columns::run_all({gauss, drift, diagonal, large, stable});
 }
