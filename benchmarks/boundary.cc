@@ -1,59 +1,65 @@
 // The artificial boundary against extended meshes and analytic solutions: the rows of doc/boundary.md.
-// Usage: benchmark_boundary [speed|halfspace|canyon|lamb|hemisphere]...; all without an argument.
+// Usage: benchmark_boundary [speed|halfspace|canyon|psv|lamb|hemisphere]...; all without an argument.
 // A = must, M = wish.
 
-#include "../tests/box.h"
+#include "boundary_canyon.h"
 
 #include <voussoir/log.h>
 
-#include <complex>
 #include <cstdio>
-#include <map>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 namespace
 {
-  using namespace Boxes;
-  using Complex = std::complex<double>;
+  using namespace Benchmarks;
 
-  const double c_p = std::sqrt(3.), c_s = 1.; // Poisson's ratio 0.25
-
-  RockRegionParameters parameters(const std::string &boundary, const double dt)
+  double median(std::vector<double> values)
   {
-    RockRegionParameters p;
-    p.rock.materials[rock] = unit_rock();
-    p.rock.nodal_everywhere = true;
-    p.boundary = boundary;
-    p.free_field = "columns";
-    p.dt = dt;
-    return p;
+    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+    return values[values.size() / 2];
   }
 
-  TransmittingFormula formula(const std::vector<double> &speeds, const double gamma_speed)
-  {
-    TransmittingFormula f;
-    f.uniform_distance = true;
-    for (const double c : speeds)
-      f.factors.push_back({0., c, 0., gamma_speed});
-    return f;
-  }
-
-  /** A box with the same rock; seconds of its step and of the bare product. */
+  /** Step of a region against the bare product with its stiffness: medians of short turns, one after the
+   * other, with one thread and with two; and the ratio of the shortest turns, for busy machines. */
   void speed()
   {
-    constexpr unsigned int n = 46;
+    constexpr unsigned int n = 46, turns = 25, repeat = 4;
     const HexMesh          mesh = box({n, n, n}, {"x-", "x+", "y-", "y+", "z-"},
                                       [](const double i, const double j, const double k) -> Vector3 {
                                return {{i, j, k}};
                              });
-    std::printf("\nSpeed: box of %u x %u x %u cells, %u nodes\n", n, n, n, (n + 1) * (n + 1) * (n + 1));
-    std::printf("%-44s %12s %12s %8s\n", "", "product [ms]", "step [ms]", "ratio");
-    for (const bool nodal : {false, true})
-      for (const std::string kind : {"mtf2", "mtf3", "viscous-spring"})
+    std::printf("\nSpeed: box of %u x %u x %u cells, %u nodes, earthquake, damping\n", n, n, n,
+                (n + 1) * (n + 1) * (n + 1));
+    std::printf("%-46s %8s %8s %14s %12s %8s %4s %8s\n", "boundary, quadrature, free field", "threads",
+                "energy", "product [ms]", "step [ms]", "ratio", "A", "least");
+    std::vector<int> threads = {1};
+#ifdef _OPENMP
+    const int all_threads = omp_get_max_threads();
+    if (omp_get_num_procs() > 1)
+      threads.push_back(2);
+#endif
+    struct Row
+    {
+      std::string boundary, free_field;
+      bool        nodal;
+    };
+    for (const Row &row : std::vector<Row>{{"mtf2", "columns", false},
+                                           {"mtf3", "columns", false},
+                                           {"viscous-spring", "columns", false},
+                                           {"mtf2", "columns", true},
+                                           {"mtf3", "columns", true},
+                                           {"viscous-spring", "columns", true},
+                                           {"mtf3", "sections", true}})
+      for (const bool energy : {false, true})
       {
-        auto p = parameters(kind, .3);
-        p.rock.nodal_everywhere = nodal;
+        auto p = parameters(row.boundary, .3);
+        p.rock.nodal_everywhere = row.nodal;
         p.rock.centre = {{.5 * n, .5 * n, double(n)}};
         p.damping = {.001, .02};
+        p.free_field = row.free_field;
         const RockModel model = make_rock_model(mesh, p.rock);
         auto            region = make_region(model, p);
         shake(
@@ -62,22 +68,39 @@ namespace
               return {{ricker(t, .05, 30.), 0., 0.}};
             },
             1000);
-        region->keep_energy();
-        Unknowns               x(3 * model.points.size(), 1.), y(x);
-        constexpr unsigned int repeat = 100;
-        const Stopwatch        product;
-        for (unsigned int i = 0; i < repeat; ++i)
-          model.stiffness.multiply(x.data(), y.data());
-        const double    t_product = product.seconds() / repeat;
-        const Stopwatch step;
-        for (unsigned int i = 0; i < repeat; ++i)
-          region->advance();
-        const double t_step = step.seconds() / repeat;
-        std::printf("%-44s %12.2f %12.2f %8.2f\n",
-                    (kind + (nodal ? ", nodal" : ", Gauss inside") + ", earthquake, energy").c_str(),
-                    1e3 * t_product, 1e3 * t_step, t_step / t_product);
-        std::fflush(stdout);
+        if (energy)
+          region->keep_energy();
+        Unknowns x(3 * model.points.size(), 1.), y(x);
+        for (const int n_threads : threads)
+        {
+#ifdef _OPENMP
+          omp_set_num_threads(n_threads);
+#endif
+          std::vector<double> product, step;
+          for (unsigned int turn = 0; turn < turns; ++turn)
+          {
+            const Stopwatch first;
+            for (unsigned int i = 0; i < repeat; ++i)
+              model.stiffness.multiply(x.data(), y.data());
+            product.push_back(1e3 * first.seconds() / repeat);
+            const Stopwatch second;
+            for (unsigned int i = 0; i < repeat; ++i)
+              region->advance();
+            step.push_back(1e3 * second.seconds() / repeat);
+          }
+          std::printf(
+              "%-46s %8d %8s %14.2f %12.2f %8.2f %4s %8.2f\n",
+              (row.boundary + (row.nodal ? ", nodal, " : ", Gauss inside, ") + row.free_field).c_str(),
+              n_threads, energy ? "yes" : "no", median(product), median(step), median(step) / median(product),
+              "2",
+              *std::min_element(step.begin(), step.end()) /
+                  *std::min_element(product.begin(), product.end()));
+          std::fflush(stdout);
+        }
       }
+#ifdef _OPENMP
+    omp_set_num_threads(all_threads);
+#endif
   }
 
   /** Plane strain half-space in x and z, one layer of cells: nx by nz cells, the ground at z = 0. */
@@ -179,205 +202,6 @@ namespace
     }
   }
 
-  /** A regular grid with the cells about a circular or spherical canyon bent to it. Built cell by cell. */
-  class CanyonMesh
-  {
-  public:
-    HexMesh mesh;
-
-    /** Half-space z < 0, cells of size @p h, the canyon of radius 1 about the origin. @p plane: x and z only,
-     * one layer in y, -size < x < size; else the quarter x, y > 0. */
-    CanyonMesh(const double h, const double size, const bool plane) : h(h), plane(plane)
-    {
-      block = h * std::round(1.6 / h);
-      const int n = std::lround(size / h), b = std::lround(block / h);
-      const int layers = std::max(1L, std::lround((block - 1.) / h * 1.2));
-      for (int k = -n; k < 0; ++k)
-        for (int j = 0; j < (plane ? 1 : n); ++j)
-          for (int i = plane ? -n : 0; i < n; ++i)
-          {
-            const bool inside = k >= -b && (plane || j < b) && i >= -b && i < b;
-            if (!inside)
-            {
-              add(
-                  [&](const int di, const int dj, const int dk) {
-                    return Vector3{{(i + di) * h, (j + dj) * h, (k + dk) * h}};
-                  });
-              artificial(i, j, k, n);
-              continue;
-            }
-            if (i == b - 1)
-              shell(layers, i + 1, j, k, 0, 1., true);
-            if (plane && i == -b)
-              shell(layers, i, j, k, 0, -1., false);
-            if (!plane && j == b - 1)
-              shell(layers, i, j + 1, k, 1, 1., false);
-            if (k == -b)
-              shell(layers, i, j, k, 2, -1., true);
-          }
-    }
-
-  private:
-    const double                                h;
-    const bool                                  plane;
-    double                                      block;
-    std::map<std::array<long, 3>, unsigned int> number;
-
-    unsigned int node(const Vector3 &p)
-    {
-      const std::array<long, 3> key = {std::lround(p[0] * 1e6), std::lround(p[1] * 1e6),
-                                       std::lround(p[2] * 1e6)};
-      const auto                found = number.try_emplace(key, mesh.nodes.size());
-      if (found.second)
-        mesh.nodes.push_back(p);
-      return found.first->second;
-    }
-
-    void add(const std::function<Vector3(int, int, int)> &place)
-    {
-      HexMesh::Cell cell{{}, rock};
-      for (unsigned int v = 0; v < 8; ++v)
-        cell.nodes[v] = node(place(v % 4 == 1 || v % 4 == 2, v % 4 > 1, v > 3));
-      if (min_jacobian(mesh, cell) < 0.)
-        for (unsigned int v = 0; v < 4; ++v)
-          std::swap(cell.nodes[v], cell.nodes[v + 4]);
-      mesh.cells.push_back(cell);
-    }
-
-    void artificial(const int i, const int j, const int k, const int n)
-    {
-      const auto face = [&](const unsigned int row)
-      {
-        HexMesh::Face f{{}, PhysicalId::artificial};
-        for (unsigned int v = 0; v < 4; ++v)
-          f.nodes[v] = mesh.cells.back().nodes[hex_faces[row][v]];
-        mesh.faces.push_back(f);
-      };
-      if (i == n - 1)
-        face(3);
-      if (plane && i == -n)
-        face(5);
-      if (!plane && j == n - 1)
-        face(4);
-      if (k == -n)
-        face(0);
-    }
-
-    /** Between the point @p p on the block and the canyon, @p t = 0 at the canyon. Equal angles. */
-    Vector3 between(const Vector3 &p, const double t) const
-    {
-      Vector3 q;
-      double  norm = 0.;
-      for (unsigned int d = 0; d < 3; ++d)
-      {
-        q[d] = plane && d == 1 ? 0. : std::tan(pi / 4. * p[d] / block);
-        norm += q[d] * q[d];
-      }
-      for (unsigned int d = 0; d < 3; ++d)
-        q[d] = plane && d == 1 ? p[d] : q[d] / std::sqrt(norm) * (1. - t) + p[d] * t;
-      return q;
-    }
-
-    /** Cells between the canyon and one face of the block's surface, normal to @p axis. */
-    void shell(const int layers, const int i, const int j, const int k, const unsigned int axis, double, bool)
-    {
-      for (int layer = 0; layer < layers; ++layer)
-        add(
-            [&](const int di, const int dj, const int dk)
-            {
-              const int     across = axis == 0 ? di : axis == 1 ? dj : dk;
-              const Vector3 p = {{(i + (axis == 0 ? 0 : di)) * h, (j + (axis == 1 ? 0 : dj)) * h,
-                                  (k + (axis == 2 ? 0 : dk)) * h}};
-              return between(p, double(layer + across) / layers);
-            });
-    }
-  };
-
-  /** Amplitude at one frequency, sample by sample. */
-  struct Spectrum
-  {
-    double               w;
-    std::vector<Complex> sum;
-    Complex              incident = 0.;
-    void                 see(const double t, const std::vector<double> &values, const double wave)
-    {
-      const Complex phase = std::exp(Complex(0., -w * t));
-      sum.resize(values.size());
-      for (std::size_t i = 0; i < values.size(); ++i)
-        sum[i] += phase * values[i];
-      incident += phase * wave;
-    }
-  };
-
-  struct CanyonRun
-  {
-    std::vector<std::array<double, 3>> place;
-    std::vector<std::vector<double>>   amplitude; ///< by frequency and point, incident wave 1
-  };
-
-  /** Response of the ground (nodes chosen by @p wanted) to a vertical S wave along @p component. */
-  CanyonRun canyon_run(const double h, const double size, const bool plane, const unsigned int component,
-                       const std::string &boundary, const TransmittingFormula *given,
-                       const std::vector<double>                                &etas,
-                       const std::function<bool(const std::array<double, 3> &)> &wanted)
-  {
-    const CanyonMesh canyon(h, size, plane);
-    auto             p = parameters(boundary, 1.);
-    p.rock.nodal_everywhere = plane; // Gauss points where the cells are bent in three dimensions
-    const auto      master = plane ? tie_layer(canyon.mesh, 1) : std::vector<unsigned int>();
-    const RockModel model = make_rock_model(canyon.mesh, p.rock, master);
-    p.dt = .9 * critical_time_step(largest_frequency(model.stiffness, model.mass), {});
-    auto         region = make_region(model, p, given);
-    const double f0 = .4, t0 = 3.5, end = 2. * size + 16. + t0;
-    const auto   n_steps = static_cast<unsigned int>(end / p.dt);
-    const auto   wave = [=](const double t) { return ricker(t, f0, t0); };
-    shake(
-        *region, canyon.mesh, model, p,
-        [=](const double t) -> Vector3
-        {
-          Vector3 u{};
-          u[component] = wave(t);
-          return u;
-        },
-        n_steps, given);
-    std::vector<unsigned int> fixed, nodes;
-    CanyonRun                 result;
-    for (unsigned int i = 0; i < model.points.size(); ++i)
-    {
-      const auto &x = model.points[i];
-      if (!plane && std::abs(x[0]) < 1e-9) // S in x: antisymmetric about x = 0, symmetric about y = 0
-        fixed.insert(fixed.end(), {3 * i + 1, 3 * i + 2});
-      if (!plane && std::abs(x[1]) < 1e-9)
-        fixed.push_back(3 * i + 1);
-      const double r = std::sqrt(x[0] * x[0] + (plane ? 0. : x[1] * x[1]) + x[2] * x[2]);
-      if ((std::abs(x[2]) < 1e-9 || std::abs(r - 1.) < 1e-9) && wanted(x))
-      {
-        nodes.push_back(3 * i + component);
-        result.place.push_back(x);
-      }
-    }
-    region->fix(fixed);
-    std::vector<Spectrum> spectra;
-    for (const double eta : etas)
-      spectra.push_back({pi * eta * c_s, {}, 0.}); // eta = 2 a / lambda
-    std::vector<double> values(nodes.size());
-    for (unsigned int step = 1; step <= n_steps; ++step)
-    {
-      region->advance();
-      for (std::size_t i = 0; i < nodes.size(); ++i)
-        values[i] = region->displacement()[nodes[i]];
-      for (Spectrum &s : spectra)
-        s.see(step * p.dt, values, wave(step * p.dt));
-    }
-    for (const Spectrum &s : spectra)
-    {
-      result.amplitude.emplace_back();
-      for (const Complex &sum : s.sum)
-        result.amplitude.back().push_back(std::abs(sum / s.incident));
-    }
-    return result;
-  }
-
   /** Trifunac 1973, Bull. Seism. Soc. Am. 63(4): plane SH waves, vertical, semicircular canyon of radius 1.
    */
   double trifunac(const double eta, const double x, const double depth)
@@ -398,44 +222,120 @@ namespace
     return std::abs(w);
   }
 
+  /** The region's formula by a name of the tables below; null if the region knows the name itself. */
+  const TransmittingFormula *formula_of(const std::string &name)
+  {
+    static const std::map<std::string, TransmittingFormula> formulas = {
+        {"MTF2 (c_p, c_s), gamma = 0", formula({c_p, c_s}, 0.)},
+        {"MTF2 (c_s, c_s), gamma = 0", formula({c_s, c_s}, 0.)}};
+    const auto found = formulas.find(name);
+    return found == formulas.end() ? nullptr : &found->second;
+  }
+
+  Amplitudes plane_canyon(const double h, const double size, const unsigned int component,
+                          const std::string &boundary)
+  {
+    const TransmittingFormula *given = formula_of(boundary);
+    return amplitudes({h, size, true, component, given ? "mtf" : boundary, given},
+                      [](const Vector3 &x) { return x[0] < 2.01; });
+  }
+
+  void print_row(const double h, const double size, const std::string &boundary, const double error[2],
+                 const std::string &A, const std::string &M)
+  {
+    char name[80];
+    std::snprintf(name, sizeof(name), "%.3g a, a/%.0f, %s", size, 1. / h, boundary.c_str());
+    std::printf("%-38s %10.3f %10.3f %8s %8s\n", name, error[0], error[1], A.c_str(), M.c_str());
+    std::fflush(stdout);
+  }
+
+  struct CanyonRow
+  {
+    double      size, h;
+    std::string boundary, A, M;
+  };
+
   void canyon()
   {
     std::printf(
         "\nSemicircular canyon, vertical SH, amplitudes of wall and ground, |x| < 2, rms error [%% of 2]\n");
     std::printf("%-38s %10s %10s %8s %8s\n", "box, cells, boundary", "eta 0.5", "eta 1", "A", "M");
-    struct Row
+    for (const CanyonRow &row : std::vector<CanyonRow>{{2.4, .1, "viscous-spring", "", ""},
+                                                       {2.4, .1, "mtf2", "1", ""},
+                                                       {2.4, .1, "mtf2-plain", "1", ""},
+                                                       {2.4, .1, "MTF2 (c_p, c_s), gamma = 0", "1", ""},
+                                                       {2.4, .1, "MTF2 (c_s, c_s), gamma = 0", "1", ""},
+                                                       {2.4, .1, "mtf3", "1", ""},
+                                                       {4., .05, "mtf2", "", "0.2"},
+                                                       {4., .05, "mtf2-plain", "", "0.2"},
+                                                       {4., .05, "MTF2 (c_p, c_s), gamma = 0", "", "0.2"},
+                                                       {4., .05, "MTF2 (c_s, c_s), gamma = 0", "", "0.2"},
+                                                       {4., .05, "mtf3", "", "0.2"}})
     {
-      double      size, h;
-      std::string boundary, A, M;
-    };
-    for (const Row &row : std::vector<Row>{{2.4, .1, "viscous-spring", "", ""},
-                                           {2.4, .1, "mtf2", "1", ""},
-                                           {2.4, .1, "MTF2 (c_p, c_s), gamma = 0", "1", ""},
-                                           {2.4, .1, "MTF2 (c_s, c_s), gamma = 0", "1", ""},
-                                           {2.4, .1, "mtf3", "", ""},
-                                           {4., .05, "mtf2", "", "0.2"},
-                                           {4., .05, "MTF2 (c_p, c_s), gamma = 0", "", "0.2"},
-                                           {4., .05, "MTF2 (c_s, c_s), gamma = 0", "", "0.2"},
-                                           {4., .05, "mtf3", "", "0.2"}})
-    {
-      const bool                named = row.boundary.compare(0, 3, "MTF") != 0;
-      const TransmittingFormula without =
-          formula({row.boundary.find("c_p") == std::string::npos ? c_s : c_p, c_s}, 0.);
-      const std::vector<double> etas = {.5, 1.};
-      const auto                run =
-          canyon_run(row.h, row.size, true, 1, named ? row.boundary : "mtf", named ? nullptr : &without, etas,
-                     [](const std::array<double, 3> &x) { return std::abs(x[0]) < 2.01; });
-      double error[2] = {0., 0.};
+      const Amplitudes run = plane_canyon(row.h, row.size, 1, row.boundary);
+      double           error[2] = {0., 0.};
       for (unsigned int e = 0; e < 2; ++e)
       {
         for (std::size_t i = 0; i < run.place.size(); ++i)
-          error[e] += std::pow(run.amplitude[e][i] - trifunac(etas[e], run.place[i][0], -run.place[i][2]), 2);
+          error[e] += std::pow(run.value[e][i][1] - trifunac(etas[e], run.place[i][0], -run.place[i][2]), 2);
         error[e] = 100. * std::sqrt(error[e] / run.place.size()) / 2.;
       }
-      char name[80];
-      std::snprintf(name, sizeof(name), "%.1f a, a/%.0f, %s", row.size, 1. / row.h, row.boundary.c_str());
-      std::printf("%-38s %10.3f %10.3f %8s %8s\n", name, error[0], error[1], row.A.c_str(), row.M.c_str());
-      std::fflush(stdout);
+      print_row(row.h, row.size, row.boundary, error, row.A, row.M);
+    }
+  }
+
+  /** In-plane waves. The reference is a box out of which nothing returns, so what is shown is the boundary's
+   * error; that of the cells is shown apart. */
+  void psv()
+  {
+    for (const unsigned int component : {0u, 2u})
+    {
+      std::printf(
+          "\nSemicircular canyon, vertical %s, amplitudes of wall and ground, |x| < 2, rms difference "
+          "of both components\nfrom the same cells in a box of %.3g a [%% of 2]\n",
+          component == 2 ? "P" : "SV", extended);
+      std::printf("%-38s %10s %10s %8s %8s\n", "box, cells, boundary", "eta 0.5", "eta 1", "A", "M");
+      Amplitudes reference;
+      double     error[2];
+      for (const double h : {.1, .05})
+      {
+        reference = plane_canyon(h, extended, component, "mtf3");
+        const bool fine = h < .1;
+        for (const std::string boundary :
+             {"viscous", "viscous-spring", "mtf2-plain", "MTF2 (c_p, c_s), gamma = 0", "mtf2", "mtf3"})
+        {
+          const double     size = fine ? 4. : 2.4;
+          const Amplitudes run = plane_canyon(h, size, component, boundary);
+          for (unsigned int e = 0; e < 2; ++e)
+            error[e] = rms_difference(e, run, reference);
+          print_row(h, size, boundary, error, fine ? "1.5" : "", fine ? "0.5" : "");
+        }
+      }
+      const Amplitudes coarse = plane_canyon(.1, 6., component, "mtf3"),
+                       middle = plane_canyon(.05, 6., component, "mtf3"),
+                       fine = plane_canyon(.025, 6., component, "mtf3");
+      for (unsigned int e = 0; e < 2; ++e)
+        error[e] = rms_difference(e, middle, reference);
+      print_row(.05, 6., "mtf3", error, "", "");
+      std::printf("cells, differences in the box of 6 a, mtf3:\n");
+      const auto cells = [&](const char *name, const Amplitudes &a, const Amplitudes &b)
+      {
+        for (unsigned int e = 0; e < 2; ++e)
+          error[e] = rms_difference(e, a, b);
+        std::printf("%-38s %10.3f %10.3f\n", name, error[0], error[1]);
+      };
+      cells("a/10 and a/40", coarse, fine);
+      cells("a/20 and a/40", middle, fine);
+      const Amplitudes small = plane_canyon(.05, 4., component, "mtf3");
+      cells("mtf3, 4 a, a/20, and mtf3, 6 a, a/40", small, fine);
+      std::printf("a/40, 6 a, mtf3: %10s %10s %10s %10s %10s\n", "x/a", "eta 0.5 |u_x|", "|u_z|",
+                  "eta 1 |u_x|", "|u_z|");
+      for (const double x : {0., 1., 1.6, 2.}) // bottom of the canyon, edge, ground
+      {
+        const Vector3 place = {{x, 0., x == 0. ? -1. : 0.}};
+        std::printf("%28.1f %10.4f %10.4f %10.4f %10.4f\n", x, fine.at(0, place)[0], fine.at(0, place)[2],
+                    fine.at(1, place)[0], fine.at(1, place)[2]);
+      }
     }
   }
 
@@ -473,36 +373,57 @@ namespace
 
   void hemisphere()
   {
-    std::printf("\nHemispherical canyon, vertical S along x, box 3 a, |u_x| on both axes, r < 2 a, rms error "
-                "[%% of 2]\n");
-    std::printf("%-38s %10s %10s %8s %8s\n", "cells, boundary", "eta 0.5", "eta 1", "A", "M");
-    for (const auto &[boundary, h] : std::vector<std::pair<std::string, double>>{
-             {"viscous-spring", .1}, {"mtf2", .1}, {"mtf3", .1}, {"mtf3", 1. / 15.}})
+    const auto axes = [](const Vector3 &x)
     {
-      const std::vector<double> etas = {.5, 1.};
-      const auto                run =
-          canyon_run(h, 3., false, 0, boundary, nullptr, etas,
-                     [](const std::array<double, 3> &x)
-                     {
-                       return (std::abs(x[0]) < 1e-9 || std::abs(x[1]) < 1e-9) &&
-                              std::hypot(x[0], x[1]) < 2. &&
-                              (std::hypot(x[0], x[1]) < .9 || std::hypot(x[0], x[1]) > 1. - 1e-9);
-                     });
-      double error[2] = {0., 0.};
+      const double r = std::hypot(x[0], x[1]);
+      return (std::abs(x[0]) < 1e-9 || std::abs(x[1]) < 1e-9) && r < 2. && (r < .9 || r > 1. - 1e-9);
+    };
+    std::printf("\nHemispherical canyon, vertical S along x, |u_x| on both axes, r < 2 a, rms error "
+                "[%% of 2]\n");
+    std::printf("%-38s %10s %10s %8s %8s\n", "box, cells, boundary", "eta 0.5", "eta 1", "A", "M");
+    for (const CanyonRow &row : std::vector<CanyonRow>{{3., .1, "viscous-spring", "4", "1.5"},
+                                                       {3., .1, "mtf2", "4", "1.5"},
+                                                       {3., .1, "mtf3", "4", "1.5"},
+                                                       {3., 1. / 15., "mtf3", "4", "1.5"},
+                                                       {6., .1, "mtf3", "", ""}})
+    {
+      const Amplitudes run = amplitudes({row.h, row.size, false, 0, row.boundary}, axes);
+      double           error[2] = {0., 0.};
       for (unsigned int e = 0; e < 2; ++e)
       {
         for (std::size_t i = 0; i < run.place.size(); ++i)
         {
-          const auto        &x = run.place[i];
+          const Vector3     &x = run.place[i];
           const unsigned int column = 2 * e + (std::abs(x[1]) < 1e-9 ? 0 : 1);
-          error[e] += std::pow(run.amplitude[e][i] - hemisphere_value(column, std::hypot(x[0], x[1])), 2);
+          error[e] += std::pow(run.value[e][i][0] - hemisphere_value(column, std::hypot(x[0], x[1])), 2);
         }
         error[e] = 100. * std::sqrt(error[e] / run.place.size()) / 2.;
       }
-      std::printf("%-38s %10.3f %10.3f %8s %8s\n",
-                  ("a/" + std::to_string(std::lround(1. / h)) + ", " + boundary).c_str(), error[0], error[1],
-                  "4", "1.5");
-      std::fflush(stdout);
+      print_row(row.h, row.size, row.boundary, error, row.A, row.M);
+    }
+
+    std::printf(
+        "\nHemispherical canyon, vertical P, all components on both axes, r < 2 a, rms difference from "
+        "the same cells\nin a box of 6 a with mtf3 [%% of 2]\n");
+    std::printf("%-38s %10s %10s %8s %8s\n", "box, cells, boundary", "eta 0.5", "eta 1", "A", "M");
+    const Amplitudes reference = amplitudes({.1, 6., false, 2, "mtf3"}, axes);
+    const auto       compare = [&](const CanyonRow &row)
+    {
+      const Amplitudes run = amplitudes({row.h, row.size, false, 2, row.boundary}, axes);
+      double           error[2];
+      for (unsigned int e = 0; e < 2; ++e)
+        error[e] = rms_difference(e, run, reference);
+      print_row(row.h, row.size, row.boundary, error, row.A, row.M);
+    };
+    for (const std::string boundary : {"viscous-spring", "mtf2-plain", "mtf2", "mtf3"})
+      compare({3., .1, boundary, "4", "1.5"});
+    compare({4.5, .1, "mtf3", "", ""});
+    for (const double r : {0., 1., 1.6})
+    {
+      const Vector3 place = {{r, 0., r == 0. ? -1. : 0.}};
+      std::printf("6 a, r/a %.1f: |u_r|, |u_z| %8.4f %8.4f (eta 0.5) %8.4f %8.4f (eta 1)\n", r,
+                  reference.at(0, place)[0], reference.at(0, place)[2], reference.at(1, place)[0],
+                  reference.at(1, place)[2]);
     }
   }
 
@@ -618,6 +539,7 @@ int main(const int argc, char **argv)
                                                                   halfspace(1. / 10.);
                                                                 }},
                                                                {"canyon", canyon},
+                                                               {"psv", psv},
                                                                {"lamb", lamb},
                                                                {"hemisphere", hemisphere}};
   for (const auto &benchmark : all)

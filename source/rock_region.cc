@@ -35,7 +35,7 @@ namespace Voussoir
       region->set_boundary(viscous_boundary(model, parameters.rock.centre, 4. / 3., 2. / 3.));
     else
       throw InputError("there is no artificial boundary \"" + name +
-                       "\"; use mtf1, mtf2, mtf3, mtf4, viscous-spring, viscous or fixed");
+                       "\"; use mtf1, mtf2, mtf3, mtf4, mtf2-plain, viscous-spring, viscous or fixed");
     return region;
   }
 
@@ -52,6 +52,10 @@ namespace Voussoir
       text = "the transmitting boundary will be unstable: use nodal quadrature in 6 layers of rock at the "
              "artificial boundary, or stiffness-proportional damping of at least 0.2 time steps";
     const auto f = formula_of(p, formula);
+    if (text.empty() && f.order() > 2 && !p.rock.nodal_everywhere)
+      text = "a transmitting boundary of order 3 or 4 becomes unstable in large boxes of rock with Gauss "
+             "points: "
+             "use nodal quadrature everywhere, or mtf2";
     const auto rigid = [](const TransmittingFactor &factor)
     { return factor.gamma_p <= 0. && factor.gamma_s <= 0.; };
     if (f.order() > 1 && std::all_of(f.factors.begin(), f.factors.end(), rigid))

@@ -100,14 +100,17 @@ namespace Voussoir
     if (name == "mtf1")
       formula.factors = {{0., 1., 0., 1.}};
     else if (name == "mtf2")
-      formula.factors = {{1., 0., 1., 0.}, {0., 1., 0., 2.}};
+      formula.factors = {{1., 0., 1., 0.}, {0., 1., 0., 1.6}};
+    else if (name == "mtf2-plain")
+      formula.factors = {{0., middle, 0., 0.}, {0., middle, 0., 0.}};
     else if (name == "mtf3")
       formula.factors = {{1., 0., 0., middle}, {0., 1., 0., middle}, {0., middle, 0., middle}};
     else if (name == "mtf4")
       formula.factors = {
           {1., 0., 0., middle}, {0., 1., 0., middle}, {0., surface, 0., middle}, {0., middle, 0., middle}};
     else
-      throw InputError("there is no transmitting boundary \"" + name + "\"; use mtf1, mtf2, mtf3 or mtf4");
+      throw InputError("there is no transmitting boundary \"" + name +
+                       "\"; use mtf1, mtf2, mtf2-plain, mtf3 or mtf4");
     formula.uniform_distance = formula.order() > 2;
     return formula;
   }

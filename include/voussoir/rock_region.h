@@ -11,7 +11,7 @@ namespace Voussoir
     RockParameters  rock;
     RayleighDamping damping;
     double          dt = .001;         ///< [s]
-    std::string     boundary = "mtf2"; ///< mtf1..mtf4, viscous-spring, viscous, fixed
+    std::string     boundary = "mtf3"; ///< mtf1..mtf4, mtf2-plain, viscous-spring, viscous, fixed
 
     /** Motion without dam: "columns" (layers, with the ground's local height at the side faces), or
      * "sections" (slices of the mesh where the upstream and downstream faces cut the valley). */
@@ -23,7 +23,8 @@ namespace Voussoir
                                               const TransmittingFormula *formula = nullptr);
 
   /** Why a transmitting boundary may be unstable with these parameters, for the user; empty if it should not:
-   * Gauss points near it, or no term against drift, without the damping that suppresses it. */
+   * Gauss points near it (for orders 3 and 4 anywhere: a large box explodes), or no term against drift,
+   * without the damping that suppresses it. */
   std::string stability_warning(const RockRegionParameters &parameters,
                                 const TransmittingFormula  *formula = nullptr);
 

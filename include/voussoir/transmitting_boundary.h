@@ -44,9 +44,10 @@ namespace Voussoir
     unsigned int n_nodes() const { return 2 * order() + 1; }
   };
 
-  /** "mtf1" (c_s), "mtf2" (c_p, c_s; gamma c_p dt/r and 2 c_s dt/r), "mtf3" (c_p, c_s, 1.35 c_s) and "mtf4"
-   * (c_p, c_s, 0.92 c_s, 1.35 c_s), these two with gamma 1.35 c_s dt/r throughout and one r for all lines;
-   * "fixed" has no factor: the boundary moves with the free field. InputError for other names. */
+  /** "mtf1" (c_s), "mtf2" (c_p, c_s; gamma c_p dt/r and, fitted, 1.6 c_s dt/r), "mtf3" (c_p, c_s, 1.35 c_s),
+   * "mtf4" (c_p, c_s, 0.92 c_s, 1.35 c_s), these two with gamma 1.35 c_s dt/r and one r for all lines,
+   * "mtf2-plain" (1.35 c_s twice, gamma = 0: it drifts), and "fixed", which has no factor: the boundary moves
+   * with the free field. InputError for other names. */
   TransmittingFormula transmitting_formula(const std::string &name);
 
   /** Weights of u_0 at t + dt: first index the steps back (from 0), second the node of the line.
