@@ -2,31 +2,10 @@
 #define voussoir_contact_solver_h
 
 #include <voussoir/contact_operator.h>
-
-#include <limits>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
+#include <voussoir/contact_parameters.h>
 
 namespace Voussoir
 {
-  struct ContactParameters
-  {
-    double       tolerance = 1e-10;    ///< relative residual that is accepted
-    unsigned int max_iterations = 500; ///< Newton steps in all
-    unsigned int sweeps = 4;           ///< Gauss-Seidel sweeps before the first Newton step
-    std::string  method = "newton";    ///< newton (with its fallbacks), proximal, sweeps
-    double       max_seconds = std::numeric_limits<double>::infinity(); ///< of wall time
-    bool         write_problems = false;                                ///< in FCLib's format
-    unsigned int write_interval = 1;                                    ///< of the problems
-    std::string  write_directory;                                       ///< not an entry: set by the run
-
-    void               add_parameters(dealii::ParameterHandler &prm);
-    static std::string method_names(); ///< as a ParameterHandler selection
-  };
-
   /** What a solution took, in the order in which the solver tries. */
   enum class ContactPath : unsigned char
   {
