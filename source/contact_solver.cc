@@ -15,11 +15,6 @@ namespace Voussoir
         y[i] += factor * x[i];
     }
 
-    Vector3 get(const Unknowns &x, const std::size_t i)
-    {
-      return {{x[3 * i], x[3 * i + 1], x[3 * i + 2]}};
-    }
-
     double norm_square(const Unknowns &x)
     {
       double sum = 0.;

@@ -2,6 +2,7 @@
 // pair, impulses, units, the measure of convergence, and shear keys against what is known of them.
 
 #include "blocks.h"
+#include "natural_map.h"
 
 #include <voussoir/key_law.h>
 
@@ -90,11 +91,6 @@ namespace
   Vector3 plus(const Vector3 &a, const Vector3 &b)
   {
     return {{a[0] + b[0], a[1] + b[1], a[2] + b[2]}};
-  }
-
-  double norm(const Vector3 &x)
-  {
-    return std::sqrt(dot(x, x));
   }
 
   /** The start of a step: at rest, anywhere in the keys' play, in their seats but beyond it, or out of them.
@@ -337,20 +333,8 @@ namespace
                                   norm(smooth->error(r, gap, start, rho) - e)});
         tied_forms = std::max(tied_forms,
                               norm(key->error(r, gap, start, rho) - smooth_key->error(r, gap, start, rho)));
-        // fc3d_compute_error.c: u of the step; x = r - rho (u + mu |u_t| n); r - projection of x
-        const Vector3 u = {{gap[0], gap[1] - start[1], gap[2] - start[2]}};
-        Vector3       x = {
-                  {r[0] - rho * (u[0] + mu * std::hypot(u[1], u[2])), r[1] - rho * u[1], r[2] - rho * u[2]}};
-        const double t = std::hypot(x[1], x[2]);
-        if (mu * t <= -x[0])
-          x = {};
-        else if (t > mu * x[0])
-        {
-          x[0] = (x[0] + mu * t) / (1. + mu * mu);
-          x[1] *= mu * x[0] / t;
-          x[2] *= mu * x[0] / t;
-        }
-        to_siconos = std::max(to_siconos, norm(r - x - e));
+        const Vector3 u = {{rho * gap[0], rho * (gap[1] - start[1]), rho * (gap[2] - start[2])}};
+        to_siconos = std::max(to_siconos, norm(natural_map_of_contact(r, u, mu) - e));
       }
     }
     below("error of FJA: difference between the formulations", between_forms, 1e-15);

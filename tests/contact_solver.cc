@@ -2,6 +2,7 @@
 // number, no time; and the dense joint problem against the equations of all nodes.
 
 #include "blocks.h"
+#include "natural_map.h"
 
 #include <voussoir/contact_command.h>
 #include <voussoir/sparse_contact.h>
@@ -18,11 +19,6 @@ namespace
   double seconds()
   {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  }
-
-  Vector3 get(const Unknowns &x, const std::size_t i)
-  {
-    return {{x[3 * i], x[3 * i + 1], x[3 * i + 2]}};
   }
 
   /** A problem by its dense matrix, contact after contact. */
@@ -217,18 +213,7 @@ namespace
       }
       f += dot(r, r);
       v += dot(u, u);
-      const double mu = p.mu[i];
-      Vector3      x = {{r[0] - u[0] - mu * std::hypot(u[1], u[2]), r[1] - u[1], r[2] - u[2]}};
-      const double t = std::hypot(x[1], x[2]);
-      if (mu * t <= -x[0])
-        x = {};
-      else if (t > mu * x[0])
-      {
-        x[0] = (x[0] + mu * t) / (1. + mu * mu);
-        x[1] *= mu * x[0] / t;
-        x[2] *= mu * x[0] / t;
-      }
-      const Vector3 e = r - x;
+      const Vector3 e = natural_map_of_contact(r, u, p.mu[i]);
       sum += dot(e, e);
     }
     return std::sqrt(sum / std::max({q, f, v, 1e-300}));

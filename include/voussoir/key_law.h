@@ -1,28 +1,10 @@
 #ifndef voussoir_key_law_h
 #define voussoir_key_law_h
 
-#include <voussoir/joint_law.h>
-
-#include <vector>
+#include <voussoir/contact_surfaces.h>
 
 namespace Voussoir
 {
-  /** One flat surface on which the two sides of a pair can touch. */
-  struct ContactSurface
-  {
-    Matrix3 axes;           ///< rows: normal from side 1 to side 2, two tangents; in the frame of the pair
-    double  clearance = 0.; ///< opening of the surface when the joint is closed [m]
-    double  friction = 0.;  ///< [-]
-    int     key = 0;        ///< of a flank: its key; one of the two flanks of a key carries force at a time
-  };
-
-  /** Solves gap = H sum_k Q_k^T r_k + b with Coulomb's law between r_k and Q_k gap on each surface: the sum
-   *  of the forces, in the frame of the pair. Gauss-Seidel over the surfaces, finished by Newton's method.
-   *  @p r: receives the force of each surface in its own axes (not unique where the surfaces are more than
-   *  the pair's three displacements; the sum is). */
-  Vector3 solve_surfaces(const std::vector<ContactSurface> &surfaces, const Matrix3 &H, const Vector3 &b,
-                         const Vector3 &start, std::vector<Vector3> &r);
-
   /** A pair that touches on several flat surfaces: one admissible set, whatever their number. The equations
    *  are force = force of these surfaces for the compliance 1/rho (for one surface: Alart and Curnier's).
    *
