@@ -15,13 +15,15 @@ namespace Voussoir
   {
   }
 
-  /** The active rows and columns of d_gap W_jk. */
+  /** The active rows and columns of d_gap W_jk; zero where the joints are not coupled. */
   void JointChain::fill_coupling(const unsigned int j, const unsigned int k, std::vector<float> &out) const
   {
-    const auto               &rows = factors[j].active, &columns = factors[k].active;
+    const auto &rows = factors[j].active, &columns = factors[k].active;
+    out.assign(rows.size() * columns.size(), 0.f);
+    if (!W.find_block(std::min(j, k), std::max(j, k)))
+      return;
     const std::vector<float> &block = W.single_block(std::min(j, k), std::max(j, k));
     const std::size_t         along = j <= k ? 1 : W.size(k), across = j <= k ? W.size(j) : 1; // strides
-    out.resize(rows.size() * columns.size());
     for (std::size_t c = 0; c < columns.size(); ++c)
       for (std::size_t r = 0; r < rows.size(); ++r)
       {

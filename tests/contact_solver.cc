@@ -361,6 +361,29 @@ namespace
     }
   }
 
+  /** Two dams in one problem: neighbours in the list of joints that are not coupled. */
+  void test_separate_chains()
+  {
+    const Problem a = chain(12, 16, .8, .01, 1.), b = chain(3, 16, .8, .01, 1.);
+    Problem       p = make_problem(a.n + b.n, .8);
+    p.groups = a.groups;
+    p.groups.insert(p.groups.end(), b.groups.begin(), b.groups.end());
+    unsigned int first = 0;
+    for (const Problem *part : {&a, &b})
+    {
+      for (unsigned int i = 0; i < 3 * part->n; ++i)
+      {
+        p.b[first + i] = part->b[i];
+        for (unsigned int j = 0; j < 3 * part->n; ++j)
+          p(first + i, first + j) = (*part)(i, j);
+      }
+      first += 3 * part->n;
+    }
+    const Solution s = solve(p, "dense");
+    check("two separate chains, joint by joint", p, s);
+    note("  iterations of GMRES per Newton step", double(s.result.krylov) / s.result.iterations);
+  }
+
   /** All open, all closed, and back; no load; each from the last solution. */
   void test_reversals()
   {
@@ -692,6 +715,7 @@ namespace
 
 int main()
 {
-  return run_all({test_sizes, test_coupling, test_friction, test_hyperstatic, test_reversals, test_units,
-                  test_noise, test_methods, test_bad_problems, test_unconverged, test_condensation});
+  return run_all({test_sizes, test_coupling, test_friction, test_hyperstatic, test_separate_chains,
+                  test_reversals, test_units, test_noise, test_methods, test_bad_problems, test_unconverged,
+                  test_condensation});
 }
