@@ -109,7 +109,10 @@ namespace Voussoir
   ContactResult Newmark::advance(const Unknowns &load)
   {
     ContactResult result;
-    return step(load, result) ? result : advance_in_halves(load, result);
+    if (!step(load, result))
+      return advance_in_halves(load, result);
+    halved = false;
+    return result;
   }
 
   ContactResult Newmark::advance_in_halves(const Unknowns &load, const ContactResult &failed)
@@ -134,19 +137,18 @@ namespace Voussoir
     for (std::size_t k = 0; k < load.size(); ++k)
       middle[k] = .5 * (load[k] + now.load[k]);
     finer->resume(now, first, largest, reference);
-    ContactResult       result = finer->advance(middle);
-    const ContactResult second = finer->advance(load);
-    const double        end = now.time + dt; // free of the round-off of halves
+    ContactResult result = finer->advance(middle);
+    impulse = finer->impulse;
+    result += finer->advance(load);
+    result.add_work(failed);
+    result.path = ContactPath::smaller_step;
+    const double end = now.time + dt; // free of the round-off of halves
     now = finer->now;
     now.time = end;
     largest = finer->largest;
-    impulse = finer->impulse;
-    result.path = ContactPath::smaller_step;
-    result.residual = std::max(result.residual, second.residual);
-    result.iterations += failed.iterations + second.iterations;
-    result.krylov += failed.krylov + second.krylov;
-    result.factorisations += failed.factorisations + second.factorisations;
-    result.sweeps += failed.sweeps + second.sweeps;
+    halved = true;
+    for (std::size_t k = 0; k < impulse.size(); ++k)
+      impulse[k] += finer->impulse[k];
     return result;
   }
 

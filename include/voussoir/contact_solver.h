@@ -3,29 +3,10 @@
 
 #include <voussoir/contact_operator.h>
 #include <voussoir/contact_parameters.h>
+#include <voussoir/contact_result.h>
 
 namespace Voussoir
 {
-  /** What a solution took, in the order in which the solver tries. */
-  enum class ContactPath : unsigned char
-  {
-    newton,      ///< Newton's method alone
-    sweeps,      ///< it stalled; Gauss-Seidel sweeps settled the states
-    proximal,    ///< it stalled again: proximal point method
-    smaller_step ///< that failed, too: the time step was halved
-  };
-
-  struct ContactResult
-  {
-    bool         converged = false;
-    double       residual = 0.;      ///< natural map, relative: see ContactSolver
-    unsigned int iterations = 0;     ///< Newton steps
-    unsigned int krylov = 0;         ///< iterations of the linear solver
-    unsigned int factorisations = 0; ///< of joints
-    unsigned int sweeps = 0;         ///< Gauss-Seidel sweeps
-    ContactPath  path = ContactPath::newton;
-  };
-
   /** Finds the forces at all pairs: gap = W force + b, with a joint law at each pair.
    *
    *  Semismooth Newton with a nonmonotone line search (Grippo, Lampariello and Lucidi 1986), its linear

@@ -58,9 +58,13 @@ namespace Voussoir
     /** Opening and slip of a pair since @p reference, (n,a,b) [m]. */
     Vector3 opening_and_slip(unsigned int pair) const;
 
-    const std::vector<PairState> &pair_states() const { return system.states(); }
-    const Unknowns               &impulses() const { return impulse; } ///< of the last step, 3 per pair [N s]
-    const JointSystem            &joint_system() const { return system; }
+    /** Of the last step. */
+    const std::vector<PairState> &pair_states() const
+    {
+      return halved ? finer->pair_states() : system.states();
+    }
+    const Unknowns    &impulses() const { return impulse; } ///< of the last step, 3 per pair [N s]
+    const JointSystem &joint_system() const { return system; }
 
   private:
     bool          step(const Unknowns &load, ContactResult &result);
@@ -82,7 +86,8 @@ namespace Voussoir
     Energy                   first; ///< at the start
     double                   largest = 0.;
     unsigned int             halvings_left = 3;
-    std::unique_ptr<Newmark> finer; ///< with half the time step; made when it is needed
+    bool                     halved = false; ///< was the last step?
+    std::unique_ptr<Newmark> finer;          ///< with half the time step; made when it is needed
   };
 } // namespace Voussoir
 
