@@ -149,7 +149,8 @@ namespace Voussoir
   {
     /** The flanks of a trapezoidal key that restrains slip in direction @p d (1 or 2): phi = g sin a -/+ d
      *  cos a + c >= 0 (reference: dams, 8.2). */
-    void add_flanks(const unsigned int d, const KeyParameters &keys, std::vector<ContactSurface> &surfaces)
+    void add_flanks(const unsigned int d, const KeyParameters &keys, const double friction,
+                    std::vector<ContactSurface> &surfaces)
     {
       const int    number = surfaces.back().key + 1;
       const double a = keys.flank_angle * pi / 180.;
@@ -164,7 +165,7 @@ namespace Voussoir
         flank.axes[3] = c, flank.axes[3 + d] = sign * s;
         flank.axes[6 + 3 - d] = 1.;
         flank.clearance = keys.clearance;
-        flank.friction = keys.friction;
+        flank.friction = friction;
         flank.key = number;
         surfaces.push_back(flank);
       }
@@ -228,11 +229,14 @@ namespace Voussoir
           "keys touches on several surfaces at once.");
     if (!(keys.flank_angle >= 0. && keys.flank_angle < 90.))
       throw InputError("Joints/Keys/Flank angle must be at least 0 and less than 90 degrees.");
+    if (!(keys.friction >= 0. || keys.friction == -1.))
+      throw InputError("Joints/Keys/Friction must be at least 0, or -1: the friction of the faces.");
+    const double                flank_friction = keys.friction < 0. ? friction : keys.friction;
     std::vector<ContactSurface> surfaces(1, {identity(1.), 0., friction, 0});
     if (keys.height > 0. && keys.direction != "vertical")
-      add_flanks(1, keys, surfaces);
+      add_flanks(1, keys, flank_friction, surfaces);
     if (keys.height > 0. && keys.direction != "radial")
-      add_flanks(2, keys, surfaces);
+      add_flanks(2, keys, flank_friction, surfaces);
     return std::make_unique<KSM>(std::move(surfaces), keys);
   }
 } // namespace Voussoir

@@ -4,6 +4,7 @@
 #include "blocks.h"
 #include "natural_map.h"
 
+#include <voussoir/error.h>
 #include <voussoir/key_law.h>
 
 using namespace Columns;
@@ -528,6 +529,53 @@ namespace
     below("keys on their crests, next step: opening - height [m]", after, 1e-12);
   }
 
+  /** Keys without a friction of their own have that of the face, which leaves few states with several forces
+   *  where flanks without friction would leave many. */
+  void test_default_friction()
+  {
+    for (const double angle : {0., 45., 60.})
+    {
+      KeyParameters k;
+      k.height = .7;
+      k.flank_angle = angle;
+      const double mu = .8;
+      const auto   law = make_joint_law("KSM", mu, Equations::alart_curnier, k);
+      k.friction = mu;
+      const auto   same = make_joint_law("KSM", mu, Equations::alart_curnier, k);
+      double       difference = 0.;
+      unsigned int not_solved = 0;
+      for (unsigned int trial = 0; trial < 2000; ++trial)
+      {
+        const Matrix3 H = random_flexibility();
+        const Vector3 start = random_start(trial), b = plus(start, random_vector(1.)),
+                      f = law->solve(H, b, start), gap = plus(H * f, b);
+        difference = std::max(difference, norm(f - same->solve(H, b, start)));
+        PairEquations e, e_same;
+        law->evaluate(f, gap, start, 1., e);
+        same->evaluate(f, gap, start, 1., e_same);
+        difference = std::max(difference, norm(e.residual - e_same.residual));
+        not_solved += !(norm(e.residual) < 1e-11 * (1. + norm(f)));
+      }
+      const std::string what = "keys of " + text(angle) + " deg, friction not given: ";
+      below(what + "difference from the face's", difference, 1e-300);
+      few(what + "not solved", not_solved, 40);
+    }
+    for (const double friction : {-.5, -2., std::nan("")})
+    {
+      std::string message;
+      try
+      {
+        make_joint_law("KSM", .8, Equations::alart_curnier, keys(.2, 0., 0., "both", friction));
+      }
+      catch (const InputError &error)
+      {
+        message = error.what();
+      }
+      report("keys with friction " + text(friction), friction, "refused",
+             message.find("Joints/Keys/Friction") != std::string::npos);
+    }
+  }
+
   JointLaws laws_of(const Structure &structure, const std::string &name, const double mu,
                     const KeyParameters &k)
   {
@@ -608,5 +656,6 @@ namespace
 int main()
 {
   return run_all({test_derivatives, test_solve, test_impulses, test_units, test_error, test_no_keys,
-                  test_rectangular, test_variational, test_kinematics, test_structures, test_start_on_flank});
+                  test_rectangular, test_variational, test_kinematics, test_structures, test_start_on_flank,
+                  test_default_friction});
 }

@@ -88,7 +88,7 @@ namespace Voussoir
     double      clearance = 0.;     ///< of each flank, normal to it [m]
     double      flank_angle = 0.;   ///< of the flanks to the joint's normal [degrees]; 0: rectangular
     std::string direction = "both"; ///< of slip that is restrained: radial, vertical, both
-    double      friction = 0.;      ///< of the flanks [-]
+    double      friction = -1.;     ///< of the flanks [-]; -1: that of the face
   };
 
   /** The law of that name: tied, FJA, FJB, KSM. @p friction: of the flat face [-]. Throws InputError for an

@@ -9,12 +9,13 @@ namespace Voussoir
    *  are force = force of these surfaces for the compliance 1/rho (for one surface: Alart and Curnier's).
    *
    *  The forces of a wedge need not be unique. What only self-stress makes so, two flanks of a tight key
-   * pressed against each other, is excluded: one flank of a key carries at a time, the limit of a clearance
-   * that vanishes. What Coulomb's law itself leaves open remains: where the face has more friction than a
-   * flank needs to ride (its friction above tan(90 degrees - a + friction angle of the flank), such as 0.8
-   * beside smooth flanks of 60 degrees), a pair may stay before the flank or ride on it; and keys jam where
-   * the flanks' friction is above tan a. Of two solutions that are found, the equations take the one nearer
-   * to the force. Equal friction on face and flanks is nearly free of this. */
+   *  pressed against each other, is excluded: one flank of a key carries at a time, the limit of a clearance
+   *  that vanishes. What Coulomb's law itself leaves open remains: where the face has more friction than a
+   *  flank needs to ride (its friction above tan(90 degrees - a + friction angle of the flank), such as 0.8
+   *  beside smooth flanks of 60 degrees), a pair may stay before the flank or ride on it; and keys jam where
+   *  the flanks' friction is above tan a. Of two solutions that are found, the equations take the one nearer
+   *  to the force. Equal friction on face and flanks, the default of KeyParameters, is nearly free of this.
+   */
   class SurfacesLaw : public JointLaw
   {
   public:
