@@ -1,7 +1,4 @@
-#include <deal.II/base/parameter_handler.h>
-
 #include <voussoir/contact_solver.h>
-#include <voussoir/error.h>
 
 #include <algorithm>
 #include <chrono>
@@ -16,11 +13,6 @@ namespace Voussoir
     {
       for (std::size_t i = 0; i < y.size(); ++i)
         y[i] += factor * x[i];
-    }
-
-    Vector3 get(const Unknowns &x, const std::size_t i)
-    {
-      return {{x[3 * i], x[3 * i + 1], x[3 * i + 2]}};
     }
 
     double norm_square(const Unknowns &x)
@@ -66,37 +58,6 @@ namespace Voussoir
       return std::exp((log_scale + std::log(trace)) / 64.); // (trace A^64)^(1/64), within 2 % from above
     }
   } // namespace
-
-  void ContactParameters::add_parameters(dealii::ParameterHandler &prm)
-  {
-    using dealii::Patterns::Double;
-    using dealii::Patterns::Integer;
-    using dealii::Patterns::Selection;
-    prm.enter_subsection("Contact");
-    prm.add_parameter(
-        "Tolerance", tolerance,
-        "Relative residual of the joint conditions at which a step is accepted; independent of units [-].",
-        Double(1e-15, 1e-3));
-    prm.add_parameter("Maximum iterations", max_iterations, "Newton steps before the solver gives up [-].",
-                      Integer(1));
-    prm.add_parameter("Sweeps", sweeps, "Gauss-Seidel sweeps before the first Newton step [-].", Integer(0));
-    prm.add_parameter("Method", method,
-                      "newton (falls back on sweeps, then on the proximal point method), proximal, or sweeps "
-                      "(Gauss-Seidel alone).",
-                      Selection(method_names()));
-    prm.add_parameter(
-        "Write problems", write_problems,
-        "Write the contact problems of the joints to OUTPUT/contact in FCLib's format, with the initial "
-        "guess; for FJA, whose problems are Coulomb's. `voussoir contact` solves them.");
-    prm.add_parameter("Write interval", write_interval, "Problems between two that are written [-].",
-                      Integer(1));
-    prm.leave_subsection();
-  }
-
-  std::string ContactParameters::method_names()
-  {
-    return "newton|proximal|sweeps";
-  }
 
   ContactSolver::ContactSolver(const ContactOperator &W, std::vector<const JointLaw *> laws,
                                const ContactParameters &parameters)

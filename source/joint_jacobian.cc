@@ -3,17 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-extern "C"
-{
-  void sgetrf_(const int *, const int *, float *, const int *, int *, int *);
-  void sgetrs_(const char *, const int *, const int *, const float *, const int *, const int *, float *,
-               const int *, int *);
-  void sgemm_(const char *, const char *, const int *, const int *, const int *, const float *, const float *,
-              const int *, const float *, const int *, const float *, float *, const int *);
-  float sdot_(const int *, const float *, const int *, const float *, const int *);
-  void  sgemv_(const char *, const int *, const int *, const float *, const float *, const int *,
-               const float *, const int *, const float *, float *, const int *);
-}
+extern "C" float sdot_(const int *, const float *, const int *, const float *, const int *);
 
 namespace Voussoir
 {
@@ -28,20 +18,10 @@ namespace Voussoir
         sum += double(a[i]) * b[i];
       return sum;
     }
-
-    /** The row says: this component of the force is given. */
-    bool row_is_trivial(const PairEquations &e, const unsigned int i)
-    {
-      for (unsigned int j = 0; j < 3; ++j)
-        if (e.d_gap[3 * i + j] != 0. || e.d_force[3 * i + j] != (i == j ? 1. : 0.))
-          return false;
-      return true;
-    }
   } // namespace
 
   JointJacobian::JointJacobian(const InterfaceOperator &W)
-      : W(W), factors(W.n_groups()), groups_of_colour(W.colours()), colour(W.n_groups(), 0),
-        below(W.n_groups()), above(W.n_groups())
+      : W(W), factors(W.n_groups()), groups_of_colour(W.colours()), colour(W.n_groups(), 0)
   {
     for (unsigned int c = 0; c < groups_of_colour.size(); ++c)
       for (const unsigned int g : groups_of_colour[c])
@@ -78,9 +58,14 @@ namespace Voussoir
   unsigned int JointJacobian::update(const std::vector<PairEquations> &new_equations)
   {
     equations = &new_equations;
-    if (chain)
+    if (use_chain)
     {
-      factorise_chain();
+      if (!chain)
+      {
+        chain = std::make_unique<JointChain>(W);
+        factors.clear();
+      }
+      chain->factorise(new_equations);
       return W.n_groups();
     }
     unsigned int count = 0;
@@ -90,7 +75,8 @@ namespace Voussoir
       {
         if (needs_factor(g))
         {
-          factorise(g);
+          factors[g].assemble(W, g, present(g));
+          factors[g].factorise();
           ++count;
         }
         Factor &factor = factors[g];
@@ -101,58 +87,14 @@ namespace Voussoir
     return count;
   }
 
-  /** The joint's own block of J, in the rows and columns that are not trivial. */
-  void JointJacobian::take_active_rows(const unsigned int group)
-  {
-    const unsigned int n_pairs = W.size(group) / 3;
-    Factor            &factor = factors[group];
-    factor.equations.assign(present(group), present(group) + n_pairs);
-    factor.active.clear();
-    for (unsigned int i = 0; i < n_pairs; ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-        if (!row_is_trivial(present(group)[i], c))
-          factor.active.push_back(3 * i + c);
-    factor.lu.resize(factor.active.size() * factor.active.size());
-    factor.pivots.resize(factor.active.size());
-    const Floats &w = coupling(group, group);
-    const int     n = factor.active.size(), ld = W.size(group);
-    for (int column = 0; column < n; ++column)
-    {
-      const unsigned int k = factor.active[column];
-      const float       *w_k = w.data() + std::size_t(k) * ld;
-      float             *out = factor.lu.data() + std::size_t(column) * n;
-      for (int row = 0; row < n; ++row)
-      {
-        const unsigned int   j = factor.active[row], pair = j / 3, c = 3 * (j % 3);
-        const PairEquations &e = factor.equations[pair];
-        const double        *g = e.d_gap.data() + c;
-        out[row] = static_cast<float>(g[0] * w_k[3 * pair] + g[1] * w_k[3 * pair + 1] +
-                                      g[2] * w_k[3 * pair + 2] + (k / 3 == pair ? e.d_force[c + k % 3] : 0.));
-      }
-    }
-  }
-
-  void JointJacobian::factorise(const unsigned int group)
-  {
-    take_active_rows(group);
-    Factor   &factor = factors[group];
-    const int n = factor.active.size();
-    int       info = 0;
-    if (n > 0)
-      sgetrf_(&n, &n, factor.lu.data(), &n, factor.pivots.data(), &info);
-  }
-
   void JointJacobian::apply_factor(const unsigned int group, float *x) const
   {
     const Factor &factor = factors[group];
-    const int     n = factor.active.size(), one = 1;
-    if (n == 0)
-      return;
-    Floats z(n);
-    int    info = 0;
+    const int     n = factor.size();
+    Floats        z(n);
     for (int i = 0; i < n; ++i)
       z[i] = x[factor.active[i]];
-    sgetrs_("N", &n, &one, factor.lu.data(), &n, factor.pivots.data(), z.data(), &n, &info);
+    factor.solve(z.data(), 1);
     for (int i = 0; i < n; ++i)
       x[factor.active[i]] = z[i];
   }
@@ -231,7 +173,7 @@ namespace Voussoir
     z = v;
     if (chain)
     {
-      apply_chain(v, z);
+      chain->solve(v, z);
       multiply_J(z, w);
       return;
     }
@@ -308,82 +250,6 @@ namespace Voussoir
     }
   }
 
-  /** The active rows and columns of d_gap W_jk. */
-  void JointJacobian::fill_coupling(const unsigned int j, const unsigned int k, Floats &out) const
-  {
-    const auto       &rows = factors[j].active, &columns = factors[k].active;
-    const Floats     &block = coupling(j, k);
-    const std::size_t along = j <= k ? 1 : W.size(k), across = j <= k ? W.size(j) : 1;
-    out.resize(rows.size() * columns.size());
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      for (std::size_t r = 0; r < rows.size(); ++r)
-      {
-        const unsigned int pair = rows[r] / 3;
-        const double      *g = present(j)[pair].d_gap.data() + 3 * (rows[r] % 3);
-        const float       *w = block.data() + columns[c] * across + 3 * pair * along;
-        out[c * rows.size() + r] = static_cast<float>(g[0] * w[0] + g[1] * w[along] + g[2] * w[2 * along]);
-      }
-  }
-
-  /** S_g = J_gg - J_g,g-1 S_g-1^-1 J_g-1,g, from one end to the other. */
-  void JointJacobian::factorise_chain()
-  {
-    const float one = 1.f, minus = -1.f;
-    int         info = 0, before = 0;
-    for (unsigned int g = 0; g < W.n_groups(); ++g)
-    {
-      Factor &factor = factors[g];
-      if (W.size(g) > 0)
-        take_active_rows(g);
-      const int n = factor.active.size();
-      if (n > 0 && before > 0)
-      {
-        const Factor &last = factors[g - 1];
-        fill_coupling(g, g - 1, below[g]);
-        fill_coupling(g - 1, g, above[g]);
-        sgetrs_("N", &before, &n, last.lu.data(), &before, last.pivots.data(), above[g].data(), &before,
-                &info);
-        sgemm_("N", "N", &n, &n, &before, &minus, below[g].data(), &n, above[g].data(), &before, &one,
-               factor.lu.data(), &n);
-      }
-      if (n > 0)
-        sgetrf_(&n, &n, factor.lu.data(), &n, factor.pivots.data(), &info);
-      before = n;
-    }
-  }
-
-  void JointJacobian::apply_chain(const Floats &v, Floats &z) const
-  {
-    const int           stride = 1;
-    const float         one = 1.f, minus = -1.f;
-    const unsigned int  n_groups = W.n_groups();
-    std::vector<Floats> y(n_groups);
-    int                 info = 0;
-    for (unsigned int g = 0; g < n_groups; ++g)
-    {
-      const Factor &factor = factors[g];
-      const int     n = factor.active.size(), before = g > 0 ? static_cast<int>(y[g - 1].size()) : 0;
-      y[g].resize(n);
-      for (int i = 0; i < n; ++i)
-        y[g][i] = v[W.begin(g) + factor.active[i]];
-      if (n > 0 && before > 0)
-        sgemv_("N", &n, &before, &minus, below[g].data(), &n, y[g - 1].data(), &stride, &one, y[g].data(),
-               &stride);
-      if (n > 0)
-        sgetrs_("N", &n, &stride, factor.lu.data(), &n, factor.pivots.data(), y[g].data(), &n, &info);
-    }
-    for (unsigned int g = n_groups; g-- > 0;)
-    {
-      const int n = static_cast<int>(y[g].size()),
-                after = g + 1 < n_groups ? static_cast<int>(y[g + 1].size()) : 0;
-      if (n > 0 && after > 0)
-        sgemv_("N", &n, &after, &minus, above[g + 1].data(), &n, y[g + 1].data(), &stride, &one, y[g].data(),
-               &stride);
-      for (int i = 0; i < n; ++i)
-        z[W.begin(g) + factors[g].active[i]] = y[g][i];
-    }
-  }
-
   unsigned int JointJacobian::solve(const double tolerance, Unknowns &step, Unknowns &d_gap)
   {
     const unsigned int n = W.n();
@@ -418,7 +284,7 @@ namespace Voussoir
     }
     const unsigned int iterations = gmres(r, tolerance * std::sqrt(all), step);
     if (iterations > 20)
-      chain = is_chain; // from the next equations on
+      use_chain = is_chain; // from the next equations on
     multiply_W(Floats(step.begin(), step.end()), w);
     d_gap.assign(w.begin(), w.end());
     return iterations;

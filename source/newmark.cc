@@ -8,52 +8,6 @@
 
 namespace Voussoir
 {
-  namespace
-  {
-    Vector3 get(const Unknowns &x, const std::size_t i)
-    {
-      return {{x[3 * i], x[3 * i + 1], x[3 * i + 2]}};
-    }
-
-    void set(Unknowns &x, const std::size_t i, const Vector3 &value)
-    {
-      std::copy(value.begin(), value.end(), x.begin() + 3 * i);
-    }
-
-    /** Forces that make the marked rows of H f + b zero; the other rows carry none. */
-    Vector3 tie_rows(Matrix3 H, Vector3 b, const std::array<bool, 3> &tied)
-    {
-      for (unsigned int i = 0; i < 3; ++i)
-        if (!tied[i])
-        {
-          for (unsigned int j = 0; j < 3; ++j)
-            H[3 * i + j] = H[3 * j + i] = 0.;
-          H[4 * i] = 1.;
-          b[i] = 0.;
-        }
-      const Vector3 f = inverse(H) * b;
-      return {{-f[0], -f[1], -f[2]}};
-    }
-  } // namespace
-
-  ImpactRule impact_rule(const std::string &name)
-  {
-    if (name == "mean-force")
-      return ImpactRule::mean_force;
-    if (name == "impulse-consistent")
-      return ImpactRule::impulse_consistent;
-    if (name == "paper")
-      return ImpactRule::paper;
-    if (name == "none")
-      return ImpactRule::none;
-    throw InputError("There is no impact rule \"" + name + "\". The rules are: " + impact_rule_names() + ".");
-  }
-
-  std::string impact_rule_names()
-  {
-    return "mean-force|impulse-consistent|paper|none";
-  }
-
   double Energy::balance(const Energy &start) const
   {
     return (kinetic - start.kinetic) + (added_mass - start.added_mass) + (strain - start.strain) + damping +
@@ -64,46 +18,9 @@ namespace Voussoir
                    const double dt, const ImpactRule rule)
       : structure(structure), laws(laws), parameters(parameters), dt(dt), rule(rule),
         system(structure, laws, parameters, 4. / (dt * dt) + 2. / dt * structure.mass_damping,
-               1. + 2. / dt * structure.stiffness_damping, 2. / dt)
+               1. + 2. / dt * structure.stiffness_damping, 2. / dt),
+        impact(structure, laws, rule)
   {
-    for (const Matrix3 &m : structure.mass)
-      inverse_mass.push_back(inverse(m));
-    std::vector<bool> in_pair(structure.n_nodes(), false);
-    for (const Pair &pair : structure.pairs)
-    {
-      Matrix3 H{};
-      for (const unsigned int node : {pair.node_1, pair.node_2})
-        if (node != rigid_ground)
-        {
-          if (in_pair[node])
-            throw InputError(
-                "A node of the mesh near (" + std::to_string(pair.place[0]) + ", " +
-                std::to_string(pair.place[1]) + ", " + std::to_string(pair.place[2]) +
-                ") belongs to two joints. Joints must not cross or share nodes of one monolith.");
-          in_pair[node] = true;
-          for (unsigned int j = 0; j < 3; ++j)
-          {
-            const Vector3 Mq = inverse_mass[node] * pair.frame[j];
-            for (unsigned int i = 0; i < 3; ++i)
-              H[3 * i + j] += dot(pair.frame[i], Mq);
-          }
-        }
-      pair_inverse.push_back(H);
-    }
-  }
-
-  void Newmark::add_kick(const Pair &pair, const Vector3 &f, Unknowns &v) const
-  {
-    Vector3 x;
-    for (unsigned int c = 0; c < 3; ++c)
-      x[c] = pair.frame[0][c] * f[0] + pair.frame[1][c] * f[1] + pair.frame[2][c] * f[2];
-    for (const unsigned int node : {pair.node_1, pair.node_2})
-      if (node != rigid_ground)
-      {
-        const Vector3 kick = inverse_mass[node] * x;
-        for (unsigned int c = 0; c < 3; ++c)
-          v[3 * node + c] += (node == pair.node_2 ? 1. : -1.) * kick[c];
-      }
   }
 
   void Newmark::start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
@@ -194,7 +111,10 @@ namespace Voussoir
   ContactResult Newmark::advance(const Unknowns &load, const Vector3 &base_velocity)
   {
     ContactResult result;
-    return step(load, base_velocity, result) ? result : advance_in_halves(load, base_velocity, result);
+    if (!step(load, base_velocity, result))
+      return advance_in_halves(load, base_velocity, result);
+    halved = false;
+    return result;
   }
 
   ContactResult Newmark::advance_in_halves(const Unknowns &load, const Vector3 &base_velocity,
@@ -223,19 +143,18 @@ namespace Voussoir
     for (unsigned int c = 0; c < 3; ++c)
       middle_base[c] = .5 * (base_velocity[c] + now.base_velocity[c]);
     finer->resume(now, first, largest, reference);
-    ContactResult       result = finer->advance(middle, middle_base);
-    const ContactResult second = finer->advance(load, base_velocity);
-    const double        end = now.time + dt; // free of the round-off of halves
+    ContactResult result = finer->advance(middle, middle_base);
+    impulse = finer->impulse;
+    result += finer->advance(load, base_velocity);
+    result.add_work(failed);
+    result.path = ContactPath::smaller_step;
+    const double end = now.time + dt; // free of the round-off of halves
     now = finer->now;
     now.time = end;
     largest = finer->largest;
-    impulse = finer->impulse;
-    result.path = ContactPath::smaller_step;
-    result.residual = std::max(result.residual, second.residual);
-    result.iterations += failed.iterations + second.iterations;
-    result.krylov += failed.krylov + second.krylov;
-    result.factorisations += failed.factorisations + second.factorisations;
-    result.sweeps += failed.sweeps + second.sweeps;
+    halved = true;
+    for (std::size_t k = 0; k < impulse.size(); ++k)
+      impulse[k] += finer->impulse[k];
     return result;
   }
 
@@ -309,7 +228,7 @@ namespace Voussoir
 
     const double kinetic_before = kinetic_energy_of_pairs();
     if (rule != ImpactRule::none)
-      correct_velocity(change);
+      impact.correct_velocity(system, dt, change, now.v, impulse);
     now.energy.input += input;
     now.energy.damping += damping;
     now.energy.friction += friction;
@@ -324,7 +243,7 @@ namespace Voussoir
     else if (rule == ImpactRule::none || n_pairs == 0)
       now.force = force;
     else
-      find_end_force(force);
+      now.force = impact.end_force(system, force, now.v, force_without_joints());
     return true;
   }
 
@@ -338,93 +257,21 @@ namespace Voussoir
     return sum;
   }
 
-  void Newmark::correct_velocity(const Unknowns &change)
+  /** load - C v - K u: what would move the nodes at the end of the step if there were no joints [N]. */
+  Unknowns Newmark::force_without_joints() const
   {
-    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-    {
-      const Pair     &pair = structure.pairs[p];
-      const JointLaw &law = *laws.of_pair[p];
-      const bool      closed = system.states()[p] != PairState::open;
-      if (!closed && !law.is_tangentially_tied())
-        continue;
-      const Vector3 jump = structure.jump(pair, now.v);
-      if (rule == ImpactRule::paper)
-      {
-        const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
-        const bool    face = system.touching()[p] & 1; // not of a pair that touches on a flank only
-        const Vector3 f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
-        add_kick(pair, f, now.v);
-        for (unsigned int c = 0; c < 3; ++c)
-          impulse[3 * p + c] += f[c];
-        continue;
-      }
-      // The velocity without any joint force of this step, then the impulse that the law allows.
-      const Vector3 spent = get(impulse, p), lost = pair_inverse[p] * spent;
-      Vector3       allowed = law.solve_impulse(pair_inverse[p], jump - lost, system.touching()[p]);
-      if (rule == ImpactRule::mean_force && !law.is_tangentially_tied())
-      {
-        // Where loads tear at a pair more than it strikes, returning the friction of the step could give more
-        // energy than the pair took: then only the normal row is corrected, which always takes energy.
-        const Vector3 f = allowed - spent, gained = pair_inverse[p] * f;
-        double        gain = 0., size = 0.;
-        for (unsigned int c = 0; c < 3; ++c)
-        {
-          gain += .5 * f[c] * (2. * jump[c] + gained[c]);
-          size += std::abs(f[c] * jump[c]) + std::abs(f[c] * gained[c]);
-        }
-        if (gain > -dot(spent, get(change, p)) / dt + 1e-12 * size)
-          allowed = law.stop_normal(pair_inverse[p], jump, spent, system.touching()[p]);
-      }
-      add_kick(pair, allowed - spent, now.v);
-      set(impulse, p, allowed);
-    }
-  }
-
-  /** The joint forces at the end of the step, from the accelerations there; for the rules that need them. */
-  void Newmark::find_end_force(const Unknowns &force)
-  {
-    // Without joint forces: M a = load - C v - K u at all nodes.
-    const std::size_t n = structure.n_nodes();
-    Unknowns          Kv, a(3 * n);
+    Unknowns Kv, result(now.u.size());
     structure.multiply_stiffness(now.v, Kv);
-    double fastest = 0.;
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < structure.n_nodes(); ++i)
     {
-      Vector3 f = structure.mass[i] * (get(now.v, i) - now.base_velocity);
+      const Vector3 momentum = structure.mass[i] * (get(now.v, i) - now.base_velocity);
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * i + c;
-        f[c] = now.load[k] - structure.mass_damping * f[c] - structure.stiffness_damping * Kv[k] - now.Ku[k] -
-               (structure.dashpots.empty() ? 0. : structure.dashpots[k] * now.v[k]);
-        fastest = std::max(fastest, std::abs(now.v[k]));
+        result[k] = now.load[k] - structure.mass_damping * momentum[c] - structure.stiffness_damping * Kv[k] -
+                    now.Ku[k] - (structure.dashpots.empty() ? 0. : structure.dashpots[k] * now.v[k]);
       }
-      set(a, i, inverse_mass[i] * f);
     }
-    if (rule == ImpactRule::paper)
-      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-        add_kick(structure.pairs[p], get(force, p), a);
-
-    const double still = std::max(1e-9 * fastest, 1e-12);
-    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-    {
-      const Pair     &pair = structure.pairs[p];
-      const JointLaw &law = *laws.of_pair[p];
-      const bool      closed = system.states()[p] != PairState::open;
-      const Vector3   jump = structure.jump(pair, a);
-      Vector3         f = {{0., 0., 0.}}, result = {{0., 0., 0.}};
-      if (rule == ImpactRule::paper)
-      {
-        const bool tied = law.is_tangentially_tied() || (closed && system.states()[p] == PairState::stick);
-        const bool face = system.touching()[p] & 1;
-        f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
-        for (unsigned int c = 0; c < 3; ++c)
-          result[c] = force[3 * p + c] + f[c];
-      }
-      else if (closed || law.is_tangentially_tied())
-        result = f = law.solve_acceleration(pair_inverse[p], jump, structure.jump(pair, now.v), still,
-                                            system.touching()[p]);
-      add_kick(pair, f, a);
-      set(now.force, p, result);
-    }
+    return result;
   }
 } // namespace Voussoir

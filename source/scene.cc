@@ -84,8 +84,9 @@ namespace Voussoir
                       Patterns::Double(0., 89.));
     prm.add_parameter("Direction", keys.direction, "Direction of the slip that the keys restrain.",
                       Patterns::Selection("radial|vertical|both"));
-    prm.add_parameter("Friction", keys.friction, "Coefficient of friction of the flanks [-].",
-                      Patterns::Double(0.));
+    prm.add_parameter("Friction", keys.friction,
+                      "Coefficient of friction of the flanks [-]; -1: that of the faces (Joints/Friction).",
+                      Patterns::Double(-1.));
     prm.leave_subsection();
     prm.leave_subsection();
   }

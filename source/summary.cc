@@ -50,15 +50,14 @@ namespace Voussoir
         .add("linear_iterations_mean", count.krylov / n)
         .add("joint_factorisations_mean", count.factorisations / n)
         .add("sweeps", count.sweeps);
-    path.add("newton", count.path[0])
-        .add("sweeps", count.path[1])
-        .add("proximal", count.path[2])
-        .add("smaller_step", count.path[3]);
+    for (unsigned int i = 0; i < count.path.size(); ++i)
+      path.add(name(static_cast<ContactPath>(i)), count.path[i]);
     const auto &crown = dam->model->points[dam->geometry->crown];
     statics_json.add_list("crest_point", Vector3{{crown[0], crown[1], crown[2]}})
         .add_list("crest_displacement", statics.crown)
         .add_list("self_weight_crest_displacement", dam->self_weight_crown)
         .add("newton_iterations", statics.contact.iterations)
+        .add("path", std::string(name(statics.contact.path)))
         .add("residual", statics.contact.residual)
         .add("open_pairs", statics.n_open);
     extremes.add("max_opening", json_of(joints->opening)).add("max_slip", json_of(joints->slip));

@@ -2,7 +2,9 @@
 // pair, impulses, units, the measure of convergence, and shear keys against what is known of them.
 
 #include "blocks.h"
+#include "natural_map.h"
 
+#include <voussoir/error.h>
 #include <voussoir/key_law.h>
 
 using namespace Columns;
@@ -90,11 +92,6 @@ namespace
   Vector3 plus(const Vector3 &a, const Vector3 &b)
   {
     return {{a[0] + b[0], a[1] + b[1], a[2] + b[2]}};
-  }
-
-  double norm(const Vector3 &x)
-  {
-    return std::sqrt(dot(x, x));
   }
 
   /** The start of a step: at rest, anywhere in the keys' play, in their seats but beyond it, or out of them.
@@ -337,20 +334,8 @@ namespace
                                   norm(smooth->error(r, gap, start, rho) - e)});
         tied_forms = std::max(tied_forms,
                               norm(key->error(r, gap, start, rho) - smooth_key->error(r, gap, start, rho)));
-        // fc3d_compute_error.c: u of the step; x = r - rho (u + mu |u_t| n); r - projection of x
-        const Vector3 u = {{gap[0], gap[1] - start[1], gap[2] - start[2]}};
-        Vector3       x = {
-                  {r[0] - rho * (u[0] + mu * std::hypot(u[1], u[2])), r[1] - rho * u[1], r[2] - rho * u[2]}};
-        const double t = std::hypot(x[1], x[2]);
-        if (mu * t <= -x[0])
-          x = {};
-        else if (t > mu * x[0])
-        {
-          x[0] = (x[0] + mu * t) / (1. + mu * mu);
-          x[1] *= mu * x[0] / t;
-          x[2] *= mu * x[0] / t;
-        }
-        to_siconos = std::max(to_siconos, norm(r - x - e));
+        const Vector3 u = {{rho * gap[0], rho * (gap[1] - start[1]), rho * (gap[2] - start[2])}};
+        to_siconos = std::max(to_siconos, norm(natural_map_of_contact(r, u, mu) - e));
       }
     }
     below("error of FJA: difference between the formulations", between_forms, 1e-15);
@@ -544,6 +529,53 @@ namespace
     below("keys on their crests, next step: opening - height [m]", after, 1e-12);
   }
 
+  /** Keys without a friction of their own have that of the face, which leaves few states with several forces
+   *  where flanks without friction would leave many. */
+  void test_default_friction()
+  {
+    for (const double angle : {0., 45., 60.})
+    {
+      KeyParameters k;
+      k.height = .7;
+      k.flank_angle = angle;
+      const double mu = .8;
+      const auto   law = make_joint_law("KSM", mu, Equations::alart_curnier, k);
+      k.friction = mu;
+      const auto   same = make_joint_law("KSM", mu, Equations::alart_curnier, k);
+      double       difference = 0.;
+      unsigned int not_solved = 0;
+      for (unsigned int trial = 0; trial < 2000; ++trial)
+      {
+        const Matrix3 H = random_flexibility();
+        const Vector3 start = random_start(trial), b = plus(start, random_vector(1.)),
+                      f = law->solve(H, b, start), gap = plus(H * f, b);
+        difference = std::max(difference, norm(f - same->solve(H, b, start)));
+        PairEquations e, e_same;
+        law->evaluate(f, gap, start, 1., e);
+        same->evaluate(f, gap, start, 1., e_same);
+        difference = std::max(difference, norm(e.residual - e_same.residual));
+        not_solved += !(norm(e.residual) < 1e-11 * (1. + norm(f)));
+      }
+      const std::string what = "keys of " + text(angle) + " deg, friction not given: ";
+      below(what + "difference from the face's", difference, 1e-300);
+      few(what + "not solved", not_solved, 40);
+    }
+    for (const double friction : {-.5, -2., std::nan("")})
+    {
+      std::string message;
+      try
+      {
+        make_joint_law("KSM", .8, Equations::alart_curnier, keys(.2, 0., 0., "both", friction));
+      }
+      catch (const InputError &error)
+      {
+        message = error.what();
+      }
+      report("keys with friction " + text(friction), friction, "refused",
+             message.find("Joints/Keys/Friction") != std::string::npos);
+    }
+  }
+
   JointLaws laws_of(const Structure &structure, const std::string &name, const double mu,
                     const KeyParameters &k)
   {
@@ -624,5 +656,6 @@ namespace
 int main()
 {
   return run_all({test_derivatives, test_solve, test_impulses, test_units, test_error, test_no_keys,
-                  test_rectangular, test_variational, test_kinematics, test_structures, test_start_on_flank});
+                  test_rectangular, test_variational, test_kinematics, test_structures, test_start_on_flank,
+                  test_default_friction});
 }

@@ -2,6 +2,7 @@
 // number, no time; and the dense joint problem against the equations of all nodes.
 
 #include "blocks.h"
+#include "natural_map.h"
 
 #include <voussoir/contact_command.h>
 #include <voussoir/sparse_contact.h>
@@ -18,11 +19,6 @@ namespace
   double seconds()
   {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  }
-
-  Vector3 get(const Unknowns &x, const std::size_t i)
-  {
-    return {{x[3 * i], x[3 * i + 1], x[3 * i + 2]}};
   }
 
   /** A problem by its dense matrix, contact after contact. */
@@ -217,18 +213,7 @@ namespace
       }
       f += dot(r, r);
       v += dot(u, u);
-      const double mu = p.mu[i];
-      Vector3      x = {{r[0] - u[0] - mu * std::hypot(u[1], u[2]), r[1] - u[1], r[2] - u[2]}};
-      const double t = std::hypot(x[1], x[2]);
-      if (mu * t <= -x[0])
-        x = {};
-      else if (t > mu * x[0])
-      {
-        x[0] = (x[0] + mu * t) / (1. + mu * mu);
-        x[1] *= mu * x[0] / t;
-        x[2] *= mu * x[0] / t;
-      }
-      const Vector3 e = r - x;
+      const Vector3 e = natural_map_of_contact(r, u, p.mu[i]);
       sum += dot(e, e);
     }
     return std::sqrt(sum / std::max({q, f, v, 1e-300}));
@@ -374,6 +359,29 @@ namespace
       check("rigid blocks, joints of " + text(m) + ", sparse", p, solve(p));
       check("rigid blocks, joints of " + text(m) + ", joint by joint", p, solve(p, "dense"));
     }
+  }
+
+  /** Two dams in one problem: neighbours in the list of joints that are not coupled. */
+  void test_separate_chains()
+  {
+    const Problem a = chain(12, 16, .8, .01, 1.), b = chain(3, 16, .8, .01, 1.);
+    Problem       p = make_problem(a.n + b.n, .8);
+    p.groups = a.groups;
+    p.groups.insert(p.groups.end(), b.groups.begin(), b.groups.end());
+    unsigned int first = 0;
+    for (const Problem *part : {&a, &b})
+    {
+      for (unsigned int i = 0; i < 3 * part->n; ++i)
+      {
+        p.b[first + i] = part->b[i];
+        for (unsigned int j = 0; j < 3 * part->n; ++j)
+          p(first + i, first + j) = (*part)(i, j);
+      }
+      first += 3 * part->n;
+    }
+    const Solution s = solve(p, "dense");
+    check("two separate chains, joint by joint", p, s);
+    note("  iterations of GMRES per Newton step", double(s.result.krylov) / s.result.iterations);
   }
 
   /** All open, all closed, and back; no load; each from the last solution. */
@@ -707,6 +715,7 @@ namespace
 
 int main()
 {
-  return run_all({test_sizes, test_coupling, test_friction, test_hyperstatic, test_reversals, test_units,
-                  test_noise, test_methods, test_bad_problems, test_unconverged, test_condensation});
+  return run_all({test_sizes, test_coupling, test_friction, test_hyperstatic, test_separate_chains,
+                  test_reversals, test_units, test_noise, test_methods, test_bad_problems, test_unconverged,
+                  test_condensation});
 }

@@ -2,51 +2,11 @@
 #define voussoir_contact_solver_h
 
 #include <voussoir/contact_operator.h>
-
-#include <limits>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
+#include <voussoir/contact_parameters.h>
+#include <voussoir/contact_result.h>
 
 namespace Voussoir
 {
-  struct ContactParameters
-  {
-    double       tolerance = 1e-10;    ///< relative residual that is accepted
-    unsigned int max_iterations = 500; ///< Newton steps in all
-    unsigned int sweeps = 4;           ///< Gauss-Seidel sweeps before the first Newton step
-    std::string  method = "newton";    ///< newton (with its fallbacks), proximal, sweeps
-    double       max_seconds = std::numeric_limits<double>::infinity(); ///< of wall time
-    bool         write_problems = false;                                ///< in FCLib's format
-    unsigned int write_interval = 1;                                    ///< of the problems
-    std::string  write_directory;                                       ///< not an entry: set by the run
-
-    void               add_parameters(dealii::ParameterHandler &prm);
-    static std::string method_names(); ///< as a ParameterHandler selection
-  };
-
-  /** What a solution took, in the order in which the solver tries. */
-  enum class ContactPath : unsigned char
-  {
-    newton,      ///< Newton's method alone
-    sweeps,      ///< it stalled; Gauss-Seidel sweeps settled the states
-    proximal,    ///< it stalled again: proximal point method
-    smaller_step ///< that failed, too: the time step was halved
-  };
-
-  struct ContactResult
-  {
-    bool         converged = false;
-    double       residual = 0.;      ///< natural map, relative: see ContactSolver
-    unsigned int iterations = 0;     ///< Newton steps
-    unsigned int krylov = 0;         ///< iterations of the linear solver
-    unsigned int factorisations = 0; ///< of joints
-    unsigned int sweeps = 0;         ///< Gauss-Seidel sweeps
-    ContactPath  path = ContactPath::newton;
-  };
-
   /** Finds the forces at all pairs: gap = W force + b, with a joint law at each pair.
    *
    *  Semismooth Newton with a nonmonotone line search (Grippo, Lampariello and Lucidi 1986), its linear

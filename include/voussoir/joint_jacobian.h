@@ -1,7 +1,7 @@
 #ifndef voussoir_joint_jacobian_h
 #define voussoir_joint_jacobian_h
 
-#include <voussoir/interface_operator.h>
+#include <voussoir/joint_chain.h>
 
 namespace Voussoir
 {
@@ -27,14 +27,9 @@ namespace Voussoir
 
   private:
     using Floats = std::vector<float>;
-    struct Factor
+    struct Factor : JointFactor
     {
-      std::vector<unsigned int>
-                       active; ///< rows of the group that are not trivial (residual = force component)
-      Floats           lu;
-      std::vector<int> pivots;
-      std::vector<PairEquations> equations;     ///< what it was made from
-      bool                       exact = false; ///< is it that of the present equations?
+      bool exact = false; ///< is it that of the present equations?
     };
 
     const PairEquations *present(unsigned int group) const { return equations->data() + W.begin(group) / 3; }
@@ -43,10 +38,7 @@ namespace Voussoir
       return W.single_block(std::min(j, k), std::max(j, k));
     }
     bool         needs_factor(unsigned int group) const;
-    void         take_active_rows(unsigned int group);
-    void         factorise(unsigned int group);
     void         apply_factor(unsigned int group, float *x) const;
-    void         multiply_block(unsigned int j, unsigned int k, const float *x, float *y) const;
     void         multiply_by_d_gap(unsigned int group, float factor, const float *x, float *y) const;
     void         multiply_J(const Floats &z, Floats &w) const;
     void         multiply_W(const Floats &x, Floats &y) const;
@@ -55,18 +47,15 @@ namespace Voussoir
     void         correct_stale(unsigned int group, const Floats &z, Floats &w) const;
     unsigned int gmres(const Unknowns &r, double target, Unknowns &step) const;
 
-    void factorise_chain();
-    void fill_coupling(unsigned int row_group, unsigned int column_group, Floats &block) const;
-    void apply_chain(const Floats &v, Floats &z) const;
-
     const InterfaceOperator                           &W;
     std::vector<std::pair<unsigned int, unsigned int>> keys; ///< of the blocks
     const std::vector<PairEquations>                  *equations = nullptr;
     std::vector<Factor>                                factors;
     std::vector<std::vector<unsigned int>>             groups_of_colour;
     std::vector<unsigned int>                          colour;
-    bool                is_chain = true, chain = false; ///< can, and does, the block LU decomposition serve?
-    std::vector<Floats> below, above;                   ///< of the chain: J_g,g-1, and S_g-1^-1 J_g-1,g
+    bool                        is_chain = true;   ///< is each joint coupled to its neighbours only?
+    bool                        use_chain = false; ///< from the next equations on
+    std::unique_ptr<JointChain> chain;             ///< instead of the factors, once GMRES was slow
   };
 } // namespace Voussoir
 

@@ -1,7 +1,7 @@
 #ifndef voussoir_joint_law_h
 #define voussoir_joint_law_h
 
-#include <voussoir/structure.h>
+#include <voussoir/vector3.h>
 
 #include <memory>
 #include <string>
@@ -88,7 +88,7 @@ namespace Voussoir
     double      clearance = 0.;     ///< of each flank, normal to it [m]
     double      flank_angle = 0.;   ///< of the flanks to the joint's normal [degrees]; 0: rectangular
     std::string direction = "both"; ///< of slip that is restrained: radial, vertical, both
-    double      friction = 0.;      ///< of the flanks [-]
+    double      friction = -1.;     ///< of the flanks [-]; -1: that of the face
   };
 
   /** The law of that name: tied, FJA, FJB, KSM. @p friction: of the flat face [-]. Throws InputError for an
@@ -99,17 +99,6 @@ namespace Voussoir
 
   /** The names of the laws as a ParameterHandler selection: "tied|FJA|FJB|KSM". */
   std::string joint_law_names();
-
-  /** Exact solution of Coulomb's law at one pair: gap = H force + b, gap_n >= 0, friction against the
-   *  tangential gap. @p H symmetric positive definite. */
-  Vector3 solve_coulomb(const Matrix3 &H, const Vector3 &b, double friction);
-
-  /** Alart and Curnier's equations of Coulomb's law; @p slip: tangential displacement of the step. */
-  void alart_curnier(const Vector3 &force, double opening, const std::array<double, 2> &slip, double friction,
-                     double rho, PairEquations &equations);
-
-  double  dot(const Vector3 &a, const Vector3 &b);
-  Vector3 operator-(const Vector3 &a, const Vector3 &b);
 } // namespace Voussoir
 
 #endif

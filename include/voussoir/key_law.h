@@ -1,38 +1,21 @@
 #ifndef voussoir_key_law_h
 #define voussoir_key_law_h
 
-#include <voussoir/joint_law.h>
-
-#include <vector>
+#include <voussoir/contact_surfaces.h>
 
 namespace Voussoir
 {
-  /** One flat surface on which the two sides of a pair can touch. */
-  struct ContactSurface
-  {
-    Matrix3 axes;           ///< rows: normal from side 1 to side 2, two tangents; in the frame of the pair
-    double  clearance = 0.; ///< opening of the surface when the joint is closed [m]
-    double  friction = 0.;  ///< [-]
-    int     key = 0;        ///< of a flank: its key; one of the two flanks of a key carries force at a time
-  };
-
-  /** Solves gap = H sum_k Q_k^T r_k + b with Coulomb's law between r_k and Q_k gap on each surface: the sum
-   *  of the forces, in the frame of the pair. Gauss-Seidel over the surfaces, finished by Newton's method.
-   *  @p r: receives the force of each surface in its own axes (not unique where the surfaces are more than
-   *  the pair's three displacements; the sum is). */
-  Vector3 solve_surfaces(const std::vector<ContactSurface> &surfaces, const Matrix3 &H, const Vector3 &b,
-                         const Vector3 &start, std::vector<Vector3> &r);
-
   /** A pair that touches on several flat surfaces: one admissible set, whatever their number. The equations
    *  are force = force of these surfaces for the compliance 1/rho (for one surface: Alart and Curnier's).
    *
    *  The forces of a wedge need not be unique. What only self-stress makes so, two flanks of a tight key
-   * pressed against each other, is excluded: one flank of a key carries at a time, the limit of a clearance
-   * that vanishes. What Coulomb's law itself leaves open remains: where the face has more friction than a
-   * flank needs to ride (its friction above tan(90 degrees - a + friction angle of the flank), such as 0.8
-   * beside smooth flanks of 60 degrees), a pair may stay before the flank or ride on it; and keys jam where
-   * the flanks' friction is above tan a. Of two solutions that are found, the equations take the one nearer
-   * to the force. Equal friction on face and flanks is nearly free of this. */
+   *  pressed against each other, is excluded: one flank of a key carries at a time, the limit of a clearance
+   *  that vanishes. What Coulomb's law itself leaves open remains: where the face has more friction than a
+   *  flank needs to ride (its friction above tan(90 degrees - a + friction angle of the flank), such as 0.8
+   *  beside smooth flanks of 60 degrees), a pair may stay before the flank or ride on it; and keys jam where
+   *  the flanks' friction is above tan a. Of two solutions that are found, the equations take the one nearer
+   *  to the force. Equal friction on face and flanks, the default of KeyParameters, is nearly free of this.
+   */
   class SurfacesLaw : public JointLaw
   {
   public:

@@ -1,23 +1,10 @@
 #ifndef voussoir_newmark_h
 #define voussoir_newmark_h
 
-#include <voussoir/joint_system.h>
+#include <voussoir/impact.h>
 
 namespace Voussoir
 {
-  /** What happens to velocity and acceleration where faces touch, after the displacements of a step are
-   * known. */
-  enum class ImpactRule
-  {
-    mean_force, ///< joint forces are means over the step; Coulomb's law for their impulse: the default
-    impulse_consistent, ///< joint forces at the end of the step; Coulomb's law for impulse and acceleration
-    paper,              ///< Taylor and Papadopoulos: closed and sticking rows move together
-    none                ///< plain Newmark: oscillates, for comparison
-  };
-
-  ImpactRule  impact_rule(const std::string &name); ///< throws InputError for an unknown name
-  std::string impact_rule_names();                  ///< as a ParameterHandler selection
-
   /** Energies [J] since the start; those above the line are states, those below accumulate. */
   struct Energy
   {
@@ -43,8 +30,7 @@ namespace Voussoir
   /** Trapezoidal Newmark with joints: M a + C v + K u = load + G^T force.
    *
    *  The displacements of a step satisfy the joint laws; then impact and release make velocity and
-   * acceleration fit: without, a closed pair rings for ever (reference: dynamics, 1.2 to 1.4). Lumped mass,
-   * one 3x3 block per node; a node may belong to one pair only. */
+   *  acceleration fit (Impact). */
   class Newmark
   {
   public:
@@ -75,21 +61,22 @@ namespace Voussoir
     /** Opening and slip of a pair since @p reference, (n,a,b) [m]. */
     Vector3 opening_and_slip(unsigned int pair) const;
 
-    const std::vector<PairState> &pair_states() const { return system.states(); }
-    const Unknowns               &impulses() const { return impulse; } ///< of the last step, 3 per pair [N s]
-    const JointSystem            &joint_system() const { return system; }
+    /** Of the last step. */
+    const std::vector<PairState> &pair_states() const
+    {
+      return halved ? finer->pair_states() : system.states();
+    }
+    const Unknowns    &impulses() const { return impulse; } ///< of the last step, 3 per pair [N s]
+    const JointSystem &joint_system() const { return system; }
 
   private:
     bool          step(const Unknowns &load, const Vector3 &base_velocity, ContactResult &result);
     ContactResult advance_in_halves(const Unknowns &load, const Vector3 &base_velocity,
                                     const ContactResult &failed);
-    void          correct_velocity(const Unknowns &change);
-    void          find_end_force(const Unknowns &force);
     Unknowns      right_hand_side(const Unknowns &load, const Vector3 &base_velocity) const;
+    Unknowns      force_without_joints() const;
     double        kinetic_energy_of_pairs() const;
     void          account_states();
-    /** v += M^-1 G^T f of one pair. */
-    void add_kick(const Pair &pair, const Vector3 &f, Unknowns &v) const;
 
     const Structure         &structure;
     const JointLaws         &laws;
@@ -97,14 +84,14 @@ namespace Voussoir
     const double             dt;
     const ImpactRule         rule;
     JointSystem              system;
-    std::vector<Matrix3>     inverse_mass; ///< per node
-    std::vector<Matrix3>     pair_inverse; ///< G M^-1 G^T per pair
+    Impact                   impact;
     Unknowns                 reference, impulse, gap;
     DynamicState             now;
     Energy                   first; ///< at the start
     double                   largest = 0.;
     unsigned int             halvings_left = 3;
-    std::unique_ptr<Newmark> finer; ///< with half the time step; made when it is needed
+    bool                     halved = false; ///< was the last step?
+    std::unique_ptr<Newmark> finer;          ///< with half the time step; made when it is needed
   };
 } // namespace Voussoir
 
