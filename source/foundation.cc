@@ -253,7 +253,7 @@ namespace Voussoir
     std::vector<bool> is_foot(n_nodes(), false);
     for (const Foot &f : foot)
       is_foot[f.rock] = true;
-    const double             factor = .25 * dt * dt * std::min(1., 2. / parameters.substeps);
+    const double             factor = .5 * dt * dt;
     const BlockSparseMatrix &K = model.stiffness;
     for (const Foot &f : foot)
       for (unsigned int c = 0; c < 3; ++c)

@@ -147,7 +147,7 @@ namespace Voussoir
         entries += 9. * body.stiffness.value.size();
       log.line("Unknowns  %u of the bodies, %zu of the joints", 3 * n_nodes, 3 * dam->structure.pairs.size());
       if (dam->foundation)
-        log.line("Steps     %u of %g s, %u of the rock in each; its critical time step is %.4g s", n_steps,
+        log.line("Steps     %u of %g s, in each %u of the rock; critical time step of the rock %.4g s", n_steps,
                  motion.dt, scene.foundation.substeps, dam->foundation->critical_time_step());
       else
         log.line("Steps     %u of %g s; the scheme is implicit: there is no critical time step", n_steps,

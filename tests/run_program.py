@@ -483,6 +483,106 @@ def rock():
     runs("mesh", "scene.prm", "--output", "rock.msh", *settings)
     runs("scene.prm", "--output", "from_file", *settings, *from_file("rock.msh"))
     same("built_in", "from_file", 1e-9, ("history",))
+    expect(result["rock"]["energy_balance_error"] < 1e-10, f"energy of the rock: {result['rock']}")
+    expect(abs(result["rock"]["critical_time_step"] / critical - 1) < 1e-3, f"{result['rock']}")
+    expect(result["contact_path"]["newton"] == result["steps"], f"path of the contact solver {result['contact_path']}")
+    with open("built_in/energy.csv") as file:
+        last = [float(x) for x in list(csv.reader(file))[-1]]
+    expect(len(last) == 15 and abs(last[13] / result["rock"]["transmitted_energy"] - 1) < 1e-6, "transmitted energy")
+    # A killed run goes on as if nothing had happened.
+    shutil.rmtree("resumed", ignore_errors=True)
+    process = subprocess.Popen([VOUSSOIR, "scene.prm", "--output", "resumed", *settings], stdout=subprocess.DEVNULL)
+    while process.poll() is None and not Path("resumed/checkpoint.txt").exists():
+        time.sleep(.001)
+    process.send_signal(signal.SIGKILL)
+    expect(process.wait() == -signal.SIGKILL, "the run ended before it could be killed")
+    expect("Resumed" in runs("scene.prm", "--output", "resumed", *settings, "--resume"), "--resume on rock")
+    same("built_in", "resumed", 2e-7, ("history", "joint_history", "energy"))
+
+
+def stiff_rock():
+    """Rock 10,000 times as stiff is a rigid base, but for the 3 ms of the waves from its bottom."""
+    write_scene()
+    settings = ["--set", "Joints/Model=tied", "--set", "Mesh/Arch210/Rock/Enabled=true", "--set", "Motion/Duration=0.3",
+                "--set", "Mesh/Arch210/Rock/Element size=60", "--set", "Output/Envelope interval=0"]
+    rock = ["--set", "Foundation/Young's modulus=1.5e14", "--set", "Foundation/Stiffness damping=0"]
+    runs("scene.prm", "--output", "rigid", *settings, "--set", "Dynamics/Steps per sample=10")
+    runs("scene.prm", "--output", "stiff", *settings, *rock, "--set", "Foundation/Model=rock",
+         "--set", "Dynamics/Steps per sample=250")
+    runs("scene.prm", "--output", "massless", *settings, *rock, "--set", "Foundation/Model=massless",
+         "--set", "Dynamics/Steps per sample=10")
+
+    def crest(directory):
+        with open(f"{directory}/history.csv") as file:
+            return [{key: float(x) for key, x in row.items()} for row in csv.DictReader(file)]
+
+    rigid = crest("rigid")
+    for directory, delay, limit in (("stiff", .003, .06), ("massless", 0., .002)):
+        rows, k = crest(directory), 0
+        size, error = {}, {}
+        for row in rigid:
+            t = row["time"] + delay
+            if t > rows[-1]["time"]:
+                break
+            while rows[k]["time"] < t - 1e-9:
+                k += 1
+            for c in ("crest_x", "crest_y", "crest_z"):
+                size[c] = size.get(c, 0.) + (row[c] - rigid[0][c])**2
+                error[c] = error.get(c, 0.) + (rows[k][c] - row[c])**2
+        errors = {c: (error[c] / size[c])**.5 for c in size}
+        print(f"    {directory} against rigid:", ", ".join(f"{c} {100 * e:.2f} %" for c, e in errors.items()))
+        for c, e in errors.items():
+            expect(e < limit, f"{directory}: {c} differs from that of a rigid base by {e}")
+
+
+def foundations():
+    """Other foundations than the default rock: massless, without shaking, sub-steps, boundaries by name."""
+    write_scene()
+    rock = ["--set", "Mesh/Arch210/Rock/Enabled=true", "--set", "Mesh/Arch210/Rock/Element size=60"]
+    refused(["scene.prm", "--output", "none", "--set", "Foundation/Model=massless"], "no rock",
+            "Mesh/Arch210/Rock/Enabled")
+
+    def first_mode(*settings):
+        return float(runs("modes", "scene.prm", "--count", "1", *rock, *settings).split()[-1])
+
+    rigid, massless = first_mode(), first_mode("--set", "Foundation/Model=massless")
+    stiff = first_mode("--set", "Foundation/Model=massless", "--set", "Foundation/Young's modulus=1.5e16")
+    print(f"    first mode: rigid {rigid} Hz, massless rock {massless} Hz, massless and stiff {stiff} Hz")
+    expect(.8 < massless / rigid < .95 and abs(stiff / rigid - 1) < 1e-5, "frequencies on massless rock")
+    # Joints on stiff massless rock open and slide as on a rigid base.
+    short = [*rock, "--set", "Motion/Duration=1", "--set", "Contact/Tolerance=1e-13"]
+    runs("scene.prm", "--output", "rigid", *short)
+    runs("scene.prm", "--output", "massless", *short, "--set", "Foundation/Model=massless", "--set",
+         "Foundation/Young's modulus=1.5e16")
+    same("rigid", "massless", 1e-3, ("joint_history",))
+    openings = [summary(d)["extremes"]["max_opening"]["value"] for d in ("rigid", "massless")]
+    print(f"    largest opening: rigid {openings[0]} m, stiff massless rock {openings[1]} m")
+    expect(openings[0] > 1e-3 and abs(openings[1] / openings[0] - 1) < 1e-3, "openings on massless rock")
+    expect(summary("massless")["energy_balance_error"] < 1e-7, "energy balance on massless rock")
+    # Static state alone: the rock makes no steps, so their size does not matter.
+    runs("scene.prm", "--output", "static", *rock, "--set", "Foundation/Model=rock", "--set", "Motion/Source=none")
+    runs("scene.prm", "--output", "static_massless", *rock, "--set", "Foundation/Model=massless", "--set",
+         "Motion/Source=none", "--set", "Joints/Model=FJA")
+    on_rock, condensed = (summary(d)["static"]["crest_displacement"][0] for d in ("static", "static_massless"))
+    print(f"    crest under water: {1e3 * on_rock:.2f} mm on rock (nodal quadrature), {1e3 * condensed:.2f} mm on the "
+          "same rock condensed (incompatible modes)")
+    expect(abs(on_rock / condensed - 1) < .05, "static state on rock")
+    # Sub-steps change the response little, and boundaries by name run.
+    shaking = [*rock, "--set", "Foundation/Model=rock", "--set", "Motion/Duration=0.3", "--set", "Joints/Model=tied"]
+    runs("scene.prm", "--output", "fine", *shaking, "--set", "Dynamics/Steps per sample=4")
+    amplitude = {}
+    for name, *settings in (["substeps", "--set", "Foundation/Substeps=4"],
+                            *([b, "--set", "Dynamics/Steps per sample=4", "--set", f"Foundation/Boundary={b}"]
+                              for b in ("mtf2-plain", "viscous-spring", "fixed"))):
+        runs("scene.prm", "--output", name, *shaking, *settings)
+    for name in ("fine", "substeps", "mtf2-plain", "viscous-spring", "fixed"):
+        with open(f"{name}/history.csv") as file:
+            x = [float(row["crest_x"]) for row in csv.DictReader(file)]
+        amplitude[name] = max(x) - min(x)
+    print("    crest, largest less smallest [mm]:", {k: round(1e3 * v, 1) for k, v in amplitude.items()})
+    for name, x in amplitude.items():
+        expect(abs(x / amplitude["fine"] - 1) < (.5 if name == "fixed" else .1), f"amplitude with {name}: {amplitude}")
+    refused(["scene.prm", "--output", "none", *shaking], "critical", "Foundation/Substeps")
 
 
 def doubled():
@@ -627,8 +727,8 @@ def ranks():
 
 
 def main():
-    cases = {c.__name__: c for c in (command_line, scenes, meshes, motions, outputs, laws, resume, threads, rock, doubled,
-                                     contact, ranks)}
+    cases = {c.__name__: c for c in (command_line, scenes, meshes, motions, outputs, laws, resume, threads, rock, stiff_rock,
+                                     foundations, doubled, contact, ranks)}
     if len(sys.argv) < 3 or any(name not in cases for name in sys.argv[2:]):
         sys.exit(f"{__doc__}\nCases: {' '.join(cases)}")
     start = Path.cwd()
