@@ -288,11 +288,12 @@ namespace Voussoir
       else
       {
         boost *= 10.;
-        if (++failures == 4)
+        if (++failures == 4 && steps_left() > 0)
         {
           force = best.force;
           refresh_gap(force, gap);
           sweep(n_sweeps, force, gap);
+          refresh_gap(force, gap);
           n_sweeps = std::min(2 * n_sweeps, 2000u);
           failures = 0;
           boost = 1.;

@@ -147,8 +147,8 @@ namespace Voussoir
         entries += 9. * body.stiffness.value.size();
       log.line("Unknowns  %u of the bodies, %zu of the joints", 3 * n_nodes, 3 * dam->structure.pairs.size());
       if (dam->foundation)
-        log.line("Steps     %u of %g s, in each %u of the rock; critical time step of the rock %.4g s", n_steps,
-                 motion.dt, scene.foundation.substeps, dam->foundation->critical_time_step());
+        log.line("Steps     %u of %g s, in each %u of the rock; critical time step of the rock %.4g s",
+                 n_steps, motion.dt, scene.foundation.substeps, dam->foundation->critical_time_step());
       else
         log.line("Steps     %u of %g s; the scheme is implicit: there is no critical time step", n_steps,
                  motion.dt);
@@ -174,7 +174,8 @@ namespace Voussoir
     if (dam->foundation && n_steps > 0)
     {
       dam->foundation->start(motion, motion.dt, n_steps, statics.u, dam->structure);
-      if (const std::string warning = dam->foundation->warning(motion.dt); !warning.empty())
+      if (const std::string warning = dam->foundation->warning(motion.dt / scene.foundation.substeps);
+          !warning.empty())
         log.line("warning: %s", warning.c_str());
     }
     newmark = std::make_unique<Newmark>(structure, dam->laws, contact_parameters("shaking"), motion.dt,

@@ -1,7 +1,10 @@
 #!/usr/bin/python3
-"""The figures of doc/rigid_base.md from the output directories of the three runs of prm/rigid_base_{fja,fjb,ksm}.prm.
+"""The paper's figures, several runs in one, for doc/rigid_base.md and doc/rock.md:
 
-    benchmarks/rigid_base.py FJA_DIR FJB_DIR KSM_DIR [--output doc/figures]
+    benchmarks/paper_figures.py rigid_base FJA=DIR FJB=DIR KSM=DIR        [--output doc/figures]
+    benchmarks/paper_figures.py rock 'rigid base=DIR' FJA=DIR FJB=DIR
+
+DIR are the output directories; the first word begins the names of the figures.
 """
 
 import argparse
@@ -15,7 +18,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import figures  # noqa: E402
 from figures import plt, LineCollection  # noqa: E402
 
-LAWS = {"FJA": ("#0b5394", "o", "-"), "FJB": ("#cc4125", "s", "-"), "KSM": ("k", "x", "--")}
+STYLES = [("#0b5394", "o", "-"), ("#cc4125", "s", "-"), ("k", "x", "--")]
 LEVELS = np.arange(0., 13., 2.)
 
 
@@ -57,9 +60,8 @@ def stress(runs, name, path):
 def crest(runs, quantity, path):
     figure, both = plt.subplots(1, 2, figsize=(8.5, 3.2), sharey=True)
     for face, axes in zip(("upstream", "downstream"), both):
-        for law, run in runs.items():
+        for (law, run), (colour, marker, line) in zip(runs.items(), STYLES):
             joints = figures.read_table(run / "joints.csv")
-            colour, marker, line = LAWS[law]
             axes.plot(joints["s"], 1e3 * np.abs(joints[f"{quantity}_{face}"]), color=colour, marker=marker,
                       linestyle=line, linewidth=1.4, markersize=7, label=law)
         axes.set(xlabel="arc length along the crest s [m]", title=face)
@@ -73,16 +75,18 @@ def crest(runs, quantity, path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    for law in LAWS:
-        parser.add_argument(law, type=Path, metavar=f"{law}_DIR")
+    parser.add_argument("name")
+    parser.add_argument("runs", nargs="+", metavar="LABEL=DIR")
     parser.add_argument("--output", type=Path, default=ROOT / "doc" / "figures")
     options = parser.parse_args()
-    runs = {law: getattr(options, law) for law in LAWS}
+    if len(options.runs) > len(STYLES) or any("=" not in run for run in options.runs):
+        parser.error(f"give one to {len(STYLES)} runs as LABEL=DIR")
+    runs = {label: Path(directory) for label, directory in (run.split("=", 1) for run in options.runs)}
     options.output.mkdir(parents=True, exist_ok=True)
-    for name in ("upstream", "downstream"):
-        stress(runs, name, options.output / f"rigid_base_stress_{name}.png")
+    for face in ("upstream", "downstream"):
+        stress(runs, face, options.output / f"{options.name}_stress_{face}.png")
     for quantity in ("opening", "slip"):
-        crest(runs, quantity, options.output / f"rigid_base_{quantity}s.png")
+        crest(runs, quantity, options.output / f"{options.name}_{quantity}s.png")
 
 
 if __name__ == "__main__":
