@@ -350,6 +350,8 @@ namespace Voussoir
 
   void ExplicitRegion::step_dashpots()
   {
+    if (dashpots.empty())
+      return;
     const int  n = dashpots.size();
     const bool with_energy = !K_u.empty(), loaded = !force.empty();
     double     transmitted = 0., lost = 0., external = 0.;
