@@ -25,7 +25,8 @@ LEVELS = np.arange(0., 13., 2.)
 def stress(runs, name, path):
     """The envelopes of one face, one law below the other."""
     colours = plt.get_cmap("RdBu_r")(0.5 + 0.5 * np.append(LEVELS - 1., 13.) / 13.)
-    figure, rows = plt.subplots(len(runs), 1, figsize=(7.5, 8.8), sharex=True)
+    figure, rows = plt.subplots(len(runs), 1, figsize=(7.5, 8.8), sharex=True, squeeze=False)
+    rows = rows[:, 0]
     for axes, (law, run) in zip(rows, runs.items()):
         nodes = figures.read_table(run / "faces.csv", ["face"])
         cells = figures.read_table(run / "faces_cells.csv", ["face"])

@@ -30,10 +30,11 @@ namespace Voussoir
      * which one may want to change to get past a step that failed. */
     std::string decisive_part(std::string scene_text)
     {
+      constexpr const char *format = "\ncheckpoint format 2\n"; // of what follows
       for (const char *section : {"subsection Output", "subsection Contact"})
         if (const auto begin = scene_text.find(section); begin != std::string::npos)
           scene_text.erase(begin, scene_text.find("\nend", begin) - begin);
-      return scene_text;
+      return scene_text + format;
     }
   } // namespace
 
@@ -88,7 +89,8 @@ namespace Voussoir
       archive >> step >> clock_before >> cpu_before >> state >> first >> largest >> count >> history >>
           energy >> *joints >> *envelope >> solutions;
       if (dam->foundation)
-        for (std::vector<double> *array : dam->foundation->state())
+        for (std::vector<double> *array :
+             n_steps > 0 ? dam->foundation->state() : std::vector<std::vector<double> *>())
         {
           const std::size_t size = array->size();
           archive >> *array;

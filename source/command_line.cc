@@ -170,6 +170,10 @@ Exit status: 0 done; 1 the computation failed; 2 bad input.
       unsigned int count = 0;
       if (std::sscanf(count_text.c_str(), "%u", &count) != 1 || count == 0)
         throw InputError("--count must be a positive number, not \"" + count_text + "\".");
+      if (scene.foundation.model == "rock")
+        throw InputError(
+            "`voussoir modes` finds the frequencies of a dam on a rigid base or on massless rock: rock with "
+            "mass radiates. Give --set Foundation/Model=massless or rigid.");
       Dam dam(scene, true);
       std::printf("mode  frequency [Hz]\n");
       const std::vector<double> frequencies = natural_frequencies(dam.structure, count);

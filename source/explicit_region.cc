@@ -112,24 +112,10 @@ namespace Voussoir
     check_prescribed();
   }
 
-  /** Transmitting boundaries of order 3 and 4 were seen to explode with prescribed nodes on their lines. */
   void ExplicitRegion::check_prescribed() const
   {
-    if (!transmitting || prescribed.empty())
-      return;
-    const std::vector<bool> is_prescribed = [&]
-    {
-      std::vector<bool> marks(n_nodes(), false);
-      for (const unsigned int node : prescribed)
-        marks[node] = true;
-      return marks;
-    }();
-    for (const unsigned int node : transmitting->nodes())
-      if (is_prescribed[node])
-        throw InputError(
-            "the base of the dam is too near the artificial boundary of the rock: there must be " +
-            std::to_string(transmitting->nodes_per_line()) +
-            " layers of rock cells between them for this transmitting boundary");
+    if (transmitting && !prescribed.empty())
+      check_distance(*transmitting, prescribed, n_nodes());
   }
 
   void ExplicitRegion::set_boundary(std::vector<Dashpot> list)

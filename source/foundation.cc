@@ -112,15 +112,19 @@ namespace Voussoir
       for (int i = 0; i < n; ++i)
         r[i] = b[i] - Kp[i];
       free_part(r);
-      double       rz = 0.;
-      const double target = tolerance * std::sqrt(product(b, b));
-      for (unsigned int k = 0; k < 5000 && std::sqrt(product(r, r)) > target; ++k)
+      double                 rz = 0.;
+      const double           target = tolerance * std::sqrt(product(b, b));
+      constexpr unsigned int most = 5000;
+      for (unsigned int k = 0; std::sqrt(product(r, r)) > target; ++k)
       {
-#pragma omp                   parallel for
+        if (k == most)
+          throw ComputationError("The static state of the rock did not converge in " + std::to_string(most) +
+                                 " steps: its elements may be badly shaped (see voussoir mesh).");
+#pragma omp parallel for
         for (int i = 0; i < n_nodes; ++i)
         {
-                            const Vector3 y = diagonal[i] * Vector3{{r[3 * i], r[3 * i + 1], r[3 * i + 2]}};
-                            std::copy(y.begin(), y.end(), z.begin() + 3 * i);
+          const Vector3 y = diagonal[i] * Vector3{{r[3 * i], r[3 * i + 1], r[3 * i + 2]}};
+          std::copy(y.begin(), y.end(), z.begin() + 3 * i);
         }
         const double rz_new = product(r, z), beta = k == 0 ? 0. : rz_new / rz;
         rz = rz_new;
@@ -184,6 +188,10 @@ namespace Voussoir
       c /= count;
     model = make_rock_model(this->mesh, region_parameters(parameters, centre, 0.).rock);
     foot = find_feet(dam, model.points, source);
+    RayleighDamping damping;
+    damping.mass = parameters.mass_damping;
+    damping.stiffness = parameters.stiffness_damping;
+    dt_critical = Voussoir::critical_time_step(largest_frequency(model.stiffness, model.mass), damping);
   }
 
   void Foundation::add_mass(Structure &structure) const
@@ -192,14 +200,6 @@ namespace Voussoir
       for (const unsigned int node : f.nodes)
         for (unsigned int c = 0; c < 3; ++c)
           structure.mass[node][4 * c] += model.mass[f.rock] / f.nodes.size();
-  }
-
-  double Foundation::critical_time_step() const
-  {
-    RayleighDamping damping;
-    damping.mass = parameters.mass_damping;
-    damping.stiffness = parameters.stiffness_damping;
-    return Voussoir::critical_time_step(largest_frequency(model.stiffness, model.mass), damping);
   }
 
   std::string Foundation::warning(const double time_step) const
@@ -247,33 +247,54 @@ namespace Voussoir
         u_base[3 * i + c] = rock_static[3 * foot[i].rock + c];
   }
 
-  /** See the class. The bound of the stiffness is that of Gershgorin. */
-  void Foundation::add_interface_mass(Structure &structure) const
+  void Foundation::check(const double time_step) const
   {
+    // tests/rock_implicit.cc: 0.1 was not always enough, m = 2 needed none.
+    const double damping = .15 * time_step / parameters.substeps;
+    if (parameters.substeps > 2 && parameters.stiffness_damping < damping)
+      throw InputError(
+          "More than two sub-steps (\"Foundation/Substeps\") grow slowly without damping of the rock: set "
+          "\"Foundation/Stiffness damping\" to 0.15 of its time step, here " +
+          std::to_string(damping) + " s, or take fewer.");
+    if (parameters.boundary.compare(0, 3, "mtf") != 0)
+      return;
+    std::vector<unsigned int> nodes;
+    for (const Foot &f : foot)
+      nodes.push_back(f.rock);
+    check_distance(TransmittingBoundary(transmitting_formula(parameters.boundary), model.lines,
+                                        time_step / parameters.substeps),
+                   nodes, n_nodes());
+  }
+
+  double Foundation::add_interface_mass(Structure &structure, const double time_step) const
+  {
+    if (parameters.substeps == 1)
+      return 0.;
     std::vector<bool> is_foot(n_nodes(), false);
     for (const Foot &f : foot)
       is_foot[f.rock] = true;
-    const double             factor = .5 * dt * dt;
     const BlockSparseMatrix &K = model.stiffness;
+    double                   sum = 0.;
     for (const Foot &f : foot)
       for (unsigned int c = 0; c < 3; ++c)
       {
-        double bound = 0.;
+        double bound = 0.; // Gershgorin's
         for (std::size_t k = K.start[f.rock]; k < K.start[f.rock + 1]; ++k)
           for (unsigned int d = 0; is_foot[K.column[k]] && d < 3; ++d)
             bound += std::abs(K.value[k][3 * c + d]);
+        const double added = .5 * time_step * time_step * bound;
         for (const unsigned int node : f.nodes)
-          structure.mass[node][4 * c] += factor * bound / f.nodes.size();
+          structure.mass[node][4 * c] += added / f.nodes.size();
+        sum += added / 3.;
       }
+    return sum;
   }
 
   void Foundation::start(const GroundMotion &outcrop, const double time_step, const unsigned int n_steps,
-                         const Unknowns &u, Structure &structure)
+                         const Unknowns &u)
   {
     dt = time_step;
-    const unsigned int m = parameters.substeps;
-    if (m > 1)
-      add_interface_mass(structure);
+    const unsigned int    m = parameters.substeps;
     std::array<double, 3> centre{};
     for (const Foot &f : foot)
       for (unsigned int c = 0; c < 3; ++c)
@@ -294,10 +315,10 @@ namespace Voussoir
         for (unsigned int c = 0; c < 3; ++c)
           rest[3 * i + c] += u[3 * node + c] / foot[i].nodes.size();
     v.assign(n, 0.);
-    a = u_predicted = v_predicted = v;
+    a = u_feet = u_predicted = v_predicted = force = force_before = v;
   }
 
-  void Foundation::advance(const DynamicState &state, Unknowns &load)
+  void Foundation::advance(Unknowns &load)
   {
     const Stopwatch    watch;
     const unsigned int m = parameters.substeps;
@@ -307,14 +328,11 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * i + c;
-        double            u = 0.;
-        for (const unsigned int node : foot[i].nodes)
-          u += state.u[3 * node + c] / foot[i].nodes.size();
-        u_predicted[k] = u - rest[k] + dt * v[k] + .25 * dt * dt * a[k];
+        u_predicted[k] = u_feet[k] + dt * v[k] + .25 * dt * dt * a[k];
         v_predicted[k] = v[k] + .5 * dt * a[k];
       }
     Unknowns        u(n), v_now(n);
-    const Unknowns *force = nullptr;
+    const Unknowns *taken = nullptr;
     for (unsigned int j = 1; j <= m; ++j)
     {
       const double part = double(j) / m;
@@ -323,16 +341,17 @@ namespace Voussoir
         u[k] = u_before[k] + part * (u_predicted[k] - u_before[k]);
         v_now[k] = v_before[k] + part * (v_predicted[k] - v_before[k]);
       }
-      force = &region->advance(u, v_now);
+      taken = &region->advance(u, v_now);
     }
+    force_before.swap(force);
     for (std::size_t i = 0; i < foot.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
       {
         // The damping of the rock's mass at the base is the dam's.
         const std::size_t k = 3 * i + c;
-        const double f = (*force)[k] - parameters.mass_damping * model.mass[foot[i].rock] * v_predicted[k];
+        force[k] = parameters.mass_damping * model.mass[foot[i].rock] * v_predicted[k] - (*taken)[k];
         for (const unsigned int node : foot[i].nodes)
-          load[3 * node + c] -= f / foot[i].nodes.size();
+          load[3 * node + c] += force[k] / foot[i].nodes.size();
       }
     seconds += watch.seconds();
   }
@@ -343,9 +362,16 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * i + c;
-        double            v_new = 0.;
+        const double      part = 1. / foot[i].nodes.size();
+        double            u_new = 0., v_new = 0.;
         for (const unsigned int node : foot[i].nodes)
-          v_new += state.v[3 * node + c] / foot[i].nodes.size();
+        {
+          u_new += part * state.u[3 * node + c];
+          v_new += part * state.v[3 * node + c];
+        }
+        u_new -= rest[k];
+        work[0] += .5 * (force_before[k] + force[k]) * (u_new - u_feet[k]);
+        u_feet[k] = u_new;
         a[k] = 2. / dt * (v_new - v[k]) - a[k];
         v[k] = v_new;
       }
@@ -363,7 +389,7 @@ namespace Voussoir
   std::vector<std::vector<double> *> Foundation::state()
   {
     std::vector<std::vector<double> *> arrays = region->state();
-    for (Unknowns *array : {&v, &a, &u_predicted, &v_predicted})
+    for (Unknowns *array : {&rest, &u_feet, &v, &a, &u_predicted, &v_predicted, &force, &work})
       arrays.push_back(array);
     return arrays;
   }

@@ -85,7 +85,20 @@ namespace Voussoir
     Body &body = ground.bodies[0];
     for (const Foot &foot : feet) // ascending
       body.interface.push_back(foot.rock);
-    const CondensedBody       condensed(ground, body, 0., 1., 0.);
+    const CondensedBody condensed = [&]
+    {
+      try
+      {
+        return CondensedBody(ground, body, 0., 1., 0.);
+      }
+      catch (const ComputationError &)
+      {
+        throw ComputationError(source +
+                               ": the stiffness of the rock cannot be factorised: its artificial "
+                               "boundary does not hold all of it, its elements are badly shaped, or it is "
+                               "too large for this method.");
+      }
+    }();
     std::vector<unsigned int> nodes, position;
     for (unsigned int i = 0; i < feet.size(); ++i)
     {

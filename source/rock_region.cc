@@ -113,6 +113,8 @@ namespace Voussoir
           continue;
         RockRegionParameters plane = parameters; // its waves come from its own middle
         plane.rock.centre[0] = section.nodes[0][0];
+        if (plane.boundary == "fixed") // the valley's own waves leave
+          plane.boundary = RockRegionParameters().boundary;
         RockModel slice = make_rock_model(section, plane.rock, tie_layer(section, 0));
         auto      motion = make_region(slice, plane, formula);
         shake(*motion, section, slice, plane, wave, n_steps, formula); // has no such faces itself

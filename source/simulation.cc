@@ -60,9 +60,10 @@ namespace Voussoir
     n_steps = scene.motion.source == "none" ? 0 : motion.acceleration.size() - 1;
     dam = std::make_unique<Dam>(scene);
     if (dam->foundation && n_steps > 0)
-      if (const double critical = dam->foundation->critical_time_step(),
-          rock_dt = motion.dt / scene.foundation.substeps;
-          rock_dt > critical)
+    {
+      const double critical = dam->foundation->critical_time_step(),
+                   rock_dt = motion.dt / scene.foundation.substeps;
+      if (rock_dt > critical)
       {
         std::ostringstream message;
         message << "The time step " << rock_dt << " s is too large for the rock: its critical time step is "
@@ -72,6 +73,8 @@ namespace Voussoir
                 << ", take larger rock elements, or less \"Foundation/Stiffness damping\".";
         throw InputError(message.str());
       }
+      dam->foundation->check(motion.dt);
+    }
     count.seconds_setup = clock.seconds();
     report_setup();
     if (options.validate)
@@ -129,6 +132,20 @@ namespace Voussoir
       log.line("Joints    %u joints, %zu pairs, law %s (friction %g)", dam->n_joints,
                dam->structure.pairs.size(), laws.c_str(), scene.joints.friction);
     }
+    if (scene.foundation.model != "rigid")
+    {
+      const FoundationParameters &p = scene.foundation;
+      log.line("Rock      %s: %.4g GPa, Poisson's ratio %g, %g kg/m3, one material",
+               p.model == "rock" ? "explicit" : "massless", 1e-9 * p.rock.young, p.rock.poisson,
+               p.rock.density);
+      if (dam->foundation)
+      {
+        log.line("          %u nodes; boundary %s, free field by %s", dam->foundation->n_nodes(),
+                 p.boundary.c_str(), p.free_field.c_str());
+        if (const std::string warning = dam->foundation->warning(motion.dt / p.substeps); !warning.empty())
+          log.line("warning: %s", warning.c_str());
+      }
+    }
     log.line("Damping   Rayleigh, C = %.4g 1/s M + %.4g s K: %.3g %% at %g Hz and %g Hz",
              scene.damping.mass_factor(), scene.damping.stiffness_factor(), 100. * scene.damping.ratio,
              scene.damping.frequency_1, scene.damping.frequency_2);
@@ -173,10 +190,15 @@ namespace Voussoir
     const Structure &structure = dam->structure;
     if (dam->foundation && n_steps > 0)
     {
-      dam->foundation->start(motion, motion.dt, n_steps, statics.u, dam->structure);
-      if (const std::string warning = dam->foundation->warning(motion.dt / scene.foundation.substeps);
-          !warning.empty())
-        log.line("warning: %s", warning.c_str());
+      dam->foundation->start(motion, motion.dt, n_steps, statics.u);
+      if (const double added = dam->foundation->add_interface_mass(dam->structure, motion.dt); added > 0.)
+      {
+        double mass = 0.;
+        for (const Matrix3 &m : structure.mass)
+          mass += m[0];
+        log.line("Feet      %.3g kg heavier for the sub-steps, %.1f %% of dam, water and feet", added,
+                 100. * added / mass);
+      }
     }
     newmark = std::make_unique<Newmark>(structure, dam->laws, contact_parameters("shaking"), motion.dt,
                                         impact_rule(scene.impact_rule));
@@ -213,8 +235,8 @@ namespace Voussoir
     energy.columns = {"time",     "kinetic", "strain", "added_mass", "damping",
                       "friction", "impact",  "input",  "balance"};
     if (dam->foundation && n_steps > 0)
-      for (const char *name :
-           {"rock_kinetic", "rock_strain", "rock_damping", "rock_feet", "transmitted", "rock_balance"})
+      for (const char *name : {"rock_kinetic", "rock_strain", "rock_damping", "rock_feet", "transmitted",
+                               "rock_balance", "interface"})
         energy.columns.push_back(name);
     count.seconds_static += watch.seconds();
     if (n_steps > 0)
@@ -234,7 +256,7 @@ namespace Voussoir
     for (std::size_t k = 0; k < load.size(); ++k)
       load[k] += a[0] * dam->inertia[0][k] + a[1] * dam->inertia[1][k] + a[2] * dam->inertia[2][k];
     if (dam->foundation)
-      dam->foundation->advance(newmark->state(), load);
+      dam->foundation->advance(load);
     const SystemTimes   before = newmark->joint_system().times;
     const Vector3       base_velocity = dam->foundation ? dam->foundation->base_velocity() : Vector3{};
     const ContactResult result = newmark->advance(load, base_velocity);
@@ -303,8 +325,8 @@ namespace Voussoir
     if (dam->foundation && n_steps > 0)
     {
       const RegionEnergy &rock = dam->foundation->energy();
-      for (const double value :
-           {rock.kinetic, rock.strain, rock.damping, rock.prescribed, rock.transmitted, rock.balance()})
+      for (const double value : {rock.kinetic, rock.strain, rock.damping, rock.prescribed, rock.transmitted,
+                                 rock.balance(), rock.prescribed + dam->foundation->work_on_dam()})
         energy.rows.back().push_back(value);
     }
     if (scene.output.solution_interval > 0 && step % scene.output.solution_interval == 0)

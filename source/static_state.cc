@@ -169,6 +169,6 @@ namespace Voussoir
                              std::to_string(error) + " after " + std::to_string(round) + " rounds.");
     for (std::size_t k = 0; k < r.size(); ++k)
       statics.load[k] -= r[k];
-    log.line("Rock      %u nodes; static state of dam and rock after %u rounds", rock.n_nodes(), round);
+    log.line("Rock      static state of dam and rock after %u rounds", round);
   }
 } // namespace Voussoir

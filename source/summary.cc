@@ -71,6 +71,7 @@ namespace Voussoir
     getrusage(RUSAGE_SELF, &usage);
     summary.add("scene", scene.name)
         .add("law", dam->tied ? "tied" : scene.joints.model)
+        .add("foundation", scene.foundation.model)
         .add("version", VOUSSOIR_VERSION)
         .add("revision", VOUSSOIR_REVISION)
         .add("dealii", DEAL_II_PACKAGE_VERSION)

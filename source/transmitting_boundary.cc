@@ -199,6 +199,20 @@ namespace Voussoir
     return next;
   }
 
+  void check_distance(const TransmittingBoundary &boundary, const std::vector<unsigned int> &prescribed,
+                      const unsigned int n_nodes)
+  {
+    std::vector<bool> is_prescribed(n_nodes, false);
+    for (const unsigned int node : prescribed)
+      is_prescribed[node] = true;
+    for (const unsigned int node : boundary.nodes())
+      if (is_prescribed[node])
+        throw InputError(
+            "the base of the dam is too near the artificial boundary of the rock: there must be " +
+            std::to_string(boundary.nodes_per_line()) +
+            " layers of rock cells between them for this transmitting boundary");
+  }
+
   std::vector<std::vector<double> *> TransmittingBoundary::state()
   {
     std::vector<std::vector<double> *> arrays;

@@ -30,9 +30,9 @@ namespace Voussoir
    *  With m substeps the rock makes m steps in one of the dam: the feet go evenly from one prediction to the
    * next (Belytschko, Yen and Mullen 1979), and the dam feels the force at the end. Predictions over so long
    * a step make feet unstable that are lighter than the rock's stiffness there asks; so for m > 1 each foot
-   * carries in addition the mass k dt^2/2, k bounding the rock's stiffness between the feet. (With half of it
-   * a run of 10 ms and m = 5 grew slowly, with a quarter fast.) It errs in the order of dt^2; doc/rock.md has
-   * its size. */
+   * carries in addition the mass k dt^2/2, k bounding the rock's stiffness between the feet: an error in the
+   * order of dt^2, whose size is in doc/rock.md. For m > 2 slow growth is left, which stiffness-proportional
+   * damping of 0.15 steps of the rock suppresses; check() asks for it. */
   class Foundation
   {
   public:
@@ -45,8 +45,8 @@ namespace Voussoir
     void add_mass(Structure &structure) const;
 
     unsigned int n_nodes() const { return static_cast<unsigned int>(model.points.size()); }
-    double       critical_time_step() const; ///< [s]
-    std::string  warning(double dt) const;   ///< why it may be unstable, or empty
+    double       critical_time_step() const { return dt_critical; } ///< of the rock [s]
+    std::string  warning(double dt) const;                          ///< why it may be unstable, or empty
 
     /** Springs between dam and rock for the static iteration, per component of the dam [N/m]. */
     Unknowns static_springs(const Structure &structure) const;
@@ -55,23 +55,34 @@ namespace Voussoir
      *  per node of the dam [N]; only at the base, 3 per foot [m]. */
     void settle(const Unknowns &r, Unknowns &u_base);
 
-    /** Make ready for @p n_steps of the dam of size @p dt [s] from its static displacement @p u, at rest;
-     * adds the mass that substeps need to the feet in @p structure. */
-    void start(const GroundMotion &outcrop, double dt, unsigned int n_steps, const Unknowns &u,
-               Structure &structure);
+    /** InputError for what would become unstable at the dam's step @p dt [s]: an artificial boundary with
+     * lines too short, waves too fast, or too near the base; more than two substeps without enough damping.
+     */
+    void check(double dt) const;
 
-    /** One step of the rock, to the time of the next step of the dam, whose state is still that before it;
-     *  subtracts the forces of the rock from @p load [N]. */
-    void advance(const DynamicState &state, Unknowns &load);
+    /** Add the mass to the feet that substeps need, if there are more than one in a step @p dt of the dam; to
+     * be done before its Newmark is made. Returns that mass [kg]. */
+    double add_interface_mass(Structure &structure, double dt) const;
+
+    /** Make ready for @p n_steps of the dam of size @p dt [s] from its static displacement @p u, at rest. */
+    void start(const GroundMotion &outcrop, double dt, unsigned int n_steps, const Unknowns &u);
+
+    /** The rock's part of the next step of the dam; adds its forces to @p load [N]. */
+    void advance(Unknowns &load);
 
     /** The dam has made its step. */
     void follow(const DynamicState &state);
 
-    /** Mean velocity of the feet as predicted for the end of the step, after advance() [m/s]. */
+    /** Mean velocity of the feet as predicted for the end of the step, v + dt/2 a, after advance(); off by
+     * dt/2 times the change of acceleration [m/s]. */
     Vector3 base_velocity() const;
 
     /** Energies of the rock, half a step of its own before the dam's time [J]. */
     const RegionEnergy &energy() const { return region->energy(); }
+
+    /** Work of the rock's elements on the feet so far, as the dam counts it [J]. With that of the feet on the
+     * rock (energy().prescribed) it adds up to what the coupling made. */
+    double work_on_dam() const { return work[0]; }
 
     double seconds = 0.; ///< of wall time in advance()
 
@@ -80,18 +91,18 @@ namespace Voussoir
     std::vector<std::vector<double> *> state(); ///< for checkpoints, after start()
 
   private:
-    void add_interface_mass(Structure &structure) const;
-
     const FoundationParameters      parameters;
     HexMesh                         mesh;
     RockModel                       model;
     std::vector<Foot>               foot;
     std::unique_ptr<ExplicitRegion> region;
-    double                          dt = 0.; ///< of the dam [s]
-    Unknowns rock_static;                    ///< displacement of the whole rock in the static state: guess
-    Unknowns rest;                           ///< of the feet [m]
-    Unknowns v, a;                           ///< of the feet
-    Unknowns u_predicted, v_predicted;       ///< for the end of the step
+    double                          dt = 0., dt_critical = 0.; ///< of the dam, for the rock [s]
+    Unknowns            rock_static;         ///< displacement of the whole rock in the static state: guess
+    Unknowns            rest;                ///< of the feet [m]
+    Unknowns            u_feet, v, a;        ///< of the feet
+    Unknowns            force, force_before; ///< of the rock's elements on them [N]
+    std::vector<double> work = {0.};         ///< on the dam [J]
+    Unknowns            u_predicted, v_predicted; ///< for the end of the step
   };
 } // namespace Voussoir
 

@@ -94,6 +94,11 @@ namespace Voussoir
     Unknowns                  next;
   };
 
+  /** InputError if one of the @p prescribed nodes, out of @p n_nodes of the region, lies on a line of the
+   * boundary: orders 3 and 4 were seen to explode with such. */
+  void check_distance(const TransmittingBoundary &boundary, const std::vector<unsigned int> &prescribed,
+                      unsigned int n_nodes);
+
   /** Dashpot and spring between a boundary node and the free field. */
   struct Dashpot
   {
