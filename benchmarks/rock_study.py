@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Rigid base, massless rock, rock that radiates: what do 0, 5, 17 and 28 joints do on each? Five seconds of strong
-shaking of prm/rock_fja.prm, the same mesh of the dam for all.
+shaking of prm/rock_fja.prm.
 
     benchmarks/rock_study.py [--voussoir PROGRAM] [--jobs 2]
 
