@@ -24,6 +24,7 @@ namespace
   RockRegionParameters parameters()
   {
     RockRegionParameters p;
+    p.boundary = "mtf2"; // its lines leave room in a small cube
     p.rock.materials[rock] = unit_rock();
     p.rock.nodal_everywhere = true;
     p.rock.centre = {{.5 * n, .5 * n, double(n)}};
