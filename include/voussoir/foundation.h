@@ -93,6 +93,7 @@ namespace Voussoir
   private:
     const FoundationParameters      parameters;
     HexMesh                         mesh;
+    std::array<double, 3>           centre{}; ///< of the dam's base: scattered waves come from there [m]
     RockModel                       model;
     std::vector<Foot>               foot;
     std::unique_ptr<ExplicitRegion> region;
