@@ -9,7 +9,7 @@ history.png, joint_history.png                     crest and base; the joints th
 energy.png                                         energies and their balance
 
 Figures whose data are missing are skipped with a message.
-Exit status: 0 done, 1 some data could not be understood, 2 not an output directory.
+Exit status: 0 done, 1 some data could not be understood, 2 not an output directory, 3 no numpy or matplotlib.
 """
 
 import csv
@@ -19,8 +19,12 @@ import sys
 from collections import Counter
 from pathlib import Path
 
-import numpy as np
-import matplotlib
+try:
+    import numpy as np
+    import matplotlib
+except ImportError as error:
+    print(f"{sys.executable}: {error}")
+    sys.exit(3)
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402 (after the choice of the backend)

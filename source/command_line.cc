@@ -82,6 +82,8 @@ Exit status: 0 done; 1 the computation failed; 2 bad input.
           arguments.run.resume = true;
         else if (words[i] == "--validate")
           arguments.run.validate = true;
+        else if (words[i] == "--overwrite")
+          arguments.run.overwrite = true;
         else if (words[i] == "--quiet")
           arguments.run.quiet = true;
         else if (words[i].compare(0, 1, "-") == 0)
@@ -236,6 +238,7 @@ Exit status: 0 done; 1 the computation failed; 2 bad input.
     if (!is_command)
     {
       RunOptions options = arguments.run;
+      options.scene_file = p.back();
       options.output = arguments.output;
 #ifdef DEBUG
       std::cerr << "voussoir: warning: this is a Debug build, many times slower than Release.\n";

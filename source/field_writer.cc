@@ -51,17 +51,22 @@ namespace Voussoir
                                    3, DataComponentInterpretation::component_is_part_of_vector));
     }
     data_out.build_patches(model.fe.degree);
-    std::ofstream out(file);
-    data_out.write_vtu(out);
-    if (!out.flush())
-      throw ComputationError("The file " + file +
-                             " cannot be written. Is the disk full, or the directory read-only?");
+    OutputFile out(file);
+    try
+    {
+      data_out.write_vtu(out);
+    }
+    catch (const ExceptionBase &) // deal.II has noticed
+    {
+      throw WriteError::of(file);
+    }
+    out.check();
   }
 
   void FieldWriter::write_faces(const std::string &directory, const DamGeometry &geometry,
                                 const std::vector<float> &maximum, const std::vector<float> &minimum) const
   {
-    std::ofstream nodes(directory + "/faces.csv"), quads(directory + "/faces_cells.csv");
+    OutputFile nodes(directory + "/faces.csv"), quads(directory + "/faces_cells.csv");
     nodes.precision(8);
     nodes << "face,monolith,x,y,z,s,max_principal,min_principal\n";
     quads << "face,monolith,n0,n1,n2,n3\n";
@@ -104,7 +109,7 @@ namespace Voussoir
                       << line_of[lattice[(j + 1) * per_side + i]] << '\n';
           }
     }
-    if (!nodes.flush() || !quads.flush())
-      throw ComputationError("Files cannot be written to " + directory + ". Is the disk full?");
+    nodes.check();
+    quads.check();
   }
 } // namespace Voussoir

@@ -8,8 +8,9 @@ namespace Voussoir
 {
   void Log::open(const std::string &name, const bool append)
   {
-    file.open(name, append ? std::ios::app : std::ios::trunc);
-    file << early << std::flush;
+    file = std::make_unique<OutputFile>(name, append ? std::ios::app : std::ios::trunc);
+    *file << early;
+    file->check();
   }
 
   void Log::line(const char *format, ...)
@@ -24,8 +25,11 @@ namespace Voussoir
       std::printf("%s\n", buffer);
       std::fflush(stdout);
     }
-    if (file.is_open())
-      file << buffer << std::endl;
+    if (file)
+    {
+      *file << buffer << '\n';
+      file->check();
+    }
     else
       early += buffer + std::string("\n");
   }

@@ -2,8 +2,11 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <voussoir/command_line.h>
-#include <voussoir/error.h>
+#include <voussoir/interrupt.h>
+#include <voussoir/output_file.h>
 
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -27,6 +30,7 @@ namespace
 int main(int argc, char *argv[])
 {
   wait_politely(argv);
+  std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of the write
   try
   {
     dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
@@ -38,12 +42,20 @@ int main(int argc, char *argv[])
                   << std::endl;
       return 2;
     }
-    return Voussoir::run_command(std::vector<std::string>(argv + 1, argv + argc));
+    const int status = Voussoir::run_command(std::vector<std::string>(argv + 1, argv + argc));
+    if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw Voussoir::WriteError::of("standard output");
+    return status;
   }
   catch (const Voussoir::InputError &error)
   {
     std::cerr << "voussoir: error: " << error.what() << std::endl;
     return 2;
+  }
+  catch (const Voussoir::Interrupted &error)
+  {
+    std::cerr << "voussoir: stopped: " << error.what() << std::endl;
+    return 1;
   }
   catch (const Voussoir::ComputationError &error)
   {

@@ -7,23 +7,40 @@
 
 namespace Voussoir
 {
+  namespace
+  {
+    void write_row(const std::vector<double> &row, std::ostream &out)
+    {
+      char number[40];
+      for (std::size_t i = 0; i < row.size(); ++i)
+      {
+        std::snprintf(number, sizeof(number), i == 0 ? "%.8g" : ",%.8g", row[i]);
+        out << number;
+      }
+      out << '\n';
+    }
+  } // namespace
+
   void Table::write(const std::string &file) const
   {
-    std::FILE *out = std::fopen(file.c_str(), "w");
-    if (out == nullptr)
-      throw ComputationError("The file " + file +
-                             " cannot be written. Is the disk full, or the directory read-only?");
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      std::fprintf(out, "%s%s", i == 0 ? "" : ",", columns[i].c_str());
-    std::fprintf(out, "\n");
-    for (const auto &row : rows)
-    {
-      for (std::size_t i = 0; i < row.size(); ++i)
-        std::fprintf(out, i == 0 ? "%.8g" : ",%.8g", row[i]);
-      std::fprintf(out, "\n");
-    }
-    if (std::fclose(out) != 0)
-      throw ComputationError("The file " + file + " could not be written to its end. Is the disk full?");
+    TableFile().open(file, *this);
+  }
+
+  void TableFile::open(const std::string &name, const Table &table)
+  {
+    file = std::make_unique<OutputFile>(name);
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+      *file << (i == 0 ? "" : ",") << table.columns[i];
+    *file << '\n';
+    n_written = 0;
+    append(table);
+  }
+
+  void TableFile::append(const Table &table)
+  {
+    for (; n_written < table.rows.size(); ++n_written)
+      write_row(table.rows[n_written], *file);
+    file->check();
   }
 
   JointRecorder::JointRecorder(const Structure &structure, const DamGeometry &geometry)

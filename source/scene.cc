@@ -4,6 +4,8 @@
 #include <voussoir/newmark.h>
 #include <voussoir/scene.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 namespace Voussoir
@@ -190,6 +192,22 @@ namespace Voussoir
     prm.leave_subsection();
     contact.add_parameters(prm);
     output.add_parameters(prm);
+  }
+
+  std::vector<std::string> Scene::input_files() const
+  {
+    std::vector<std::string> files;
+    if (mesh.source == "file")
+      files.push_back(mesh.file);
+    if (motion.source == "file")
+    {
+      files.push_back(motion.file);
+      files.insert(files.end(), motion.component_files.begin(), motion.component_files.end());
+    }
+    files.erase(std::remove(files.begin(), files.end(), ""), files.end());
+    for (std::string &file : files)
+      file = (std::filesystem::path(directory) / file).string();
+    return files;
   }
 
   void Scene::check() const

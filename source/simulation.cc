@@ -10,7 +10,8 @@ namespace Voussoir
 {
   Simulation::Simulation(const Scene &scene, const std::string &scene_text, const RunOptions &options)
       : scene(scene), scene_text(scene_text), options(options),
-        directory(options.output.empty() ? "output/" + scene.name : options.output), log(options.quiet)
+        run_directory(options.output.empty() ? "output/" + scene.name : options.output),
+        directory(run_directory.path), log(options.quiet)
   {
   }
 
@@ -39,23 +40,39 @@ namespace Voussoir
 
   void Simulation::run()
   {
-    if (options.resume && !std::filesystem::exists(directory + "/checkpoint.bin"))
-      throw InputError("There is no checkpoint " + directory +
-                       "/checkpoint.bin to resume from: the run has ended, or never reached one. Run "
-                       "without --resume, or name the output directory of the run with --output.");
+    note_provenance();
     if (!options.validate)
     {
-      std::error_code error;
-      std::filesystem::create_directories(directory, error);
-      if (error || !std::ofstream(directory + "/scene.prm", std::ios::app))
-        throw InputError("The output directory " + directory +
-                         " cannot be written to. Choose another one with --output.");
-      if (!options.resume)
-        remove_old_results();
-      log.open(directory + "/log.txt", options.resume);
-      if (!options.resume) // else only when the checkpoint belongs to this scene
-        std::ofstream(directory + "/scene.prm") << scene_text;
+      std::vector<std::string> inputs = scene.input_files();
+      inputs.push_back(options.scene_file);
+      if (options.resume)
+        open_checkpoint();
+      run_directory.claim(options.resume, options.overwrite, inputs);
     }
+    read_input();
+    report_setup();
+    if (options.validate)
+      return;
+    stop_if_asked();
+
+    run_directory.begin(options.resume); // all input is read and found good
+    log.open(directory + "/log.txt", options.resume);
+    find_static_state();
+    start_shaking();
+    if (options.resume)
+      load_checkpoint();
+    OutputFile out(directory + "/scene.prm");
+    out << scene_text;
+    out.check();
+    open_tables();
+    if (!options.resume)
+      record();
+    shake();
+  }
+
+  /** All files that the scene names; InputError for what cannot be run. */
+  void Simulation::read_input()
+  {
     motion = refined(make_motion(scene.motion, scene.directory), scene.steps_per_sample);
     n_steps = scene.motion.source == "none" ? 0 : motion.acceleration.size() - 1;
     dam = std::make_unique<Dam>(scene);
@@ -76,44 +93,49 @@ namespace Voussoir
       dam->foundation->check(motion.dt);
     }
     count.seconds_setup = clock.seconds();
-    report_setup();
-    if (options.validate)
-      return;
+  }
 
-    find_static_state();
-    start_shaking();
-    if (options.resume)
-    {
-      load_checkpoint();
-      std::ofstream(directory + "/scene.prm") << scene_text;
-    }
-    else
-      record();
+  void Simulation::shake()
+  {
     shaking_clock = Stopwatch();
     const double before = count.seconds_shaking;
-    for (first_step = step; step < n_steps;)
+    try
     {
-      try
+      for (first_step = step; step < n_steps;)
       {
-        advance();
+        step_once();
+        record();
+        count.seconds_shaking = before + shaking_clock.seconds();
+        if (step % scene.output.progress_interval == 0 || step == n_steps)
+          report_step();
+        if (step < n_steps && interrupt.received() != nullptr)
+          keep_and_stop();
+        if (scene.output.checkpoint_interval > 0 && step % scene.output.checkpoint_interval == 0 &&
+            step < n_steps)
+          save_checkpoint();
       }
-      catch (const ComputationError &error)
-      {
-        write_tables(); // what there is, to see what went wrong
-        const bool resumable = std::filesystem::exists(directory + "/checkpoint.txt");
-        throw ComputationError(
-            error.what() + (" The tables in " + directory) + " end before it" +
-            (resumable ? "; the last checkpoint is there, too: go on from it with --resume." : "."));
-      }
-      record();
-      count.seconds_shaking = before + shaking_clock.seconds();
-      if (step % scene.output.progress_interval == 0 || step == n_steps)
-        report_step();
-      if (scene.output.checkpoint_interval > 0 && step % scene.output.checkpoint_interval == 0 &&
-          step < n_steps)
-        save_checkpoint();
+      write_results();
     }
-    write_results();
+    catch (const WriteError &error)
+    {
+      throw WriteError(error.what() + keep_last_state());
+    }
+  }
+
+  void Simulation::step_once()
+  {
+    try
+    {
+      advance();
+    }
+    catch (const ComputationError &error)
+    {
+      write_tables(); // what there is, to see what went wrong
+      const bool resumable = std::filesystem::exists(checkpoint_name());
+      throw ComputationError(
+          error.what() + (" The tables in " + directory) + " end before it" +
+          (resumable ? "; the last checkpoint is there, too: go on from it with --resume." : "."));
+    }
   }
 
   void Simulation::report_setup()
@@ -320,15 +342,19 @@ namespace Voussoir
     }
     history.rows.push_back(row);
     const Energy &e = state.energy, &e0 = newmark->initial_energy();
-    energy.rows.push_back({state.time, e.kinetic, e.strain - e0.strain, e.added_mass, e.damping, e.friction,
-                           e.impact, e.input, e.balance(e0)});
+    row = {state.time, e.kinetic, e.strain - e0.strain, e.added_mass, e.damping, e.friction,
+           e.impact,   e.input,   e.balance(e0)};
     if (dam->foundation && n_steps > 0)
     {
       const RegionEnergy &rock = dam->foundation->energy();
       for (const double value : {rock.kinetic, rock.strain, rock.damping, rock.prescribed, rock.transmitted,
                                  rock.balance(), rock.prescribed + dam->foundation->work_on_dam()})
-        energy.rows.back().push_back(value);
+        row.push_back(value);
     }
+    energy.rows.push_back(row);
+    history_file.append(history);
+    energy_file.append(energy);
+    joint_file.append(joints->history);
     if (scene.output.solution_interval > 0 && step % scene.output.solution_interval == 0)
       write_solution();
     count.seconds_output += watch.seconds();

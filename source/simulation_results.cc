@@ -1,37 +1,11 @@
-#include <voussoir/error.h>
+#include <voussoir/figures.h>
 #include <voussoir/simulation.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <set>
 
 namespace Voussoir
 {
-  /** What an earlier run left would stand beside the new results as if it belonged to them. */
-  void Simulation::remove_old_results()
-  {
-    for (const auto &entry : std::filesystem::directory_iterator(directory))
-    {
-      const std::string name = entry.path().filename().string(), kind = entry.path().extension().string();
-      const bool        solution = name.rfind("solution", 0) == 0 && (kind == ".vtu" || kind == ".pvd");
-      if (solution || std::set<std::string>{"summary.json", "envelope.vtu", "faces.csv", "faces_cells.csv",
-                                            "history.csv", "energy.csv", "joints.csv", "joint_history.csv",
-                                            "figures.log", "checkpoint.bin", "checkpoint.txt"}
-                              .count(name) > 0)
-        std::filesystem::remove(entry.path());
-    }
-    for (const char *stage : {"/contact/static", "/contact/shaking"})
-      if (std::filesystem::is_directory(directory + stage))
-        for (const auto &entry : std::filesystem::directory_iterator(directory + stage))
-          if (entry.path().extension() == ".hdf5")
-            std::filesystem::remove(entry.path());
-    if (std::filesystem::is_directory(directory + "/figures"))
-      for (const auto &entry : std::filesystem::directory_iterator(directory + "/figures"))
-        if (entry.path().extension() == ".png")
-          std::filesystem::remove(entry.path());
-  }
-
   void Simulation::write_solution()
   {
     std::vector<Stress> s;
@@ -74,25 +48,32 @@ namespace Voussoir
     std::snprintf(name, sizeof(name), "solution-%05u.vtu", step);
     FieldWriter(*dam->model).write_vtu(directory + "/" + name, newmark->state().u, fields);
     solutions.emplace_back(newmark->state().time, name);
-    std::ofstream pvd(directory + "/solution.pvd");
+    OutputFile pvd(directory + "/solution.pvd");
     pvd << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
     for (const auto &solution : solutions)
       pvd << "<DataSet timestep=\"" << solution.first << "\" file=\"" << solution.second << "\"/>\n";
     pvd << "</Collection>\n</VTKFile>\n";
+    pvd.check();
+  }
+
+  void Simulation::open_tables()
+  {
+    history_file.open(directory + "/history.csv", history);
+    energy_file.open(directory + "/energy.csv", energy);
+    joint_file.open(directory + "/joint_history.csv", joints->history);
   }
 
   void Simulation::write_tables()
   {
-    history.write(directory + "/history.csv");
-    energy.write(directory + "/energy.csv");
+    history_file.append(history);
+    energy_file.append(energy);
+    joint_file.append(joints->history);
     joints->maxima().write(directory + "/joints.csv");
-    joints->history.write(directory + "/joint_history.csv");
   }
 
-  void Simulation::write_results()
+  void Simulation::write_fields()
   {
     const Stopwatch watch;
-    write_tables();
     if (scene.output.envelope_interval > 0)
     {
       const FieldWriter writer(*dam->model);
@@ -101,6 +82,12 @@ namespace Voussoir
       writer.write_faces(directory, *dam->geometry, envelope->maximum, envelope->minimum);
     }
     count.seconds_output += watch.seconds();
+  }
+
+  void Simulation::write_results()
+  {
+    write_tables();
+    write_fields();
     write_summary();
     log.line("Joints    largest opening %.2f mm, largest slip %.2f mm", 1e3 * joints->opening.value,
              1e3 * joints->slip.value);
@@ -113,8 +100,9 @@ namespace Voussoir
                1e3 * count.seconds_stepping / n_steps, 1e3 * count.seconds_stresses / n_steps,
                1e3 * count.seconds_output / n_steps);
     log.line("Energy    balance closes to %.1e of the largest energy", count.energy_error);
-    for (const char *name : {"/checkpoint.bin", "/checkpoint.txt"})
-      std::filesystem::remove(directory + name); // the run is complete: nothing to resume
+    for (const char *ending : {"", ".before", ".new"})
+      std::filesystem::remove(checkpoint_name() + ending); // the run is complete: nothing to resume
+    std::filesystem::remove(directory + "/checkpoint.txt");
     if (scene.output.figures)
       draw_figures();
     log.line("Results   %s", directory.c_str());
@@ -122,15 +110,10 @@ namespace Voussoir
 
   void Simulation::draw_figures()
   {
-    const char       *script_directory = std::getenv("VOUSSOIR_SCRIPTS");
-    const std::string script =
-        (script_directory != nullptr ? std::string(script_directory) : VOUSSOIR_SOURCE_DIR "/scripts") +
-        "/figures.py";
-    const std::string command =
-        "/usr/bin/python3 '" + script + "' '" + directory + "' > '" + directory + "/figures.log' 2>&1";
-    log.line("Figures   %s/figures", directory.c_str());
-    if (std::system(command.c_str()) != 0)
-      log.line("warning: the figures could not be drawn; see %s/figures.log. The results are complete.",
-               directory.c_str());
+    const std::string error = draw_figures_of(directory, directory + "/figures.log");
+    if (error.empty())
+      log.line("Figures   %s/figures", directory.c_str());
+    else
+      log.line("warning: the figures could not be drawn: %s. The results are complete.", error.c_str());
   }
 } // namespace Voussoir

@@ -71,6 +71,7 @@ namespace Voussoir
     for (unsigned int i = 1; i <= scene.statics.water_increments; ++i)
     {
       // slip is counted from the last increment
+      stop_if_asked();
       start = gap;
       statics.load = dam->static_load(double(i) / scene.statics.water_increments);
       if (dam->foundation)
@@ -117,6 +118,7 @@ namespace Voussoir
     total.converged = true;
     for (; round < 60 && error > 1e-9; ++round)
     {
+      stop_if_asked();
       Unknowns load = external;
       for (std::size_t i = 0; i < n / 3; ++i)
         for (const unsigned int node : rock.feet()[i].nodes)

@@ -100,9 +100,8 @@ namespace Voussoir
             .add("energy_balance_error", count.rock_imbalance / std::max(count.rock_energy, 1e-300));
       summary.add("rock", json);
     }
-    std::ofstream out(directory + "/summary.json");
+    OutputFile out(directory + "/summary.json");
     out << summary.text() << "\n";
-    if (!out.flush())
-      throw ComputationError("The file " + directory + "/summary.json cannot be written.");
+    out.check();
   }
 } // namespace Voussoir

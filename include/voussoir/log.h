@@ -1,8 +1,10 @@
 #ifndef voussoir_log_h
 #define voussoir_log_h
 
+#include <voussoir/output_file.h>
+
 #include <chrono>
-#include <fstream>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,16 +17,17 @@ namespace Voussoir
   public:
     explicit Log(bool quiet) : quiet(quiet) {}
 
-    /** Also write to this file from now on, with all lines so far. @p append: keep what is in it. */
+    /** Also write to this file from now on, with all lines so far. @p append: keep what is in it. Throws
+     * WriteError, as line() does when there is a file. */
     void open(const std::string &file, bool append);
 
     /** printf-style line. */
     void line(const char *format, ...) __attribute__((format(printf, 2, 3)));
 
   private:
-    const bool    quiet;
-    std::string   early;
-    std::ofstream file;
+    const bool                  quiet;
+    std::string                 early;
+    std::unique_ptr<OutputFile> file;
   };
 
   /** Wall clock. */

@@ -3,8 +3,10 @@
 
 #include <voussoir/dam_geometry.h>
 #include <voussoir/newmark.h>
+#include <voussoir/output_file.h>
 #include <voussoir/stress.h>
 
+#include <memory>
 #include <string>
 
 namespace Voussoir
@@ -15,9 +17,21 @@ namespace Voussoir
     std::vector<std::string>         columns;
     std::vector<std::vector<double>> rows;
 
-    void write(const std::string &file) const; ///< throws ComputationError when the file cannot be written
+    void write(const std::string &file) const; ///< throws WriteError
 
     template <class Archive> void serialize(Archive &archive, unsigned int) { archive &columns &rows; }
+  };
+
+  /** The file of a table that grows with the run, so that a run that is killed leaves what it had. */
+  class TableFile
+  {
+  public:
+    void open(const std::string &name, const Table &table); ///< with the rows so far; throws WriteError
+    void append(const Table &table); ///< the rows that the file does not have yet; throws WriteError
+
+  private:
+    std::unique_ptr<OutputFile> file;
+    std::size_t                 n_written = 0;
   };
 
   /** A value with its place and time. */

@@ -86,6 +86,8 @@ namespace Voussoir
 
     void add_parameters(dealii::ParameterHandler &prm);
     void check() const;
+
+    std::vector<std::string> input_files() const; ///< meshes and motions that it names, with their paths
   };
 
   /** Reads a scene file with its includes (relative to the including file), then applies @p overrides, each

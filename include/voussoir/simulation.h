@@ -1,17 +1,22 @@
 #ifndef voussoir_simulation_h
 #define voussoir_simulation_h
 
+#include <voussoir/checkpoint_file.h>
 #include <voussoir/dam.h>
+#include <voussoir/interrupt.h>
 #include <voussoir/log.h>
 #include <voussoir/recorders.h>
+#include <voussoir/run_directory.h>
 
 namespace Voussoir
 {
   struct RunOptions
   {
-    std::string output;           ///< directory; empty: output/NAME
-    bool        resume = false;   ///< go on from the last checkpoint
-    bool        validate = false; ///< set up and report, but do not compute
+    std::string scene_file;        ///< so that the run does not overwrite it
+    std::string output;            ///< directory; empty: output/NAME
+    bool        resume = false;    ///< go on from the last checkpoint
+    bool        validate = false;  ///< set up and report, but do not compute
+    bool        overwrite = false; ///< replace a checkpoint, and write beside files of others
     bool        quiet = false;
   };
 
@@ -25,28 +30,40 @@ namespace Voussoir
     void run();
 
   private:
-    void    remove_old_results();
+    void    read_input();
     void    report_setup();
     void    find_static_state();
     void    settle(JointSystem &system, const Unknowns &springs, const Unknowns &start, Unknowns &gap);
     Vector3 relative_to_base(unsigned int node) const;
     ContactParameters contact_parameters(const std::string &stage) const;
     void              start_shaking();
+    void              shake();
     void              advance();
+    void              step_once();
     void              record();
     void              report_step();
     void              write_solution();
+    void              open_tables();
     void              write_tables();
+    void              write_fields();
     void              write_results();
     void              write_summary();
     void              draw_figures();
+    void              stop_if_asked() const;
+    void              keep_and_stop();
+    std::string       keep_last_state();
+    std::string       checkpoint_name() const { return directory + "/checkpoint.bin"; }
     void              save_checkpoint();
+    void              note_provenance();
+    void              open_checkpoint();
     void              load_checkpoint();
 
     const Scene       scene;
     const std::string scene_text;
     const RunOptions  options;
-    const std::string directory;
+    RunDirectory      run_directory;
+    const std::string directory; ///< its path
+    InterruptGuard    interrupt;
     Log               log;
     Stopwatch         clock, shaking_clock;
     double            clock_before = 0., cpu_before = 0.; ///< of the runs this one resumes [s]
@@ -54,7 +71,8 @@ namespace Voussoir
     std::unique_ptr<Dam> dam;
     GroundMotion         motion;
     unsigned int         n_steps = 0, step = 0, first_step = 0;
-    bool                 resumed = false;
+    Provenance           provenance;
+    std::string          checkpoint; ///< its payload, until it is loaded
 
     struct StaticState
     {
@@ -89,6 +107,7 @@ namespace Voussoir
     std::unique_ptr<EnvelopeRecorder>           envelope;
     std::unique_ptr<JointRecorder>              joints;
     Table                                       history, energy;
+    TableFile                                   history_file, energy_file, joint_file;
     std::vector<unsigned int>                   probes;    ///< nodes
     std::vector<std::pair<double, std::string>> solutions; ///< time and file of solution.pvd
   };

@@ -1,0 +1,166 @@
+#include <voussoir/output_file.h>
+#include <voussoir/run_directory.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <fcntl.h>
+#include <fstream>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace Voussoir
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    constexpr const char *marker = ".voussoir";
+
+    bool begins(const std::string &name, const std::string &with)
+    {
+      return name.compare(0, with.size(), with) == 0;
+    }
+
+    /** Is this what a run writes at this place below its directory? */
+    bool is_result(const fs::path &relative)
+    {
+      const std::string name = relative.filename().string(), kind = relative.extension().string(),
+                        folder = relative.parent_path().string();
+      if (folder == "figures")
+        return kind == ".png";
+      if (folder == "contact/static" || folder == "contact/shaking")
+        return kind == ".hdf5";
+      constexpr std::array<const char *, 14> names = {
+          {"scene.prm", "log.txt", "summary.json", "history.csv", "energy.csv", "joints.csv",
+           "joint_history.csv", "envelope.vtu", "faces.csv", "faces_cells.csv", "figures.log", "solution.pvd",
+           "checkpoint.txt", marker}};
+      return folder.empty() &&
+             (std::find(names.begin(), names.end(), name) != names.end() ||
+              (begins(name, "solution-") && kind == ".vtu") || (begins(name, "checkpoint.bin")));
+    }
+
+    /** A directory or a device where a result belongs (as /dev/full, for tests): to write there fails, or
+     * harms nobody. */
+    bool is_in_the_way(const fs::path &place)
+    {
+      std::error_code error;
+      const auto      type = fs::status(place, error).type();
+      return type == fs::file_type::directory || type == fs::file_type::character;
+    }
+
+    /** What is in a run's directory, relative to it; folders that no run makes are not looked into. */
+    std::vector<fs::path> entries_of(const fs::path &directory)
+    {
+      std::vector<fs::path> entries;
+      for (const char *folder : {"", "figures", "contact", "contact/static", "contact/shaking"})
+        if (fs::is_directory(directory / folder))
+          for (const auto &entry : fs::directory_iterator(directory / folder))
+          {
+            const fs::path relative = entry.path().lexically_relative(directory);
+            if (relative != "figures" && relative != "contact" && relative != "contact/static" &&
+                relative != "contact/shaking")
+              entries.push_back(relative);
+          }
+      std::sort(entries.begin(), entries.end());
+      return entries;
+    }
+  } // namespace
+
+  RunDirectory::~RunDirectory()
+  {
+    std::error_code ignored;
+    if (!begun)
+    {
+      if (marked)
+        fs::remove(fs::path(path) / marker, ignored);
+      for (auto made = created.rbegin(); made != created.rend(); ++made)
+        fs::remove(*made, ignored); // only if it is empty
+    }
+    if (descriptor >= 0)
+      close(descriptor);
+  }
+
+  void RunDirectory::lock()
+  {
+    const std::string file = (fs::path(path) / marker).string();
+    descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+      throw InputError("The output directory " + path +
+                       " cannot be written to. Choose another one with --output.");
+    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+    {
+      const std::string owner = "output of voussoir, process " + std::to_string(getpid()) + "\n";
+      if (ftruncate(descriptor, 0) != 0 ||
+          write(descriptor, owner.data(), owner.size()) != static_cast<ssize_t>(owner.size()))
+        throw InputError("The file " + file +
+                         " cannot be written: is the disk full? Choose another directory with --output.");
+    }
+    else if (errno == EWOULDBLOCK) // where a file system has no locks, go on without
+    {
+      close(descriptor);
+      descriptor = -1;
+      marked = false; // it is the other run's
+      std::string   owner;
+      std::ifstream in(file);
+      std::getline(in, owner);
+      throw InputError("Another run is writing to the output directory " + path + " (" + owner +
+                       "). Wait until it has ended, or choose another directory with --output.");
+    }
+  }
+
+  void RunDirectory::claim(const bool resume, const bool overwrite, const std::vector<std::string> &inputs)
+  {
+    std::error_code error;
+    for (fs::path p = fs::absolute(path).lexically_normal();
+         !fs::exists(p, error) && p.has_relative_path() && p != p.parent_path(); p = p.parent_path())
+      if (p.has_filename())
+        created.insert(created.begin(), p);
+    fs::create_directories(path, error);
+    if (error || !fs::is_directory(path, error))
+      throw InputError("The output directory " + path +
+                       " cannot be made or written to. Choose another one with --output.");
+    const auto has = [&](const char *name) { return fs::exists(fs::path(path) / name, error); };
+    marked = !has(marker);
+    const bool ours = !marked || (has("scene.prm") && has("log.txt")); // version 0.1 left no marker
+    std::vector<std::string> foreign;
+    for (const fs::path &entry : entries_of(path))
+      if (!is_result(entry) || (!ours && !is_in_the_way(path / entry)))
+        foreign.push_back(entry.string());
+    lock();
+
+    if (!resume)
+      for (const std::string &input : inputs)
+      {
+        const fs::path below = fs::path(input).filename();
+        if (is_result(below) && fs::equivalent(fs::absolute(input).parent_path(), path, error))
+          throw InputError("The run would overwrite its own input " + input + " in the output directory " +
+                           path + ". Choose another one with --output.");
+      }
+    if (resume || overwrite)
+      return;
+    for (const char *name : {"checkpoint.bin", "checkpoint.bin.before"})
+      if (ours && has(name))
+        throw InputError("The output directory " + path +
+                         " holds the checkpoint of a run that has not ended. Go on with --resume, replace it "
+                         "with --overwrite, or choose another directory with --output.");
+    if (!foreign.empty())
+      throw InputError(
+          "The output directory " + path + " holds files that no run of this program wrote there: " +
+          foreign[0] + (foreign.size() > 1 ? " and " + std::to_string(foreign.size() - 1) + " more" : "") +
+          ". Choose another directory with --output, or give --overwrite to put the results beside them, in "
+          "place of files of the same names.");
+  }
+
+  void RunDirectory::begin(const bool resume)
+  {
+    begun = true;
+    for (const fs::path &entry : resume ? std::vector<fs::path>() : entries_of(path))
+      if (const fs::path place = path / entry; is_result(entry) && entry != marker && !is_in_the_way(place))
+      {
+        std::error_code error;
+        if (!fs::remove(place, error) || error)
+          throw WriteError("The old result " + place.string() + " cannot be removed.");
+      }
+  }
+} // namespace Voussoir

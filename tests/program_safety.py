@@ -1,0 +1,228 @@
+#!/usr/bin/env python3
+"""Tests of the program: nothing that it was given, or has computed, is lost.
+
+    program_safety.py VOUSSOIR CASE...     cases: see the functions with that name below
+"""
+
+import os
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+from run_program import (VOUSSOIR, arch_mesh, expect, from_file, refused, run_cases, runs, same, table, voussoir, write,
+                         write_scene)
+
+LONG = ["--set", "Motion/Duration=3"]
+
+
+def failed(result, *parts):
+    """The run must have ended with status 1 and a message that has all these parts."""
+    what = f"status {result.returncode}, message: {result.stderr.strip()}"
+    expect(result.returncode == 1 and result.stderr.startswith(("voussoir: failed: ", "voussoir: stopped: ")), what)
+    for part in parts:
+        expect(part in result.stderr, f"'{part}' is missing: {what}")
+    print("   ", result.stderr.strip())
+
+
+def stopped_by(number, output, *arguments, after="history.csv", lines=40):
+    """Starts a run, and sends the signal when a file of its output has so many lines."""
+    for attempt in range(10):
+        shutil.rmtree(output, ignore_errors=True)
+        process = subprocess.Popen([VOUSSOIR, "scene.prm", "--output", output, *arguments], text=True,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        file = Path(output, after)
+        while process.poll() is None and not (file.exists() and file.read_bytes().count(b"\n") >= lines):
+            time.sleep(.002)
+        process.send_signal(number)
+        message = process.communicate()[1]
+        if process.returncode != 0:
+            return subprocess.CompletedProcess([], process.returncode, "", message)
+    raise AssertionError("the run always ends before it can be stopped")
+
+
+def names():
+    """Directories and scenes whose names a shell would take apart, or an option parser."""
+    write_scene()
+    for name in ("o';touch X;'", "with space", '"$(touch X)"', "-dash", "a&b|c;d", "back`touch X`", "ümlaut"):
+        shutil.copy("scene.prm", f"{name}.prm")
+        scene = f"./{name}.prm"
+        shown = runs(scene, "--output", name, "--set", "Output/Figures=true", "--set", "Motion/Duration=0.1")
+        expect("warning" not in shown, f"{name}: {shown[-500:]}")
+        expect(len(list(Path(name, "figures").glob("*.png"))) > 5 and Path(name, "history.csv").exists(), f"files of {name}")
+        expect(not Path("X").exists() and not list(Path().rglob("X")), f"{name}: a shell was let in")
+    write("not_python", "#!/bin/sh\nexit 3\n")
+    os.chmod("not_python", 0o755)
+    shown = runs("scene.prm", "--output", "none", "--set", "Output/Figures=true", "--set", "Motion/Duration=0.1",
+                 environment={"VOUSSOIR_PYTHON": str(Path("not_python").resolve())})
+    expect("VOUSSOIR_PYTHON" in shown and Path("none/summary.json").exists(), "an interpreter without matplotlib")
+    shown = runs("scene.prm", "--output", "none", "--set", "Output/Figures=true", "--set", "Motion/Duration=0.1",
+                 environment={"VOUSSOIR_SCRIPTS": "/nowhere"})
+    expect("VOUSSOIR_SCRIPTS" in shown, "no script")
+
+
+def checkpoints():
+    """Damage, and input that has changed since, are found and named; the checkpoint before the last serves."""
+    write_scene()
+    settings = [*LONG, "--set", "Output/Checkpoint interval=40", "--set", "Output/Probes=foot: 0 0 0"]
+    runs("scene.prm", "--output", "whole", *settings)
+    failed(stopped_by(signal.SIGTERM, "kept", *settings, lines=120), "SIGTERM", "--resume", "kept")
+    for name in ("checkpoint.bin", "checkpoint.bin.before"):
+        expect(Path("kept", name).exists(), f"{name} is missing")
+
+    resume = ["scene.prm", *settings, "--resume", "--output"]
+    refused([*resume, "kept", "--set", "Joints/Friction=0.7"], "Joints/Friction was \"0.6\" and is \"0.7\"", "--resume")
+    refused([*resume, "kept", "--set", "Output/Probes=foot: 0 0 1"], "Output/Probes")
+    refused([*resume, "kept", "--set", "Motion/Duration=0.3"], "Motion/Duration")
+    motion = Path("motion.txt").read_text()
+    write("motion.txt", motion.replace("\n", "\n", 1) + "3.01 0 0 0\n")
+    refused([*resume, "kept"], "motion.txt was", "--resume")
+    write("motion.txt", motion)
+    expect(table("kept/history.csv")[1][0][0] == 0., "a refused run must leave the tables")
+
+    # Any byte of it
+    data = Path("kept/checkpoint.bin").read_bytes()
+    rng = random.Random(1)
+    for _ in range(40):
+        shutil.rmtree("damaged", ignore_errors=True)
+        shutil.copytree("kept", "damaged")
+        os.remove("damaged/checkpoint.bin.before")
+        bad = bytearray(data)
+        if (place := rng.choice((rng.randrange(60), rng.randrange(len(data))))) or True:
+            bad[place] ^= 1 << rng.randrange(8)
+        if rng.random() < .2:
+            bad = bad[:place]
+        Path("damaged/checkpoint.bin").write_bytes(bad)
+        refused([*resume, "damaged"], "damaged/checkpoint.bin", "damaged")
+    shutil.copy("kept/checkpoint.bin.before", "damaged/checkpoint.bin.before")
+    shown = runs(*resume, "damaged")
+    expect("warning: the checkpoint" in shown and "the one before it" in shown, shown)
+    same("damaged", "whole", 2e-7, ("history", "joint_history", "joints"))
+
+    # More of the same record
+    shutil.copytree("kept", "longer")
+    runs("scene.prm", "--output", "whole_longer", *settings, "--set", "Motion/Duration=2.5")
+    failed(stopped_by(signal.SIGINT, "short", *settings, "--set", "Motion/Duration=2", lines=60), "SIGINT")
+    expect("Resumed" in runs(*resume, "short", "--set", "Motion/Duration=2.5"), "a longer motion")
+    same("short", "whole_longer", 2e-7, ("history", "joint_history", "joints"))
+    runs(*resume, "kept")
+    same("kept", "whole", 2e-7, ("history", "joint_history", "joints"))
+    expect(not list(Path("kept").glob("checkpoint*")), "a complete run leaves no checkpoint")
+
+    arch_mesh()
+    mesh = ["--set", "Mesh/Source=file", "--set", "Mesh/File=arch.msh"]
+    failed(stopped_by(signal.SIGTERM, "meshed", *settings, *mesh), "--resume")
+    text = Path("arch.msh").read_text()
+    write("arch.msh", text.replace("$Nodes", "$Comments\nchanged\n$EndComments\n$Nodes", 1))
+    refused([*resume, "meshed", *mesh], "arch.msh was")
+
+
+def signals():
+    write_scene()
+    settings = [*LONG, "--set", "Output/Checkpoint interval=0"]
+    result = stopped_by(signal.SIGINT, "asked", *settings)
+    failed(result, "SIGINT", "after step", "--resume")
+    rows = {name: len(table(f"asked/{name}.csv")[1]) for name in ("history", "energy", "joint_history")}
+    expect(len(set(rows.values())) == 1 and 39 <= rows["history"] < 301, f"tables so far: {rows}")
+    expect(len(table("asked/joints.csv")[1]) == 2, "joints.csv so far")
+    expect("Resumed" in runs("scene.prm", "--output", "asked", *settings, "--resume"), "--resume")
+    expect(len(table("asked/history.csv")[1]) == 301, "the whole history")
+    # A killed run leaves what it had.
+    result = stopped_by(signal.SIGKILL, "killed", *settings)
+    expect(result.returncode == -signal.SIGKILL, "killed")
+    expect(39 <= len(Path("killed/history.csv").read_text().splitlines()) < 302, "the table of a killed run")
+    # Two signals while a step is stopped: the second ends it at once.
+    process = subprocess.Popen([VOUSSOIR, "scene.prm", "--output", "twice", *settings], stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL)
+    while process.poll() is None and not Path("twice/history.csv").exists():
+        time.sleep(.002)
+    os.kill(process.pid, signal.SIGSTOP)
+    os.kill(process.pid, signal.SIGTERM)
+    os.kill(process.pid, signal.SIGCONT)
+    os.kill(process.pid, signal.SIGINT)
+    expect(process.wait(20) in (1, -signal.SIGINT), f"two signals: {process.returncode}")
+
+
+def directories():
+    write_scene()
+    quick = ["--set", "Motion/Duration=0.1"]
+    runs("scene.prm", "--output", "mine", *quick)
+    before = Path("mine/history.csv").read_bytes()
+    # Bad input is found before anything is removed, and leaves no new directory.
+    refused(["scene.prm", "--output", "mine", "--set", "Motion/File=none.txt"], "none.txt")
+    refused(["scene.prm", "--output", "mine", "--set", "Mesh/Source=file", "--set", "Mesh/File=none.msh"], "none.msh")
+    expect(Path("mine/history.csv").read_bytes() == before, "old results were removed by a run that did not begin")
+    refused(["scene.prm", "--output", "new/deep", "--set", "Motion/File=none.txt"], "none.txt")
+    expect(not Path("new").exists(), "a run that did not begin left a directory")
+    runs("scene.prm", "--output", "mine", *quick)  # one's own results are replaced
+
+    write("mine/notes.txt", "mine")
+    refused(["scene.prm", "--output", "mine", *quick], "notes.txt", "--overwrite")
+    runs("scene.prm", "--output", "mine", *quick, "--overwrite")
+    expect(Path("mine/notes.txt").read_text() == "mine", "--overwrite must leave files of others")
+    Path("theirs").mkdir()
+    write("theirs/scene.prm", "mine")
+    refused(["scene.prm", "--output", "theirs", *quick], "theirs", "scene.prm", "--overwrite")
+    expect(Path("theirs/scene.prm").read_text() == "mine", "a file of the user was overwritten")
+    refused(["scene.prm", "--output", ".", *quick, "--overwrite"], "its own input", "scene.prm")
+    expect("Joints" in Path("scene.prm").read_text() and Path("motion.txt").exists(), "input was lost")
+
+    stopped_by(signal.SIGTERM, "held", *LONG)
+    checkpoint = Path("held/checkpoint.bin").read_bytes()
+    refused(["scene.prm", "--output", "held", *LONG], "held", "checkpoint", "--resume", "--overwrite")
+    expect(Path("held/checkpoint.bin").read_bytes() == checkpoint, "the checkpoint was removed")
+    runs("scene.prm", "--output", "held", *quick, "--overwrite")
+
+    process = subprocess.Popen([VOUSSOIR, "scene.prm", "--output", "locked", *LONG], stdout=subprocess.DEVNULL)
+    while not Path("locked/history.csv").exists():
+        time.sleep(.002)
+    os.kill(process.pid, signal.SIGSTOP)
+    refused(["scene.prm", "--output", "locked", *quick], "Another run", "locked", str(process.pid))
+    refused(["scene.prm", "--output", "locked", *quick, "--overwrite"], "Another run")
+    os.kill(process.pid, signal.SIGCONT)
+    expect(process.wait(60) == 0, "the run that had the directory")
+
+
+def writing():
+    """A file that cannot be written: status 1, its name, and the last state is kept."""
+    write_scene()
+    for name in ("summary.json", "envelope.vtu", "energy.csv", "joints.csv", "scene.prm", "log.txt"):
+        shutil.rmtree("way", ignore_errors=True)
+        Path("way", name).mkdir(parents=True)
+        result = voussoir("scene.prm", "--output", "way", "--set", "Motion/Duration=0.1")
+        failed(result, f"way/{name}")
+        if name in ("summary.json", "envelope.vtu", "joints.csv"):
+            expect("--resume" in result.stderr, result.stderr)
+            Path("way", name).rmdir()
+            runs("scene.prm", "--output", "way", "--set", "Motion/Duration=0.1", "--resume")
+            expect(len(table("way/history.csv")[1]) == 11 and Path("way/summary.json").is_file(), "the resumed run")
+    for name in ("history.csv", "joint_history.csv", "faces.csv", "log.txt", "solution.pvd", "solution-00000.vtu"):
+        shutil.rmtree("full", ignore_errors=True)
+        Path("full").mkdir()
+        os.symlink("/dev/full", f"full/{name}")
+        failed(voussoir("scene.prm", "--output", "full", "--set", "Motion/Duration=0.1",
+                        "--set", "Output/Solution interval=5"), f"full/{name}")
+    # A disk that fills up in the middle of the run
+    process = subprocess.Popen([VOUSSOIR, "scene.prm", "--output", "fills", *LONG], text=True,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    while process.poll() is None and not Path("fills/history.csv").exists():
+        time.sleep(.002)
+    resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (6000, 6000))
+    message = process.communicate()[1]
+    failed(subprocess.CompletedProcess([], process.returncode, "", message), "fills/", "Nor can a checkpoint")
+    with open("/dev/full", "w") as full:
+        for arguments in (["parameters"], ["--help"], ["scene.prm", "--validate"]):
+            result = subprocess.run([VOUSSOIR, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)
+            failed(result, "standard output")
+    for command, ending in (("mesh", ".msh"), ("motion", ".csv")):
+        Path(f"way{ending}").mkdir()
+        failed(voussoir(command, "scene.prm", "--output", f"way{ending}"), f"way{ending}")
+        os.symlink("/dev/full", f"full{ending}")
+        failed(voussoir(command, "scene.prm", "--output", f"full{ending}"), f"full{ending}")
+
+
+if __name__ == "__main__":
+    run_cases(names, checkpoints, signals, directories, writing)
