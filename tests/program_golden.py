@@ -1,0 +1,294 @@
+#!/usr/bin/env python3
+"""The whole program against numbers from outside: closed forms, CalculiX, and a second program (golden/).
+
+    program_golden.py VOUSSOIR CASE...     cases: see the functions with that name below
+
+Each number's source is named where it stands; doc/verification.md has the table of what is compared and how closely."""
+
+import base64
+import json
+import math
+import os
+import re
+import shutil
+import struct
+import sys
+import zlib
+from pathlib import Path
+
+from run_program import expect, runs, summary, table, write
+
+GOLDEN = Path(__file__).resolve().parent / "golden"
+sys.path.insert(0, str(GOLDEN))
+import meshes  # noqa: E402
+import scenes  # noqa: E402
+
+
+# Reading and comparing
+
+class Worst:
+    """The largest difference over its limit, of each thing that was compared."""
+
+    def __init__(self, name):
+        self.name, self.worst = name, {}
+
+    def close(self, what, ours, theirs, limit, size=None):
+        """|ours - theirs| <= limit size, size: |theirs| if not given."""
+        size = abs(theirs) if size is None else size
+        error = abs(ours - theirs) / size if size else float(ours != theirs)
+        if not error <= self.worst.get(what, (-1.,))[0]:
+            self.worst[what] = (error, limit, f"{ours:.9g}", f"{theirs:.9g}")
+
+    def rows(self, what, ours, theirs, limit):
+        """Tables, each column over its largest value."""
+        expect(len(ours) == len(theirs), f"{self.name}, {what}: {len(ours)} rows instead of {len(theirs)}")
+        sizes = [max(map(abs, column)) for column in zip(*theirs)]
+        for a, b in zip(ours, theirs):
+            expect(len(a) == len(b), f"{self.name}, {what}: {len(a)} columns instead of {len(b)}")
+            for x, y, size in zip(a, b, sizes):
+                self.close(what, x, y, limit, size or 1.)
+
+    def done(self):
+        for what, (error, limit, ours, theirs) in self.worst.items():
+            print(f"    {self.name}: {what}: {ours} instead of {theirs}, difference {error:.1e}, limit {limit:.0e}")
+        for what, (error, limit, ours, theirs) in self.worst.items():
+            expect(error <= limit, f"{self.name}: {what} is {ours} instead of {theirs}: {error:.2e}, limit {limit:.0e}")
+
+
+def read_vtu(file):
+    """The points and the fields at them, of a VTU file as deal.II writes it (zlib in base64)."""
+    text = Path(file).read_text(errors="replace")
+    kinds = {"Float32": "f", "Int32": "i", "UInt8": "B", "Float64": "d"}
+
+    def values(kind, data):
+        data = data.strip()
+        head = base64.b64decode(data[:8])
+        (blocks,) = struct.unpack("<I", head[:4])
+        length = -(-(3 + blocks) * 4 // 3) * 4
+        sizes = struct.unpack(f"<{3 + blocks}I", base64.b64decode(data[:length])[:4 * (3 + blocks)])[3:]
+        body, out, at = base64.b64decode(data[length:]), b"", 0
+        for size in sizes:
+            out += zlib.decompress(body[at:at + size])
+            at += size
+        return struct.unpack(f"<{len(out) // struct.calcsize(kinds[kind])}{kinds[kind]}", out)
+
+    arrays = re.findall(r'<DataArray type="(\w+)"([^>]*)>\s*(.*?)\s*</DataArray>', text, re.S)
+    fields = {}
+    for kind, attributes, data in arrays:
+        name = re.search(r'Name="([^"]*)"', attributes)
+        n = int((re.search(r'NumberOfComponents="(\d+)"', attributes) or [0, 1])[1])
+        x = values(kind, data)
+        fields[name[1] if name else "points"] = [x[i:i + n] for i in range(0, len(x), n)] if n > 1 else list(x)
+    return fields
+
+
+def key(x):
+    return tuple(int(round(100 * c)) for c in x)  # 10 mm: places are in single precision
+
+
+def at_places(fields, names):
+    """The different rows of the fields `names` (numbers or vectors) at each place: one for each monolith there."""
+    result = {}
+    for k, p in enumerate(fields["points"]):
+        row = []
+        for name in names:
+            x = fields[name][k]
+            row += list(x) if isinstance(x, tuple) else [x]
+        rows = result.setdefault(key(p), [])
+        if row not in rows:
+            rows.append(row)
+    return result
+
+
+def principal(s):
+    """Largest and smallest eigenvalue of the stress xx yy zz xy yz zx: the roots of the characteristic polynomial,
+    from their invariants by Newton's method from both ends."""
+    i1 = s[0] + s[1] + s[2]
+    i2 = s[0] * s[1] + s[1] * s[2] + s[2] * s[0] - s[3]**2 - s[4]**2 - s[5]**2
+    i3 = (s[0] * s[1] * s[2] + 2 * s[3] * s[4] * s[5] - s[0] * s[4]**2 - s[1] * s[5]**2 - s[2] * s[3]**2)
+    bound = max(abs(s[0]) + abs(s[3]) + abs(s[5]), abs(s[1]) + abs(s[3]) + abs(s[4]), abs(s[2]) + abs(s[4]) + abs(s[5]))
+    ends = []
+    for x in (bound, -bound):  # Gershgorin: monotone from outside
+        for _ in range(200):
+            slope = 3 * x * x - 2 * i1 * x + i2
+            if slope == 0:
+                break
+            step = (((x - i1) * x + i2) * x - i3) / slope
+            x -= step
+            if abs(step) <= 1e-13 * bound:
+                break
+        ends.append(x)
+    return ends
+
+
+STRESS = [f"stress_{c}" for c in ("xx", "yy", "zz", "xy", "yz", "zx")]
+
+
+# The second program (golden/dam_reference.py)
+
+def same_as_reference(name, limit=2e-6, stress=5e-5):
+    """All files of a scene against reference_NAME.json. Tables have eight digits, the reference seven; stresses are in
+    single precision."""
+    scene, reference = scenes.SCENES[name], json.loads((GOLDEN / f"reference_{name}.json").read_text())
+    write(f"{name}.prm", scenes.prm(scene, "."))
+    shown, every, check = runs(f"{name}.prm", "--output", name), scene["every"], Worst(name)
+    result = summary(name)
+    match = re.search(r"added mass \w+ x \S+, (\S+) kg along x", shown)
+    check.close("added mass", float(match[1]), reference["added_mass"], 1e-3)  # four digits
+    if reference["frequencies"]:
+        lines = [line.split() for line in runs("modes", f"{name}.prm", "--count", "4").splitlines()]
+        ours = [float(line[1]) for line in lines if len(line) == 2 and line[0].isdigit()]
+        check.rows("frequencies", [ours], [reference["frequencies"]], 1e-5)
+    for a, b in zip(result["static"]["crest_displacement"], reference["static_crest"]):
+        check.close("static crest", a, b, limit, math.hypot(*reference["static_crest"]))
+    columns, rows = table(f"{name}/history.csv")
+    expect(columns == ["time", "crest_x", "crest_y", "crest_z", "base_acceleration_x", "base_acceleration_y",
+                       "base_acceleration_z"], f"columns {columns}")
+    check.rows("history", rows[::every], reference["history"], limit)
+    for number, row in enumerate(scenes.motion(scene)):
+        for c in range(3):
+            check.close("base acceleration", rows[number][4 + c], row[c], 1e-7, 1.)
+    columns, rows = table(f"{name}/energy.csv")
+    expect(columns == ["time", "kinetic", "strain", "added_mass", "damping", "friction", "impact", "input", "balance"],
+           f"columns {columns}")
+    largest = max(row[7] for row in reference["energy"])
+    for a, b in zip(rows[::every], reference["energy"]):
+        for c, column in enumerate(columns[:8]):
+            check.close(f"energy, {column}", a[c], b[c], limit, largest if c else 1.)
+        check.close("energy, balance", a[8], 0., 1e-7, largest)
+    columns, rows = table(f"{name}/joint_history.csv")
+    n_joints = max((len(row) - 1 for row in rows)) // 4
+    expect(columns == ["time"] + [f"{q}_{j}" for j in range(1, n_joints + 1) for q in (
+        "opening_upstream", "opening_downstream", "slip_upstream", "slip_downstream")], f"columns {columns}")
+    if scene["law"] != "tied":
+        joint_limits(check, name, reference, rows[::every], result)
+    envelopes(check, name, reference, result, stress)
+    check.done()
+
+
+def joint_limits(check, name, reference, rows, result):
+    """Openings and slips within 0.01 mm, peaks over all steps included."""
+    for a, b in zip(rows, reference["joint_history"]):
+        for x, y in zip(a, b):
+            check.close("joint history [m]", x, y, 1e-5, 1.)
+    columns, rows = table(f"{name}/joints.csv")
+    expect(columns == ["joint", "s", "opening_upstream", "opening_downstream", "slip_upstream", "slip_downstream",
+                       "time_of_max_opening"], f"columns {columns}")
+    expect(len(rows) == len(reference["joints"]), f"{len(rows)} joints")
+    for j, (a, b) in enumerate(zip(rows, reference["joints"]), 1):
+        expect(a[0] == j, f"joint {a[0]} in line {j}")
+        check.close("arc length", a[1], b[0], 1e-6, 100.)
+        for x, y in zip(a[2:6], b[1:5]):
+            check.close("peaks of the joints [m]", x, y, 1e-5, 1.)
+        check.close("time of the peak [s]", a[6], b[5], 1e-6, 1.)
+    for what in ("max_opening", "max_slip"):
+        (value, (first, last), place), ours = reference[what], result["extremes"][what]
+        if value < 1e-9:  # no slip
+            check.close(f"{what} [m]", ours["value"], 0., 1e-9, 1.)
+            continue
+        check.close(f"{what} [m]", ours["value"], value, 1e-5, 1.)
+        check.close(f"time of {what} [s]", ours["time"], min(max(first, ours["time"]), last), 1e-6, 1.)
+        check.rows(f"place of {what}", [ours["place"]], [place], 1e-4)
+
+
+def envelopes(check, name, reference, result, limit):
+    """faces.csv, envelope.vtu, the last solution and the extremes, self-weight included."""
+    columns, rows = table_with_names(f"{name}/faces.csv")
+    expect(columns == ["face", "monolith", "x", "y", "z", "s", "max_principal", "min_principal"], f"columns {columns}")
+    faces = {(row[0], int(row[1]), key(map(float, row[2:5]))): [float(x) for x in row[6:8]] for row in rows}
+    size = max(abs(x) for face in reference["faces"].values() for row in face for x in row[4:6])
+    everywhere = at_places(read_vtu(f"{name}/envelope.vtu"), ["max_principal", "min_principal"])
+    count = 0
+    for face, nodes in reference["faces"].items():
+        for monolith, *place, high, low in nodes:
+            ours = faces[face, monolith, key(place)]
+            check.close("largest principal stress", ours[0], high, limit, size)
+            check.close("smallest principal stress", ours[1], low, limit, size)
+            nearest = min(everywhere[key(place)], key=lambda row: abs(row[0] - high) + abs(row[1] - low))
+            check.close("envelope.vtu", nearest[0], high, limit, size)
+            check.close("envelope.vtu", nearest[1], low, limit, size)
+            count += 1
+    expect(count == len(faces), f"{len(faces)} nodes of the faces instead of {count}")
+    for what in ("max_tension_upstream", "max_tension_downstream", "max_compression"):
+        (value, time, place), ours = reference[what], result["extremes"][what]
+        check.close(what, ours["value"], value, limit, size)
+        check.close(f"time of {what} [s]", ours["time"], time, 1e-6, 1.)
+        check.rows(f"place of {what}", [ours["place"]], [place], 1e-4)
+    last = sorted(Path(name).glob("solution-*.vtu"))[-1]
+    fields = at_places(read_vtu(last), ["displacement", *STRESS, "max_principal", "min_principal"])
+    move = max(abs(x) for row in reference["last"] for x in row[4:7])
+    size = max(abs(x) for row in reference["last"] for x in row[7:])
+    for monolith, *row in reference["last"]:
+        nearest = min(fields[key(row[:3])], key=lambda r: max(abs(a - b) for a, b in zip(r[3:], row[6:])))
+        for a, b in zip(nearest[:3], row[3:6]):
+            check.close("last displacement", a, b, 1e-5, move)
+        for a, b in zip(nearest[3:9], row[6:]):
+            check.close("last stress", a, b, limit, size)
+        for a, b in zip(nearest[9:], principal(row[6:])):
+            check.close("last principal stress", a, b, limit, size)
+
+
+def table_with_names(file):
+    rows = [line.split(",") for line in Path(file).read_text().splitlines()]
+    return rows[0], rows[1:]
+
+
+def peaks():
+    """The jointed arch of six monoliths: openings and slips of all joints to 0.01 mm."""
+    same_as_reference("s1k_fja")
+    same_as_reference("s1k_fjb")
+
+
+def reference():
+    """Added mass by global and local depth, staged weight, elements with modes and of degree 2, formats of the motion."""
+    for name in ("tied", "modes", "degree2", "tied_modes"):
+        same_as_reference(name)
+
+
+def calculix():
+    """CalculiX on the same mesh (golden/make_calculix.py): plain elements as closely as it prints, C3D8I as closely as the
+    two kinds of modes agree. Limits: displacements, stresses, frequencies, history."""
+    golden = json.loads((GOLDEN / "calculix.json").read_text())
+    for element, limits in (("C3D8", (5e-6, 1e-4, 2e-6, 2e-6)), ("C3D8I", (.01, .06, .01, .03))):
+        check, theirs = Worst(element), golden[element]
+        write(f"{element}.prm", scenes.calculix_prm(".", element == "C3D8"))
+        runs(f"{element}.prm", "--output", element)
+        fields = at_places(read_vtu(f"{element}/solution-00000.vtu"), ["displacement", *STRESS])
+        sizes = [max(math.hypot(*row[3:6]) for row in theirs["nodes"]), max(abs(x) for row in theirs["nodes"] for x in row[6:])]
+        for row in theirs["nodes"]:
+            (ours,) = fields[key(row[:3])] if len(fields[key(row[:3])]) == 1 else [None]
+            if ours is None:  # on a joint each monolith has its own stress
+                continue
+            for c, (a, b) in enumerate(zip(ours, row[3:])):
+                check.close(["static displacement", "static stress"][c >= 3], a, b, limits[c >= 3], sizes[c >= 3])
+        lines = [line.split() for line in runs("modes", f"{element}.prm", "--count", "6").splitlines()]
+        for row in lines[-6:]:
+            check.close("frequency", float(row[1]), theirs["frequencies"][int(row[0]) - 1], limits[2])
+        result, (_, rows) = summary(element), table(f"{element}/history.csv")
+        check.rows("crest", [result["static"]["crest_point"]], [theirs["crest"]], 1e-6)
+        every, n = scenes.CALCULIX["every"], len(theirs["history"])
+        ours = [[row[0]] + [x - y for x, y in zip(row[1:4], rows[0][1:4])] for row in rows[1::every]]
+        check.rows("history", ours[:n], theirs["history"], limits[3])
+        check.done()
+
+
+def main():
+    cases = {c.__name__: c for c in (peaks, reference, calculix)}
+    if len(sys.argv) < 3 or any(name not in cases for name in sys.argv[2:]):
+        sys.exit(f"{__doc__}\nCases: {' '.join(cases)}")
+    start = Path.cwd()
+    for name in sys.argv[2:]:
+        directory = start / "golden" / name
+        shutil.rmtree(directory, ignore_errors=True)
+        directory.mkdir(parents=True)
+        os.chdir(directory)
+        print(name)
+        cases[name]()
+        print(f"{name}: OK")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except AssertionError as error:
+        sys.exit(f"FAILED: {error}")
