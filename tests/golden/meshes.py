@@ -80,3 +80,47 @@ def wall(file, monoliths=(1,), width=10., height=60., thickness=10., n_through=2
         return ((thickness + toe * (1 - z / height)) * j / n_through, width * (i / len(monoliths) - .5), z)
 
     write(file, *block(place, monoliths, n_through, n_up, {**DAM, "right": sides, "left": sides}))
+
+
+def ring(file, n, n_through, n_up, inner, outer, height):
+    """A closed tower, its outer face upstream, its foot fixed: not a dam, but Lame's pressurised cylinder."""
+    number = lambda i, j, k: ((i % n) * (n_through + 1) + j) * (n_up + 1) + k
+
+    def place(i, j, k):
+        r, angle = outer + (inner - outer) * j / n_through, pi + 2 * pi * i / n
+        return (r * cos(angle), -r * sin(angle), height * k / n_up)
+
+    nodes = [place(i, j, k) for i in range(n) for j in range(n_through + 1) for k in range(n_up + 1)]
+    hexes, quads = [], []
+    for i in range(n):
+        for j in range(n_through):
+            for k in range(n_up):
+                plan = [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]
+                hexes.append((1, [number(a, b, k + c) for c in (0, 1) for a, b in plan]))
+        for k in range(n_up):
+            for j, surface in ((0, 2), (n_through, 3)):
+                quads.append((surface, [number(i, j, k), number(i + 1, j, k), number(i + 1, j, k + 1), number(i, j, k + 1)]))
+        for j in range(n_through):
+            for k, surface in ((0, 1), (n_up, 4)):
+                quads.append((surface, [number(i, j, k), number(i, j + 1, k), number(i + 1, j + 1, k), number(i + 1, j, k)]))
+    write(file, nodes, hexes, quads)
+
+
+def slab(file, n=24, n_through=2, n_up=2, radius=50., thickness=5., half_angle=60., height=10.):
+    """An arch ring of constant thickness, held at its two ends only."""
+    def place(i, j, k):
+        angle = radians(half_angle * (2 * i / n - 1))
+        r = radius + thickness * (.5 - j / n_through)
+        return (radius - r * cos(angle), r * sin(angle), height * k / n_up)
+
+    write(file, *block(place, (1,) * n, n_through, n_up, {**DAM, "bottom": None}))
+
+
+def valley(file, n=40, n_up=24, half_width=40., low=0., high=40., top=60., thickness=10.):
+    """A straight wall whose foot rises from `low` in the middle to `high` at both ends, which are held, too."""
+    def place(i, j, k):
+        y = half_width * (2 * i / n - 1)
+        foot = low + (high - low) * abs(y) / half_width
+        return (thickness * j, y, foot + (top - foot) * k / n_up)
+
+    write(file, *block(place, (1,) * n, 1, n_up, DAM))
