@@ -1,17 +1,35 @@
 #!/usr/bin/env bash
-# Configures and builds Voussoir (Release) in build/; the program is build/voussoir.
-# Usage: scripts/build.sh [more arguments for cmake, such as -DCMAKE_BUILD_TYPE=Debug]
+# Configures and builds Voussoir in build/ (Release); the program is build/voussoir.
+# Usage: scripts/build.sh [--configure-only] [--directory DIR] [--target NAME] [more arguments for cmake, such as
+#        -DCMAKE_BUILD_TYPE=Debug]
 set -euo pipefail
+# shellcheck source=environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-options=(-DCMAKE_BUILD_TYPE=Release)
-# An existing build directory keeps the generator it was configured with.
-if [[ ! -f "$root/build/CMakeCache.txt" ]]; then
-  options+=(-G Ninja)
+directory="$root/build"
+target=all
+build=true
+arguments=()
+while (($#)); do
+  case "$1" in
+    --configure-only) build=false ;;
+    --directory) directory=$2; shift ;;
+    --target) target=$2; shift ;;
+    *) arguments+=("$1") ;;
+  esac
+  shift
+done
+
+options=()
+# An existing build directory keeps its generator, its type and its way of compiling.
+if [[ ! -f "$directory/CMakeCache.txt" ]]; then
+  options+=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DVOUSSOIR_UNITY=ON)
 fi
 if command -v ccache >/dev/null; then
   options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 fi
 
-cmake -S "$root" -B "$root/build" "${options[@]}" "$@"
-cmake --build "$root/build" --parallel "$(nproc)"
+cmake -S "$root" -B "$directory" "${options[@]}" "${arguments[@]}"
+if [[ "$build" == true ]]; then
+  cmake --build "$directory" --parallel "$(nproc)" --target "$target"
+fi

@@ -3,6 +3,7 @@
 # Usage: scripts/run.sh [SCENE.prm] [more arguments for voussoir]
 # Results: output/<scene name>/ in the source directory, unless --output says otherwise.
 set -euo pipefail
+# shellcheck source=environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
 scene="$root/prm/quickstart.prm"
@@ -27,13 +28,18 @@ while (($#)); do
   fi
 done
 
-"$root/scripts/setup.sh"
-"$root/scripts/build.sh"
+step 1/4 "Packages: deal.II and what else is missing (scripts/setup.sh)" "$root/scripts/setup.sh" --program
+step 2/4 "Configure: CMake" "$root/scripts/build.sh" --configure-only
+step 3/4 "Build: the program, without its tests" "$root/scripts/build.sh" --target voussoir
+begin=$SECONDS
+echo "4/4  Run: $scene"
+echo
 mkdir -p "$(dirname "$output")"
 "$root/build/voussoir" "$scene" --output "$output" "${arguments[@]}"
 
+echo
+printf '4/4  %-72s %4d s\n' "Run: done" $((SECONDS - begin))
 if [[ -d "$output" ]]; then
-  echo
   echo "Results: $output"
 fi
 if compgen -G "$output/figures/*.png" >/dev/null; then

@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
 # Installs what Voussoir needs on Debian 12, by apt and only where a package is missing.
-# Usage: scripts/setup.sh
+# Usage: scripts/setup.sh [--program]     --program: what building and running the program needs, nothing for its tests
 set -euo pipefail
 
 required=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev libfclib-dev libhdf5-dev
-          gmsh numdiff ninja-build ccache cmake g++ git python3-matplotlib)
-optional=(calculix-ccx python3-siconos python3-h5py) # only benchmarks/calculix.py and contact.py use them
+          ninja-build cmake g++ git python3-matplotlib)
+optional=()
+if [[ "${1:-}" != --program ]]; then
+  required+=(gmsh numdiff ccache clang-format shellcheck)
+  optional=(calculix-ccx python3-siconos python3-h5py) # only benchmarks/calculix.py and contact.py use them
+fi
 
 missing() # PACKAGE...: those that are not installed
 {
@@ -24,6 +28,7 @@ fi
 mapfile -t needed < <(missing "${required[@]}")
 mapfile -t wanted < <(missing "${optional[@]}")
 if ((${#needed[@]} + ${#wanted[@]} == 0)); then
+  echo "setup: all packages are installed"
   exit 0
 fi
 

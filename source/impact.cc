@@ -7,6 +7,18 @@ namespace Voussoir
 {
   namespace
   {
+    /** Has a pair that slips slid through the step, with nothing struck and no turn of more than 60 degrees?
+     *  Struck: what it would take to stop its motion into or off its surfaces is more than a millionth of the
+     *  impulse of the step. @p jump, @p change: velocity at the end, displacement of the step. */
+    bool slides_on(const JointLaw &law, const Matrix3 &H, const Vector3 &jump, const Vector3 &spent,
+                   const Vector3 &change, const unsigned char touching)
+    {
+      const Vector3 back = {{-jump[0], -jump[1], -jump[2]}};
+      const double  strike =
+          norm(law.stop_normal(H, jump, {}, touching)) + norm(law.stop_normal(H, back, {}, touching));
+      return strike <= 1e-6 * norm(spent) && dot(jump, change) >= .5 * norm(jump) * norm(change);
+    }
+
     const Names<ImpactRule> names_of_rules = {{"mean-force", ImpactRule::mean_force},
                                               {"impulse-consistent", ImpactRule::impulse_consistent},
                                               {"paper", ImpactRule::paper},
@@ -85,6 +97,15 @@ namespace Voussoir
         add_kick(pair, f, v);
         for (unsigned int c = 0; c < 3; ++c)
           impulse[3 * p + c] += f[c];
+        continue;
+      }
+      if (rule == ImpactRule::mean_force && system.states()[p] == PairState::slip &&
+          slides_on(law, pair_inverse[p], jump, spent, get(change, p), system.touching()[p]))
+      {
+        // The mean friction of the step is of second order; that of its end velocity would be of first.
+        const Vector3 kept = law.stop_normal(pair_inverse[p], jump, spent, system.touching()[p]);
+        add_kick(pair, kept - spent, v);
+        set(impulse, p, kept);
         continue;
       }
       // The velocity without any joint force of this step, then the impulse that the law allows.

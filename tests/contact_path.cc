@@ -217,6 +217,16 @@ namespace
       report("  state of the pair", static_cast<int>(block.newmark->pair_states()[0]), "slip",
              block.newmark->pair_states()[0] == PairState::slip);
       below("  impulse - push dt, relative", block.newmark->impulses()[0] / (push * block.dt) - 1., 1e-9);
+
+      // The load rises in the step: what the wall gives is the integral of the load over time.
+      BlockAtWall rising(halved ? .75 : 1.5, 0., push);
+      Unknowns    load = rising.load;
+      for (double &f : load)
+        f *= 3.;
+      is("  under a rising load", rising.newmark->advance(load).path,
+         halved ? ContactPath::smaller_step : ContactPath::newton);
+      below("  impulse - 2 push dt, relative", rising.newmark->impulses()[0] / (2. * push * rising.dt) - 1.,
+            1e-9);
     }
   }
 } // namespace

@@ -2,7 +2,7 @@
 """Writes the meshes of prm/keys_meshed.prm and prm/keys_law.prm: two blocks side by side with a vertical joint, which has
 a vertical shear key that is meshed, or is flat. Gmsh MSH 2.2, shared nodes: the program opens the joint.
 
-    scripts/key_blocks.py [--output prm] [--angle 45] [--height 0.2] [--refine 1]
+    meshes/key_blocks.py [--output meshes] [--angle 45] [--height 0.2] [--refine 1]
 
 Block 1 (y < 0) is held at its foot and at its far end, block 2 at its foot only: water pushes it downstream, past block 1.
 """
@@ -69,8 +69,8 @@ def write_mesh(path, angle, height, meshed_height, refine):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    root = pathlib.Path(__file__).resolve().parent.parent
-    parser.add_argument("--output", type=pathlib.Path, default=root / "prm", help="directory")
+    here = pathlib.Path(__file__).resolve().parent
+    parser.add_argument("--output", type=pathlib.Path, default=here, help="directory")
     parser.add_argument("--angle", type=float, default=45.0, help="of the flanks to the joint's normal [degrees], not 0")
     parser.add_argument("--height", type=float, default=0.2, help="of the key [m]")
     parser.add_argument("--refine", type=int, default=1)

@@ -1,0 +1,187 @@
+#!/usr/bin/python3
+"""Paints the dam with its joints open from one of the solution-*.vtu of a run, displacements magnified, coloured by the
+largest principal stress or by the opening of the joints.
+
+    scripts/picture.py SOLUTION.vtu PICTURE.png [--magnify 250] [--azimuth -10] [--elevation 38] [--title TEXT]
+
+The picture of the README, from the quick start:
+
+    scripts/run.sh prm/quickstart.prm --set 'Output/Solution interval=1'
+    scripts/picture.py output/quickstart doc/figures/dam.png
+
+With a directory, the solution whose joints are widest open is taken.
+"""
+
+import argparse
+import re
+import sys
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import matplotlib.pyplot as plt  # noqa: E402 (after the choice of the backend)
+from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
+from matplotlib.colors import LinearSegmentedColormap  # noqa: E402
+from vtu import read_vtu  # noqa: E402
+
+# The corners of the faces of a hexahedron of VTK, seen from outside counter-clockwise.
+FACES = np.array([[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]])
+COLOURS = LinearSegmentedColormap.from_list(
+    "concrete", ["#5b8fb9", "#a9c4d6", "#e9e4da", "#f0c27b", "#dd7a3b", "#a92b1f"])
+FINE = 3  # each side of a face is painted in so many parts
+
+
+def widest(directory):
+    """The solution of a run whose joints are widest open, by joint_history.csv."""
+    with open(directory / "joint_history.csv") as file:
+        names = file.readline().strip().split(",")
+        table = np.loadtxt(file, delimiter=",", ndmin=2)
+    openings = table[:, [i for i, name in enumerate(names) if name.startswith("opening")]].max(axis=1)
+    steps = {int(path.stem[9:]): path for path in directory.glob("solution-*.vtu")}
+    if not steps:
+        raise SystemExit(f"picture: {directory} has no solution-*.vtu; run with --set 'Output/Solution interval=1'")
+    return steps[max((k for k in steps if k < len(openings)), key=lambda k: openings[k])]
+
+
+def time_of(solution):
+    """By solution.pvd [s]; None without it."""
+    pvd = solution.parent / "solution.pvd"
+    found = re.search(rf'timestep="([^"]*)" file="{re.escape(solution.name)}"', pvd.read_text()) if pvd.exists() else None
+    return float(found[1]) if found else None
+
+
+def outer_faces(points, moved, cells):
+    """The faces that are not between two cells that move as one: (face, corner) of points."""
+    faces = cells[:, FACES].reshape(-1, 4)
+    key = np.concatenate([np.round(points * 1e3), np.round(moved * 1e7)], axis=1).astype(np.int64)
+    _, same = np.unique(key, axis=0, return_inverse=True)
+    _, where, count = np.unique(np.sort(same.reshape(-1)[faces], axis=1), axis=0, return_index=True, return_counts=True)
+    return faces[where[count == 1]]
+
+
+def bilinear(values, n):
+    """Corner values (face, 4, ...) on the (n+1)^2 points of a grid: (face, n+1, n+1, ...)."""
+    t = np.linspace(0, 1, n + 1)
+    s, r = np.meshgrid(t, t, indexing="ij")
+    weights = np.stack([(1 - s) * (1 - r), s * (1 - r), s * r, (1 - s) * r], axis=-1)
+    return np.einsum("ijk,fk...->fij...", weights, values)
+
+
+def parts(grid):
+    """The quadrilaterals of such grids: (quadrilateral, 4, ...)."""
+    corners = [grid[:, :-1, :-1], grid[:, 1:, :-1], grid[:, 1:, 1:], grid[:, :-1, 1:]]
+    stacked = np.stack(corners, axis=3)
+    return stacked.reshape(-1, *stacked.shape[3:])
+
+
+class View:
+    """A camera downstream of the dam, @p azimuth degrees to its left bank and @p elevation above."""
+
+    def __init__(self, azimuth, elevation, centre, distance):
+        a, e = np.radians([azimuth, elevation])
+        self.back = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
+        self.right = np.array([-np.sin(a), np.cos(a), 0.])
+        self.up = np.cross(self.back, self.right)
+        self.centre, self.distance = centre, distance
+
+    def __call__(self, x):
+        """Places on the picture, and depths."""
+        x = x - self.centre
+        depth = x @ self.back
+        scale = self.distance / (self.distance - depth)
+        return np.stack([x @ self.right * scale, x @ self.up * scale], axis=-1), depth
+
+
+def normals(quads):
+    n = np.cross(quads[:, 2] - quads[:, 0], quads[:, 3] - quads[:, 1])
+    return n / np.maximum(np.linalg.norm(n, axis=1, keepdims=True), 1e-300)
+
+
+def creases(faces, corners, angle=35.):
+    """Edges at which the surface of the moved dam bends: pairs of places, and the normal of either face."""
+    n = normals(corners)
+    edges = {}
+    for f, face in enumerate(corners):
+        for k in range(4):
+            ends = np.round(face[[k, (k + 1) % 4]] * 1e3).astype(np.int64)
+            edges.setdefault(tuple(sorted(map(tuple, ends))), []).append((f, k))
+    lines = []
+    for sides in edges.values():
+        if len(sides) != 2 or n[sides[0][0]] @ n[sides[1][0]] < np.cos(np.radians(angle)):
+            f, k = sides[0]
+            lines.append((corners[f, [k, (k + 1) % 4]], n[[side[0] for side in sides[:2]]]))
+    return lines
+
+
+def paint(axes, view, quads, values, lines, limits):
+    """Paints quadrilaterals and lines from the farthest to the nearest."""
+    place, depth = view(quads)
+    n = normals(quads)
+    eye = view.centre + view.distance * view.back
+    visible = np.einsum("ij,ij->i", n, eye - quads.mean(axis=1)) > 0
+    light = .5 * view.back + .75 * view.up - .5 * view.right
+    light /= np.linalg.norm(light)
+    brightness = .70 + .36 * np.clip(n @ light, 0, 1) + .05 * np.clip(n[:, 2], 0, 1)
+    colours = COLOURS(np.clip((values.mean(axis=1) - limits[0]) / (limits[1] - limits[0]), 0, 1))[:, :3]
+    colours = np.clip(colours * brightness[:, None], 0, 1)
+    items = [(d, p, c, .6) for d, p, c, v in zip(depth.mean(axis=1), place, colours, visible) if v]
+    for ends, sides in lines:
+        if any(side @ (eye - ends[0]) > 0 for side in sides):
+            t = np.linspace(0, 1, FINE + 1)[:, None]
+            path, far = view(ends[0] + t * (ends[1] - ends[0]))
+            items += [(far[i:i + 2].mean() + 6., path[i:i + 2], (.16, .17, .2), .8) for i in range(FINE)]
+    items.sort(key=lambda item: item[0])
+    _, shapes, rgb, widths = zip(*items)
+    axes.add_collection(PolyCollection(shapes, facecolors=rgb, edgecolors=rgb, linewidths=widths, joinstyle="round",
+                                       capstyle="round"))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("solution", type=Path)
+    parser.add_argument("picture", type=Path)
+    parser.add_argument("--magnify", type=float, default=250., help="displacements, from the state at rest")
+    parser.add_argument("--azimuth", type=float, default=-10.)
+    parser.add_argument("--elevation", type=float, default=38.)
+    parser.add_argument("--title", default="")
+    options = parser.parse_args()
+    if options.solution.is_dir():
+        options.solution = widest(options.solution)
+    time = time_of(options.solution)
+    data = {name: np.asarray(values) for name, values in read_vtu(options.solution).items()}
+    points = data["Points"].reshape(-1, 3).astype(float)
+    moved = data["displacement"].reshape(-1, 3).astype(float)
+    cells = data["connectivity"].reshape(-1, 8)
+    stress = 1e-6 * data["max_principal"]
+    faces = outer_faces(points, moved, cells)
+    x = points + options.magnify * moved
+    quads = parts(bilinear(x[faces], FINE))
+    values = parts(bilinear(stress[faces], FINE))
+    size = np.ptp(points, axis=0)
+    view = View(options.azimuth, options.elevation, .5 * (points.max(axis=0) + points.min(axis=0)), 3.2 * max(size))
+
+    figure, axes = plt.subplots(figsize=(11, 6))
+    top = float(np.ceil(np.quantile(values, .998)))
+    limits = (-.4 * top, top)
+    paint(axes, view, quads, values, creases(faces, x[faces]), limits)
+    axes.set_aspect("equal")
+    axes.autoscale_view()
+    axes.axis("off")
+    bar = figure.colorbar(plt.cm.ScalarMappable(plt.Normalize(*limits), COLOURS), ax=axes, orientation="horizontal",
+                          shrink=.32, aspect=32, pad=.01, ticks=range(int(np.ceil(limits[0])), int(top) + 1, 2))
+    bar.set_label("largest principal stress [MPa]", fontsize=9, color=".25")
+    bar.ax.tick_params(labelsize=9, colors=".25")
+    bar.outline.set_visible(False)
+    text = [f"t = {time:.2f} s"] if time is not None else []
+    text += [f"displacements × {options.magnify:g}", f"widest opening {1e3 * data['opening'].max():.0f} mm"]
+    axes.set_title(options.title or ", ".join(text), fontsize=11, color=".25")
+    options.picture.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(options.picture, dpi=120, bbox_inches="tight", facecolor="white")
+    print(f"{options.solution} -> {options.picture}")
+
+
+if __name__ == "__main__":
+    main()

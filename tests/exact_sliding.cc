@@ -1,0 +1,116 @@
+// Curved sliding against an exact solution: a block that a rotating force drives around a circle.
+//
+// On the circle r (cos wt, sin wt) = r e_r a block of mass m has the acceleration -w^2 r e_r, and the
+// friction -mu N e_t, e_t = (-sin wt, cos wt) being the direction of its slip. So the tangential force that
+// keeps it there is
+//     F = -m w^2 r e_r + mu N e_t,
+// with any normal force N(t) > 0; for constant N it is a force of constant size that rotates. Friction damps
+// what is added to the velocity, so that neighbouring paths come closer. Work of friction: mu r w times the
+// integral of N.
+
+#include "column.h"
+
+using namespace Columns;
+
+namespace
+{
+  constexpr double mu = .5, w = 2. * pi * 2., duration = 1.; // two turns
+
+  struct Circle
+  {
+    double r = .05;    ///< [m]
+    double g = 9.81;   ///< mean normal force on 1 kg [N]
+    double pulse = 0.; ///< of the normal force: N = g (1 + pulse sin 3wt)
+
+    double   normal(const double t) const { return g * (1. + pulse * std::sin(3. * w * t)); }
+    Unknowns load(const double t) const
+    {
+      const double c = std::cos(w * t), s = std::sin(w * t), radial = -w * w * r, along = mu * normal(t);
+      return {-normal(t), radial * c - along * s, radial * s + along * c};
+    }
+  };
+
+  struct Errors
+  {
+    double path = 0.;     ///< largest distance from the exact place / radius
+    double velocity = 0.; ///< the same of the velocity / speed
+    double work = 0.;     ///< of friction, relative
+  };
+
+  Errors slide(const Circle &circle, const double dt, const ImpactRule rule)
+  {
+    // One node of 1 kg at a wall with the normal x.
+    Column column = make_column({bar(0., 1., 1, 1e-9, 1.)}, nullptr, true);
+    column.structure.pairs.push_back(wall(column.node[0][0]));
+    column.structure.collect_interfaces();
+    const JointLaws laws = make_laws(column.structure, "FJA", mu);
+    Newmark         newmark(column.structure, laws, tight(), dt, rule);
+    const double    r = circle.r, speed = w * r;
+    newmark.start({0., r, 0.}, {0., 0., speed}, {circle.g, 0., -mu * circle.g}, circle.load(0.),
+                  {0., 0., 0.});
+    Errors     errors;
+    const auto see = [&]
+    {
+      const double    t = newmark.state().time, c = std::cos(w * t), s = std::sin(w * t);
+      const Unknowns &u = newmark.state().u, &v = newmark.state().v;
+      errors.path = std::max(errors.path, std::hypot(u[1] - r * c, u[2] - r * s) / r);
+      errors.velocity = std::max(errors.velocity, std::hypot(v[1] + speed * s, v[2] - speed * c) / speed);
+    };
+    const unsigned int n = std::lround(duration / dt);
+    run(
+        newmark, dt, n, [&](const double t, Unknowns &f) { f = circle.load(t); }, {0., 0., 0.}, see,
+        rule == ImpactRule::mean_force);
+    errors.work = newmark.state().energy.friction / (mu * circle.g * speed * n * dt) - 1.;
+    return errors;
+  }
+
+  /** Steps from 20 ms to 1.25 ms: second order, and small at the last one. */
+  void second_order(const std::string &name, const Circle &circle, const double path, const double velocity,
+                    const double work)
+  {
+    Errors coarse = slide(circle, .02, tested_rule);
+    note(name + ", dt = 20 ms: path", coarse.path);
+    for (const double dt : {.01, .005, .0025, .00125})
+    {
+      const Errors      fine = slide(circle, dt, tested_rule);
+      const std::string what = name + ", dt = " + text(1e3 * dt) + " ms: ";
+      note(what + "path", fine.path);
+      between(what + "path, 2 dt / dt", coarse.path / fine.path, 3.8, 4.2);
+      if (dt < .01)
+      {
+        between(what + "velocity, 2 dt / dt", coarse.velocity / fine.velocity, 3.8, 4.2);
+        between(what + "work of friction, 2 dt / dt", coarse.work / fine.work, 3.8, 4.2);
+      }
+      coarse = fine;
+    }
+    below(name + ", dt = 1.25 ms: path", coarse.path, path);
+    below(name + ", dt = 1.25 ms: velocity", coarse.velocity, velocity);
+    below(name + ", dt = 1.25 ms: work of friction", coarse.work, work);
+    report_energy(name);
+  }
+
+  void test_circle()
+  {
+    second_order("circle", {}, 2e-4, 6e-5, 7e-5);
+  }
+
+  void test_changing_pressure()
+  {
+    second_order("circle, changing pressure", {.05, 9.81, .6}, 2.2e-4, 7e-5, 7e-5);
+  }
+
+  /** Nothing may hang on a speed in m/s: the same circle a million times smaller. */
+  void test_small_circle()
+  {
+    const Errors large = slide({}, .005, tested_rule),
+                 small = slide({.05e-6, 9.81e-6, 0.}, .005, tested_rule);
+    below("circle, 50 nm against 50 mm: difference of the path", small.path - large.path, 1e-9);
+    below("circle, 50 nm against 50 mm: difference of the velocity", small.velocity - large.velocity, 1e-9);
+    report_energy("circle of 50 nm");
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  return run_all({test_circle, test_changing_pressure, test_small_circle}, argc, argv);
+}

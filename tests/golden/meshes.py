@@ -1,0 +1,126 @@
+"""Structured meshes for the golden scenes, written as gmsh MSH 2.2 with physical names. Metres; x downstream, y to the
+left bank, z up."""
+
+from math import cos, pi, radians, sin
+
+NAMES = {1: "base", 2: "upstream", 3: "downstream", 4: "crest", 5: "free surface", 6: "artificial boundary"}
+
+
+def write(file, nodes, hexes, quads, scale=1.):
+    """hexes, quads: (physical id, corners counted from 0)."""
+    ids = [(3, i, f"monolith {i}" if i < 1000 else "rock") for i in sorted({tag for tag, _ in hexes})]
+    ids += [(2, i, NAMES[i]) for i in sorted({tag for tag, _ in quads})]
+    with open(file, "w") as out:
+        print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames", len(ids), sep="\n", file=out)
+        for dimension, tag, name in ids:
+            print(dimension, tag, f'"{name}"', file=out)
+        print("$EndPhysicalNames\n$Nodes", len(nodes), sep="\n", file=out)
+        for i, x in enumerate(nodes):
+            print(i + 1, *(f"{scale * c:.17g}" for c in x), file=out)
+        print("$EndNodes\n$Elements", len(hexes) + len(quads), sep="\n", file=out)
+        for i, (kind, tag, corners) in enumerate([(3, *q) for q in quads] + [(5, *h) for h in hexes]):
+            print(i + 1, kind, 2, tag, tag, *(n + 1 for n in corners), file=out)
+        print("$EndElements", file=out)
+
+
+def block(place, monoliths, n_through, n_up, surfaces):
+    """A block of cells: monoliths[i] is the volume of column i (across the valley), place(i, j, k) the point of a node
+    (i across the valley, j downstream, k up). surfaces: the physical ids of its sides, by right, left, upstream,
+    downstream, bottom, top; None for sides that are in no group."""
+    n = (len(monoliths), n_through, n_up)
+    number = lambda i, j, k: (i * (n[1] + 1) + j) * (n[2] + 1) + k
+    nodes = [place(i, j, k) for i in range(n[0] + 1) for j in range(n[1] + 1) for k in range(n[2] + 1)]
+    hexes, quads = [], []
+    for i in range(n[0]):
+        for j in range(n[1]):
+            for k in range(n[2]):
+                ring = [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]
+                corners = [number(a, b, k + c) for c in (0, 1) for a, b in ring]
+                hexes.append((monoliths[i], corners))
+    sides = {"right": (0, 0), "left": (0, n[0]), "upstream": (1, 0), "downstream": (1, n[1]), "bottom": (2, 0),
+             "top": (2, n[2])}
+    for side, (axis, end) in sides.items():
+        if surfaces.get(side) is None:
+            continue
+        one, two = [d for d in range(3) if d != axis]
+        for a in range(n[one]):
+            for b in range(n[two]):
+                corners = []
+                for da, db in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                    at = [end] * 3
+                    at[one], at[two] = a + da, b + db
+                    corners.append(number(*at))
+                quads.append((surfaces[side], corners))
+    return nodes, hexes, quads
+
+
+DAM = {"right": 1, "left": 1, "upstream": 2, "downstream": 3, "bottom": 1, "top": 4}
+
+
+def arch(file, monoliths=(1, 1, 2, 2, 3, 3), n_through=1, n_up=3, scale=1.):
+    """An arch dam, 60 m high, radius 100 m, 90 degrees, 6 to 18 m thick, in a valley with end walls of 24 m."""
+    n = len(monoliths)
+
+    def place(i, j, k):
+        angle = radians(-45 + 90 * i / n)
+        low = 36 * (angle / (pi / 4))**2
+        z = low + (60 - low) * k / n_up
+        outer = 100 + .08 * (60 - z)
+        r = outer - (6 + .2 * (60 - z)) * j / n_through
+        return (100 - r * cos(angle), r * sin(angle), z)
+
+    write(file, *block(place, monoliths, n_through, n_up, DAM), scale=scale)
+
+
+def wall(file, monoliths=(1,), width=10., height=60., thickness=10., n_through=2, n_up=12, sides=None, toe=0.):
+    """A straight wall with vertical upstream face, fixed at its foot; `sides`: 1 to hold the ends, too. `toe`: how far
+    the downstream face's foot stands out."""
+    def place(i, j, k):
+        z = height * k / n_up
+        return ((thickness + toe * (1 - z / height)) * j / n_through, width * (i / len(monoliths) - .5), z)
+
+    write(file, *block(place, monoliths, n_through, n_up, {**DAM, "right": sides, "left": sides}))
+
+
+def ring(file, n, n_through, n_up, inner, outer, height):
+    """A closed tower, its outer face upstream, its foot fixed: not a dam, but Lame's pressurised cylinder."""
+    number = lambda i, j, k: ((i % n) * (n_through + 1) + j) * (n_up + 1) + k
+
+    def place(i, j, k):
+        r, angle = outer + (inner - outer) * j / n_through, pi + 2 * pi * i / n
+        return (r * cos(angle), -r * sin(angle), height * k / n_up)
+
+    nodes = [place(i, j, k) for i in range(n) for j in range(n_through + 1) for k in range(n_up + 1)]
+    hexes, quads = [], []
+    for i in range(n):
+        for j in range(n_through):
+            for k in range(n_up):
+                plan = [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]
+                hexes.append((1, [number(a, b, k + c) for c in (0, 1) for a, b in plan]))
+        for k in range(n_up):
+            for j, surface in ((0, 2), (n_through, 3)):
+                quads.append((surface, [number(i, j, k), number(i + 1, j, k), number(i + 1, j, k + 1), number(i, j, k + 1)]))
+        for j in range(n_through):
+            for k, surface in ((0, 1), (n_up, 4)):
+                quads.append((surface, [number(i, j, k), number(i, j + 1, k), number(i + 1, j + 1, k), number(i + 1, j, k)]))
+    write(file, nodes, hexes, quads)
+
+
+def slab(file, n=24, n_through=2, n_up=2, radius=50., thickness=5., half_angle=60., height=10.):
+    """An arch ring of constant thickness, held at its two ends only."""
+    def place(i, j, k):
+        angle = radians(half_angle * (2 * i / n - 1))
+        r = radius + thickness * (.5 - j / n_through)
+        return (radius - r * cos(angle), r * sin(angle), height * k / n_up)
+
+    write(file, *block(place, (1,) * n, n_through, n_up, {**DAM, "bottom": None}))
+
+
+def valley(file, n=40, n_up=24, half_width=40., low=0., high=40., top=60., thickness=10.):
+    """A straight wall whose foot rises from `low` in the middle to `high` at both ends, which are held, too."""
+    def place(i, j, k):
+        y = half_width * (2 * i / n - 1)
+        foot = low + (high - low) * abs(y) / half_width
+        return (thickness * j, y, foot + (top - foot) * k / n_up)
+
+    write(file, *block(place, (1,) * n, 1, n_up, DAM))

@@ -1,0 +1,469 @@
+// Loads, stresses, places, oscillators and rock against closed forms. Usage: physics loads|model|newmark|rock
+
+#include <voussoir/dam_geometry.h>
+#include <voussoir/dam_loads.h>
+#include <voussoir/explicit_region.h>
+#include <voussoir/free_field.h>
+#include <voussoir/gmsh_io.h>
+#include <voussoir/mesh_joints.h>
+#include <voussoir/mesh_source.h>
+#include <voussoir/motion.h>
+#include <voussoir/newmark.h>
+#include <voussoir/rock_model.h>
+#include <voussoir/solid_model.h>
+#include <voussoir/stress.h>
+
+#include "box.h"
+#include "mesh_testing.h"
+
+using namespace Voussoir;
+using namespace MeshTesting;
+
+namespace
+{
+  constexpr double pi = 3.14159265358979323846, thick = 10., wide = 20., tall = 30.;
+
+  /** A wall thick x wide x tall: x = 0 is upstream, z = 0 the base; monolith 2 begins at the place y of node
+   *  @p split. @p place moves the nodes. */
+  HexMesh wall(const unsigned int nx, const unsigned int ny, const unsigned int nz, const unsigned int split,
+               const std::function<Vector3(const Vector3 &)> &place = nullptr)
+  {
+    HexMesh    mesh;
+    const auto id = [&](const unsigned int i, const unsigned int j, const unsigned int k)
+    { return (k * (ny + 1) + j) * (nx + 1) + i; };
+    for (unsigned int k = 0; k <= nz; ++k)
+      for (unsigned int j = 0; j <= ny; ++j)
+        for (unsigned int i = 0; i <= nx; ++i)
+        {
+          const Vector3 x = {{thick * i / nx, wide * j / ny, tall * k / nz}};
+          mesh.nodes.push_back(place ? place(x) : x);
+        }
+    for (unsigned int k = 0; k < nz; ++k)
+      for (unsigned int j = 0; j < ny; ++j)
+        for (unsigned int i = 0; i < nx; ++i)
+        {
+          HexMesh::Cell cell;
+          for (unsigned int v = 0; v < 2; ++v)
+          {
+            cell.nodes[4 * v] = id(i, j, k + v);
+            cell.nodes[4 * v + 1] = id(i + 1, j, k + v);
+            cell.nodes[4 * v + 2] = id(i + 1, j + 1, k + v);
+            cell.nodes[4 * v + 3] = id(i, j + 1, k + v);
+          }
+          cell.volume = j < split ? 1 : 2;
+          mesh.cells.push_back(cell);
+        }
+    for (unsigned int j = 0; j < ny; ++j)
+      for (unsigned int k = 0; k < nz; ++k)
+        for (const unsigned int i : {0u, nx})
+          mesh.faces.push_back({{id(i, j, k), id(i, j + 1, k), id(i, j + 1, k + 1), id(i, j, k + 1)},
+                                i == 0 ? PhysicalId::upstream : PhysicalId::downstream});
+    for (unsigned int j = 0; j < ny; ++j)
+      for (unsigned int i = 0; i < nx; ++i)
+        for (const unsigned int k : {0u, nz})
+          mesh.faces.push_back({{id(i, j, k), id(i + 1, j, k), id(i + 1, j + 1, k), id(i, j + 1, k)},
+                                k == 0 ? PhysicalId::base : PhysicalId::crest});
+    return mesh;
+  }
+
+  Vector3 sum(const Unknowns &f)
+  {
+    Vector3 result{};
+    for (std::size_t k = 0; k < f.size(); ++k)
+      result[k % 3] += f[k];
+    return result;
+  }
+
+  Matrix3 sum(const std::vector<Matrix3> &m)
+  {
+    Matrix3 result{};
+    for (const Matrix3 &node : m)
+      for (unsigned int k = 0; k < 9; ++k)
+        result[k] += node[k];
+    return result;
+  }
+
+  // Loads
+
+  void weight_and_water()
+  {
+    SolidModel model(wall(2, 4, 6, 4), 1);
+    model.free_base(); // no force is lost in a support
+    Material concrete;
+    concrete.density = 2400.;
+    Structure           structure = assemble_structure(model, {concrete}, true);
+    const double        weight = 2400. * 9.81 * thick * wide * tall;
+    ReservoirParameters water;
+    for (const double level : {30., 25., 22.}) // between nodes, too
+    {
+      water.level = level;
+      Unknowns load(3 * structure.n_nodes(), 0.);
+      add_water_pressure(model, water, 9.81, load);
+      const Vector3 force = sum(load);
+      expect_close(force[0], 1000. * 9.81 * level * level / 2. * wide, 1e-3, "push of the water");
+      expect(std::abs(force[1]) + std::abs(force[2]) < 1e-9 * force[0], "the water pushes along x");
+      double moment = 0.;
+      for (unsigned int i = 0; i < model.n_nodes(); ++i)
+        moment += model.points[i][2] * load[3 * model.equation[i]];
+      expect_close(moment, 1000. * 9.81 * std::pow(level, 3) / 6. * wide, 2e-3, "moment of the water");
+    }
+
+    // Westergaard: 7/8 rho sqrt(H h) per area, at the nodes, whose part of the height is 5 m, at the top 2.5.
+    water.level = 30.;
+    double expected = 0.;
+    for (unsigned int k = 0; k < 6; ++k) // the uppermost nodes lie in the water's surface
+      expected += .875 * 1000. * std::sqrt(30. * (30. - 5. * k)) * wide * (k == 0 ? 2.5 : 5.);
+    const double given = add_westergaard_mass(model, water, structure);
+    expect_close(given, expected, 1e-12, "added mass");
+    expect_close(given, .875 * 1000. * wide * 2. / 3. * 900., .03, "added mass, integral");
+    const Matrix3 total = sum(structure.mass), added = sum(structure.added_mass);
+    for (unsigned int k = 0; k < 9; ++k)
+    {
+      const double concrete_part = k % 4 == 0 ? weight / 9.81 : 0., water_part = k == 0 ? expected : 0.;
+      expect(std::abs(added[k] - water_part) < 1e-9 * expected, "added mass along the normal only");
+      expect(std::abs(total[k] - concrete_part - water_part) < 1e-9 * expected, "mass of concrete and water");
+    }
+
+    Unknowns load(3 * structure.n_nodes(), 0.);
+    add_weight(structure, 9.81, load);
+    expect_close(sum(load)[2], -weight, 1e-12, "weight, that of the concrete alone");
+    const auto inertia = inertial_loads(structure);
+    for (unsigned int d = 0; d < 3; ++d)
+      expect_close(sum(inertia[d])[d], -total[4 * d], 1e-12, "inertia, water included");
+  }
+
+  /** The valley's bottom rises by 1 m in 2 m from the middle to the banks. */
+  void local_depth()
+  {
+    const auto place = [](const Vector3 &x)
+    {
+      const double bottom = .5 * std::abs(x[1] - 10.);
+      return Vector3{{x[0], x[1], bottom + x[2] / tall * (tall - bottom)}};
+    };
+    SolidModel model(wall(1, 4, 6, 4, place), 1);
+    model.free_base();
+    ReservoirParameters water;
+    water.level = 28.;
+    std::array<Structure, 2> structure;
+    for (const bool local : {false, true})
+    {
+      water.depth = local ? "local" : "global";
+      structure[local] = assemble_structure(model, {Material()}, true);
+      add_westergaard_mass(model, water, structure[local]);
+    }
+    unsigned int n = 0;
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      if (const double global = structure[0].added_mass[model.equation[i]][0]; global > 0.)
+      {
+        const double depth = 28. - .5 * std::abs(model.points[i][1] - 10.);
+        expect_close(structure[1].added_mass[model.equation[i]][0] / global, std::sqrt(depth / 28.), 1e-12,
+                     "added mass by the local depth over that by the global one");
+        ++n;
+      }
+    expect(n == 30, "nodes under water"); // all but the crest's
+  }
+
+  // Elements and stresses
+
+  Unknowns field(const SolidModel &model, const std::function<Vector3(const dealii::Point<3> &)> &u)
+  {
+    Unknowns result(3 * std::size_t(model.first_equation.back()));
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      if (model.equation[i] != rigid_ground)
+        for (unsigned int c = 0; c < 3; ++c)
+          result[3 * model.equation[i] + c] = u(model.points[i])[c];
+    return result;
+  }
+
+  void expect_stress(const SolidModel &model, const std::vector<Stress> &stress,
+                     const std::function<std::array<double, 6>(const dealii::Point<3> &)> &exact,
+                     const double size, const std::string &what)
+  {
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      for (unsigned int c = 0; c < 6; ++c)
+        expect(std::abs(stress[i][c] - exact(model.points[i])[c]) < 2e-5 * size,
+               what + ", component " + std::to_string(c) + ": " + std::to_string(stress[i][c]) + ", not " +
+                   std::to_string(exact(model.points[i])[c]));
+  }
+
+  void stresses()
+  {
+    Material m;
+    m.young = 25e9;
+    m.poisson = .2;
+    const double mu = m.young / (2. * 1.2), lambda = m.young * .2 / (1.2 * .6);
+    // A linear displacement on distorted elements: Hooke's law. Components xx, yy, zz, xy, yz, zx.
+    const auto distort = [](const Vector3 &x) {
+      return Vector3{{x[0] + .4 * std::sin(x[1] + x[2]), x[1] + .5 * std::sin(x[0] + x[2]), x[2]}};
+    };
+    for (const unsigned int degree : {1, 2})
+    {
+      SolidModel model(wall(2, 3, 3, 3, distort), degree);
+      model.free_base();
+      const double         e[6] = {1e-5, -2e-5, 4e-5, 3e-5, -1e-5, 2e-5}; // shear: angles
+      std::vector<Stress>  stress;
+      const StressRecovery recovery(model, {m}, true);
+      recovery.apply(field(model,
+                           [&](const dealii::Point<3> &x) {
+                             return Vector3{{e[0] * x[0] + e[3] * x[1], e[1] * x[1] + e[4] * x[2],
+                                             e[2] * x[2] + e[5] * x[0]}};
+                           }),
+                     stress);
+      const double trace = e[0] + e[1] + e[2];
+      expect_stress(
+          model, stress,
+          [&](const dealii::Point<3> &)
+          {
+            return std::array<double, 6>{{lambda * trace + 2. * mu * e[0], lambda * trace + 2. * mu * e[1],
+                                          lambda * trace + 2. * mu * e[2], mu * e[3], mu * e[4], mu * e[5]}};
+          },
+          1e6, "uniform stress, degree " + std::to_string(degree));
+      // No force inside of the body under uniform stress (patch test).
+      const Structure structure = assemble_structure(model, {m}, true);
+      Unknowns        force;
+      structure.multiply_stiffness(field(model,
+                                         [&](const dealii::Point<3> &x) {
+                                           return Vector3{{e[0] * x[0], e[1] * x[1] + e[4] * x[2], 0.}};
+                                         }),
+                                   force);
+      for (unsigned int i = 0; i < model.n_nodes(); ++i)
+        if (model.surfaces[i].empty() && model.points[i][1] > 2. && model.points[i][1] < wide - 2.)
+          for (unsigned int c = 0; c < 3; ++c)
+            expect(std::abs(force[3 * model.equation[i] + c]) < 1e-9 * m.young * 1e-5 * wide * wide,
+                   "patch test, degree " + std::to_string(degree));
+    }
+    // Pure bending of one brick: what incompatible modes are for.
+    SolidModel model(wall(1, 1, 1, 1), 1);
+    model.free_base();
+    const double        curvature = 1e-6;
+    std::vector<Stress> stress;
+    StressRecovery(model, {m}, true)
+        .apply(field(model,
+                     [&](const dealii::Point<3> &p)
+                     {
+                       const double x = p[0] - 5., y = p[1] - 10., z = p[2] - 15.;
+                       return Vector3{{-.5 * curvature * (z * z + m.poisson * (x * x - y * y)),
+                                       -curvature * m.poisson * x * y, curvature * x * z}};
+                     }),
+               stress);
+    expect_stress(
+        model, stress,
+        [&](const dealii::Point<3> &p) {
+          return std::array<double, 6>{{0., 0., m.young * curvature * (p[0] - 5.), 0., 0., 0.}};
+        },
+        m.young * curvature * 5., "pure bending of a brick");
+  }
+
+  void principal()
+  {
+    const Matrix3 Q = {{2. / 3., -2. / 3., 1. / 3., 1. / 3., 2. / 3., 2. / 3., -2. / 3., -1. / 3., 2. / 3.}};
+    for (const Vector3 &values : {Vector3{{5., 1., -3.}}, {{4., 4., -2.}}, {{-1., -6., -7.}}, {{3., 3., 3.}}})
+    {
+      Matrix3 s{};
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          for (unsigned int k = 0; k < 3; ++k)
+            s[3 * i + j] += Q[3 * i + k] * values[k] * Q[3 * j + k];
+      const auto p = principal_stresses(
+          {{float(s[0]), float(s[4]), float(s[8]), float(s[1]), float(s[5]), float(s[2])}});
+      expect(std::abs(p[0] - values[0]) < 2e-5 && std::abs(p[1] - values[2]) < 2e-5,
+             "principal stresses " + std::to_string(p[0]) + ", " + std::to_string(p[1]));
+    }
+  }
+
+  // Places
+
+  void places()
+  {
+    const HexMesh closed = wall(2, 5, 6, 2), mesh = open_joints(closed); // a joint at y = 8
+    expect_close(crest_length(closed), wide, 1e-12, "length of the crest");
+    expect_close(volume(closed), thick * wide * tall, 1e-12, "volume");
+    SolidModel model(mesh, 1);
+    model.free_base();
+    const std::vector<Pair> pairs = find_pairs(model, 1);
+    double                  area = 0.;
+    for (const Pair &pair : pairs)
+    {
+      area += pair.area;
+      expect(std::abs(pair.frame[0][1] - 1.) < 1e-12, "the normal points to monolith 2");
+      expect(std::abs(pair.frame[2][2] - 1.) < 1e-12, "the last axis points upwards");
+    }
+    expect_close(area, thick * tall, 1e-12, "area of the joint");
+    const DamGeometry geometry(model, pairs, 1);
+    for (const double y : {0., 3., 10., 17., 20.})
+      for (const double x : {0., 5.})
+        expect(std::abs(geometry.arc_length(dealii::Point<3>(x, y, 11.)) - (y - 10.)) < 1e-12, "arc length");
+    expect(std::abs(geometry.joints[0].arc_length + 2.) < 1e-12, "arc length of the joint");
+    const auto place = [&](const unsigned int pair) { return pairs[pair].place; };
+    expect(place(geometry.joints[0].upstream)[0] == 0. && place(geometry.joints[0].upstream)[2] == tall &&
+               place(geometry.joints[0].downstream)[0] == thick &&
+               place(geometry.joints[0].downstream)[2] == tall,
+           "the joint's pairs at the crest");
+    const auto &crown = model.points[geometry.crown];
+    expect(crown[0] == 0. && crown[2] == tall && std::abs(crown[1] - 10.) <= 2., "crown");
+    const auto &near = model.points[nearest_node(model, dealii::Point<3>(9.6, 4.3, 14.))];
+    expect(near.distance(dealii::Point<3>(10., 4., 15.)) < 1e-12, "the nearest node");
+  }
+
+  void feet()
+  {
+    write_gmsh(wall(1, 2, 2, 1), "physics_feet.msh");
+    MeshParameters parameters;
+    parameters.source = "file";
+    parameters.file = "physics_feet.msh";
+    for (const auto &unit : {std::make_pair("m", 1.), {"ft", .3048}})
+    {
+      parameters.length_unit = unit.first;
+      expect_close(bounding_box(make_mesh(parameters, "")).second[2], tall * unit.second, 1e-12,
+                   std::string("height in ") + unit.first);
+    }
+  }
+
+  void motion_reports()
+  {
+    // Sines of 60 degrees difference in whole periods; a constant; an acceleration that rises as t.
+    GroundMotion motion;
+    motion.dt = .001;
+    for (unsigned int k = 0; k < 4000; ++k)
+      motion.acceleration.push_back(
+          {{std::sin(2. * pi * k / 400.), std::sin(2. * pi * k / 400. + pi / 3.), 2.}});
+    MotionParameters parameters;
+    parameters.source = "file";
+    MotionReport report = report_motion(motion, parameters);
+    expect_close(report.correlations[0], .5, 1e-9, "correlation");
+    expect_close(report.components[2].arias_intensity, pi / (2. * 9.80665) * 4. * 3.999, 1e-9, "Arias");
+    for (std::size_t k = 0; k < motion.acceleration.size(); ++k)
+      motion.acceleration[k] = {{k * motion.dt, 0., 0.}};
+    report = report_motion(motion, parameters);
+    expect_close(report.components[0].end_velocity, std::pow(3.999, 2) / 2., 1e-12, "velocity");
+    expect_close(report.components[0].end_displacement, std::pow(3.999, 3) / 6., 1e-12, "displacement");
+  }
+
+  // Time stepping: one node
+
+  Structure oscillator(const double stiffness, const double alpha, const double beta)
+  {
+    Structure structure;
+    Body      body;
+    body.stiffness = BlockSparseMatrix(std::vector<std::vector<unsigned int>>{{0}});
+    body.stiffness.value[0] = {{stiffness, 0., 0., 0., stiffness, 0., 0., 0., stiffness}};
+    structure.bodies.push_back(std::move(body));
+    structure.mass.assign(1, Matrix3{{4., 0., 0., 0., 4., 0., 0., 0., 4.}});
+    structure.added_mass.assign(1, Matrix3{{1., 0., 0., 0., 0., 0., 0., 0., 0.}});
+    structure.mass_damping = alpha;
+    structure.stiffness_damping = beta;
+    return structure;
+  }
+
+  void damped_oscillator()
+  {
+    const double w = 2. * pi, alpha = .5, beta = .01, zeta = .5 * (alpha / w + beta * w),
+                 wd = w * std::sqrt(1. - zeta * zeta), dt = 1. / 400.;
+    const Structure structure = oscillator(4. * w * w, alpha, beta);
+    Newmark         newmark(structure, JointLaws(), ContactParameters(), dt, ImpactRule::mean_force);
+    newmark.start({1., 0., 2.}, {0., 0., 0.}, {}, {0., 0., 0.}, {});
+    for (unsigned int k = 1; k <= 800; ++k)
+    {
+      newmark.advance({0., 0., 0.});
+      const double t = k * dt,
+                   exact = std::exp(-zeta * w * t) * (std::cos(wd * t) + zeta * w / wd * std::sin(wd * t));
+      const DynamicState &now = newmark.state();
+      expect(std::abs(now.u[0] - exact) < 3e-4 && std::abs(now.u[2] - 2. * exact) < 6e-4,
+             "damped oscillator");
+      const Energy &e = now.energy;
+      expect_close(e.added_mass, .5 * now.v[0] * now.v[0], 1e-12, "kinetic energy of the water");
+      expect_close(e.kinetic, .5 * (3. * now.v[0] * now.v[0] + 4. * now.v[2] * now.v[2]), 1e-12,
+                   "kinetic energy of the dam");
+      expect(k < 40 || newmark.energy_error() < 1e-10, "balance of the energy");
+    }
+  }
+
+  /** Damped against a base that moves with the velocity t: v = t - (1 - exp(-alpha t))/alpha. */
+  void moving_base()
+  {
+    const double    alpha = 2., dt = .01;
+    const Structure structure = oscillator(1e-9, alpha, 0.);
+    Newmark         newmark(structure, JointLaws(), ContactParameters(), dt, ImpactRule::mean_force);
+    newmark.start({0., 0., 0.}, {0., 0., 0.}, {}, {0., 0., 0.}, {});
+    for (unsigned int k = 1; k <= 200; ++k)
+    {
+      const double t = k * dt;
+      newmark.advance({0., 0., 0.}, {{t, 0., 0.}});
+      expect(std::abs(newmark.state().v[0] - (t - (1. - std::exp(-alpha * t)) / alpha)) < 5e-5,
+             "damped against a moving base");
+    }
+  }
+
+  // Rock
+
+  void waves()
+  {
+    Material m;
+    m.young = 20e9;
+    m.poisson = .25;
+    m.density = 2600.;
+    const double mu = m.young / 2.5, lambda = m.young * .25 / (1.25 * .5);
+    expect_close(2600. * std::pow(p_wave_speed(m), 2), lambda + 2. * mu, 1e-12, "P waves");
+    expect_close(2600. * std::pow(s_wave_speed(m), 2), mu, 1e-12, "S waves");
+    // The outcrop's acceleration 6 t: half of it comes from below, u = t^3/2.
+    GroundMotion outcrop;
+    outcrop.dt = .1;
+    for (unsigned int k = 0; k <= 20; ++k)
+      outcrop.acceleration.push_back({{.6 * k, 0., -.6 * k}});
+    const IncidentWave wave = incident_wave(outcrop);
+    for (const double t : {.05, .1, .73, 1.9})
+    {
+      expect_close(wave(t)[0], std::pow(t, 3) / 2., 1e-12, "incident wave");
+      expect_close(wave(t)[2], -std::pow(t, 3) / 2., 1e-12, "incident wave");
+    }
+    // An oscillator w with central differences, damping of the step before: w dt (w dt/4 + xi) = 1.
+    RayleighDamping damping;
+    damping.mass = 3.;
+    damping.stiffness = .002;
+    for (const double w : {10., 100., 1000.})
+    {
+      const double dt = critical_time_step(w, damping), xi = .5 * (3. / w + .002 * w);
+      expect_close(w * dt * (.25 * w * dt + xi), 1., 1e-12, "critical time step");
+    }
+  }
+
+  void dashpots()
+  {
+    const HexMesh        mesh = Boxes::box({2, 3, 2}, {"z-"},
+                                           [](double i, double j, double k) {
+                                      return Vector3{{2. * i, 3. * j, 4. * k}};
+                                    });
+    RockRegionParameters parameters;
+    Material            &m = parameters.rock.materials[Boxes::rock];
+    m = Boxes::unit_rock(.2);
+    m.density = 3.;
+    const RockModel model = make_rock_model(mesh, parameters.rock);
+    Matrix3         damping{};
+    for (const Dashpot &dashpot : viscous_boundary(model, {{0., 0., 100.}}, 1., 0.))
+      for (unsigned int k = 0; k < 9; ++k)
+        damping[k] += dashpot.damping[k];
+    const double area = 4. * 9.;
+    expect_close(damping[8], 3. * p_wave_speed(m) * area, 1e-12, "normal dashpots");
+    expect_close(damping[0], 3. * s_wave_speed(m) * area, 1e-12, "tangential dashpots");
+    expect_close(damping[4], 3. * s_wave_speed(m) * area, 1e-12, "tangential dashpots");
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  const std::string part = argc > 1 ? argv[1] : "";
+  if (part == "loads")
+    return run({{"weight and water", weight_and_water}, {"local depth", local_depth}});
+  if (part == "model")
+    return run({{"stresses", stresses},
+                {"principal stresses", principal},
+                {"places", places},
+                {"feet", feet},
+                {"reports of motions", motion_reports}});
+  if (part == "newmark")
+    return run({{"damped oscillator", damped_oscillator}, {"moving base", moving_base}});
+  if (part == "rock")
+    return run({{"waves", waves}, {"dashpots", dashpots}});
+  std::cerr << "usage: physics loads|model|newmark|rock\n";
+  return 2;
+}
