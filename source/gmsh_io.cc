@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <gmsh.h>
+#include <new>
+#include <stdexcept>
 #include <unordered_map>
 
 namespace Voussoir
@@ -47,6 +49,14 @@ namespace Voussoir
       catch (const InputError &)
       {
         throw;
+      }
+      catch (const std::bad_alloc &)
+      {
+        throw;
+      }
+      catch (const std::length_error &) // more than any memory
+      {
+        throw std::bad_alloc();
       }
       catch (const std::exception &error)
       {

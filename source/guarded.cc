@@ -10,9 +10,11 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
+#include <iomanip>
 #include <new>
 #include <omp.h>
 #include <poll.h>
+#include <sstream>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -270,7 +272,12 @@ namespace Voussoir
     case Outcome::failed:
       throw ComputationError(message);
     case Outcome::no_memory:
-      throw std::bad_alloc();
+    {
+      std::ostringstream text;
+      text << problem << ": a size in it asks for more than " << std::setprecision(2) << 1e-9 * limits.memory
+           << " GB of memory. The file is damaged; write it anew.";
+      throw InputError(text.str());
+    }
     case Outcome::exception:
       throw InputError(problem + ": " + message);
     }

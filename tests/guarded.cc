@@ -95,8 +95,9 @@ namespace
                        },
                        problem + "reading it does not end", {1., 1e9});
     thrown<InputError>("the child waits", [] { pause(); }, problem + "reading it does not end", {.1, 1e9});
-    thrown<std::bad_alloc>(
-        "the child takes all memory", [] { std::vector<char>(std::size_t(1) << 40, 'x'); }, "");
+    thrown<InputError>(
+        "the child takes all memory", [] { std::vector<char>(std::size_t(1) << 40, 'x'); },
+        problem + "a size in it asks for more than 1 GB");
     thrown<InputError>(
         "InputError", [] { throw InputError("bad words"); }, "bad words");
     thrown<ComputationError>(

@@ -104,7 +104,7 @@ namespace Voussoir
   /** Runs @p work in a child process, for libraries that crash, end the program or never end on bad files:
    *  whatever happens to the child does not touch the program. Then @p send, in the child, puts the results
    * into a pipe, and @p receive, here, gets them out of it in the same order. The child's output (stdout,
-   * stderr) is dropped. An InputError, ComputationError or std::bad_alloc of @p work is thrown here again. If
+   * stderr) is dropped. An InputError or ComputationError of @p work is thrown here again. If
    * the child dies, ends by itself, or exceeds its limits, throws InputError: "@p problem: " and the reason.
    *  @p work must not use threads: only the calling one exists in the child. */
   void run_guarded(const std::string &problem, const GuardLimits &limits, const std::function<void()> &work,
