@@ -115,13 +115,22 @@ namespace Voussoir
                            std::filesystem::path(file).stem().string() +
                            ", and their solutions would be, too. Solve them one by one.");
     }
-    if (files.size() > 1)
-      for (const std::string &file : files) // before any work is done
-        read_fclib(file);
-    unsigned int failures = 0;
+    unsigned int failures = 0, unreadable = 0;
     for (const std::string &file : files)
     {
-      const FrictionProblem  problem = read_fclib(file);
+      FrictionProblem problem;
+      try
+      {
+        problem = read_fclib(file);
+      }
+      catch (const InputError &error)
+      {
+        if (files.size() == 1)
+          throw;
+        std::cerr << "voussoir: error: " << error.what() << std::endl;
+        ++unreadable; // the others are solved
+        continue;
+      }
       const std::clock_t     start = std::clock();
       const FrictionSolution solution = solve_friction_problem(problem, parameters, equations);
       const double           seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
@@ -149,9 +158,15 @@ namespace Voussoir
           throw InputError("The file " + name.string() + ".txt cannot be written.");
       }
     }
+    const std::string not_converged = std::to_string(failures) + " of " +
+                                      std::to_string(files.size() - unreadable) +
+                                      " problems did not converge to " + options.tolerance + " within " +
+                                      options.max_seconds + " s each (\"converged\": false).";
+    if (unreadable > 0)
+      throw InputError(std::to_string(unreadable) + " of " + std::to_string(files.size()) +
+                       " files cannot be read, as said above; the others were solved." +
+                       (failures > 0 ? " Of these, " + not_converged : ""));
     if (failures > 0)
-      throw ComputationError(std::to_string(failures) + " of " + std::to_string(files.size()) +
-                             " problems did not converge to " + options.tolerance + " within " +
-                             options.max_seconds + " s each (\"converged\": false).");
+      throw ComputationError(not_converged);
   }
 } // namespace Voussoir

@@ -1,5 +1,6 @@
 #include <voussoir/error.h>
 #include <voussoir/fclib_io.h>
+#include <voussoir/guarded.h>
 
 #include <cmath>
 #include <filesystem>
@@ -26,9 +27,6 @@ namespace Voussoir
     public:
       explicit Inspector(const std::string &file) : file(file)
       {
-        std::error_code error;
-        if (!std::filesystem::is_regular_file(file, error))
-          refuse(file, "there is no such file.");
         H5Eset_auto(H5E_DEFAULT, nullptr, nullptr);
         if (H5Fis_hdf5(file.c_str()) <= 0)
           refuse(file, "this is not an HDF5 file. `voussoir contact` reads FCLib files.");
@@ -116,8 +114,8 @@ namespace Voussoir
                                                      : "by W/nzmax and W/nz it must have ") +
                            std::to_string(most) + ".");
       };
-      fits("p", true, nz >= 0 ? nz : m + 1, nz >= 0 ? nzmax : m + 1);
-      fits("i", true, nz >= 0 ? nz : nzmax, nzmax);
+      fits("p", true, nz >= 0 ? nz : m + 1, nz >= 0 ? nz : m + 1);
+      fits("i", true, nz >= 0 ? nz : nzmax, nz >= 0 ? nz : nzmax);
       fits("x", false, nz >= 0 ? nz : nzmax, nzmax);
       if (in.size(vectors + "q", false) != m)
         refuse(file, "vectors/q must have " + std::to_string(m) + " entries, as W has rows.");
@@ -168,39 +166,72 @@ namespace Voussoir
           result.add(i, entry.first, entry.second);
       return result;
     }
+
+    /** By the libraries, which may crash. */
+    FrictionProblem read_unguarded(const std::string &file)
+    {
+      inspect(file);
+      std::unique_ptr<fclib_local, void (*)(fclib_local *)> problem(fclib_read_local(file.c_str()),
+                                                                    [](fclib_local *p)
+                                                                    {
+                                                                      fclib_delete_local(p);
+                                                                      free(p);
+                                                                    });
+      if (!problem)
+        refuse(file, "libfclib cannot read the problem.");
+      FrictionProblem result;
+      result.W = blocks(file, *problem->W);
+      result.q.assign(problem->q, problem->q + problem->W->m);
+      result.mu.assign(problem->mu, problem->mu + problem->W->m / 3);
+      if (problem->info && problem->info->title)
+        result.title = problem->info->title;
+      for (const double x : result.q)
+        if (!std::isfinite(x))
+          refuse(file, "vectors/q has an entry that is not a finite number.");
+      for (std::size_t i = 0; i < result.mu.size(); ++i)
+      {
+        if (!(result.mu[i] >= 0.) || !std::isfinite(result.mu[i]))
+          refuse(file,
+                 "the coefficient of friction of contact " + std::to_string(i) + " must be at least 0.");
+        const Matrix3 &H =
+            result.W.value[std::lower_bound(result.W.column.begin() + result.W.start[i],
+                                            result.W.column.begin() + result.W.start[i + 1], i) -
+                           result.W.column.begin()];
+        if (!(H[0] > 0.) || (result.mu[i] > 0. && !(H[4] > 0. && H[8] > 0.)))
+          refuse(file, "the diagonal of W is not positive at contact " + std::to_string(i) + ".");
+      }
+      return result;
+    }
   } // namespace
 
   FrictionProblem read_fclib(const std::string &file)
   {
-    inspect(file);
-    std::unique_ptr<fclib_local, void (*)(fclib_local *)> problem(fclib_read_local(file.c_str()),
-                                                                  [](fclib_local *p)
-                                                                  {
-                                                                    fclib_delete_local(p);
-                                                                    free(p);
-                                                                  });
-    if (!problem)
-      refuse(file, "libfclib cannot read the problem.");
-    FrictionProblem result;
-    result.W = blocks(file, *problem->W);
-    result.q.assign(problem->q, problem->q + problem->W->m);
-    result.mu.assign(problem->mu, problem->mu + problem->W->m / 3);
-    if (problem->info && problem->info->title)
-      result.title = problem->info->title;
-    for (const double x : result.q)
-      if (!std::isfinite(x))
-        refuse(file, "vectors/q has an entry that is not a finite number.");
-    for (std::size_t i = 0; i < result.mu.size(); ++i)
-    {
-      if (!(result.mu[i] >= 0.) || !std::isfinite(result.mu[i]))
-        refuse(file, "the coefficient of friction of contact " + std::to_string(i) + " must be at least 0.");
-      const Matrix3 &H = result.W.value[std::lower_bound(result.W.column.begin() + result.W.start[i],
-                                                         result.W.column.begin() + result.W.start[i + 1], i) -
-                                        result.W.column.begin()];
-      if (!(H[0] > 0.) || (result.mu[i] > 0. && !(H[4] > 0. && H[8] > 0.)))
-        refuse(file, "the diagonal of W is not positive at contact " + std::to_string(i) + ".");
-    }
-    return result;
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error))
+      refuse(file, "there is no such file.");
+    FrictionProblem problem;
+    run_guarded(
+        "The FCLib file " + file + " cannot be read",
+        limits_for_file(double(std::filesystem::file_size(file))), [&] { problem = read_unguarded(file); },
+        [&](PipeWriter &pipe)
+        {
+          pipe.put(problem.W.start);
+          pipe.put(problem.W.column);
+          pipe.put(problem.W.value);
+          pipe.put(problem.q);
+          pipe.put(problem.mu);
+          pipe.put(problem.title);
+        },
+        [&](PipeReader &pipe)
+        {
+          pipe.get(problem.W.start);
+          pipe.get(problem.W.column);
+          pipe.get(problem.W.value);
+          pipe.get(problem.q);
+          pipe.get(problem.mu);
+          pipe.get(problem.title);
+        });
+    return problem;
   }
 
   void write_fclib(const std::string &file, const FrictionProblem &problem, const Unknowns &guess_force,

@@ -1,9 +1,13 @@
 #include <voussoir/error.h>
 #include <voussoir/gmsh_io.h>
+#include <voussoir/guarded.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <gmsh.h>
+#include <new>
+#include <stdexcept>
 #include <unordered_map>
 
 namespace Voussoir
@@ -46,6 +50,14 @@ namespace Voussoir
       {
         throw;
       }
+      catch (const std::bad_alloc &)
+      {
+        throw;
+      }
+      catch (const std::length_error &) // more than any memory
+      {
+        throw std::bad_alloc();
+      }
       catch (const std::exception &error)
       {
         reason = error.what();
@@ -65,9 +77,12 @@ namespace Voussoir
     /** Gmsh would run anything that does not look like a mesh as a script: look first. */
     void expect_gmsh_file(const std::string &file)
     {
-      std::ifstream stream(file);
-      std::string   line;
-      if (!stream || !std::getline(stream, line))
+      std::error_code error;
+      std::ifstream   stream;
+      std::string     line;
+      if (std::filesystem::is_regular_file(file, error)) // opening a pipe would wait for its other end
+        stream.open(file);
+      if (!stream.is_open() || !std::getline(stream, line))
         throw InputError("mesh " + file +
                          ": the file does not exist or cannot be read. Check the entry 'File' " +
                          "of subsection 'Mesh'; it is relative to the directory of the scene file.");
@@ -264,6 +279,46 @@ namespace Voussoir
       std::unordered_map<std::size_t, unsigned int> node_number; // by gmsh's tag
     };
 
+    void send(const HexMesh &mesh, PipeWriter &pipe)
+    {
+      pipe.put(mesh.nodes);
+      pipe.put(mesh.cells);
+      pipe.put(mesh.faces);
+      pipe.put(mesh.names.size());
+      for (const auto &entry : mesh.names)
+      {
+        pipe.put(entry.first.first);
+        pipe.put(entry.first.second);
+        pipe.put(entry.second);
+      }
+    }
+
+    /** What send() sent. */
+    void receive(PipeReader &pipe, HexMesh &mesh)
+    {
+      std::size_t n_names = 0;
+      pipe.get(mesh.nodes);
+      pipe.get(mesh.cells);
+      pipe.get(mesh.faces);
+      pipe.get(n_names);
+      for (std::size_t i = 0; i < n_names; ++i)
+      {
+        int dimension = 0, id = 0;
+        pipe.get(dimension);
+        pipe.get(id);
+        pipe.get(mesh.names[{dimension, id}]);
+      }
+      const auto check = [&](const auto &elements)
+      {
+        for (const auto &element : elements)
+          for (const unsigned int node : element.nodes)
+            if (node >= mesh.nodes.size()) // a library gone wild
+              throw PipeReader::End();
+      };
+      check(mesh.cells);
+      check(mesh.faces);
+    }
+
     /** Makes a discrete entity for each physical group of @p dimension and adds its elements, tagged in the
      *  mesh's order after @p last_tag. */
     template <typename Range, typename GroupOf>
@@ -306,7 +361,11 @@ namespace Voussoir
   {
     expect_gmsh_file(file);
     HexMesh mesh;
-    with_gmsh(file, "gmsh cannot read this file", [&] { mesh = Reader(file).read(); });
+    run_guarded(
+        "The mesh file " + file + " cannot be read",
+        limits_for_file(double(std::filesystem::file_size(file))),
+        [&] { with_gmsh(file, "gmsh cannot read this file", [&] { mesh = Reader(file).read(); }); },
+        [&](PipeWriter &pipe) { send(mesh, pipe); }, [&](PipeReader &pipe) { receive(pipe, mesh); });
     return mesh;
   }
 

@@ -232,6 +232,11 @@ namespace
     ints("size_too_small", W + "nzmax", {int(x.size()) - 1}, "W/");
     ints("size_too_large", W + "nzmax", {int(x.size()) + 1}, "W/");
     ints("two_sizes", W + "m", {9, 9}, "one number");
+    // Five triplets, in arrays for more: libfclib reads them into memory for five.
+    write_new("longer_triplets", p);
+    put("longer_triplets", W + "p", i_out);
+    put<int>("longer_triplets", W + "nz", {5});
+    refused("longer_triplets", "W/p");
     auto longer = i_out;
     longer.resize(100000, 0);
     ints("columns_too_many", W + "i", longer, "W/i");

@@ -700,9 +700,12 @@ def contact():
                        "negative_index": "column -1", "values_too_many": "W/x",
                        "bilateral": "bilateral", "global": "global problem", "no_mu": "vectors/mu"}.items():
         refused(["contact", str(bad / f"{name}.hdf5")], f"{name}.hdf5", part)
-    # A bad file among good ones stops the program before it works.
-    result = voussoir("contact", good, str(bad / "nan_q.hdf5"))
-    expect(result.returncode == 2 and result.stdout == "", "a bad file among good ones")
+    # Bad files among good ones: a line each, the good ones are solved.
+    result = voussoir("contact", good, str(bad / "nan_q.hdf5"), str(bad / "longer_triplets.hdf5"), small[1])
+    lines = result.stderr.splitlines()
+    expect(result.returncode == 2 and [json.loads(x)["file"] for x in result.stdout.splitlines()] == [good, small[1]] and
+           len(lines) == 3 and all(x.startswith("voussoir: error: ") for x in lines) and "nan_q" in lines[0] and
+           "W/p" in lines[1] and "2 of 4 files" in lines[2], f"bad files among good ones: {result}")
     shutil.copy(good, 'a "name" with blanks.hdf5')
     expect(solved('a "name" with blanks.hdf5')[0]["file"] == 'a "name" with blanks.hdf5', "quoted name")
     if not checked:

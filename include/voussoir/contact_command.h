@@ -25,9 +25,10 @@ namespace Voussoir
     std::string solutions;                                                  ///< directory, may be empty
   };
 
-  /** `voussoir contact`: solves the FCLib problems @p files and prints a JSON object for each. Throws
-   * InputError for files that cannot be read, before anything is solved, and for unknown solvers;
-   * ComputationError at the end if problems did not converge. */
+  /** `voussoir contact`: solves the FCLib problems @p files and prints a JSON object for each. Of several
+   * files, one that cannot be read is named on stderr and the others are solved. Throws InputError for
+   * unknown solvers, and at the end if a file cannot be read; ComputationError at the end if problems did not
+   * converge. */
   void run_contact(const std::vector<std::string> &files, const ContactOptions &options);
 } // namespace Voussoir
 
