@@ -1,11 +1,52 @@
 #!/usr/bin/env bash
-# Sets up, builds everything, tests included, and runs the tests.
-# Usage: scripts/test.sh [more arguments for ctest, such as -R waves, or -L with exact, mesh, motion or program]
+# Sets up, checks the form of sources and scripts, builds everything with warnings as errors, and runs the tests; then the quick
+# ones again with the assertions of deal.II and of the C++ library (build-debug). What was skipped is listed at the end.
+# Usage: scripts/test.sh [arguments for ctest, such as -R waves, or -L with exact, mesh, motion or program: then these tests only]
 set -euo pipefail
+# shellcheck source=environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-"$root/scripts/setup.sh"
-"$root/scripts/build.sh"
-cd "$root/build"
+form() # the sources as clang-format 14 writes them, scripts without complaints, mutants that fit
+{
+  cd "$root"
+  mapfile -t sources < <(git ls-files '*.cc' '*.h')
+  if [[ "$(clang-format --version)" == *" version 14."* ]]; then
+    clang-format --dry-run -Werror "${sources[@]}"
+  else
+    echo "test: this is not clang-format 14: the form of the sources was not checked" >&2
+  fi
+  shellcheck scripts/*.sh .ci/run
+  scripts/mutants.py --check
+}
 
-ctest --output-on-failure -j2 "$@"
+# run_tests DIRECTORY [ARGUMENTS...]: of ctest; its output also goes to a file, which says what was skipped.
+run_tests()
+{
+  local directory=$1
+  shift
+  (cd "$directory" && ctest --output-on-failure --no-tests=error -j2 "$@") | tee "$directory/tests.log"
+}
+
+skipped() # DIRECTORY...
+{
+  local directory
+  for directory in "$@"; do
+    if [[ -f "$directory/tests.log" ]]; then
+      echo "Skipped in $directory: $(grep -c '\*\*\*Skipped' "$directory/tests.log" || true)"
+      grep '\*\*\*Skipped' "$directory/tests.log" || true
+    fi
+  done
+}
+
+"$root/scripts/setup.sh"
+form
+"$root/scripts/build.sh" -DCMAKE_COMPILE_WARNING_AS_ERROR=ON
+if (($#)); then
+  run_tests "$root/build" "$@"
+  skipped "$root/build"
+  exit 0
+fi
+run_tests "$root/build"
+"$root/scripts/build.sh" --directory "$root/build-debug" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_COMPILE_WARNING_AS_ERROR=ON
+run_tests "$root/build-debug" -L quick
+skipped "$root/build" "$root/build-debug"

@@ -1,0 +1,225 @@
+#!/usr/bin/env python3
+"""Do the tests notice errors? Builds all mutants of scripts/mutants.txt into one program, in a scratch directory, and
+runs against each the tests that are likeliest to see it, until one fails: then the mutant is killed.
+
+    scripts/mutants.py [--scratch build-mutants] [--only REGEX] [--all] [--table FILE] [--check] [--no-build]
+
+--check looks only whether all mutants still fit the sources; --all runs the other tests, too, against those that survive.
+Prints a table in Markdown and the survivors. Exit status: 0 none survives, 1 some do, 2 a mutant does not fit the sources.
+"""
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+HEADER = """#ifndef voussoir_mutant_h
+#define voussoir_mutant_h
+
+#include <cstdlib>
+#include <cstring>
+
+inline const char *const voussoir_mutant_name = std::getenv("VOUSSOIR_MUTANT");
+inline int voussoir_mutant_number(const char *const *names)
+{
+  for (int i = 1; names[i - 1] != nullptr; ++i)
+    if (voussoir_mutant_name != nullptr && std::strcmp(names[i - 1], voussoir_mutant_name) == 0)
+      return i;
+  if (voussoir_mutant_name != nullptr && *voussoir_mutant_name != 0)
+    std::abort();
+  return 0;
+}
+inline const char *const voussoir_mutant_names[] = {%s, nullptr};
+inline const int voussoir_mutant = voussoir_mutant_number(voussoir_mutant_names);
+
+#endif
+"""
+
+
+class Misfit(Exception):
+    """A mutant that does not fit the sources, or a line of the list that cannot be understood."""
+
+
+def read_list(path):
+    """The mutants: dictionaries with name, room, file, tests (a list), meaning and edits (original, mutated)."""
+    mutants = []
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        mutant = mutants[-1] if mutants else None
+        if not line.strip() or line.startswith("#"):
+            continue
+        if line.startswith("- "):
+            if not mutant["edits"] or mutant["edits"][-1][1]:
+                mutant["edits"].append([[], []])
+            mutant["edits"][-1][0].append(line[2:])
+        elif line.startswith("+ "):
+            mutant["edits"][-1][1].append(line[2:])
+        elif line.startswith("  "):
+            mutant["meaning"] = (mutant["meaning"] + " " + line.strip()).strip()
+        else:
+            fields = line.split(" | ")
+            if len(fields) != 4:
+                raise Misfit(f"{path.name}, line {number}: expected name | room | file | tests")
+            name, room, file, tests = (f.strip() for f in fields)
+            mutants.append({"name": name, "room": room, "file": file, "tests": tests.split("|"), "meaning": "",
+                            "edits": []})
+    names = [m["name"] for m in mutants]
+    for name in names:
+        if names.count(name) > 1:
+            raise Misfit(f"two mutants have the name {name}")
+    for m in mutants:
+        if not m["edits"] or any(not new for _, new in m["edits"]):
+            raise Misfit(f"mutant {m['name']}: it has no text to change, or none to change it to")
+        m["edits"] = [("\n".join(old), "\n".join(new)) for old, new in m["edits"]]
+    return mutants
+
+
+def mutate(text, mutant, number):
+    """The text of a source with the choice of this mutant in it."""
+    chosen = f"(voussoir_mutant == {number})"
+    for old, new in mutant["edits"]:
+        pattern = r"\s+".join(re.escape(word) for word in old.split())
+        found = list(re.finditer(pattern, text))
+        if len(found) != 1:
+            raise Misfit(f"mutant {mutant['name']}: its original text occurs {len(found)} times in {mutant['file']}, "
+                         f"not once: {old}")
+        begin, end = found[0].span()
+        old = found[0].group()
+        before = re.sub(r"//[^\n]*", "", text[:begin]).rstrip()
+        if "MUTANT" in new:
+            changed = new.replace("MUTANT", chosen)
+        elif old.endswith(";") and before[-1] in ";{})":
+            changed = f"{{ if {chosen} {{ {new} }} else {{ {old} }} }}"
+        else:
+            semicolon = ";" if old.endswith(";") else ""
+            changed = f"({chosen} ? ({new.rstrip(';')}) : ({old.rstrip(';')})){semicolon}"
+        text = text[:begin] + changed + text[end:]
+    return text
+
+
+def make_tree(mutants, tree):
+    """Copies what git has, and puts the mutants in. Files that do not change keep their time."""
+    listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-co", "--exclude-standard", "--", "CMakeLists.txt",
+                             "source", "include", "tests", "scripts", "prm", "meshes", "benchmarks"],
+                            capture_output=True, check=True).stdout.decode().split("\n")
+    texts = {file: (ROOT / file).read_bytes() for file in listed if file and (ROOT / file).is_file()}
+    names = ", ".join(f'"{m["name"]}"' for m in mutants)
+    texts["include/voussoir/mutant.h"] = (HEADER % names).encode()
+    errors = []
+    for number, mutant in enumerate(mutants, 1):
+        file = mutant["file"]
+        try:
+            if file not in texts:
+                raise Misfit(f"mutant {mutant['name']}: there is no file {file}")
+            texts[file] = mutate(texts[file].decode(), mutant, number).encode()
+        except Misfit as misfit:
+            errors.append(str(misfit))
+    if errors:
+        raise Misfit("\n".join(errors))
+    for file in {m["file"] for m in mutants}:
+        texts[file] = b"#include <voussoir/mutant.h>\n" + texts[file]
+    for old in (f for f in tree.rglob("*") if f.is_file()):
+        if str(old.relative_to(tree)) not in texts:
+            old.unlink()
+    for file, text in texts.items():
+        path = tree / file
+        if not path.exists() or path.read_bytes() != text:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(text)
+            path.chmod((ROOT / file).stat().st_mode if (ROOT / file).exists() else 0o644)
+
+
+def build(tree, directory):
+    launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
+    samples = ROOT.parent / "shared/reference/data/peers"
+    for command in (["cmake", "-S", str(tree), "-B", str(directory), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                     "-DVOUSSOIR_UNITY=ON", f"-DVOUSSOIR_SAMPLES={samples}", *launcher],
+                    ["cmake", "--build", str(directory), "--parallel", str(os.cpu_count()), "--", "-k", "0"]):
+        with open(directory.parent / "build.log", "a") as log:
+            if subprocess.run(command, stdout=log, stderr=subprocess.STDOUT).returncode != 0:
+                sys.exit(f"mutants: the build failed; see {log.name}")
+
+
+def run_tests(directory, pattern, mutant):
+    """Runs the tests of this pattern against a mutant; the number of tests that ran, and the one that failed."""
+    result = subprocess.run(["ctest", "-R", pattern, "--stop-on-failure", "--no-tests=ignore", "--timeout", "300"],
+                            cwd=directory, env={**os.environ, "VOUSSOIR_MUTANT": mutant}, capture_output=True, text=True)
+    ran = len(re.findall(r"^ *\d+/\d+ Test ", result.stdout, re.M))
+    failed = re.search(r"Test +#\d+: (\S+) [ .]*\*\*\*(?!Skipped|Not Run)", result.stdout)
+    if result.returncode != 0 and failed is None:
+        sys.exit(f"mutants: ctest failed: {result.stdout[-2000:]}{result.stderr}")
+    return ran, failed[1] if result.returncode != 0 else None
+
+
+def kill(directory, mutant, everything):
+    """The test that notices the mutant, or None."""
+    total = 0
+    for pattern in mutant["tests"] + (["."] if everything else []):
+        ran, failed = run_tests(directory, pattern, mutant["name"])
+        total += ran
+        if failed:
+            return failed
+    if total == 0:
+        raise Misfit(f"mutant {mutant['name']}: there are no tests {'|'.join(mutant['tests'])}")
+    return None
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--scratch", type=Path, default=ROOT / "build-mutants", help="directory")
+    parser.add_argument("--only", default="", help="mutants whose name has this regular expression")
+    parser.add_argument("--all", action="store_true", help="all other tests against those that survive")
+    parser.add_argument("--table", type=Path, help="write the table to this file")
+    parser.add_argument("--check", action="store_true", help="look only whether all mutants fit the sources")
+    parser.add_argument("--no-build", action="store_true", help="the scratch directory is built already")
+    options = parser.parse_args()
+    scratch = options.scratch.resolve()
+    directory = scratch / "build"
+    try:
+        mutants = read_list(ROOT / "scripts/mutants.txt")
+        if options.check:
+            scratch = Path(os.environ.get("TMPDIR", "/tmp")) / f"voussoir-mutants-{os.getpid()}"
+        try:
+            if not options.no_build:
+                make_tree(mutants, scratch / "tree")
+        finally:
+            if options.check:
+                shutil.rmtree(scratch, ignore_errors=True)
+        if options.check:
+            print(f"{len(mutants)} mutants fit the sources.")
+            return 0
+        directory.mkdir(parents=True, exist_ok=True)
+        if not options.no_build:
+            build(scratch / "tree", directory)
+        chosen = [m for m in mutants if re.search(options.only, m["name"])]
+        patterns = sorted({p for m in chosen for p in m["tests"]})
+        for pattern in patterns:
+            _, failed = run_tests(directory, pattern, "")
+            if failed:
+                sys.exit(f"mutants: the test {failed} fails without any mutant")
+        lines = ["| room | mutant | what it means | killed by |", "|---|---|---|---|"]
+        print("\n".join(lines), flush=True)
+        survivors = []
+        for mutant in chosen:
+            begin = time.monotonic()
+            killer = kill(directory, mutant, options.all)
+            lines.append(f"| {mutant['room']} | {mutant['name']} | {mutant['meaning']} | {killer or '**nothing**'} |")
+            print(lines[-1], flush=True)
+            print(f"    {time.monotonic() - begin:.0f} s", file=sys.stderr, flush=True)
+            if killer is None:
+                survivors.append(mutant["name"])
+    except Misfit as misfit:
+        print(f"mutants: {misfit}", file=sys.stderr)
+        return 2
+    if options.table:
+        options.table.write_text("\n".join(lines) + "\n")
+    print(f"\n{len(chosen)} mutants, {len(survivors)} survive{': ' + ', '.join(survivors) if survivors else ''}")
+    return 1 if survivors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# Do the tests notice errors? Sets up, builds the mutants of scripts/mutants.txt, runs the tests against them.
+# Usage: scripts/mutants.sh [arguments of scripts/mutants.py, which see]
+set -euo pipefail
+# shellcheck source=environment.sh
+source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+
+"$root/scripts/setup.sh"
+exec "$root/scripts/mutants.py" "$@"
