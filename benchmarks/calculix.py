@@ -331,6 +331,8 @@ def take_from_scene(options, path):
         setattr(options, name, float(scene[entry]))
     ratio, f1, f2 = (float(scene["Damping/" + name]) for name in ("Ratio", "Frequency 1", "Frequency 2"))
     options.damping = [4 * np.pi * ratio * f1 * f2 / (f1 + f2), ratio / (np.pi * (f1 + f2))]
+    if scene["Motion/Source"] != "none" and float(scene["Motion/Duration"]) < 0:
+        sys.exit(f"{path}: set Motion/Duration, which is automatic")
     options.steps = round(float(scene["Motion/Duration"]) / options.dt) if scene["Motion/Source"] != "none" else 0
 
 

@@ -264,6 +264,8 @@ Exit status: 0 done; 1 the computation failed; 2 bad input.
       {
         const GroundMotion motion = make_motion(scene.motion, scene.directory);
         write_motion(motion, arguments.output);
+        for (const std::string &note : motion.notes)
+          std::cout << note << '\n';
         print_report(report_motion(motion, scene.motion), std::cout);
       }
     }

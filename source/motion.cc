@@ -3,11 +3,10 @@
 #include <voussoir/error.h>
 #include <voussoir/motion.h>
 #include <voussoir/motion_artificial.h>
-#include <voussoir/motion_record.h>
+#include <voussoir/motion_files.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
@@ -52,11 +51,16 @@ namespace Voussoir
         "Where the acceleration of the base comes from: 'artificial' makes three components that "
         "match a design spectrum, 'file' reads records, 'none' leaves the base at rest.",
         Patterns::Selection("artificial|file|none"));
-    prm.add_parameter("Duration", duration, "Length of the shaking [s]. Longer records are cut.");
+    prm.add_parameter(
+        "Duration", duration,
+        "Length of the shaking [s]. Longer records are cut, shorter ones refused. -1: that of the "
+        "shortest record; 20.48 s of an artificial motion.");
     prm.add_parameter(
         "Time step", time_step,
-        "Sampling interval of the motion [s]; Duration is a multiple of it. Records with another "
-        "interval are interpolated linearly.");
+        "Sampling interval of the motion [s]; Duration is a multiple of it. Records with a longer "
+        "interval are interpolated linearly, those with a shorter one filtered first, so that nothing above "
+        "0.5/Time step remains; each component may have its own interval.");
+    prm.add_parameter("Factor", factor, "Factor [-] on all components, whatever their source.");
     for (unsigned int d = 0; d < 3; ++d)
       prm.add_parameter(std::string("Scale ") + names[d], scale[d],
                         std::string("Factor [-] on the component in ") + names[d] +
@@ -79,7 +83,6 @@ namespace Voussoir
         "Source = file: unit of acceleration in tables, 'g' = 9.80665 m/s^2, 'm/s^2' or 'cm/s^2'. AT2 "
         "files are always in g.",
         Patterns::Selection("g|m/s^2|cm/s^2"));
-    prm.add_parameter("Factor", factor, "Source = file: factor [-] on all components, for scaling records.");
 
     prm.add_parameter(
         "Spectrum", spectrum.code,
@@ -101,70 +104,137 @@ namespace Voussoir
     prm.add_parameter(
         "Seed", seed,
         "Source = artificial: number [-] that selects the random phases; equal seeds give equal "
-        "motions.");
-    prm.add_parameter("Rise end", rise_end,
-                      "Source = artificial: the envelope rises as t^2 until this time [s].");
-    prm.add_parameter("Decay begin", decay_begin,
-                      "Source = artificial: the envelope is constant until this time [s].");
-    prm.add_parameter("Decay rate", decay_rate,
-                      "Source = artificial: c [1/s] of the envelope's decay exp(-c (t - Decay begin)).");
+        "motions.",
+        Patterns::Integer(0));
+    prm.add_parameter(
+        "Rise end", rise_end,
+        "Source = artificial: the envelope rises as t^2 until this time [s]. -1: 2.5 s, or Duration/6 "
+        "where the usual envelope does not fit into the duration.");
+    prm.add_parameter(
+        "Decay begin", decay_begin,
+        "Source = artificial: the envelope is constant until this time [s]. -1: 11 s, or 11/15 of "
+        "Duration where that is longer than the motion.");
+    prm.add_parameter(
+        "Decay rate", decay_rate,
+        "Source = artificial: c [1/s] of the envelope's decay exp(-c (t - Decay begin)). -1: 0.25, "
+        "or 3.75/Duration where the usual envelope does not fit.");
     prm.add_parameter(
         "Matching iterations", matching_iterations,
         "Source = artificial: largest number [-] of corrections in the time domain; they end earlier "
-        "when the spectrum matches.");
+        "when the spectrum matches.",
+        Patterns::Integer(0, 1000));
     prm.leave_subsection();
   }
 
-  void MotionParameters::check() const
+  namespace
   {
-    const auto require = [](bool condition, const char *entry, double value, const char *rule)
+    void require(bool condition, const std::string &entry, double value, const std::string &rule)
     {
       if (condition)
         return;
       std::ostringstream message;
       message << "Motion/" << entry << " is " << value << "; " << rule << '.';
       throw InputError(message.str());
-    };
-
-    require(time_step > 0., "Time step", time_step, "it must be positive");
-    require(duration >= time_step, "Duration", duration, "it must be at least one Time step");
-    require(duration / time_step <= 1e7, "Time step", time_step, "more than ten million steps: enlarge it");
-    require(std::abs(duration / time_step - n_steps()) < 1e-6 * n_steps(), "Duration", duration,
-            "it must be a multiple of Time step");
-
-    const bool components_given = !(component_files[0] + component_files[1] + component_files[2]).empty();
-    if (source == "file" && file.empty() && !components_given)
-      throw InputError(
-          "Motion/Source is file, but no file is given: set Motion/File (columns t, a_x, a_y, a_z) "
-          "or Motion/File x, File y, File z.");
-    if (source == "file" && !file.empty() && components_given)
-      throw InputError("Motion/File and Motion/File x, y, z are both given: keep either the file with all "
-                       "components or the files with one each.");
-    if (source == "artificial" && (!file.empty() || components_given))
-      throw InputError(
-          "A file is given in section Motion, but Motion/Source is artificial: set Source = file, "
-          "or remove the file.");
-
-    if (source == "artificial")
-    {
-      require(time_step <= 0.02, "Time step", time_step, "artificial motions need 0.02 s or less");
-      require(rise_end > 0., "Rise end", rise_end, "it must be positive");
-      require(decay_begin > rise_end, "Decay begin", decay_begin, "it must be later than Rise end");
-      require(duration > decay_begin, "Duration", duration, "it must be longer than Decay begin");
-      require(decay_rate >= 0., "Decay rate", decay_rate, "it must not be negative");
-      require(damping > 0. && damping < 1., "Damping", damping, "it must lie between 0 and 1");
-      require(peak_acceleration > 0., "Peak acceleration", peak_acceleration, "it must be positive");
-      require(vertical_ratio > 0., "Vertical ratio", vertical_ratio,
-              "it must be positive; to switch the component off, set Scale z to 0");
-      require(spectrum.characteristic_period >= 0.1 && spectrum.characteristic_period <= 3.,
-              "Characteristic period", spectrum.characteristic_period, "it must lie between 0.1 s and 3 s");
-      require(spectrum.maximum_beta >= 1., "Maximum beta", spectrum.maximum_beta, "it must be at least 1");
     }
+
+    /** Also false for a value that is not a number. */
+    void require_between(double low, double high, const std::string &entry, double value,
+                         const std::string &unit)
+    {
+      std::ostringstream rule;
+      rule << "it must lie between " << low << " and " << high << unit;
+      require(value >= low && value <= high, entry, value, rule.str());
+    }
+
+    void check_files(const MotionParameters &p)
+    {
+      const bool components_given =
+          !(p.component_files[0] + p.component_files[1] + p.component_files[2]).empty();
+      if (p.source == "file" && p.file.empty() && !components_given)
+        throw InputError(
+            "Motion/Source is file, but no file is given: set Motion/File (columns t, a_x, a_y, a_z) "
+            "or Motion/File x, File y, File z.");
+      if (p.source == "file" && !p.file.empty() && components_given)
+        throw InputError("Motion/File and Motion/File x, y, z are both given: keep either the file with all "
+                         "components or the files with one each.");
+      if (p.source == "artificial" && (!p.file.empty() || components_given))
+        throw InputError(
+            "A file is given in section Motion, but Motion/Source is artificial: set Source = file, "
+            "or remove the file.");
+    }
+
+    void check_artificial(const MotionParameters &p)
+    {
+      constexpr double most_steps = 2e5; // the matching keeps 230 vectors of that length
+      require(p.time_step <= 0.02, "Time step", p.time_step, "artificial motions need 0.02 s or less");
+      require(p.length() >= 0.2, "Duration", p.length(), "artificial motions need 0.2 s or more");
+      require(p.length() / p.time_step <= most_steps, "Duration", p.length(),
+              "artificial motions have at most 200,000 time steps: shorten it, or enlarge Time step");
+
+      using Parameters = MotionParameters;
+      for (const auto &entry : {std::make_pair("Rise end", p.rise_end), {"Decay begin", p.decay_begin}})
+        require(entry.second == Parameters::automatic || entry.second > 0., entry.first, entry.second,
+                "it must be positive, or -1: automatic");
+      require(p.decay_rate == Parameters::automatic || (p.decay_rate >= 0. && p.decay_rate <= 1e3),
+              "Decay rate", p.decay_rate, "it must lie between 0 and 1000 1/s, or be -1: automatic");
+      const MotionEnvelope envelope = p.envelope();
+      std::ostringstream   rise, decay;
+      rise << "it must be later than Rise end, " << envelope.rise_end << " s";
+      decay << "it must be longer than Decay begin, " << envelope.decay_begin << " s";
+      require(envelope.decay_begin > envelope.rise_end, "Decay begin", envelope.decay_begin, rise.str());
+      require(p.length() > envelope.decay_begin, "Duration", p.length(), decay.str());
+
+      require_between(1e-4, 0.99, "Damping", p.damping, "");
+      require_between(1e-6, 100., "Peak acceleration", p.peak_acceleration, " g");
+      require_between(1e-6, 100., "Vertical ratio", p.vertical_ratio,
+                      "; to switch the component off, set Scale z to 0");
+      require_between(0.1, 3., "Characteristic period", p.spectrum.characteristic_period, " s");
+      require_between(1., 100., "Maximum beta", p.spectrum.maximum_beta, "");
+    }
+  } // namespace
+
+  void MotionParameters::check() const
+  {
+    require(time_step > 0. && time_step <= 1e3, "Time step", time_step,
+            "it must be positive, at most 1000 s");
+    if (!duration_is_automatic() || source != "file") // else of the records
+    {
+      require(length() >= time_step, "Duration", length(),
+              "it must be at least one Time step, or -1: automatic");
+      require(length() / time_step <= most_steps, "Time step", time_step,
+              "more than ten million steps: enlarge it");
+      require(std::abs(length() / time_step - n_steps()) < 1e-6 * n_steps(), "Duration", length(),
+              "it must be a multiple of Time step");
+    }
+    require_between(-1e9, 1e9, "Factor", factor, "");
+    for (unsigned int d = 0; d < 3; ++d)
+      require_between(-1e9, 1e9, std::string("Scale ") + "xyz"[d], scale[d], "");
+    check_files(*this);
+    if (source == "artificial")
+      check_artificial(*this);
+  }
+
+  double MotionParameters::length() const
+  {
+    return duration_is_automatic() ? 20.48 : duration;
+  }
+
+  MotionEnvelope MotionParameters::envelope() const
+  {
+    const auto choose = [](double given, double otherwise) { return given == automatic ? otherwise : given; };
+    const auto scaled = [&](double scale) -> MotionEnvelope
+    {
+      return {choose(rise_end, 2.5 * scale), choose(decay_begin, 11. * scale),
+              choose(decay_rate, 0.25 / scale)};
+    };
+    const MotionEnvelope usual = scaled(1.);
+    const bool           fits = usual.decay_begin > usual.rise_end && length() > usual.decay_begin;
+    return fits ? usual : scaled(std::min(1., length() / 15.));
   }
 
   unsigned int MotionParameters::n_steps() const
   {
-    return std::lround(duration / time_step);
+    return std::lround(length() / time_step);
   }
 
   double MotionParameters::target(unsigned int direction, double period) const
@@ -176,51 +246,22 @@ namespace Voussoir
 
   namespace
   {
-    GroundMotion read_motion(const MotionParameters &parameters, const std::string &scene_directory)
+    /** Nothing that is not a number, or beyond all earthquakes, gets into a run or a file. */
+    void check_samples(const GroundMotion &motion)
     {
-      GroundMotion motion;
-      motion.dt = parameters.time_step;
-      motion.acceleration.resize(parameters.n_steps() + 1, {{0., 0., 0.}});
-
-      const double unit = parameters.unit == "g" ? standard_gravity : parameters.unit == "cm/s^2" ? 0.01 : 1.;
-
-      // Components first, first + 1, ... from one file.
-      const auto read = [&](const std::string &name, unsigned int first, unsigned int n_components)
-      {
-        const std::string  path = (std::filesystem::path(scene_directory) / name).string();
-        const MotionRecord record = read_motion_record(path, n_components);
-        if (record.duration() < parameters.duration - 0.01 * record.dt)
-        {
-          std::ostringstream message;
-          message << "The ground motion file '" << path << "' lasts " << record.duration()
-                  << " s, less than Motion/Duration, " << parameters.duration
-                  << " s. Set Duration to at most " << record.duration()
-                  << " s (a multiple of Time step), or give a longer record.";
-          throw InputError(message.str());
-        }
-        const double factor = parameters.factor * (record.in_g ? standard_gravity : unit);
-        for (std::size_t k = 0; k < motion.acceleration.size(); ++k)
-          for (unsigned int c = 0; c < n_components; ++c)
-            motion.acceleration[k][first + c] = factor * record.at(c, k * motion.dt);
-        return record.start;
-      };
-
-      if (!parameters.file.empty())
-      {
-        read(parameters.file, 0, 3);
-        return motion;
-      }
-      std::vector<double> starts;
-      for (unsigned int d = 0; d < 3; ++d)
-        if (!parameters.component_files[d].empty())
-        {
-          starts.push_back(read(parameters.component_files[d], d, 1));
-          if (std::abs(starts.back() - starts.front()) > 1e-6)
-            throw InputError("The ground motion file '" + parameters.component_files[d] + "' starts at " +
-                             std::to_string(starts.back()) + " s, the component before it at " +
-                             std::to_string(starts.front()) + " s. Cut the records to the same first time.");
-        }
-      return motion;
+      constexpr double limit = 1000. * standard_gravity;
+      for (std::size_t k = 0; k < motion.acceleration.size(); ++k)
+        for (const double a : motion.acceleration[k])
+          if (!(std::abs(a) <= limit))
+          {
+            std::ostringstream message;
+            message
+                << "The acceleration of the ground motion at " << k * motion.dt << " s is " << a << " m/s^2, "
+                << a / standard_gravity
+                << " g; more than 1000 g is no earthquake. Check the entries Motion/Unit, Factor, Scale x, "
+                   "y, z and Peak acceleration.";
+            throw InputError(message.str());
+          }
     }
   } // namespace
 
@@ -238,9 +279,11 @@ namespace Voussoir
       motion.dt = parameters.time_step;
       motion.acceleration.resize(parameters.n_steps() + 1, {{0., 0., 0.}});
     }
+    const double factor = parameters.source == "artificial" ? parameters.factor : 1.; // records have it
     for (auto &sample : motion.acceleration)
       for (unsigned int d = 0; d < 3; ++d)
-        sample[d] *= parameters.scale[d];
+        sample[d] *= factor * parameters.scale[d];
+    check_samples(motion);
     return motion;
   }
 

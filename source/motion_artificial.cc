@@ -51,11 +51,13 @@ namespace Voussoir
     /** Rise as t^2, one, exponential decay, and in the last twentieth a cosine to zero. */
     double envelope_at(const MotionParameters &parameters, double t)
     {
-      const double taper = std::min(1., (parameters.duration - t) / (0.05 * parameters.duration));
-      const double end = 0.5 * (1. - std::cos(M_PI * std::max(taper, 0.)));
-      if (t < parameters.rise_end)
-        return end * t * t / (parameters.rise_end * parameters.rise_end);
-      return end * std::exp(-parameters.decay_rate * std::max(t - parameters.decay_begin, 0.));
+      const double         duration = parameters.length();
+      const MotionEnvelope envelope = parameters.envelope();
+      const double         taper = std::min(1., (duration - t) / (0.05 * duration));
+      const double         end = 0.5 * (1. - std::cos(M_PI * std::max(taper, 0.)));
+      if (t < envelope.rise_end)
+        return end * t * t / (envelope.rise_end * envelope.rise_end);
+      return end * std::exp(-envelope.decay_rate * std::max(t - envelope.decay_begin, 0.));
     }
 
     /** Power spectral density of acceleration that belongs to a pseudo-acceleration (Kaul 1978):
@@ -105,7 +107,8 @@ namespace Voussoir
       Series series;
       for (series.n_points = 1; series.n_points <= parameters.n_steps();)
         series.n_points *= 2;
-      const double df = 1. / (series.n_points * parameters.time_step);
+      const double         df = 1. / (series.n_points * parameters.time_step);
+      const MotionEnvelope envelope = parameters.envelope();
 
       std::seed_seq   seeds{parameters.seed, direction, attempt};
       std::mt19937_64 generator(seeds);
@@ -115,7 +118,7 @@ namespace Voussoir
         series.frequencies.push_back(f);
         series.phases.push_back(2. * M_PI * uniform(generator));
         const double S = power_spectrum(2. * M_PI * f, parameters.target(direction, 1. / f),
-                                        parameters.damping, parameters.decay_begin - parameters.rise_end);
+                                        parameters.damping, envelope.decay_begin - envelope.rise_end);
         series.amplitudes.push_back(f < lowest ? 0. : std::sqrt(4. * S * 2. * M_PI * df));
       }
       return series;
@@ -188,6 +191,7 @@ namespace Voussoir
 
     MotionParameters unscaled = parameters;
     unscaled.scale = {{1., 1., 1.}};
+    unscaled.factor = 1.;
 
     GroundMotion best;
     best.dt = parameters.time_step;

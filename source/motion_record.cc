@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 
 namespace Voussoir
@@ -21,30 +23,70 @@ namespace Voussoir
       throw InputError("Ground motion file '" + file + "', line " + std::to_string(line) + ": " + message);
     }
 
-    /** All lines that hold words, without comments. */
-    std::vector<Line> read_lines(const std::string &file)
+    constexpr std::uintmax_t largest_file = 100000000; // bytes
+    constexpr std::size_t    longest_line = 1000000;
+
+    /** The whole file. A pipe or a device may never end: only regular files are read. */
+    std::string read_text(const std::string &file)
     {
-      std::ifstream in(file);
+      namespace fs = std::filesystem;
+      std::error_code error;
+      const auto      status = fs::status(file, error);
+      if (fs::exists(status) && !fs::is_regular_file(status))
+        throw InputError("The ground motion file '" + file + "' is " +
+                         (fs::is_directory(status) ? "a directory" : "a pipe or a device, no regular file") +
+                         ". Give a file.");
+      std::ifstream in(file, std::ios::binary);
       if (!in)
         throw InputError("The ground motion file '" + file +
                          "' cannot be opened. Paths in section Motion are relative to the scene file.");
-      std::vector<Line> lines;
-      std::string       text;
-      for (std::size_t number = 1; std::getline(in, text); ++number)
+      const std::uintmax_t size = fs::file_size(file, error);
+      if (error || size > largest_file)
+        throw InputError("The ground motion file '" + file +
+                         "' is larger than 100 MB: this is no record of acceleration. Is it the right file?");
+      std::string text(size, ' ');
+      in.read(text.data(), size);
+      if (in.gcount() != static_cast<std::streamsize>(size))
+        throw InputError("The ground motion file '" + file + "' cannot be read to its end.");
+      return text;
+    }
+
+    /** Its words, without comments. */
+    std::vector<std::string> split(std::string text)
+    {
+      const char *separators = " \t\r,;=";
+      text = text.substr(0, text.find('#'));
+      std::vector<std::string> words;
+      for (std::size_t end = 0, begin;
+           (begin = text.find_first_not_of(separators, end)) != std::string::npos;)
       {
-        const char *separators = " \t\r,;=";
-        text = text.substr(0, text.find('#'));
-        if (number == 1 && text.compare(0, 3, "\xEF\xBB\xBF") == 0) // byte order mark
-          text.erase(0, 3);
-        Line line{number, {}};
-        for (std::size_t end = 0, begin;
-             (begin = text.find_first_not_of(separators, end)) != std::string::npos;)
-        {
-          end = std::min(text.find_first_of(separators, begin), text.size());
-          line.words.push_back(text.substr(begin, end - begin));
-        }
+        end = std::min(text.find_first_of(separators, begin), text.size());
+        words.push_back(text.substr(begin, end - begin));
+      }
+      return words;
+    }
+
+    /** All lines that hold words. They end in LF, CR LF or CR. */
+    std::vector<Line> read_lines(const std::string &file)
+    {
+      const std::string text = read_text(file);
+      const std::size_t first = text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0; // byte order mark
+      if (text.find('\0') != std::string::npos)
+        throw InputError("The ground motion file '" + file +
+                         "' is no plain text (it has zero bytes). Save it as text, in ASCII or UTF-8.");
+      std::vector<Line> lines;
+      std::size_t       number = 0;
+      for (std::size_t begin = first, end; begin < text.size(); begin = end + 1)
+      {
+        end = std::min(text.find_first_of("\r\n", begin), text.size());
+        ++number;
+        if (end - begin > longest_line)
+          fail(file, number, "longer than a million characters: this is no record. Is it the right file?");
+        Line line{number, split(text.substr(begin, end - begin))};
         if (!line.words.empty())
-          lines.push_back(line);
+          lines.push_back(std::move(line));
+        if (end + 1 < text.size() && text[end] == '\r' && text[end + 1] == '\n')
+          ++end;
       }
       return lines;
     }
@@ -59,7 +101,17 @@ namespace Voussoir
       if (begin != end && *begin == '+')
         ++begin;
       const auto result = std::from_chars(begin, end, number);
-      return result.ec == std::errc() && result.ptr == end;
+      if (result.ec == std::errc::result_out_of_range && word.find("e-") != std::string::npos)
+        number = 0.; // smaller than the smallest
+      else if (result.ec != std::errc())
+        return false;
+      return result.ptr == end;
+    }
+
+    bool is_number(const std::string &word)
+    {
+      double ignored = 0.;
+      return to_number(word, ignored);
     }
 
     double read_number(const std::string &file, const Line &line, const std::string &word)
@@ -137,7 +189,14 @@ namespace Voussoir
           fail(file, lines[k + 1],
                "the time step is " + std::to_string(steps[k]) + " s, elsewhere " + std::to_string(usual) +
                    " s. Resample the record at equal steps.");
-      return (times.back() - times.front()) / steps.size();
+      const double step = (times.back() - times.front()) / steps.size();
+      for (std::size_t k = 0; k < times.size(); ++k)
+        if (std::abs(times[k] - times.front() - k * step) > 0.1 * step)
+          fail(file, lines[k],
+               "the time is " + std::to_string(times[k]) + " s, but with equal steps between the first and " +
+                   "the last it would be " + std::to_string(times.front() + k * step) +
+                   " s. Resample the record at equal steps.");
+      return step;
     }
 
     MotionRecord read_table(const std::string &file, const std::vector<Line> &lines,
@@ -149,17 +208,17 @@ namespace Voussoir
       std::vector<std::size_t> numbers;
       for (auto line = lines.begin(); line != lines.end(); ++line)
       {
-        double ignored = 0.;
-        if (line == lines.begin() && !to_number(line->words[0], ignored))
+        if (line == lines.begin() && std::none_of(line->words.begin(), line->words.end(), is_number))
           continue; // headings
         if (line->words.size() != n_components + 1)
           fail(file, line->number,
                std::to_string(line->words.size()) + " columns. " +
                    (n_components == 1
                         ? "Expected two, t and a, or an AT2 file; a file with t, a_x, a_y, a_z "
-                          "belongs to the entry Motion/File."
+                          "belongs to the entry Motion/File. "
                         : "Motion/File expects four, t, a_x, a_y, a_z; files with one component belong "
-                          "to the entries File x, File y, File z."));
+                          "to the entries File x, File y, File z. ") +
+                   "One line of headings without numbers may come first; put # before other text.");
         times.push_back(read_number(file, *line, line->words[0]));
         numbers.push_back(line->number);
         for (unsigned int c = 0; c < n_components; ++c)
@@ -176,14 +235,6 @@ namespace Voussoir
   double MotionRecord::duration() const
   {
     return dt * (components.at(0).size() - 1);
-  }
-
-  double MotionRecord::at(unsigned int component, double t) const
-  {
-    const std::vector<double> &a = components.at(component);
-    const std::size_t          k = std::min<std::size_t>(t / dt, a.size() - 2);
-    const double               x = std::min(t / dt - k, 1.);
-    return (1. - x) * a[k] + x * a[k + 1];
   }
 
   MotionRecord read_motion_record(const std::string &file, unsigned int n_components)

@@ -73,14 +73,15 @@ namespace Voussoir
     {
       accelerations[d] = motion.component(d);
       report.components[d] = measure(accelerations[d], motion.dt);
-      if (!report.artificial || parameters.scale[d] == 0.)
+      const double factor = std::abs(parameters.factor * parameters.scale[d]);
+      if (!report.artificial || factor == 0.)
         continue;
 
       SpectralTarget target;
       target.damping = parameters.damping;
       target.periods = logarithmic_periods(MotionCriteria::first_period, MotionCriteria::last_period, 200);
       for (const double period : target.periods)
-        target.pseudo_acceleration.push_back(std::abs(parameters.scale[d]) * parameters.target(d, period));
+        target.pseudo_acceleration.push_back(factor * parameters.target(d, period));
       const SpectralError error = spectral_error(accelerations[d], motion.dt, target);
       report.components[d].maximum_error = error.maximum;
       report.components[d].mean_error = error.mean;
@@ -91,10 +92,71 @@ namespace Voussoir
     return report;
   }
 
-  void print_report(const MotionReport &report, std::ostream &out)
+  namespace
   {
     using Component = MotionReport::Component;
 
+    void add_spectrum_warnings(const MotionReport &report, std::vector<std::string> &warnings)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        const Component &c = report.components[d];
+        if (c.maximum_error <= MotionCriteria::maximum_error && c.mean_error <= MotionCriteria::mean_error)
+          continue;
+        std::ostringstream text;
+        text << std::fixed << std::setprecision(1) << "the spectrum of "
+             << "xyz"[d] << " is off by up to " << 100. * c.maximum_error << " % (" << 100. * c.mean_error
+             << " % on average); accepted are 10 % (5 %). Try more \"Matching"
+             << " iterations\", another \"Seed\", a longer \"Duration\" or a smaller \"Time step\".";
+        warnings.push_back(text.str());
+      }
+      const std::array<const char *, 3> pairs = {{"x-y", "x-z", "y-z"}};
+      for (unsigned int i = 0; i < 3; ++i)
+        if (std::abs(report.correlations[i]) > MotionCriteria::correlation)
+        {
+          std::ostringstream text;
+          text << std::fixed << std::setprecision(3) << "the correlation of " << pairs[i] << " is "
+               << report.correlations[i] << "; accepted is 0.3. Try another \"Seed\".";
+          warnings.push_back(text.str());
+        }
+    }
+  } // namespace
+
+  std::vector<std::string> motion_warnings(const MotionReport &report)
+  {
+    std::vector<std::string> warnings;
+    if (report.artificial)
+      add_spectrum_warnings(report, warnings);
+    if (const std::string warning = end_warning(report); !warning.empty())
+      warnings.push_back(warning);
+    return warnings;
+  }
+
+  std::string end_warning(const MotionReport &report)
+  {
+    std::ostringstream text;
+    text << std::setprecision(3);
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      const Component &c = report.components[d];
+      const double     displacement = std::abs(c.end_displacement), velocity = std::abs(c.end_velocity);
+      if (displacement > MotionCriteria::end_displacement * c.peak_displacement ||
+          velocity > MotionCriteria::end_velocity * c.peak_velocity)
+        text << (text.tellp() > 0 ? "; " : "") << "in "
+             << "xyz"[d] << " displacement " << c.end_displacement << " m, "
+             << 100. * displacement / c.peak_displacement << " % of its peak, velocity " << c.end_velocity
+             << " m/s, " << 100. * velocity / c.peak_velocity << " %";
+    }
+    if (text.tellp() == 0)
+      return "";
+    return "the motion does not end at rest in its place: " + text.str() +
+           " (warned of above 20 % and 10 %). Correct the baseline of the record, or let the motion last "
+           "until "
+           "the record is at rest.";
+  }
+
+  void print_report(const MotionReport &report, std::ostream &out)
+  {
     std::ostringstream table;
     table << std::fixed << std::setprecision(3);
     const auto row =
@@ -129,24 +191,8 @@ namespace Voussoir
       table << "   " << pairs[i] << ' ' << report.correlations[i];
     table << '\n';
 
-    if (report.artificial)
-    {
-      table << std::setprecision(1);
-      for (unsigned int d = 0; d < 3; ++d)
-      {
-        const Component &c = report.components[d];
-        if (c.maximum_error > MotionCriteria::maximum_error || c.mean_error > MotionCriteria::mean_error)
-          table << "warning: the spectrum of "
-                << "xyz"[d] << " is off by up to " << 100. * c.maximum_error << " % (" << 100. * c.mean_error
-                << " % on average); accepted are 10 % (5 %). Try more \"Matching"
-                << " iterations\", another \"Seed\", a longer \"Duration\" or a smaller \"Time step\".\n";
-      }
-      table << std::setprecision(3);
-      for (unsigned int i = 0; i < 3; ++i)
-        if (std::abs(report.correlations[i]) > MotionCriteria::correlation)
-          table << "warning: the correlation of " << pairs[i] << " is " << report.correlations[i]
-                << "; accepted is 0.3. Try another \"Seed\".\n";
-    }
+    for (const std::string &warning : motion_warnings(report))
+      table << "warning: " << warning << '\n';
     out << table.str();
   }
 } // namespace Voussoir

@@ -24,6 +24,7 @@ namespace Voussoir
         return motion;
       GroundMotion result;
       result.dt = motion.dt / n;
+      result.notes = motion.notes;
       for (std::size_t k = 0; k + 1 < motion.acceleration.size(); ++k)
         for (unsigned int i = 0; i < n; ++i)
         {
@@ -138,6 +139,17 @@ namespace Voussoir
     }
   }
 
+  /** What was done to records, and what remains at the end of the motion. */
+  void Simulation::report_motion_notes()
+  {
+    for (const std::string &note : motion.notes)
+      log.line("Records   %s", note.c_str());
+    MotionParameters any = scene.motion;
+    any.source = "file"; // without the errors of an artificial motion's spectrum
+    if (const std::string warning = end_warning(report_motion(motion, any)); n_steps > 0 && !warning.empty())
+      log.line("warning: %s", warning.c_str());
+  }
+
   void Simulation::report_setup()
   {
     const unsigned int n_nodes = dam->structure.n_nodes();
@@ -176,6 +188,7 @@ namespace Voussoir
     else
       log.line("Water     level %g m; added mass %s x %g, %.4g kg along x", scene.reservoir.level,
                scene.reservoir.added_mass.c_str(), scene.reservoir.factor, dam->added_mass);
+    report_motion_notes();
     if (options.validate)
     {
       double pairs = 0.;

@@ -304,9 +304,9 @@ namespace
     };
     wrong([](MotionParameters &p) { p.time_step = 0.; }, "Time step");
     wrong([](MotionParameters &p) { p.time_step = NAN; }, "Time step");
-    wrong([](MotionParameters &p) { p.duration = -1.; }, "Duration");
+    wrong([](MotionParameters &p) { p.duration = -2.; }, "Duration");
     wrong([](MotionParameters &p) { p.duration = 20.485; }, "Duration");
-    wrong([](MotionParameters &p) { p.duration = 10.; }, "Duration");
+    wrong([](MotionParameters &p) { p.duration = 10., p.decay_begin = 11.; }, "Duration");
     wrong([](MotionParameters &p) { p.file = "a.csv"; }, "Source");
     wrong([](MotionParameters &p) { p.decay_begin = 2.; }, "Decay begin");
     wrong([](MotionParameters &p) { p.vertical_ratio = 0.; }, "Vertical ratio");

@@ -15,20 +15,19 @@ namespace Voussoir
     bool                             in_g = false; ///< AT2, whatever unit the scene states
 
     double duration() const; ///< from the first to the last sample [s]
-    /** Linear interpolation, t [s] from the first sample, between 0 and duration(). */
-    double at(unsigned int component, double t) const;
   };
 
   /** Read a table or a PEER AT2 file, told apart by their content.
    *
    *  A table has a line for each time: t [s] and n_components (1 or 3) accelerations, separated by blanks
-   *  or commas, at equal steps; the rest of a line after # is a comment, and one line of headings may
-   *  come first. AT2 (one component) has a header with NPTS and DT in any of PEER's three forms, then that
-   *  many values in any number of columns.
+   *  or commas, at equal steps; the rest of a line after # is a comment, and one line of headings, without
+   *  numbers, may come first. Lines end in LF, CR LF or CR. AT2 (one component) has a header with NPTS and DT
+   * in any of PEER's three forms, then that many values in any number of columns.
    *
-   *  InputError, with file and line: a file that cannot be opened, a wrong number of columns, anything but a
-   *  finite number, time that does not increase or steps that differ, a number of values other than NPTS,
-   *  an AT2 file of velocity or displacement. */
+   *  InputError, with file and line: anything but a regular file of text of at most 100 MB, a line of more
+   * than a million characters, a wrong number of columns, anything but a finite number, time that does not
+   * increase or steps that differ, a number of values other than NPTS, an AT2 file of velocity or
+   * displacement. */
   MotionRecord read_motion_record(const std::string &file, unsigned int n_components);
 } // namespace Voussoir
 

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""Tests of the program with its ground motion: durations, records, factors, what is refused, what is warned of.
+
+    program_motion.py VOUSSOIR CASE...     cases: see the functions with that name below
+"""
+
+import math
+import os
+import shutil
+import sys
+from pathlib import Path
+
+from run_program import expect, refused, runs, table, write, write_scene
+
+QUICKSTART = str(Path(__file__).resolve().parent.parent / "prm" / "quickstart.prm")
+
+
+def artificial():
+    """The quick start with another duration, factor and spectrum."""
+    motions = {}
+    for name, settings in {"one": [], "three": ["Motion/Factor=3"], "short": ["Motion/Duration=5"]}.items():
+        arguments = [word for setting in settings for word in ("--set", setting)]
+        shown = runs("motion", QUICKSTART, "--output", f"{name}.csv", *arguments)
+        expect("warning" not in shown, shown)
+        names, motions[name] = table(f"{name}.csv")
+        expect(names == ["t", "a_x", "a_y", "a_z"], f"columns of {name}.csv")
+        expect(all(math.isfinite(x) for row in motions[name] for x in row), f"{name}.csv is not finite")
+    expect(len(motions["one"]) == 1537 and len(motions["short"]) == 501, "lengths")
+    # The envelope of 15 s and more stays as it was.
+    expect(abs(max(abs(row[1]) for row in motions["one"]) - 0.5575 * 9.80665) < 1e-9, "peak acceleration")
+    expect(all(abs(3 * a - b) < 1e-9 for p, q in zip(motions["one"], motions["three"]) for a, b in zip(p[1:], q[1:])),
+           "Motion/Factor of an artificial motion")
+    shown = runs(QUICKSTART, "--validate", "--set", "Motion/Duration=5")
+    expect("500 of 0.01 s" in shown, shown)
+    Path("none.csv").unlink(missing_ok=True)
+    for entry, parts in {"Motion/Peak acceleration=1e308": ("Motion/Peak acceleration", "1e+308"),
+                         "Motion/Maximum beta=1e308": ("Motion/Maximum beta",),
+                         "Motion/Factor=1e308": ("Motion/Factor",),
+                         "Motion/Factor=1e5": ("1000 g", "Factor"),
+                         "Motion/Scale y=nan": ("Motion/Scale y", "nan"),
+                         "Motion/Seed=-1": ("Motion/Seed", "-1"),
+                         "Motion/Matching iterations=-1": ("Motion/Matching iterations", "-1"),
+                         "Motion/Decay begin=20": ("Motion/Duration is 15.36", "Decay begin, 20 s"),
+                         "Motion/Rise end=12": ("Motion/Decay begin is 11", "Rise end, 12 s")}.items():
+        refused(["motion", QUICKSTART, "--output", "none.csv", "--set", entry], *parts)
+        expect(not Path("none.csv").exists(), f"{entry}: a file was written")
+
+
+def records():
+    """Records of unequal length and step, records that are none, and what they leave at their end."""
+    write_scene()
+    scene = Path("scene.prm").read_text()
+    write("scene.prm", scene.replace("  set Duration = 0.5\n", ""))
+    shown = runs("scene.prm", "--validate")
+    expect("300 of 0.01 s" in shown and "duration 3 s, that of the record 'motion.txt'" in shown, shown)
+    shown = runs("scene.prm", "--validate", "--set", "Motion/Time step=0.02")
+    expect("150 of 0.02 s" in shown and "low-pass filtered at 25 Hz" in shown, shown)
+    for name, dt, last in (("x", .005, 2.), ("y", .01, 1.5)):
+        write(f"{name}.txt", "".join(f"{k * dt:.3f} {math.sin(4 * math.pi * k * dt):.9f}\n"
+                                     for k in range(round(last / dt) + 1)))
+    components = ["--set", "Motion/File=", "--set", "Motion/File x=x.txt", "--set", "Motion/File y=y.txt"]
+    shown = runs("motion", "scene.prm", "--output", "two.csv", *components)
+    names, rows = table("two.csv")
+    expect(len(rows) == 151 and "the shortest record, 'y.txt'" in shown, shown)
+    expect(all(abs(row[1] - row[2]) < 3e-4 * 9.81 and row[3] == 0 for row in rows), "components of unequal step")
+    expect("warning: the motion does not end at rest" in shown and "in x displacement" in shown, shown)
+    shown = runs("scene.prm", "--validate", *components)
+    expect("warning: the motion does not end at rest" in shown, shown)
+    refused(["scene.prm", "--validate", "--set", "Motion/Duration=2", *components], "y.txt", "1.5 s", "Motion/Duration")
+
+    os.mkfifo("pipe")
+    Path("folder").mkdir()
+    write("endless.txt", "1" * 2000000)
+    write("decimal.txt", "0,00;0;0;0\n0,01;1;1;1\n")
+    for name, parts in {"/dev/zero": ("device",), "pipe": ("pipe",), "folder": ("directory",),
+                        "endless.txt": ("million characters",), "decimal.txt": ("line 1", "5 columns")}.items():
+        for command in (["scene.prm", "--validate"], ["motion", "scene.prm", "--output", "none.csv"]):
+            refused([*command, "--set", f"Motion/File={name}"], name, *parts)
+    expect(not Path("none.csv").exists(), "a motion was written")
+
+
+def main():
+    cases = {c.__name__: c for c in (artificial, records)}
+    if len(sys.argv) < 3 or any(name not in cases for name in sys.argv[2:]):
+        sys.exit(f"{__doc__}\nCases: {' '.join(cases)}")
+    start = Path.cwd()
+    for name in sys.argv[2:]:
+        directory = start / "program" / f"motion_{name}"
+        shutil.rmtree(directory, ignore_errors=True)
+        directory.mkdir(parents=True)
+        os.chdir(directory)
+        print(name)
+        cases[name]()
+        print(f"{name}: OK")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except AssertionError as error:
+        sys.exit(f"FAILED: {error}")
