@@ -514,7 +514,18 @@ namespace
   }
 } // namespace
 
-int main()
+/** Usage: rock_implicit partition|substeps|domain|long */
+int main(int argc, char **argv)
 {
-  return Columns::run_all({partition, tied_joint, substeps, symmetry, larger_domain, long_run});
+  const std::string part = argc > 1 ? argv[1] : "";
+  if (part == "partition")
+    return Columns::run_all({partition, tied_joint});
+  if (part == "substeps")
+    return Columns::run_all({substeps});
+  if (part == "domain")
+    return Columns::run_all({symmetry, larger_domain});
+  if (part == "long")
+    return Columns::run_all({long_run});
+  std::fprintf(stderr, "usage: rock_implicit partition|substeps|domain|long\n");
+  return 2;
 }
