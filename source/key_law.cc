@@ -255,8 +255,9 @@ namespace Voussoir
     if (!(keys.flank_angle >= 0. && keys.flank_angle < 90.))
       throw InputError("Joints/Keys/Flank angle must be at least 0 and less than 90 degrees.");
     check_size(keys);
-    if (!(keys.friction >= 0. || keys.friction == -1.))
-      throw InputError("Joints/Keys/Friction must be at least 0, or -1: the friction of the faces.");
+    if (!((keys.friction >= 0. && keys.friction <= 10.) || keys.friction == -1.)) // beyond, flanks only wedge
+      throw InputError(
+          "Joints/Keys/Friction must be at least 0 and at most 10, or -1: the friction of the faces.");
     const double                flank_friction = keys.friction < 0. ? friction : keys.friction;
     std::vector<ContactSurface> surfaces(1, {identity(1.), 0., friction, 0});
     if (keys.height > 0. && keys.direction != "vertical")
