@@ -13,6 +13,7 @@ namespace Voussoir
     bool        resume = false;   ///< go on from the last checkpoint
     bool        validate = false; ///< set up and report, but do not compute
     bool        quiet = false;
+    bool        overwrite = false; ///< replace what is in the output directory
   };
 
   /** One run of a scene: set up, static state, shaking, results. */
@@ -27,6 +28,7 @@ namespace Voussoir
   private:
     void    remove_old_results();
     void    report_setup();
+    void    report_motion_and_warnings();
     void    find_static_state();
     void    settle(JointSystem &system, const Unknowns &springs, const Unknowns &start, Unknowns &gap);
     Vector3 relative_to_base(unsigned int node) const;
