@@ -130,7 +130,8 @@ namespace Voussoir
     {
       const std::string what = entry.place + ": entry \"" + declared.name() + "\"",
                         &pattern = declared.pattern;
-      const bool is_number = pattern.rfind("[Double", 0) == 0 || pattern.rfind("[Integer", 0) == 0;
+      const std::string as_written = entry.value;
+      const bool        is_number = pattern.rfind("[Double", 0) == 0 || pattern.rfind("[Integer", 0) == 0;
       if (is_number)
         entry.value = in_declared_unit(entry.value, declared.unit(), what);
       if (pattern.rfind("[Map", 0) == 0)
@@ -144,8 +145,7 @@ namespace Voussoir
       catch (const ExceptionBase &)
       {
         const std::string unit = declared.unit();
-        throw InputError(what + " cannot be \"" + entry.value + "\". It must be " +
-                         pattern_in_words(pattern) +
+        throw InputError(what + " cannot be \"" + as_written + "\". It must be " + pattern_in_words(pattern) +
                          (is_number && !unit.empty() && unit != "-" ? ", in " + unit : "") + ".");
       }
       for (std::size_t i = 0; i + 1 < entry.path.size(); ++i)
