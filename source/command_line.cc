@@ -2,9 +2,12 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <voussoir/command_line.h>
+#include <voussoir/command_options.h>
 #include <voussoir/contact_command.h>
+#include <voussoir/declared_entries.h>
 #include <voussoir/error.h>
 #include <voussoir/gmsh_io.h>
+#include <voussoir/mesh_axes.h>
 #include <voussoir/mesh_joints.h>
 #include <voussoir/modes.h>
 #include <voussoir/simulation.h>
@@ -22,130 +25,21 @@ namespace Voussoir
 
   namespace
   {
-    constexpr const char *help =
-        R"(voussoir SCENE.prm [--output DIR] [--set 'Section/Entry=value']... [--resume] [--validate] [--quiet]
-    Static state and earthquake of the dam of a scene.
-voussoir mesh SCENE.prm --output FILE.msh [--format 4.1|2.2]
-    The scene's mesh, for gmsh.
-voussoir modes SCENE.prm [--count 10]
-    Natural frequencies of the tied dam, with added mass [Hz].
-voussoir motion SCENE.prm --output FILE.csv
-    The scene's ground motion, t, a_x, a_y, a_z [s, m/s^2], and a report about it.
-voussoir contact FILE.hdf5... [--tolerance 1e-12] [--solver NAME] [--max-seconds 10] [--write-solutions DIR]
-    Solves frictional contact problems in FCLib's format; a JSON object per file, seconds are CPU seconds.
-    Solvers: newton (the default, with its fallbacks), proximal, sweeps, paper, fischer-burmeister.
-voussoir parameters [prm|json|markdown]
-    All entries of a scene file with their defaults and meaning.
-voussoir --help, voussoir --version
-
---set overrides an entry of the scene, and may be given several times, with every command that reads a scene.
-Exit status: 0 done; 1 the computation failed; 2 bad input.
-)";
-
-    struct Arguments
+    /** The entries of all scenes, or of a section. The format may be left out. */
+    void print_parameters(const std::vector<std::string> &words)
     {
-      std::vector<std::string> positional, overrides;
-      std::string              output, format = "4.1", count = "10";
-      RunOptions               run;
-      ContactOptions           contact;
-    };
-
-    Arguments read_arguments(const std::vector<std::string> &words)
-    {
-      Arguments arguments;
-      for (std::size_t i = 0; i < words.size(); ++i)
-      {
-        const auto value = [&]() -> const std::string &
-        {
-          if (i + 1 == words.size())
-            throw InputError("The option " + words[i] +
-                             " needs a value after it. `voussoir --help` shows how.");
-          return words[++i];
-        };
-        if (words[i] == "--output")
-          arguments.output = value();
-        else if (words[i] == "--set")
-          arguments.overrides.push_back(value());
-        else if (words[i] == "--format")
-          arguments.format = value();
-        else if (words[i] == "--count")
-          arguments.count = value();
-        else if (words[i] == "--tolerance")
-          arguments.contact.tolerance = value();
-        else if (words[i] == "--solver")
-          arguments.contact.solver = value();
-        else if (words[i] == "--max-seconds")
-          arguments.contact.max_seconds = value();
-        else if (words[i] == "--write-solutions")
-          arguments.contact.solutions = value();
-        else if (words[i] == "--resume")
-          arguments.run.resume = true;
-        else if (words[i] == "--validate")
-          arguments.run.validate = true;
-        else if (words[i] == "--overwrite")
-          arguments.run.overwrite = true;
-        else if (words[i] == "--quiet")
-          arguments.run.quiet = true;
-        else if (words[i].compare(0, 1, "-") == 0)
-          throw InputError("There is no option " + words[i] + ". `voussoir --help` shows all.");
-        else
-          arguments.positional.push_back(words[i]);
-      }
-      return arguments;
-    }
-
-    void print_markdown(ParameterHandler &prm)
-    {
-      // LaTeX and XML are deal.II's; engineers read tables.
-      std::ostringstream text;
-      prm.print_parameters(text, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
-      std::istringstream       in(text.str());
-      std::vector<std::string> section;
-      std::string              documentation;
-      std::cout << "| entry | default | meaning |\n|---|---|---|\n";
-      for (std::string line; std::getline(in, line);)
-      {
-        const auto first = line.find_first_not_of(' ');
-        line = first == std::string::npos ? "" : line.substr(first);
-        if (line.rfind("#", 0) == 0)
-          documentation +=
-              (documentation.empty() ? "" : " ") +
-              line.substr(line.find_first_not_of("# ") == std::string::npos ? line.size()
-                                                                            : line.find_first_not_of("# "));
-        else if (line.rfind("subsection ", 0) == 0)
-          section.push_back(line.substr(11)), documentation.clear();
-        else if (line == "end")
-          section.pop_back();
-        else if (line.rfind("set ", 0) == 0)
-        {
-          const auto  equals = line.find('=');
-          std::string name = line.substr(4, equals - 4), path;
-          name.erase(name.find_last_not_of(' ') + 1);
-          for (const std::string &s : section)
-            path += s + "/";
-          std::string value = equals + 2 < line.size() ? line.substr(equals + 2) : "";
-          for (std::string *s : {&value, &documentation})
-            for (std::size_t i = 0; (i = s->find('|', i)) != std::string::npos; i += 2)
-              s->insert(i, "\\");
-          std::cout << "| `" << path << name << "` | " << (value.empty() ? "" : "`" + value + "`") << " | "
-                    << documentation << " |\n";
-          documentation.clear();
-        }
-      }
-    }
-
-    void print_parameters(const std::string &format)
-    {
+      const bool has_format =
+          !words.empty() && (words[0] == "prm" || words[0] == "json" || words[0] == "markdown");
+      if (words.size() > (has_format ? 2 : 1))
+        throw InputError("`voussoir parameters` prints prm, json or markdown, of one section: \"" +
+                         words.back() + "\" is one word too many.");
       ParameterHandler prm;
       Scene            scene;
       scene.add_parameters(prm);
-      if (format == "markdown")
-        print_markdown(prm);
-      else if (format == "prm" || format == "json")
-        prm.print_parameters(std::cout, (format == "prm" ? ParameterHandler::PRM : ParameterHandler::JSON) |
-                                            ParameterHandler::KeepDeclarationOrder);
-      else
-        throw InputError("`voussoir parameters` prints prm, json or markdown, not \"" + format + "\".");
+      const std::string section = words.empty() ? "" : words.back();
+      std::ostringstream text; // deal.II does not like streams that fail
+      print_entries(prm, has_format ? words[0] : "prm", has_format && words.size() == 1 ? "" : section, text);
+      std::cout << text.str();
     }
 
     void print_mesh(const HexMesh &mesh)
@@ -170,7 +64,8 @@ Exit status: 0 done; 1 the computation failed; 2 bad input.
     void print_modes(const Scene &scene, const std::string &count_text)
     {
       unsigned int count = 0;
-      if (std::sscanf(count_text.c_str(), "%u", &count) != 1 || count == 0)
+      if (count_text.find_first_not_of("0123456789") != std::string::npos ||
+          std::sscanf(count_text.c_str(), "%u", &count) != 1 || count == 0)
         throw InputError("--count must be a positive number, not \"" + count_text + "\".");
       if (scene.foundation.model == "rock")
         throw InputError(
@@ -184,91 +79,106 @@ Exit status: 0 done; 1 the computation failed; 2 bad input.
     }
   } // namespace
 
-  int run_command(const std::vector<std::string> &words)
+  namespace
   {
-    openblas_set_num_threads(1); // bodies and joints are what runs in parallel
-    const Arguments arguments = read_arguments(
-        [&]
-        {
-          std::vector<std::string> w = words;
-          for (std::string &word : w)
-            if (word == "-h" || word == "--help")
-              word = "help";
-            else if (word == "--version")
-              word = "version";
-          return w;
-        }());
-    const auto &p = arguments.positional;
-    if (p.empty() || std::find(p.begin(), p.end(), "help") != p.end())
+    /** The scene file among the words. */
+    std::string scene_file(const Arguments &arguments)
     {
-      std::cout << help;
-      if (p.empty())
-        throw InputError("which scene? Give a .prm file, for example prm/quickstart.prm.");
-      return 0;
-    }
-    if (p[0] == "version")
-    {
-      std::cout << "Voussoir " VOUSSOIR_VERSION " (" VOUSSOIR_REVISION "), deal.II " DEAL_II_PACKAGE_VERSION
-                   "\n";
-      return 0;
-    }
-    if (p[0] == "parameters")
-    {
-      print_parameters(p.size() > 1 ? p[1] : "prm");
-      return 0;
-    }
-    if (p[0] == "contact")
-    {
-      run_contact(std::vector<std::string>(p.begin() + 1, p.end()), arguments.contact);
-      return 0;
+      const auto &words = arguments.words;
+      if (arguments.command.empty() && words.size() > 1 && words[0].find('.') == std::string::npos)
+        throw InputError("There is no command \"" + words[0] + "\". Did you mean `voussoir " +
+                         nearest_command(words[0]) + "`? `voussoir --help` shows all.");
+      if (words.size() > 1)
+        throw InputError("\"" + words[1] + "\" is one word too many. `voussoir --help` shows how.");
+      if (words.empty())
+        throw InputError("`voussoir " + arguments.command + "` needs one scene file. `voussoir " +
+                         arguments.command + " --help` shows how.");
+      return words[0];
     }
 
-    const bool is_command = p[0] == "mesh" || p[0] == "modes" || p[0] == "motion";
-    if (p.size() != (is_command ? 2 : 1))
-      throw InputError(is_command
-                           ? "`voussoir " + p[0] + "` needs one scene file. `voussoir --help` shows how."
-                           : "\"" + (p.size() > 1 ? p[1] : p[0]) +
-                                 "\" is one word too many. `voussoir --help` shows how.");
-    Scene              scene;
-    ParameterHandler   prm;
-    std::ostringstream text;
-    read_scene(p.back(), arguments.overrides, scene, prm);
-    prm.print_parameters(text, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
-
-    if (!is_command)
+    void write_mesh(const Scene &scene, const Arguments &arguments)
     {
-      RunOptions options = arguments.run;
-      options.scene_file = p.back();
-      options.output = arguments.output;
+      const std::string format = arguments.value("--format", "4.1");
+      if (format != "4.1" && format != "2.2")
+        throw InputError("--format must be 4.1 or 2.2, not \"" + format + "\".");
+      const HexMesh mesh = make_mesh(scene.mesh, scene.directory);
+      check_axes_and_units(mesh, scene.mesh, scene.mesh.file);
+      write_gmsh(mesh, arguments.value("--output"), format == "2.2" ? 2.2 : 4.1);
+      print_mesh(mesh);
+    }
+
+    void run_scene(const Scene &scene, const std::string &text, const Arguments &arguments)
+    {
+      RunOptions options;
+      options.scene_file = scene_file(arguments);
+      options.output = arguments.value("--output");
+      options.resume = arguments.has("--resume");
+      options.overwrite = arguments.has("--overwrite");
+      options.validate = arguments.has("--validate");
+      options.quiet = arguments.has("--quiet");
 #ifdef DEBUG
       std::cerr << "voussoir: warning: this is a Debug build, many times slower than Release.\n";
 #endif
-      Simulation(scene, text.str(), options).run();
-      return 0;
+      Simulation(scene, text, options).run();
     }
-    if (p[0] == "modes")
-      print_modes(scene, arguments.count);
-    else
+
+    void run_with_scene(const Arguments &arguments)
     {
-      if (arguments.output.empty())
-        throw InputError("`voussoir " + p[0] + "` needs --output FILE.");
-      if (p[0] == "mesh")
-      {
-        if (arguments.format != "4.1" && arguments.format != "2.2")
-          throw InputError("--format must be 4.1 or 2.2, not \"" + arguments.format + "\".");
-        const HexMesh mesh = make_mesh(scene.mesh, scene.directory);
-        write_gmsh(mesh, arguments.output, arguments.format == "2.2" ? 2.2 : 4.1);
-        print_mesh(mesh);
-      }
+      Scene              scene;
+      ParameterHandler   prm;
+      std::ostringstream text;
+      const std::string &command = arguments.command, file = scene_file(arguments);
+      if ((command == "mesh" || command == "motion") && arguments.value("--output").empty())
+        throw InputError("`voussoir " + command + "` needs --output FILE.");
+      read_scene(file, arguments.overrides, scene, prm);
+      prm.print_parameters(text, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
+      if (command.empty())
+        return run_scene(scene, text.str(), arguments);
+      if (command == "modes")
+        print_modes(scene, arguments.value("--count", "10"));
+      else if (command == "mesh")
+        write_mesh(scene, arguments);
       else
       {
         const GroundMotion motion = make_motion(scene.motion, scene.directory);
-        write_motion(motion, arguments.output);
+        write_motion(motion, arguments.value("--output"));
         for (const std::string &note : motion.notes)
           std::cout << note << '\n';
         print_report(report_motion(motion, scene.motion), std::cout);
       }
+      for (const std::string &warning : scene.warnings) // an error would come first
+        std::cerr << "voussoir: warning: " << warning << "\n";
     }
+  } // namespace
+
+  int run_command(const std::vector<std::string> &words)
+  {
+    openblas_set_num_threads(1); // bodies and joints are what runs in parallel
+    const Arguments arguments = read_arguments(words);
+    if (arguments.version)
+      std::cout << "Voussoir " VOUSSOIR_VERSION " (" VOUSSOIR_REVISION "), deal.II " DEAL_II_PACKAGE_VERSION
+                   "\n";
+    else if (arguments.help)
+      std::cout << (arguments.command.empty() && arguments.words.empty() ? help_about_all()
+                                                                         : help_about(arguments.command));
+    else if (arguments.command == "parameters")
+      print_parameters(arguments.words);
+    else if (arguments.command == "contact")
+    {
+      ContactOptions options;
+      options.tolerance = arguments.value("--tolerance", options.tolerance);
+      options.solver = arguments.value("--solver", options.solver);
+      options.max_seconds = arguments.value("--max-seconds", options.max_seconds);
+      options.solutions = arguments.value("--write-solutions");
+      run_contact(arguments.words, options);
+    }
+    else if (arguments.command.empty() && arguments.words.empty())
+    {
+      std::cout << help_about_all();
+      throw InputError("which scene? Give a .prm file, for example prm/quickstart.prm.");
+    }
+    else
+      run_with_scene(arguments);
     return 0;
   }
 } // namespace Voussoir

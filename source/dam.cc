@@ -1,6 +1,8 @@
 #include <voussoir/dam.h>
 #include <voussoir/error.h>
 #include <voussoir/massless_rock.h>
+#include <voussoir/mesh_axes.h>
+#include <voussoir/mesh_groups.h>
 #include <voussoir/mesh_joints.h>
 
 #include <cmath>
@@ -35,6 +37,8 @@ namespace Voussoir
     const bool    has_rock = concrete.cells.size() < mesh.cells.size(),
                on_rock = scene.foundation.model == "rock", massless = scene.foundation.model == "massless";
     const std::string source = scene.mesh.source == "file" ? scene.mesh.file : "arch210";
+    check_axes_and_units(mesh, scene.mesh, source);
+    groups = group_table(mesh);
     if ((on_rock || massless) && !has_rock)
       throw InputError("Foundation/Model is " + scene.foundation.model +
                        ", but the mesh has no rock (volumes from id 1000 on). Set "
@@ -128,6 +132,8 @@ namespace Voussoir
         std::fill(load.begin(), load.end(), 0.);
     }
 
+    for (const auto &probe : scene.output.probe_places())
+      probe_node(*model, probe.first, {probe.second[0], probe.second[1], probe.second[2]});
     find_lowest_base();
     double top = -1e300, bottom = 1e300;
     for (unsigned int i = 0; i < model->n_nodes(); ++i)

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <sstream>
 
 namespace Voussoir
 {
@@ -66,10 +68,10 @@ namespace Voussoir
     {
       const double dx = edge[i + 1][0] - edge[i][0], dy = edge[i + 1][1] - edge[i][1],
                    length = at[i + 1] - at[i];
-      const double t = ((p[0] - edge[i][0]) * dx + (p[1] - edge[i][1]) * dy) / (length * length);
-      const double s =
-          std::clamp(t, i == 0 ? t : 0., i + 2 == edge.size() ? t : 1.); // beyond the ends: go on
-      const double d = std::hypot(p[0] - edge[i][0] - s * dx, p[1] - edge[i][1] - s * dy);
+      const double     t = ((p[0] - edge[i][0]) * dx + (p[1] - edge[i][1]) * dy) / (length * length);
+      constexpr double endless = std::numeric_limits<double>::infinity(); // beyond the ends the edge goes on
+      const double     s = std::clamp(t, i == 0 ? -endless : 0., i + 2 == edge.size() ? endless : 1.);
+      const double     d = std::hypot(p[0] - edge[i][0] - s * dx, p[1] - edge[i][1] - s * dy);
       if (d < nearest)
         nearest = d, result = at[i] + s * length;
     }
@@ -82,5 +84,30 @@ namespace Voussoir
                             [&](const Point<3> &a, const Point<3> &b)
                             { return a.distance(p) < b.distance(p); }) -
            model.points.begin();
+  }
+
+  unsigned int probe_node(const SolidModel &model, const std::string &name, const Point<3> &p)
+  {
+    const unsigned int                   node = nearest_node(model, p);
+    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+    double                               element = 0.; // how far its elements reach
+    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      if (std::find(dofs.begin(), dofs.end(), node) != dofs.end())
+        for (const auto other : dofs)
+          element = std::max(element, model.points[node].distance(model.points[other]));
+    }
+    if (const double distance = model.points[node].distance(p); distance > element)
+    {
+      std::ostringstream message;
+      message << "Entry \"Output/Probes\": probe \"" << name << "\" at " << place({{p[0], p[1], p[2]}})
+              << " is " << distance << " m from the dam, more than an element (" << element
+              << " m): its nearest node is at "
+              << place({{model.points[node][0], model.points[node][1], model.points[node][2]}})
+              << ". Give a point of the dam, in the axes of the scene.";
+      throw InputError(message.str());
+    }
+    return node;
   }
 } // namespace Voussoir

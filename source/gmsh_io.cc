@@ -1,6 +1,7 @@
 #include <voussoir/error.h>
 #include <voussoir/gmsh_io.h>
 #include <voussoir/guarded.h>
+#include <voussoir/mesh_groups.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <gmsh.h>
 #include <new>
 #include <stdexcept>
+#include <set>
 #include <unordered_map>
 
 namespace Voussoir
@@ -151,26 +153,28 @@ namespace Voussoir
         return "physical " + kind + std::to_string(tag) + (name.empty() ? "" : " ('" + name + "')");
       }
 
-      /** Our id of gmsh's group, by its name if we know it; and takes the name down. */
+      /** Our id of gmsh's group: by its name, or without one by its tag; and takes the name down. */
       int identify(const int dimension, const int tag)
       {
         std::string name;
         model::getPhysicalName(dimension, tag, name);
-        int id = physical_id(dimension, name);
-        if (dimension == 3 && id == PhysicalId::first_rock) // the name does not say which rock
-        {
-          id = std::max(tag, PhysicalId::first_rock);
-          while (mesh.names.count({3, id}) != 0)
+        int id = name.empty() ? tag : physical_id(dimension, name);
+        if (id == -1 && !name.empty())
+          fail(unknown_group(dimension, tag, name));
+        if (dimension == 3 && !name.empty() && id == PhysicalId::first_rock) // which rock is not said
+          for (id = std::max(tag, id); mesh.names.count({3, id}) != 0;)
             ++id;
-          mesh.names[{3, id}] = name;
-        }
-        else if (id != -1)
-          mesh.names[{dimension, id}] = physical_name(dimension, id);
-        else
+        if (!name.empty())
         {
-          id = tag;
-          mesh.names[{dimension, id}] = name.empty() ? physical_name(dimension, id) : name;
+          std::string &names = mesh.names[{dimension, id}];
+          names += (names.empty() ? "" : ", ") + name;
         }
+        else
+          unnamed.insert({dimension, id});
+        if (mesh.names.count({dimension, id}) != 0 && unnamed.count({dimension, id}) != 0)
+          fail("the physical group '" + mesh.names.at({dimension, id}) + "' and " + label(dimension, id) +
+               ", which has no name, would both be " + physical_name(dimension, id) +
+               ". Give the latter a name, or remove it.");
 
         if (dimension == 3 && id < 1)
           fail(label(3, tag) +
@@ -276,6 +280,7 @@ namespace Voussoir
 
       const std::string                            &file;
       HexMesh                                       mesh;
+      std::set<std::pair<int, int>>                 unnamed;     // groups: dimension and id
       std::unordered_map<std::size_t, unsigned int> node_number; // by gmsh's tag
     };
 
@@ -350,9 +355,11 @@ namespace Voussoir
         }
         model::mesh::addElementsByType(id, type, group.second.first, group.second.second);
         model::addPhysicalGroup(dimension, {id}, id);
-        const auto name = mesh.names.find({dimension, id});
+        const auto name = mesh.names.find({dimension, id}); // of rock: others are written as we call them
         model::setPhysicalName(dimension, id,
-                               name != mesh.names.end() ? name->second : physical_name(dimension, id));
+                               name != mesh.names.end() && dimension == 3 && !is_monolith(id)
+                                   ? name->second
+                                   : physical_name(dimension, id));
       }
     }
   } // namespace

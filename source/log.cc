@@ -1,5 +1,6 @@
 #include <voussoir/log.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -15,14 +16,17 @@ namespace Voussoir
 
   void Log::line(const char *format, ...)
   {
-    char         buffer[1000];
-    std::va_list arguments;
+    std::va_list arguments, again;
     va_start(arguments, format);
-    std::vsnprintf(buffer, sizeof(buffer), format, arguments);
+    va_copy(again, arguments);
+    std::string buffer(std::max(0, std::vsnprintf(nullptr, 0, format, arguments)) + 1, '\0');
+    std::vsnprintf(&buffer[0], buffer.size(), format, again);
+    va_end(again);
     va_end(arguments);
+    buffer.pop_back();
     if (!quiet)
     {
-      std::printf("%s\n", buffer);
+      std::printf("%s\n", buffer.c_str());
       std::fflush(stdout);
     }
     if (file)
@@ -31,7 +35,7 @@ namespace Voussoir
       file->check();
     }
     else
-      early += buffer + std::string("\n");
+      early += buffer + "\n";
   }
 
   std::string clock_time(const double seconds)

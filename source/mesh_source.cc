@@ -5,50 +5,43 @@
 #include <voussoir/mesh_source.h>
 
 #include <filesystem>
+#include <map>
 #include <sstream>
 
 namespace Voussoir
 {
-  namespace
+
+  std::array<FileAxis, 3> file_axes(const std::string &text)
   {
-    /** One of our axes in the file: coordinate and sign. */
-    struct Axis
+    std::array<FileAxis, 3> axes{};
+    std::array<bool, 3>     used{};
+    std::istringstream      stream(text);
+    std::string             word;
+    unsigned int            n = 0;
+    for (; stream >> word; ++n)
     {
-      unsigned int coordinate;
-      double       sign;
-    };
-
-    std::array<Axis, 3> parse_axes(const std::string &text)
-    {
-      std::array<Axis, 3> axes{};
-      std::array<bool, 3> used{};
-      std::istringstream  stream(text);
-      std::string         word;
-      unsigned int        n = 0;
-      for (; stream >> word; ++n)
-      {
-        const bool        is_signed = word[0] == '-' || word[0] == '+';
-        const std::string letter = word.substr(is_signed ? 1 : 0);
-        const std::size_t coordinate =
-            letter.size() == 1 ? std::string("xyz").find(letter) : std::string::npos;
-        if (n == 3 || coordinate == std::string::npos || used[coordinate])
-          throw InputError(
-              "Mesh: 'Axes' is '" + text + "'. Give the file's axes that point downstream, to the " +
-              "left bank and up: each of x, y and z once, with a minus sign if it points the other " +
-              "way, as in 'y -x z'.");
-        used[coordinate] = true;
-        axes[n] = {static_cast<unsigned int>(coordinate), word[0] == '-' ? -1. : 1.};
-      }
-      if (n != 3)
-        throw InputError("Mesh: 'Axes' is '" + text + "', but must name three axes, as in 'x y z'.");
-      return axes;
+      const bool        is_signed = word[0] == '-' || word[0] == '+';
+      const std::string letter = word.substr(is_signed ? 1 : 0);
+      const std::size_t coordinate = letter.size() == 1 ? std::string("xyz").find(letter) : std::string::npos;
+      if (n == 3 || coordinate == std::string::npos || used[coordinate])
+        throw InputError(
+            "Mesh: 'Axes' is '" + text + "'. Give the file's axes that point downstream, to the " +
+            "left bank and up: each of x, y and z once, with a minus sign if it points the other " +
+            "way, as in 'y -x z'.");
+      used[coordinate] = true;
+      axes[n] = {static_cast<unsigned int>(coordinate), word[0] == '-' ? -1. : 1.};
     }
+    if (n != 3)
+      throw InputError("Mesh: 'Axes' is '" + text + "', but must name three axes, as in 'x y z'.");
+    return axes;
+  }
 
-    double metres(const std::string &unit)
-    {
-      return unit == "mm" ? 1e-3 : unit == "ft" ? 0.3048 : 1.;
-    }
-  } // namespace
+  double metres(const std::string &unit)
+  {
+    const std::map<std::string, double> units = {{"m", 1.},   {"cm", 1e-2},   {"mm", 1e-3},
+                                                 {"km", 1e3}, {"ft", 0.3048}, {"in", 0.0254}};
+    return units.at(unit);
+  }
 
   void MeshParameters::add_parameters(dealii::ParameterHandler &prm)
   {
@@ -72,7 +65,7 @@ namespace Voussoir
         "file with x to the right bank, y downstream and z up. A left-handed choice mirrors the dam.",
         Anything());
     prm.add_parameter("Length unit", length_unit, "Unit of the coordinates in the mesh file.",
-                      Selection("m|mm|ft"));
+                      Selection("m|cm|mm|km|ft|in"));
     prm.leave_subsection();
     arch210.add_parameters(prm);
     arch210_rock.add_parameters(prm);
@@ -80,7 +73,7 @@ namespace Voussoir
 
   void MeshParameters::check() const
   {
-    parse_axes(axes);
+    file_axes(axes);
     if (source == "arch210")
     {
       arch210.check();
@@ -107,7 +100,7 @@ namespace Voussoir
     // The operator / of a path leaves absolute files as they are.
     const std::string file = (std::filesystem::path(scene_directory) / parameters.file).string();
     HexMesh           mesh = read_gmsh(file);
-    const auto        axes = parse_axes(parameters.axes);
+    const auto        axes = file_axes(parameters.axes);
     const double      unit = metres(parameters.length_unit);
     for (auto &node : mesh.nodes)
     {

@@ -142,10 +142,14 @@ namespace Voussoir
     std::map<std::string, Vector3> places;
     for (const auto &probe : probes)
     {
-      if (probe.first.empty() || probe.first.find_first_of(",\"") != std::string::npos)
+      const bool taken =
+          probe.first == "crest" || probe.first == "base" || probe.first == "base_acceleration";
+      if (probe.first.empty() || taken || probe.first.find_first_of(",\"") != std::string::npos)
         throw InputError(
             "Entry \"Output/Probes\": \"" + probe.first +
-            "\" cannot be the name of a probe; it becomes a column of history.csv. Separate probes by "
+            "\" cannot be the name of a probe; it becomes a column of history.csv, " +
+            std::string(taken ? "which has one of that name" : "where commas and quotes cannot be") +
+            ". Separate probes by "
             "semicolons, as in \"name: x y z; name: x y z\".");
       std::istringstream in(probe.second);
       std::string        more;

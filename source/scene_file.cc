@@ -1,12 +1,15 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <voussoir/error.h>
-#include <voussoir/scene.h>
+#include <voussoir/nearest_name.h>
+#include <voussoir/scene_warnings.h>
+#include <voussoir/units.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <numeric>
+#include <map>
+#include <set>
 #include <sstream>
 
 namespace Voussoir
@@ -22,14 +25,6 @@ namespace Voussoir
       std::string              value;
       std::string              place; ///< for messages
     };
-
-    std::string joined(const std::vector<std::string> &path)
-    {
-      std::string result;
-      for (const std::string &part : path)
-        result += (result.empty() ? "" : "/") + part;
-      return result;
-    }
 
     std::string trimmed(const std::string &s)
     {
@@ -100,64 +95,58 @@ namespace Voussoir
         throw InputError(file + ": subsection \"" + section.back() + "\" is not closed. Add an \"end\".");
     }
 
-    unsigned int edit_distance(const std::string &a, const std::string &b)
+    /** The declaration of an entry. Throws InputError, with the nearest one, if there is none. */
+    const DeclaredEntry &declaration(const std::vector<DeclaredEntry> &known, const Entry &entry)
     {
-      std::vector<unsigned int> row(b.size() + 1);
-      std::iota(row.begin(), row.end(), 0);
-      for (std::size_t i = 1; i <= a.size(); ++i)
-      {
-        unsigned int diagonal = row[0]++;
-        for (std::size_t j = 1; j <= b.size(); ++j)
-        {
-          const unsigned int old = row[j];
-          row[j] = std::min({row[j] + 1, row[j - 1] + 1,
-                             diagonal + (std::tolower(a[i - 1]) == std::tolower(b[j - 1]) ? 0 : 1)});
-          diagonal = old;
-        }
-      }
-      return row.back();
+      const auto found = std::find_if(known.begin(), known.end(),
+                                      [&](const DeclaredEntry &k) { return k.path == entry.path; });
+      if (found != known.end())
+        return *found;
+      // Nearest by name; the same entry in another section counts as near.
+      const std::string path = joined(entry.path);
+      const auto        distance = [&](const DeclaredEntry &k) {
+        return std::min(edit_distance(k.name(), path), edit_distance(k.path.back(), entry.path.back()) + 2);
+      };
+      const auto nearest = std::min_element(known.begin(), known.end(),
+                                            [&](const DeclaredEntry &a, const DeclaredEntry &b)
+                                            { return distance(a) < distance(b); });
+      throw InputError(entry.place + ": there is no entry \"" + path + "\". Did you mean \"" +
+                       nearest->name() + "\"? `voussoir parameters` prints all entries.");
     }
 
-    void apply(ParameterHandler &prm, const std::vector<Entry> &known, const Entry &entry)
+    /** Throws InputError for a list of pairs "key: value" in which a key is twice: the first would be lost.
+     */
+    void expect_different_keys(const std::string &value, const char separator, const std::string &what)
     {
-      const std::string path = joined(entry.path);
-      if (std::none_of(known.begin(), known.end(), [&](const Entry &k) { return k.path == entry.path; }))
-      {
-        // Nearest by name; the same entry in another section counts as near.
-        std::string  nearest;
-        unsigned int best = 1000;
-        for (const Entry &k : known)
-        {
-          const unsigned int d = std::min(edit_distance(joined(k.path), path),
-                                          edit_distance(k.path.back(), entry.path.back()) + 2);
-          if (d < best)
-            best = d, nearest = joined(k.path);
-        }
-        throw InputError(entry.place + ": there is no entry \"" + path + "\". Did you mean \"" + nearest +
-                         "\"? `voussoir parameters` prints all entries.");
-      }
+      std::istringstream    pairs(value);
+      std::set<std::string> keys;
+      for (std::string pair; std::getline(pairs, pair, separator);)
+        if (const std::string key = trimmed(pair.substr(0, pair.find(':'))); !keys.insert(key).second)
+          throw InputError(what + " has \"" + key + "\" twice. Leave one, or give the other another name.");
+    }
+
+    /** Sets the entry, and writes its value in the declared unit back. */
+    void apply(ParameterHandler &prm, const DeclaredEntry &declared, Entry &entry)
+    {
+      const std::string what = entry.place + ": entry \"" + declared.name() + "\"",
+                        &pattern = declared.pattern;
+      const std::string as_written = entry.value;
+      const bool        is_number = pattern.rfind("[Double", 0) == 0 || pattern.rfind("[Integer", 0) == 0;
+      if (is_number)
+        entry.value = in_declared_unit(entry.value, declared.unit(), what);
+      if (pattern.rfind("[Map", 0) == 0)
+        expect_different_keys(entry.value, separator_of(pattern), what);
       for (std::size_t i = 0; i + 1 < entry.path.size(); ++i)
         prm.enter_subsection(entry.path[i]);
       try
       {
         prm.set(entry.path.back(), entry.value);
       }
-      catch (const ParameterHandler::ExcValueDoesNotMatchPattern &error)
-      {
-        std::ostringstream info; // "... does not match the given pattern <...>."
-        error.print_info(info);
-        const std::string text = info.str(), before = "pattern <";
-        const auto        from = text.find(before), to = text.rfind('>');
-        throw InputError(entry.place + ": entry \"" + path + "\" cannot be \"" + entry.value +
-                         "\". It must be " +
-                         (from < to && to != std::string::npos
-                              ? text.substr(from + before.size(), to - from - before.size())
-                              : "of another kind: `voussoir parameters` prints all entries") +
-                         ".");
-      }
       catch (const ExceptionBase &)
       {
-        throw InputError(entry.place + ": entry \"" + path + "\" cannot be \"" + entry.value + "\".");
+        const std::string unit = declared.unit();
+        throw InputError(what + " cannot be \"" + as_written + "\". It must be " + pattern_in_words(pattern) +
+                         (is_number && !unit.empty() && unit != "-" ? ", in " + unit : "") + ".");
       }
       for (std::size_t i = 0; i + 1 < entry.path.size(); ++i)
         prm.leave_subsection();
@@ -168,12 +157,9 @@ namespace Voussoir
                   ParameterHandler &prm)
   {
     scene.add_parameters(prm);
-    std::ostringstream declared;
-    prm.print_parameters(declared, ParameterHandler::ShortPRM | ParameterHandler::KeepDeclarationOrder);
-    std::vector<Entry>       known, entries;
-    std::vector<std::string> section;
-    std::istringstream       declarations(declared.str());
-    parse(declarations, "declarations", "", known, section, 0);
+    const std::vector<DeclaredEntry> known = declared_entries(prm);
+    std::vector<Entry>               entries;
+    std::vector<std::string>         section;
 
     std::ifstream in(file);
     if (!in || std::filesystem::is_directory(file))
@@ -193,8 +179,18 @@ namespace Voussoir
         entry.path.push_back(trimmed(part));
       entries.push_back(entry);
     }
-    for (const Entry &entry : entries)
-      apply(prm, known, entry);
+    std::map<std::string, WrittenEntry> written; // the last value holds
+    for (Entry &entry : entries)
+    {
+      const DeclaredEntry &declared = declaration(known, entry);
+      apply(prm, declared, entry);
+      written[declared.name()] = {declared, entry.value, entry.place};
+    }
     scene.check();
+    std::vector<WrittenEntry> in_order;
+    for (const DeclaredEntry &declared : known)
+      if (const auto found = written.find(declared.name()); found != written.end())
+        in_order.push_back(found->second);
+    scene.warnings = scene_warnings(scene, in_order);
   }
 } // namespace Voussoir

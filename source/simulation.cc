@@ -188,9 +188,14 @@ namespace Voussoir
     else
       log.line("Water     level %g m; added mass %s x %g, %.4g kg along x", scene.reservoir.level,
                scene.reservoir.added_mass.c_str(), scene.reservoir.factor, dam->added_mass);
+    report_motion_and_warnings();
     report_motion_notes();
     if (options.validate)
     {
+      std::istringstream groups(dam->groups);
+      const char        *title = "Groups";
+      for (std::string row; std::getline(groups, row); title = "")
+        log.line("%-9s %s", title, row.c_str());
       double pairs = 0.;
       for (const Body &body : dam->structure.bodies)
         pairs += std::pow(3. * body.interface.size(), 2);
@@ -263,7 +268,7 @@ namespace Voussoir
     for (const auto &probe : scene.output.probe_places())
     {
       const Vector3 &p = probe.second;
-      probes.push_back(nearest_node(*dam->model, dealii::Point<3>(p[0], p[1], p[2])));
+      probes.push_back(probe_node(*dam->model, probe.first, dealii::Point<3>(p[0], p[1], p[2])));
       for (const char *c : {"_x", "_y", "_z"})
         history.columns.push_back(probe.first + c);
     }

@@ -46,7 +46,7 @@ namespace
     write_text("names.msh", text);
     const auto named = read_gmsh("names.msh");
     expect(named.cells[0].volume == 1 && named.cells[1].volume == 2 && named.faces[0].surface == 1 &&
-               named.faces[1].surface == 2 && named.names.at({3, 2}) == "monolith 2",
+               named.faces[1].surface == 2 && named.names.at({3, 2}) == "Monolith 2",
            "names decide");
   }
 

@@ -14,7 +14,7 @@ namespace Voussoir
     std::string           source = "arch210"; ///< "arch210" or "file"
     std::string           file = "";          ///< gmsh file, relative to the scene's directory
     std::string           axes = "x y z";     ///< the file's axes downstream, to the left bank, up
-    std::string           length_unit = "m";  ///< of the file: "m", "mm" or "ft"
+    std::string           length_unit = "m";  ///< of the file: see metres()
     Arch210Parameters     arch210;
     Arch210RockParameters arch210_rock;
 
@@ -23,6 +23,20 @@ namespace Voussoir
     /** Throws InputError for source "file" without a file, and for axes that are not three different ones. */
     void check() const;
   };
+
+  /** One of our axes in the file: coordinate and sign. */
+  struct FileAxis
+  {
+    unsigned int coordinate;
+    double       sign;
+  };
+
+  /** The file's axes downstream, to the left bank and up, from "y -x z". Throws InputError if they are not
+   * three different ones. */
+  std::array<FileAxis, 3> file_axes(const std::string &text);
+
+  /** A length unit (m, cm, mm, km, ft, in) [m]. */
+  double metres(const std::string &unit);
 
   /** Generates or reads the mesh, turns it to x downstream, y to the left bank, z up, in metres, and checks
    *  it. The joints are left as they are: see open_joints() and close_joints().

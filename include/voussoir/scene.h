@@ -84,6 +84,8 @@ namespace Voussoir
     MotionParameters     motion;
     OutputParameters     output;
 
+    std::vector<std::string> warnings; ///< of read_scene(), about entries that the user wrote
+
     void add_parameters(dealii::ParameterHandler &prm);
     void check() const;
 
@@ -91,8 +93,10 @@ namespace Voussoir
   };
 
   /** Reads a scene file with its includes (relative to the including file), then applies @p overrides, each
-   *  "Section/Subsection/Entry=value". Throws InputError with file, line and entry; for an unknown entry it
-   * names the nearest known one. @p prm: receives the declarations and values, for printing. */
+   *  "Section/Subsection/Entry=value". Values may carry a unit, see in_declared_unit(). Throws InputError
+   * with file, line and entry; for an unknown entry it names the nearest known one. Entries without effect
+   * and implausible values go to Scene::warnings. @p prm: receives the declarations and values, for printing.
+   */
   void read_scene(const std::string &file, const std::vector<std::string> &overrides, Scene &scene,
                   dealii::ParameterHandler &prm);
 } // namespace Voussoir

@@ -33,6 +33,7 @@ namespace Voussoir
     void    read_input();
     void    report_setup();
     void    report_motion_notes();
+    void    report_motion_and_warnings();
     void    find_static_state();
     void    settle(JointSystem &system, const Unknowns &springs, const Unknowns &start, Unknowns &gap);
     Vector3 relative_to_base(unsigned int node) const;

@@ -1,0 +1,18 @@
+#ifndef voussoir_mesh_groups_h
+#define voussoir_mesh_groups_h
+
+#include <voussoir/mesh.h>
+
+namespace Voussoir
+{
+  /** What is wrong with the name of a physical group that physical_id() does not know, and how to mend it:
+   * the group with its @p tag, the nearest known name, and all known ones. */
+  std::string unknown_group(int dimension, int tag, const std::string &name);
+
+  /** The physical groups of a mesh, what the program takes them for, and how many hexahedra or faces each
+   * has, one line each; successive monoliths and joints are drawn together. A group without a name is called
+   * by its id. */
+  std::string group_table(const HexMesh &mesh);
+} // namespace Voussoir
+
+#endif
