@@ -30,7 +30,7 @@ namespace Voussoir
      * which one may want to change to get past a step that failed. */
     std::string decisive_part(std::string scene_text)
     {
-      constexpr const char *format = "\ncheckpoint format 2\n"; // of what follows
+      constexpr const char *format = "\ncheckpoint format 3\n"; // of what follows
       for (const char *section : {"subsection Output", "subsection Contact"})
         if (const auto begin = scene_text.find(section); begin != std::string::npos)
           scene_text.erase(begin, scene_text.find("\nend", begin) - begin);
