@@ -272,6 +272,8 @@ def energy(output, figures, heading):
     parts = [name for name in ("input", "strain", "kinetic", "added_mass", "damping", "friction", "impact")
              if name in table]
     largest = max(np.abs(table[name]).max() for name in parts) or 1.
+    summary = json.loads((output / "summary.json").read_text())
+    scale_of_balance = summary.get("largest_energy") or largest  # as the log and the summary define it
     unit, scale = next((pair for pair in (("GJ", 1e9), ("MJ", 1e6), ("kJ", 1e3)) if largest >= pair[1]), ("J", 1.))
     figure, (above, below) = plt.subplots(2, 1, sharex=True, figsize=(9, 6), gridspec_kw={"height_ratios": [3, 1]})
     for name, colour in zip(parts, ["k"] + COLOURS):
@@ -281,7 +283,9 @@ def energy(output, figures, heading):
     above.set_ylabel(f"energy [{unit}]")
     above.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     above.set_title(f"{heading}\nEnergies", loc="left")
-    below.plot(time, 100 * balance / largest, color="k", linewidth=1)
+    below.plot(time, 100 * balance / scale_of_balance, color="k", linewidth=1)
+    below.text(0.995, 0.95, f"largest {np.abs(balance).max() / scale_of_balance:.1e}", transform=below.transAxes,
+               ha="right", va="top", bbox={"facecolor": "w", "edgecolor": "none", "pad": 1})
     below.set(xlabel="time [s]", ylabel="balance [% of\nlargest energy]", xlim=(time[0], time[-1]))
     below.ticklabel_format(axis="y", scilimits=(-2, 3), useMathText=True)
     figure.align_ylabels([above, below])

@@ -36,7 +36,7 @@ namespace Voussoir
       ParameterHandler prm;
       Scene            scene;
       scene.add_parameters(prm);
-      const std::string section = words.empty() ? "" : words.back();
+      const std::string  section = words.empty() ? "" : words.back();
       std::ostringstream text; // deal.II does not like streams that fail
       print_entries(prm, has_format ? words[0] : "prm", has_format && words.size() == 1 ? "" : section, text);
       std::cout << text.str();

@@ -1,6 +1,5 @@
 #include <deal.II/base/parameter_handler.h>
 
-#include <voussoir/boundary_lines.h>
 #include <voussoir/error.h>
 #include <voussoir/foundation.h>
 #include <voussoir/log.h>
@@ -8,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 namespace Voussoir
@@ -64,22 +62,6 @@ namespace Voussoir
     template <class Point> Key key_of(const Point &p)
     {
       return {{std::llround(1e4 * p[0]), std::llround(1e4 * p[1]), std::llround(1e4 * p[2])}};
-    }
-
-    RockRegionParameters region_parameters(const FoundationParameters &p, const std::array<double, 3> &centre,
-                                           const double dt)
-    {
-      RockRegionParameters result;
-      result.rock.materials[PhysicalId::first_rock] = p.rock;
-      result.rock.nodal_everywhere = p.nodal_everywhere;
-      result.rock.nodal_layers = p.nodal_layers;
-      result.rock.centre = centre;
-      result.damping.mass = p.mass_damping;
-      result.damping.stiffness = p.stiffness_damping;
-      result.dt = dt;
-      result.boundary = p.boundary;
-      result.free_field = p.free_field;
-      return result;
     }
 
     /** Conjugate gradients with the inverse diagonal blocks, the marked nodes fixed. */
@@ -145,6 +127,22 @@ namespace Voussoir
     }
   } // namespace
 
+  RockRegionParameters region_parameters(const FoundationParameters &p, const std::array<double, 3> &centre,
+                                         const double dt)
+  {
+    RockRegionParameters result;
+    result.rock.materials[PhysicalId::first_rock] = p.rock;
+    result.rock.nodal_everywhere = p.nodal_everywhere;
+    result.rock.nodal_layers = p.nodal_layers;
+    result.rock.centre = centre;
+    result.damping.mass = p.mass_damping;
+    result.damping.stiffness = p.stiffness_damping;
+    result.dt = dt;
+    result.boundary = p.boundary;
+    result.free_field = p.free_field;
+    return result;
+  }
+
   std::vector<Foot> find_feet(const SolidModel &dam, const std::vector<std::array<double, 3>> &points,
                               const std::string &source)
   {
@@ -174,8 +172,7 @@ namespace Voussoir
     for (HexMesh::Cell &cell : this->mesh.cells) // one material
       if (!is_monolith(cell.volume))
         cell.volume = PhysicalId::first_rock;
-    if (parameters.boundary.compare(0, 3, "mtf") == 0)
-      boundary_lines(this->mesh, 6, source);
+    check_boundary_layers(parameters, this->mesh, source);
     unsigned int count = 0;
     for (unsigned int i = 0; i < dam.n_nodes(); ++i)
       if (dam.on_surface(i, PhysicalId::base))
@@ -200,11 +197,6 @@ namespace Voussoir
       for (const unsigned int node : f.nodes)
         for (unsigned int c = 0; c < 3; ++c)
           structure.mass[node][4 * c] += model.mass[f.rock] / f.nodes.size();
-  }
-
-  std::string Foundation::warning(const double time_step) const
-  {
-    return stability_warning(region_parameters(parameters, {}, time_step));
   }
 
   Unknowns Foundation::static_springs(const Structure &structure) const
@@ -245,29 +237,6 @@ namespace Voussoir
     for (std::size_t i = 0; i < foot.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
         u_base[3 * i + c] = rock_static[3 * foot[i].rock + c];
-  }
-
-  void Foundation::check(const double time_step) const
-  {
-    // tests/rock_implicit.cc: 0.1 was not always enough, m = 2 needed none.
-    const double damping = .15 * time_step / parameters.substeps;
-    if (parameters.substeps > 2 && parameters.stiffness_damping < .99 * damping) // .99: the message rounds
-    {
-      char number[20];
-      std::snprintf(number, sizeof(number), "%.3g", damping);
-      throw InputError(
-          "More than two sub-steps (\"Foundation/Substeps\") grow slowly without damping of the rock: set "
-          "\"Foundation/Stiffness damping\" to 0.15 of its time step, here " +
-          std::string(number) + " s, or take fewer.");
-    }
-    if (parameters.boundary.compare(0, 3, "mtf") != 0)
-      return;
-    std::vector<unsigned int> nodes;
-    for (const Foot &f : foot)
-      nodes.push_back(f.rock);
-    check_distance(TransmittingBoundary(transmitting_formula(parameters.boundary), model.lines,
-                                        time_step / parameters.substeps),
-                   nodes, n_nodes());
   }
 
   double Foundation::add_interface_mass(Structure &structure, const double time_step) const

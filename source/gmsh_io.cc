@@ -8,8 +8,8 @@
 #include <fstream>
 #include <gmsh.h>
 #include <new>
-#include <stdexcept>
 #include <set>
+#include <stdexcept>
 #include <unordered_map>
 
 namespace Voussoir

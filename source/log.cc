@@ -65,23 +65,39 @@ namespace Voussoir
     return *this;
   }
 
+  namespace
+  {
+    std::string quoted_text(const std::string &text)
+    {
+      std::string quoted = "\"";
+      for (const char c : text)
+      {
+        char code[8];
+        if (c == '"' || c == '\\')
+          (quoted += '\\') += c;
+        else if (static_cast<unsigned char>(c) < 0x20)
+        {
+          std::snprintf(code, sizeof(code), "\\u%04x", c);
+          quoted += code;
+        }
+        else
+          quoted += c;
+      }
+      return quoted + "\"";
+    }
+  } // namespace
+
   Json &Json::add(const std::string &key, const std::string &text)
   {
-    std::string quoted = "\"";
-    for (const char c : text)
-    {
-      char code[8];
-      if (c == '"' || c == '\\')
-        (quoted += '\\') += c;
-      else if (static_cast<unsigned char>(c) < 0x20)
-      {
-        std::snprintf(code, sizeof(code), "\\u%04x", c);
-        quoted += code;
-      }
-      else
-        quoted += c;
-    }
-    return add_raw(key, quoted + "\"");
+    return add_raw(key, quoted_text(text));
+  }
+
+  Json &Json::add_texts(const std::string &key, const std::vector<std::string> &texts)
+  {
+    std::string list;
+    for (const std::string &text : texts)
+      list += (list.empty() ? "" : ", ") + quoted_text(text);
+    return add_raw(key, "[" + list + "]");
   }
 
   Json &Json::add(const std::string &key, const double number)

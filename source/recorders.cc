@@ -60,6 +60,7 @@ namespace Voussoir
     {
       const Vector3 d = newmark.opening_and_slip(p);
       const double  s = std::hypot(d[1], d[2]);
+      reach.record(p, structure.pairs[p], d);
       if (d[0] > opening.value)
         opening = {d[0], time, structure.pairs[p].place};
       if (s > slip.value)

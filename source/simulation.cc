@@ -116,6 +116,7 @@ namespace Voussoir
           save_checkpoint();
       }
       write_results();
+      check_balance();
     }
     catch (const WriteError &error)
     {
@@ -250,7 +251,9 @@ namespace Voussoir
     newmark->start(statics.u, Unknowns(statics.u.size(), 0.), statics.force, load,
                    Unknowns(3 * structure.pairs.size(), 0.));
 
+    stability = std::make_unique<StabilityWatch>(*dam, motion, *newmark);
     joints = std::make_unique<JointRecorder>(structure, *dam->geometry);
+    joints->reach = JointReach(*dam->model, structure.pairs);
     stress = std::make_unique<StressRecovery>(*dam->model, std::vector<Material>{scene.concrete},
                                               scene.elements.incompatible_modes);
     envelope = std::make_unique<EnvelopeRecorder>(*stress, dam->initial_stress);
@@ -304,7 +307,8 @@ namespace Voussoir
     {
       dam->foundation->follow(newmark->state());
       const RegionEnergy &rock = dam->foundation->energy();
-      count.rock_energy = std::max(count.rock_energy, rock.kinetic + rock.strain);
+      count.rock_energy = std::max({count.rock_energy, rock.kinetic + rock.strain, rock.damping,
+                                    std::abs(rock.prescribed), std::abs(rock.transmitted)});
       count.rock_imbalance = std::max(count.rock_imbalance, std::abs(rock.balance()));
     }
     ++count.path[static_cast<unsigned int>(result.path)];
@@ -322,7 +326,8 @@ namespace Voussoir
     count.factorisations += result.factorisations;
     count.sweeps += result.sweeps;
     count.residual = std::max(count.residual, result.residual);
-    count.energy_error = std::max(count.energy_error, newmark->energy_error());
+    count.imbalance =
+        std::max(count.imbalance, std::abs(newmark->state().energy.balance(newmark->initial_energy())));
   }
 
   void Simulation::record()
@@ -336,14 +341,11 @@ namespace Voussoir
     }
     const Stopwatch watch;
     joints->record(*newmark);
-    if (const double jump = std::max(joints->opening.value, joints->slip.value); jump > .02 * dam->size)
+    if (const std::string trouble = stability->trouble(*newmark, *joints, step, step == n_steps);
+        !trouble.empty())
     {
-      std::ostringstream message;
-      message
-          << "The joints have moved by " << jump << " m at t = " << state.time
-          << " s: the run has become unstable. Use \"Dynamics/Impact\" = mean-force, or a smaller time step.";
       write_tables();
-      throw ComputationError(message.str());
+      throw ComputationError(trouble + " The tables in " + directory + " end before it.");
     }
     std::vector<double> row = {state.time};
     for (std::size_t i = 0; i < probes.size(); ++i)

@@ -1,8 +1,10 @@
 #include <voussoir/figures.h>
 #include <voussoir/simulation.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 
 namespace Voussoir
 {
@@ -99,13 +101,57 @@ namespace Voussoir
                1e3 * count.seconds_sweeps / n_steps, 1e3 * count.seconds_joints / n_steps,
                1e3 * count.seconds_stepping / n_steps, 1e3 * count.seconds_stresses / n_steps,
                1e3 * count.seconds_output / n_steps);
-    log.line("Energy    balance closes to %.1e of the largest energy", count.energy_error);
+    for (const std::string &warning : joints->reach.warnings())
+      log.line("warning: %s", warning.c_str());
+    log.line("Energy    balance closes to %.1e of the largest energy", balance_error());
+    if (dam->foundation && n_steps > 0)
+      log.line("          that of the rock to %.1e", rock_balance_error());
     for (const char *ending : {"", ".before", ".new"})
       std::filesystem::remove(checkpoint_name() + ending); // the run is complete: nothing to resume
     std::filesystem::remove(directory + "/checkpoint.txt");
     if (scene.output.figures)
       draw_figures();
     log.line("Results   %s", directory.c_str());
+  }
+
+  double Simulation::largest_energy() const
+  {
+    // Before the motion has begun there is only the round-off of the static state.
+    return std::max(newmark->largest_energy(), 1e-6 * std::abs(newmark->initial_energy().strain));
+  }
+
+  double Simulation::balance_error() const
+  {
+    return count.imbalance / std::max(largest_energy(), 1e-300);
+  }
+
+  double Simulation::rock_balance_error() const
+  {
+    return count.rock_imbalance / std::max(count.rock_energy, 1e-300);
+  }
+
+  void Simulation::check_balance() const
+  {
+    constexpr double allowed = 1e-4; // a sound run has 1e-7 or less
+    const bool       of_rock = dam->foundation && n_steps > 0 && !(rock_balance_error() <= allowed);
+    const double     error = of_rock ? rock_balance_error() : balance_error();
+    if (error <= allowed || n_steps == 0)
+      return;
+    std::ostringstream message;
+    message.precision(2);
+    message << "The energies of the " << (of_rock ? "rock" : "dam") << " do not balance: they are off by "
+            << error << " of the largest one, and a sound run by less than " << allowed
+            << ". The results are written, in " << directory << ", but are not to be trusted: column \""
+            << (of_rock ? "rock_balance" : "balance")
+            << "\" of energy.csv and figures/energy.png there show when "
+            << "it began. Take a smaller time step (\"Dynamics/Steps per sample\"), a smaller "
+               "\"Contact/Tolerance\" (now "
+            << scene.contact.tolerance << ")";
+    if (of_rock)
+      message << ", or another \"Foundation/Boundary\"";
+    else if (!dam->tied && scene.impact_rule != "mean-force")
+      message << ", or \"Dynamics/Impact\" = mean-force";
+    throw ComputationError(message.str() + ".");
   }
 
   void Simulation::draw_figures()

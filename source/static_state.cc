@@ -93,12 +93,15 @@ namespace Voussoir
     statics.pairs = system.states();
     statics.n_open = std::count(statics.pairs.begin(), statics.pairs.end(), PairState::open);
     if (const unsigned int e = dam->model->equation[dam->geometry->crown]; e != rigid_ground)
-      statics.crown = {{statics.u[3 * e], statics.u[3 * e + 1], statics.u[3 * e + 2]}};
+      statics.crown = Vector3{{statics.u[3 * e], statics.u[3 * e + 1], statics.u[3 * e + 2]}} -
+                      dam->base_motion(statics.u);
+    check_static_state(*dam, statics.u, statics.crown);
     count.seconds_static = watch.seconds();
-    log.line("Static    self-weight %s, then water: %u Newton steps, %u pairs open, crest %.1f mm downstream "
-             "(%.1f s)",
-             scene.statics.self_weight.c_str(), total.iterations, statics.n_open, 1e3 * statics.crown[0],
-             count.seconds_static);
+    log.line(
+        "Static    self-weight %s, then water: %u Newton steps, %u pairs open, crest %.1f mm downstream%s "
+        "(%.1f s)",
+        scene.statics.self_weight.c_str(), total.iterations, statics.n_open, 1e3 * statics.crown[0],
+        dam->base_is_held() ? "" : " of the base", count.seconds_static);
   }
 
   /** The static state of dam and rock: the rock gives way under the forces of the dam, the dam follows

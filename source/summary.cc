@@ -84,9 +84,11 @@ namespace Voussoir
         .add("newton_iterations", newton)
         .add("contact_path", path)
         .add("contact_residual", count.residual)
-        .add("energy_balance_error", count.energy_error)
+        .add("energy_balance_error", balance_error())
+        .add("largest_energy", largest_energy())
         .add("static", statics_json)
-        .add("extremes", extremes);
+        .add("extremes", extremes)
+        .add_texts("warnings", joints->reach.warnings());
     if (const Foundation *rock = dam->foundation.get())
     {
       Json json;
@@ -97,7 +99,7 @@ namespace Voussoir
           .add("critical_time_step", rock->critical_time_step());
       if (step > 0)
         json.add("transmitted_energy", rock->energy().transmitted)
-            .add("energy_balance_error", count.rock_imbalance / std::max(count.rock_energy, 1e-300));
+            .add("energy_balance_error", rock_balance_error());
       summary.add("rock", json);
     }
     OutputFile out(directory + "/summary.json");

@@ -64,6 +64,8 @@ namespace Voussoir
     double          time_step() const { return dt; }
     unsigned int    n_nodes() const { return stiffness.n_rows(); }
     const Unknowns &displacement() const { return u; }
+    /** (u(t + dt) - u(t)) / dt [m/s] */
+    const Unknowns &half_step_velocity() const { return w; }
     /** At the time itself; of prescribed nodes half a step earlier. */
     Unknowns velocity() const;
 

@@ -22,6 +22,18 @@ namespace Voussoir
   std::vector<Foot> find_feet(const SolidModel &dam, const std::vector<std::array<double, 3>> &points,
                               const std::string &source);
 
+  /** What the scene says of the rock; @p centre: of the dam's base [m], @p dt: of the rock [s]. */
+  RockRegionParameters region_parameters(const FoundationParameters &p, const std::array<double, 3> &centre,
+                                         double dt);
+
+  /** Layers of equal, straight elements that an artificial boundary needs: mtfN 2 N, since each of its lines
+   * has 2 N + 1 nodes, and at least 6; the others none. */
+  unsigned int n_boundary_layers(const std::string &boundary);
+
+  /** InputError where the mesh has fewer of them. @p source names the mesh. */
+  void check_boundary_layers(const FoundationParameters &parameters, const HexMesh &mesh,
+                             const std::string &source);
+
   /** The rock under and around the dam: explicit, in the element partition of Hughes and Liu (1978): the
    * nodes of the dam's base are the dam's, with the rock's mass lumped to them; the rock's elements act on
    * them with the forces of their predicted motion, u + dt v + dt^2/4 a. Displacements of the rock are those
@@ -56,8 +68,8 @@ namespace Voussoir
     void settle(const Unknowns &r, Unknowns &u_base);
 
     /** InputError for what would become unstable at the dam's step @p dt [s]: an artificial boundary with
-     * lines too short, waves too fast, or too near the base; more than two substeps without enough damping.
-     */
+     * lines too short, waves too fast, Gauss points, or too near the base; a high Poisson's ratio, or more
+     * than two substeps, without enough damping. */
     void check(double dt) const;
 
     /** Add the mass to the feet that substeps need, if there are more than one in a step @p dt of the dam; to
@@ -87,6 +99,8 @@ namespace Voussoir
     double seconds = 0.; ///< of wall time in advance()
 
     const std::vector<Foot> &feet() const { return foot; }
+    const RockModel         &rock() const { return model; }
+    const ExplicitRegion    &explicit_region() const { return *region; } ///< after start()
 
     std::vector<std::vector<double> *> state(); ///< for checkpoints, after start()
 

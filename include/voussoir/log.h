@@ -58,7 +58,8 @@ namespace Voussoir
     {
       return add_raw(key, value ? "true" : "false");
     }
-    Json                          &add(const std::string &key, const Json &object);
+    Json &add(const std::string &key, const Json &object);
+    Json &add_texts(const std::string &key, const std::vector<std::string> &texts); ///< a list
     template <class Numbers> Json &add_list(const std::string &key, const Numbers &numbers)
     {
       std::string list;

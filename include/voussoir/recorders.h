@@ -2,6 +2,7 @@
 #define voussoir_recorders_h
 
 #include <voussoir/dam_geometry.h>
+#include <voussoir/joint_reach.h>
 #include <voussoir/newmark.h>
 #include <voussoir/output_file.h>
 #include <voussoir/stress.h>
@@ -56,12 +57,13 @@ namespace Voussoir
     void  record(const Newmark &newmark);
     Table maxima() const; ///< joints.csv
 
-    Table   history; ///< joint_history.csv
-    Extreme opening, slip;
+    Table      history; ///< joint_history.csv
+    Extreme    opening, slip;
+    JointReach reach; ///< counts from when it is set
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
-      archive &history &opening &slip;
+      archive &history &opening &slip &reach;
     }
 
   private:

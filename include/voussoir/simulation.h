@@ -7,6 +7,7 @@
 #include <voussoir/log.h>
 #include <voussoir/recorders.h>
 #include <voussoir/run_directory.h>
+#include <voussoir/stability_watch.h>
 
 namespace Voussoir
 {
@@ -50,6 +51,10 @@ namespace Voussoir
     void              write_fields();
     void              write_results();
     void              write_summary();
+    double            largest_energy() const; ///< of the dam, that has gone through [J]
+    double            balance_error() const;  ///< largest |balance| of its energies, over largest_energy()
+    double            rock_balance_error() const;
+    void              check_balance() const; ///< ComputationError where an account does not close
     void              draw_figures();
     void              stop_if_asked() const;
     void              keep_and_stop();
@@ -82,7 +87,7 @@ namespace Voussoir
       std::vector<PairState> pairs;
       ContactResult          contact;
       unsigned int           n_open = 0;
-      Vector3                crown = {{0., 0., 0.}};
+      Vector3                crown = {{0., 0., 0.}}; ///< displacement of the crest, against the base [m]
     } statics;
 
     struct Counters
@@ -90,7 +95,7 @@ namespace Voussoir
       double                      seconds_rock = 0., rock_energy = 0., rock_imbalance = 0.; // largest [J]
       std::array<unsigned int, 4> path{}; ///< steps by ContactPath
       double newton = 0., newton_max = 0., krylov = 0., factorisations = 0., sweeps = 0., residual = 0.,
-             energy_error = 0.;
+             imbalance = 0.; // largest |balance| of the energies of the dam [J]
       double seconds_setup = 0., seconds_static = 0., seconds_sweeps = 0., seconds_joints = 0.,
              seconds_stepping = 0., seconds_stresses = 0., seconds_output = 0., seconds_shaking = 0.;
       template <class Archive> void serialize(Archive &archive, unsigned int)
@@ -98,13 +103,14 @@ namespace Voussoir
         archive &seconds_rock &rock_energy &rock_imbalance;
         for (unsigned int &n : path)
           archive &n;
-        archive &newton &newton_max &krylov &factorisations &sweeps &residual &energy_error;
+        archive &newton &newton_max &krylov &factorisations &sweeps &residual &imbalance;
         archive &seconds_setup &seconds_static &seconds_sweeps &seconds_joints &seconds_stepping
             &seconds_stresses &seconds_output &seconds_shaking;
       }
     } count;
 
     std::unique_ptr<Newmark>                    newmark;
+    std::unique_ptr<StabilityWatch>             stability;
     std::unique_ptr<StressRecovery>             stress;
     std::unique_ptr<EnvelopeRecorder>           envelope;
     std::unique_ptr<JointRecorder>              joints;

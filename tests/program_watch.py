@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""Tests of the program: what becomes unstable is refused, or seen and stopped; balances; warnings of joints.
+
+    program_watch.py VOUSSOIR CASE...     cases: see the functions with that name below
+"""
+
+import os
+import re
+import shutil
+import sys
+from pathlib import Path
+
+from run_program import expect, refused, runs, summary, table, voussoir, write_scene
+
+ROCK = [x for e in ("Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
+                    "Dynamics/Steps per sample=5", "Joints/Model=tied", "Motion/Duration=0.3",
+                    "Output/Envelope interval=0") for x in ("--set", e)]
+
+
+def settings(*entries):
+    return [x for e in entries for x in ("--set", e)]
+
+
+def failed(arguments, *parts):
+    """The computation must fail, with status 1 and a message that has all these parts."""
+    result = voussoir(*arguments)
+    what = f"{arguments}: status {result.returncode}, message: {result.stderr.strip()}"
+    expect(result.returncode == 1 and result.stderr.startswith("voussoir: failed: "), what)
+    for part in parts:
+        expect(part in result.stderr, f"'{part}' is missing: {what}")
+    expect(not re.search(r"\w\.(cc|h)\b|exception|deal\.II", result.stderr), f"speaks of the code: {what}")
+    print("   ", result.stderr.strip()[18:])
+    return result
+
+
+def layers():
+    """mtf4 needs 8 layers: with 6 it took a tied dam to 6 km, with status 0."""
+    write_scene()
+    refused(["scene.prm", "--output", "six", *ROCK, *settings("Foundation/Boundary=mtf4")],
+            "mtf4", "8 layers", "Mesh/Arch210/Rock/Boundary layers", "mtf3")
+    eight = settings("Foundation/Boundary=mtf4", "Mesh/Arch210/Rock/Boundary layers=8", "Motion/Duration=1")
+    runs("scene.prm", "--output", "eight", *ROCK, *eight)
+    names, rows = table("eight/history.csv")
+    crest = max(abs(row[names.index("crest_x")]) for row in rows)
+    print(f"    mtf4 with 8 layers: crest at most {crest} m")
+    expect(.05 < crest < 1., "mtf4 with 8 layers")
+    runs("mesh", "scene.prm", "--output", "rock.msh", *ROCK)
+    refused(["scene.prm", "--validate", *ROCK, *settings("Foundation/Boundary=mtf4", "Mesh/Source=file",
+                                                         "Mesh/File=rock.msh")], "mtf4", "8 layers", "rock.msh")
+
+
+def rock_checks():
+    """What would grow at the boundary is refused before the run, with the damping that mends it."""
+    write_scene()
+    for boundary in ("mtf2", "mtf3"):
+        high = settings(f"Foundation/Boundary={boundary}", "Foundation/Poisson's ratio=0.4",
+                        "Foundation/Stiffness damping=0")
+        refused(["scene.prm", "--validate", *ROCK, *high], boundary, "Poisson's ratio", "Foundation/Stiffness damping",
+                "1e-05 s")
+        runs("scene.prm", "--validate", *ROCK, *high, *settings("Foundation/Stiffness damping=1e-5"))
+    runs("scene.prm", "--validate", *ROCK, *settings("Foundation/Poisson's ratio=0.4", "Foundation/Stiffness damping=0",
+                                                     "Foundation/Boundary=viscous-spring"))
+    runs("scene.prm", "--validate", *ROCK, *settings("Foundation/Poisson's ratio=0.3", "Foundation/Stiffness damping=0"))
+    gauss = settings("Foundation/Nodal quadrature everywhere=false", "Foundation/Boundary=mtf2")
+    refused(["scene.prm", "--validate", *ROCK, *gauss, *settings("Foundation/Nodal layers=3")], "Gauss points",
+            "Foundation/Nodal layers", "Foundation/Nodal quadrature everywhere")
+    runs("scene.prm", "--validate", *ROCK, *gauss, *settings("Foundation/Nodal layers=6"))
+
+
+def balance():
+    """One definition of the balance in log, summary and figure; an account that does not close is a failure."""
+    write_scene()
+    runs("scene.prm", "--output", "sound", *ROCK, *settings("Joints/Model=FJA"))
+    result, log = summary("sound"), Path("sound/log.txt").read_text()
+    names, rows = table("sound/energy.csv")
+    column = [abs(row[names.index("balance")]) for row in rows]
+    error = max(column) / result["largest_energy"]
+    print(f"    energy balance: {result['energy_balance_error']:.3e}; from energy.csv {error:.3e}")
+    expect(abs(error / result["energy_balance_error"] - 1) < 1e-6, "balance of energy.csv and summary.json")
+    shown = float(re.search(r"balance closes to (\S+) of", log)[1])
+    expect(abs(shown / error - 1) < .06, f"balance in log.txt: {shown}")
+    shown = float(re.search(r"that of the rock to (\S+)", log)[1])
+    expect(abs(shown / result["rock"]["energy_balance_error"] - 1) < .06, f"balance of the rock in log.txt: {shown}")
+    # Joints that are hardly solved: the forces are not those of the displacements, and the account tells.
+    rough = settings("Motion/Duration=0.3", "Contact/Tolerance=0.5", "Contact/Maximum iterations=1")
+    failed(["scene.prm", "--output", "rough", *rough], "energies", "balance", "rough", "energy.csv",
+           "Contact/Tolerance")
+    expect(summary("rough")["energy_balance_error"] > 1e-4, "the results are there")
+    expect(len(table("rough/history.csv")[1]) == 31, "the history is complete")
+
+
+def static_state():
+    """Metres of static displacement are no matter of the impact rule."""
+    write_scene()
+    for model in ("FJA", "tied"):
+        soft = ["scene.prm", "--output", "soft", *settings("Concrete/Young's modulus=21e6", f"Joints/Model={model}")]
+        result = voussoir(*soft)
+        expect("mean-force" not in result.stderr, result.stderr)
+        refused(soft, "static state", "Concrete/Young's modulus", "Mesh/Length unit", "Reservoir")
+    # On rock the log and the summary show the crest against the base, as history.csv does.
+    runs("scene.prm", "--output", "rock", *ROCK)
+    names, rows = table("rock/history.csv")
+    first = [rows[0][names.index(f"crest_{c}")] for c in "xyz"]
+    crest = summary("rock")["static"]["crest_displacement"]
+    expect(all(abs(a - b) < 1e-7 for a, b in zip(first, crest)), f"crest: {first} in history, {crest} in summary")
+    shown = float(re.search(r"crest (\S+) mm downstream of the base", Path("rock/log.txt").read_text())[1])
+    expect(abs(shown - 1e3 * first[0]) < .051, f"crest in log: {shown}")
+    expect(abs(rows[0][names.index("base_x")]) > 1e-3, "the base of a dam on rock moves under the water")
+
+
+def joint_reach():
+    """A joint that slips more than half an element is named, once."""
+    write_scene()
+    sound = runs("scene.prm", "--output", "sound")
+    expect("warning: joint" not in sound and summary("sound")["warnings"] == [], "no warning without reason")
+    # Three times the motion, almost no friction, and 16 thin elements through the dam.
+    far = settings("Motion/Factor=3", "Joints/Friction=0.05", "Mesh/Arch210/Elements through=16")
+    shown = runs("scene.prm", "--output", "far", *far)
+    warnings = summary("far")["warnings"]
+    print("   ", *warnings, sep="\n    ")
+    expect(warnings and all(w.startswith("joint ") and "nodes no longer face" in w for w in warnings), f"{warnings}")
+    expect(shown.count("warning: joint") == len(warnings) <= 2, "one warning for each joint, in the log too")
+
+
+def main():
+    cases = {c.__name__: c for c in (layers, rock_checks, balance, static_state, joint_reach)}
+    if len(sys.argv) < 3 or any(name not in cases for name in sys.argv[2:]):
+        sys.exit(f"{__doc__}\nCases: {' '.join(cases)}")
+    start = Path.cwd()
+    for name in sys.argv[2:]:
+        directory = start / "program" / name
+        shutil.rmtree(directory, ignore_errors=True)
+        directory.mkdir(parents=True)
+        os.chdir(directory)
+        print(name)
+        cases[name]()
+        print(f"{name}: OK")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except AssertionError as error:
+        sys.exit(f"FAILED: {error}")
