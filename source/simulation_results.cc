@@ -1,10 +1,10 @@
 #include <voussoir/figures.h>
+#include <voussoir/energy_check.h>
 #include <voussoir/simulation.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 
 namespace Voussoir
 {
@@ -132,26 +132,8 @@ namespace Voussoir
 
   void Simulation::check_balance() const
   {
-    constexpr double allowed = 1e-4; // a sound run has 1e-7 or less
-    const bool       of_rock = dam->foundation && n_steps > 0 && !(rock_balance_error() <= allowed);
-    const double     error = of_rock ? rock_balance_error() : balance_error();
-    if (error <= allowed || n_steps == 0)
-      return;
-    std::ostringstream message;
-    message.precision(2);
-    message << "The energies of the " << (of_rock ? "rock" : "dam") << " do not balance: they are off by "
-            << error << " of the largest one, and a sound run by less than " << allowed
-            << ". The results are written, in " << directory << ", but are not to be trusted: column \""
-            << (of_rock ? "rock_balance" : "balance")
-            << "\" of energy.csv and figures/energy.png there show when "
-            << "it began. Take a smaller time step (\"Dynamics/Steps per sample\"), a smaller "
-               "\"Contact/Tolerance\" (now "
-            << scene.contact.tolerance << ")";
-    if (of_rock)
-      message << ", or another \"Foundation/Boundary\"";
-    else if (!dam->tied && scene.impact_rule != "mean-force")
-      message << ", or \"Dynamics/Impact\" = mean-force";
-    throw ComputationError(message.str() + ".");
+    if (n_steps > 0)
+      check_energies(scene, balance_error(), dam->foundation ? rock_balance_error() : 0., directory);
   }
 
   void Simulation::draw_figures()

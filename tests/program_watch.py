@@ -21,18 +21,6 @@ def settings(*entries):
     return [x for e in entries for x in ("--set", e)]
 
 
-def failed(arguments, *parts):
-    """The computation must fail, with status 1 and a message that has all these parts."""
-    result = voussoir(*arguments)
-    what = f"{arguments}: status {result.returncode}, message: {result.stderr.strip()}"
-    expect(result.returncode == 1 and result.stderr.startswith("voussoir: failed: "), what)
-    for part in parts:
-        expect(part in result.stderr, f"'{part}' is missing: {what}")
-    expect(not re.search(r"\w\.(cc|h)\b|exception|deal\.II", result.stderr), f"speaks of the code: {what}")
-    print("   ", result.stderr.strip()[18:])
-    return result
-
-
 def layers():
     """mtf4 needs 8 layers: with 6 it took a tied dam to 6 km, with status 0."""
     write_scene()
@@ -68,7 +56,7 @@ def rock_checks():
 
 
 def balance():
-    """One definition of the balance in log, summary and figure; an account that does not close is a failure."""
+    """One definition of the balance in log, summary and figure (test_stability_watch: what too large a one does)."""
     write_scene()
     runs("scene.prm", "--output", "sound", *ROCK, *settings("Joints/Model=FJA"))
     result, log = summary("sound"), Path("sound/log.txt").read_text()
@@ -81,12 +69,6 @@ def balance():
     expect(abs(shown / error - 1) < .06, f"balance in log.txt: {shown}")
     shown = float(re.search(r"that of the rock to (\S+)", log)[1])
     expect(abs(shown / result["rock"]["energy_balance_error"] - 1) < .06, f"balance of the rock in log.txt: {shown}")
-    # Joints that are hardly solved: the forces are not those of the displacements, and the account tells.
-    rough = settings("Motion/Duration=0.3", "Contact/Tolerance=0.5", "Contact/Maximum iterations=1")
-    failed(["scene.prm", "--output", "rough", *rough], "energies", "balance", "rough", "energy.csv",
-           "Contact/Tolerance")
-    expect(summary("rough")["energy_balance_error"] > 1e-4, "the results are there")
-    expect(len(table("rough/history.csv")[1]) == 31, "the history is complete")
 
 
 def static_state():
