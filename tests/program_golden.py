@@ -136,6 +136,20 @@ def reference():
     """Added mass by global and local depth, staged weight, elements with modes and of degree 2, formats of the motion."""
     for name in ("tied", "modes", "degree2", "tied_modes"):
         same_as_reference(name)
+    arc_lengths("tied")
+
+
+def arc_lengths(name):
+    """faces.csv of the arch: along chords of 15 degrees of the crest's edge (radius 100 m) from its middle; the edge's ends go
+    on straight."""
+    check, step = Worst(name), math.radians(7.5)
+    for row in table_with_names(f"{name}/faces.csv")[1]:
+        x, y, s = float(row[2]), float(row[3]), float(row[5])
+        column, r = round(math.atan2(y, 100 - x) / 2 / step), math.hypot(100 - x, y)
+        if row[0] == "upstream":
+            beyond = (r - 100) * math.sin(step) * (column // 3 if column in (-3, 3) else 0)
+            check.close("arc length on the upstream face [m]", s, 200 * math.sin(step) * column + beyond, 1e-5, 1.)
+    check.done()
 
 
 def calculix():
