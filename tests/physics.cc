@@ -132,13 +132,13 @@ namespace
       expect_close(sum(inertia[d])[d], -total[4 * d], 1e-12, "inertia, water included");
   }
 
-  /** The valley's bottom rises by 1 m in 2 m from the middle to the banks. */
+  /** The valley's bottom rises by 1 m in 2 m from the middle to the banks, and the upstream face leans. */
   void local_depth()
   {
     const auto place = [](const Vector3 &x)
     {
       const double bottom = .5 * std::abs(x[1] - 10.);
-      return Vector3{{x[0], x[1], bottom + x[2] / tall * (tall - bottom)}};
+      return Vector3{{x[0] - .2 * x[2], x[1], bottom + x[2] / tall * (tall - bottom)}};
     };
     SolidModel model(wall(1, 4, 6, 4, place), 1);
     model.free_base();
@@ -149,7 +149,12 @@ namespace
     {
       water.depth = local ? "local" : "global";
       structure[local] = assemble_structure(model, {Material()}, true);
+      const double mass = sum(structure[local].mass)[8];
       add_westergaard_mass(model, water, structure[local]);
+      expect(sum(structure[local].added_mass)[8] > 1e-3 * mass, "added mass for vertical motion");
+      Unknowns load(3 * structure[local].n_nodes(), 0.);
+      add_weight(structure[local], 9.81, load);
+      expect_close(sum(load)[2], -9.81 * mass, 1e-12, "the added mass has no weight");
     }
     unsigned int n = 0;
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
