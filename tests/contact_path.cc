@@ -205,6 +205,37 @@ namespace
            message.find("did not converge") != std::string::npos);
   }
 
+  /** Pulled along the wall by a load that grows from 0: between the ends of a halved step the load is linear,
+   * so that its impulse is exact, A dt/2 per mass, and the path is the trapezoidal rule's for a(t) = A t/dt.
+   */
+  void test_load()
+  {
+    constexpr double A = 100.;
+    for (const auto &part : {std::make_pair(1.5, 1u), {.75, 2u}, {.3, 4u}, {.15, 8u}})
+    {
+      BlockAtWall      block(part.first, 1e-2, 0.);
+      Unknowns         load = block.load;
+      const Structure &structure = block.column.structure;
+      for (unsigned int i = 0; i < structure.n_nodes(); ++i)
+        load[3 * i + 1] = A * structure.mass[i][4];
+      const ContactResult result = block.newmark->advance(load);
+      const unsigned int  n = part.second;
+      const std::string   what = "load over a step in " + text(n) + " parts";
+      is(what, result.path, n == 1 ? ContactPath::newton : ContactPath::smaller_step);
+      double u = 0., v = block.speed;
+      for (unsigned int k = 0; k < n; ++k)
+      {
+        const double h = block.dt / n, v_new = v + h * A * (k + .5) / n;
+        u += h * (v + v_new) / 2.;
+        v = v_new;
+      }
+      below("  velocity - exact [m/s]", block.newmark->state().v[1] - (block.speed + .5 * A * block.dt),
+            1e-12);
+      below("  slip - exact [m]", block.newmark->opening_and_slip(0)[1] - u, 1e-15);
+      below("  work of the load - change of energy, relative", block.newmark->energy_error(), 1e-12);
+    }
+  }
+
   /** The block slides on the wall: states and impulses of a step that was halved are those of both halves. */
   void test_impulse()
   {
@@ -233,5 +264,6 @@ namespace
 
 int main()
 {
-  return run_all({test_names, test_sum, test_solver, test_statics, test_smaller_steps, test_impulse});
+  return run_all(
+      {test_names, test_sum, test_solver, test_statics, test_smaller_steps, test_load, test_impulse});
 }

@@ -124,3 +124,52 @@ def valley(file, n=40, n_up=24, half_width=40., low=0., high=40., top=60., thick
         return (thickness * j, y, foot + (top - foot) * k / n_up)
 
     write(file, *block(place, (1,) * n, 1, n_up, DAM))
+
+
+def on_rock(file, cell, n, dam, layers, dam_cells, sides):
+    """A box of rock of n x n columns, `layers` deep, its top at z = 0, all cells cubes of edge `cell`; on the columns
+    dam[0] <= i, j < dam[1] a block of concrete, `dam_cells` high. sides: the surface of the box's four sides."""
+    number, nodes, hexes, quads = {}, [], [], []
+
+    def node(i, j, k):
+        if (i, j, k) not in number:
+            number[i, j, k] = len(nodes)
+            nodes.append((cell * (i - n / 2), cell * (j - n / 2), cell * k))
+        return number[i, j, k]
+
+    def has(i, j, k):
+        return -layers <= k < 0 and 0 <= i < n and 0 <= j < n or (
+            0 <= k < dam_cells and all(dam[0] <= c < dam[1] for c in (i, j)))
+
+    ring = ((0, 0), (1, 0), (1, 1), (0, 1))
+    for k in range(-layers, dam_cells):
+        for i in range(n):
+            for j in range(n):
+                if not has(i, j, k):
+                    continue
+                rock = k < 0
+                hexes.append((1000 if rock else 1, [node(i + a, j + b, k + c) for c in (0, 1) for a, b in ring]))
+                for axis in range(3):
+                    for step in (0, 1):
+                        to = [i, j, k]
+                        to[axis] += 2 * step - 1
+                        if rock and has(*to) or not rock and has(*to) and to[2] >= 0:
+                            if not (rock and to[2] == 0 and axis == 2):
+                                continue
+                        if not rock and axis == 2 and step == 0 and k == 0:
+                            continue  # the base: once, from the rock
+                        if rock:
+                            surface = (1 if has(*to) else 5) if axis == 2 and step else 6 if axis == 2 else sides
+                        else:
+                            surface = 4 if axis == 2 else {(0, 0): 2, (0, 1): 3}.get((axis, step))
+                        if surface is None:
+                            continue
+                        one, two = [d for d in range(3) if d != axis]
+                        corners = []
+                        for a, b in ring:
+                            at = [i, j, k]
+                            at[axis] += step
+                            at[one], at[two] = at[one] + a, at[two] + b
+                            corners.append(node(*at))
+                        quads.append((surface, corners))
+    write(file, nodes, hexes, quads)

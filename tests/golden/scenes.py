@@ -165,3 +165,20 @@ subsection Output
   set Checkpoint interval = 0
 end
 """
+
+
+# A block on a column of rock, shaken from below: P waves alone, since Poisson's ratio is 0 (rock_exact.py). Metres, m/s.
+ROCK = {"cell": 5., "columns": 2, "layers": 60, "dam_cells": 6, "E": 10e9, "rho": 2600., "dam_E": 2e9, "dam_rho": 2500.,
+        "dt": .001, "steps": 1100, "clean": .46, "every": 20, "ratio": .05, "frequencies": (3., 12.), "mass_damping": (0., 10.)}
+
+
+def outcrop(t, amplitude=.01, length=.5, frequency=3.):
+    """Displacement and acceleration of a wavelet: sin(w s) (1 - s^2)^4, s from -1 to 1 within `length`."""
+    half = length / 2
+    s = t / half - 1
+    if abs(s) >= 1:
+        return 0., 0.
+    w, q = 2 * 3.141592653589793 * frequency * half, 1 - s * s
+    wave, slope, curve = sin(w * s), w * sin(w * s + 3.141592653589793 / 2), -w * w * sin(w * s)
+    g, dg, ddg = q**4, -8 * s * q**3, -8 * q**3 + 48 * s * s * q**2
+    return amplitude * wave * g, amplitude * (curve * g + 2 * slope * dg + wave * ddg) / half**2
