@@ -5,6 +5,7 @@
 #include <voussoir/explicit_region.h>
 #include <voussoir/free_field.h>
 #include <voussoir/gmsh_io.h>
+#include <voussoir/joint_law.h>
 #include <voussoir/mesh_joints.h>
 #include <voussoir/mesh_source.h>
 #include <voussoir/motion.h>
@@ -276,6 +277,24 @@ namespace
     }
   }
 
+  /** A rectangular key pushed against its flank by 1, pulled out of it and along it: the flank's own friction
+   *  holds it, where the face is open. */
+  void flanks()
+  {
+    KeyParameters keys;
+    keys.height = 10.;
+    keys.flank_angle = 0.;
+    keys.direction = "radial";
+    for (const double friction : {.2, -1.})
+    {
+      keys.friction = friction;
+      const auto    law = make_joint_law("KSM", .6, Equations::alart_curnier, keys);
+      const Vector3 f = law->solve({{1., 0., 0., 0., 1., 0., 0., 0., 1.}}, {{.5, 1., .5}}, {});
+      expect_close(std::abs(f[1]), 1., 1e-9, "force of the flank");
+      expect_close(std::hypot(f[0], f[2]), friction < 0. ? .6 : friction, 1e-9, "friction of the flank");
+    }
+  }
+
   // Places
 
   void places()
@@ -462,6 +481,7 @@ int main(int argc, char **argv)
   if (part == "model")
     return run({{"stresses", stresses},
                 {"principal stresses", principal},
+                {"friction of flanks", flanks},
                 {"places", places},
                 {"feet", feet},
                 {"reports of motions", motion_reports}});
