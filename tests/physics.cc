@@ -418,6 +418,30 @@ namespace
     }
   }
 
+  /** A body that slides on a wall: what it loses is work of friction, and nothing is lost in impacts. */
+  void sliding_energy()
+  {
+    Structure structure = oscillator(1e-9, 0., 0.);
+    Pair      pair;
+    pair.node_2 = 0;
+    pair.frame = {{{{1., 0., 0.}}, {{0., 1., 0.}}, {{0., 0., 1.}}}};
+    structure.pairs.push_back(pair);
+    structure.n_joints = 1;
+    structure.collect_interfaces();
+    JointLaws laws;
+    laws.of_joint.push_back(make_joint_law("FJA", .5));
+    laws.assign(structure.pairs);
+    const double dt = .001, push = 4.;
+    Newmark      newmark(structure, laws, ContactParameters(), dt, ImpactRule::mean_force);
+    newmark.start({0., 0., 0.}, {0., 1., 0.}, {push, -.5 * push, 0.}, {-push, 0., 0.}, {0., 0., 0.});
+    for (unsigned int k = 0; k < 20; ++k)
+      newmark.advance({-push, 0., 0.});
+    const double v = 1. - .5 * push / 4. * 20 * dt, lost = .5 * 4. * (1. - v * v);
+    expect_close(newmark.state().v[1], v, 1e-9, "velocity of the sliding body");
+    expect_close(newmark.state().energy.friction, lost, 1e-9, "work of friction");
+    expect(std::abs(newmark.state().energy.impact) < 1e-9 * lost, "nothing is lost in impacts");
+  }
+
   // Rock
 
   void waves()
@@ -486,7 +510,9 @@ int main(int argc, char **argv)
                 {"feet", feet},
                 {"reports of motions", motion_reports}});
   if (part == "newmark")
-    return run({{"damped oscillator", damped_oscillator}, {"moving base", moving_base}});
+    return run({{"damped oscillator", damped_oscillator},
+                {"moving base", moving_base},
+                {"sliding", sliding_energy}});
   if (part == "rock")
     return run({{"waves", waves}, {"dashpots", dashpots}});
   std::cerr << "usage: physics loads|model|newmark|rock\n";
