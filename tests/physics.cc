@@ -5,6 +5,7 @@
 #include <voussoir/explicit_region.h>
 #include <voussoir/free_field.h>
 #include <voussoir/gmsh_io.h>
+#include <voussoir/joint_law.h>
 #include <voussoir/mesh_joints.h>
 #include <voussoir/mesh_source.h>
 #include <voussoir/motion.h>
@@ -132,13 +133,13 @@ namespace
       expect_close(sum(inertia[d])[d], -total[4 * d], 1e-12, "inertia, water included");
   }
 
-  /** The valley's bottom rises by 1 m in 2 m from the middle to the banks. */
+  /** The valley's bottom rises by 1 m in 2 m from the middle to the banks, and the upstream face leans. */
   void local_depth()
   {
     const auto place = [](const Vector3 &x)
     {
       const double bottom = .5 * std::abs(x[1] - 10.);
-      return Vector3{{x[0], x[1], bottom + x[2] / tall * (tall - bottom)}};
+      return Vector3{{x[0] - .2 * x[2], x[1], bottom + x[2] / tall * (tall - bottom)}};
     };
     SolidModel model(wall(1, 4, 6, 4, place), 1);
     model.free_base();
@@ -149,7 +150,12 @@ namespace
     {
       water.depth = local ? "local" : "global";
       structure[local] = assemble_structure(model, {Material()}, true);
+      const double mass = sum(structure[local].mass)[8];
       add_westergaard_mass(model, water, structure[local]);
+      expect(sum(structure[local].added_mass)[8] > 1e-3 * mass, "added mass for vertical motion");
+      Unknowns load(3 * structure[local].n_nodes(), 0.);
+      add_weight(structure[local], 9.81, load);
+      expect_close(sum(load)[2], -9.81 * mass, 1e-12, "the added mass has no weight");
     }
     unsigned int n = 0;
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
@@ -268,6 +274,24 @@ namespace
           {{float(s[0]), float(s[4]), float(s[8]), float(s[1]), float(s[5]), float(s[2])}});
       expect(std::abs(p[0] - values[0]) < 2e-5 && std::abs(p[1] - values[2]) < 2e-5,
              "principal stresses " + std::to_string(p[0]) + ", " + std::to_string(p[1]));
+    }
+  }
+
+  /** A rectangular key pushed against its flank by 1, pulled out of it and along it: the flank's own friction
+   *  holds it, where the face is open. */
+  void flanks()
+  {
+    KeyParameters keys;
+    keys.height = 10.;
+    keys.flank_angle = 0.;
+    keys.direction = "radial";
+    for (const double friction : {.2, -1.})
+    {
+      keys.friction = friction;
+      const auto    law = make_joint_law("KSM", .6, Equations::alart_curnier, keys);
+      const Vector3 f = law->solve({{1., 0., 0., 0., 1., 0., 0., 0., 1.}}, {{.5, 1., .5}}, {});
+      expect_close(std::abs(f[1]), 1., 1e-9, "force of the flank");
+      expect_close(std::hypot(f[0], f[2]), friction < 0. ? .6 : friction, 1e-9, "friction of the flank");
     }
   }
 
@@ -394,6 +418,30 @@ namespace
     }
   }
 
+  /** A body that slides on a wall: what it loses is work of friction, and nothing is lost in impacts. */
+  void sliding_energy()
+  {
+    Structure structure = oscillator(1e-9, 0., 0.);
+    Pair      pair;
+    pair.node_2 = 0;
+    pair.frame = {{{{1., 0., 0.}}, {{0., 1., 0.}}, {{0., 0., 1.}}}};
+    structure.pairs.push_back(pair);
+    structure.n_joints = 1;
+    structure.collect_interfaces();
+    JointLaws laws;
+    laws.of_joint.push_back(make_joint_law("FJA", .5));
+    laws.assign(structure.pairs);
+    const double dt = .001, push = 4.;
+    Newmark      newmark(structure, laws, ContactParameters(), dt, ImpactRule::mean_force);
+    newmark.start({0., 0., 0.}, {0., 1., 0.}, {push, -.5 * push, 0.}, {-push, 0., 0.}, {0., 0., 0.});
+    for (unsigned int k = 0; k < 20; ++k)
+      newmark.advance({-push, 0., 0.});
+    const double v = 1. - .5 * push / 4. * 20 * dt, lost = .5 * 4. * (1. - v * v);
+    expect_close(newmark.state().v[1], v, 1e-9, "velocity of the sliding body");
+    expect_close(newmark.state().energy.friction, lost, 1e-9, "work of friction");
+    expect(std::abs(newmark.state().energy.impact) < 1e-9 * lost, "nothing is lost in impacts");
+  }
+
   // Rock
 
   void waves()
@@ -457,11 +505,14 @@ int main(int argc, char **argv)
   if (part == "model")
     return run({{"stresses", stresses},
                 {"principal stresses", principal},
+                {"friction of flanks", flanks},
                 {"places", places},
                 {"feet", feet},
                 {"reports of motions", motion_reports}});
   if (part == "newmark")
-    return run({{"damped oscillator", damped_oscillator}, {"moving base", moving_base}});
+    return run({{"damped oscillator", damped_oscillator},
+                {"moving base", moving_base},
+                {"sliding", sliding_energy}});
   if (part == "rock")
     return run({{"waves", waves}, {"dashpots", dashpots}});
   std::cerr << "usage: physics loads|model|newmark|rock\n";
