@@ -178,10 +178,9 @@ namespace
     HexMesh mesh = named({"3 5 \"Monolith_1\""}, 5, 2, 1);
     expect(mesh.cells[0].volume == 1 && mesh.cells[1].volume == 2 && mesh.faces[0].surface == 1,
            "names and ids");
-    expect(group_table(mesh) == "Monolith_1          ->  monolith 1  1 hexahedra\n"
-                                "volume 2 (no name)  ->  monolith 2  1 hexahedra\n"
-                                "surface 1 (no name)  ->  base       1 faces" ||
-               group_table(mesh).find("surface 1 (no name)  ->  base ") != std::string::npos,
+    expect(group_table(mesh) == "Monolith_1           ->  monolith 1  1 hexahedra\n"
+                                "volume 2 (no name)   ->  monolith 2  1 hexahedra\n"
+                                "surface 1 (no name)  ->  base        1 faces",
            group_table(mesh));
     // Rocks of several names
     mesh = named({"3 3 \"rock left bank\"", "3 4 \"Rock-2\""}, 3, 4, 6);

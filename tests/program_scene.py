@@ -11,8 +11,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from run_program import (arch_mesh, expect, from_file, read_mesh, refused, runs, voussoir, write, write_mesh,
-                         write_scene)
+from run_program import arch_mesh, expect, from_file, refused, runs, voussoir, write, write_mesh, write_scene
 
 SOURCE = Path(__file__).resolve().parent.parent
 
@@ -199,17 +198,15 @@ def axes():
 
 def scenes():
     """The scenes that come with the program are not warned of."""
-    sample = SOURCE / "prm"
-    for scene in sorted([*sample.glob("*.prm"), *(SOURCE / "benchmarks").glob("*.prm")]):
-        settings = []
-        if "Source = file" in scene.read_text():
+    for scene in sorted([*(SOURCE / "prm").glob("*.prm"), *(SOURCE / "benchmarks").glob("*.prm")]):
+        text = scene.read_text()
+        if "Source = file" in text:
             continue  # has a mesh of its own
-        coarse = {"Elements along": 18, "Elements up": 4, "Elements through": 1, "Joints": 2}
-        settings = [x for entry, value in coarse.items() for x in ("--set", f"Mesh/Arch210/{entry}={value}")]
-        if "benchmarks" in str(scene) and "Joints = 0" in scene.read_text():
-            settings = settings[:-2]
-        settings += ["--set", "Motion/Duration=12", "--set", "Dynamics/Steps per sample=20"]
-        settings = [s for s in settings] if "Motion" not in scene.read_text() else settings[:-4]
+        entries = ["Elements along=18", "Elements up=4", "Elements through=1"] + ["Joints=2"] * ("Joints = 0" not in text)
+        settings = [f"Mesh/Arch210/{entry}" for entry in entries]
+        if "Motion" not in text:
+            settings += ["Motion/Duration=12", "Dynamics/Steps per sample=20"]
+        settings = [x for setting in settings for x in ("--set", setting)]
         result = warnings(str(scene), "--validate", *settings)
         print("   ", scene.name)
         expect(result == [], f"{scene}: {result}")
