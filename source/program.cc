@@ -38,10 +38,11 @@ namespace Voussoir
       dealii::MultithreadInfo::set_thread_limit(1);
       if (const auto [rank, n_ranks] = rank_of_launcher(); n_ranks > 1)
       {
-        if (rank == 0)
-          std::cerr << "voussoir: error: This version runs on one rank: start it without mpirun. It uses all "
-                       "cores, or as many as OMP_NUM_THREADS says."
-                    << std::endl;
+        if (rank != 0)
+          return 0; // a failure here would make the launcher end the first one before it speaks
+        std::cerr << "voussoir: error: This version runs on one rank: start it without mpirun. It uses all "
+                     "cores, or as many as OMP_NUM_THREADS says."
+                  << std::endl;
         return 2;
       }
       std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of the write
