@@ -1,5 +1,5 @@
-#include <voussoir/figures.h>
 #include <voussoir/energy_check.h>
+#include <voussoir/figures.h>
 #include <voussoir/simulation.h>
 
 #include <algorithm>
