@@ -136,6 +136,11 @@ namespace Voussoir
       throw InputError("The checkpoint " + checkpoint_name() + " was written after step " +
                        std::to_string(step) + ", but the motion now ends after " + std::to_string(n_steps) +
                        ". Raise \"Motion/Duration\", or run without --resume.");
+    if (dam->foundation && n_steps < n_steps_then)
+      throw InputError(
+          "The checkpoint " + checkpoint_name() +
+          " is of a longer motion: on rock, whose free field is made for its length, a run can be "
+          "resumed with a longer one only. Raise \"Motion/Duration\", or run without --resume.");
     if (dt != motion.dt || samples != beginning(motion, step + 1))
       throw InputError(
           "The motion differs from that of the checkpoint " + checkpoint_name() +
@@ -149,9 +154,9 @@ namespace Voussoir
         std::vector<double> saved;
         archive >> saved;
         // Of a longer motion the free field's endless columns are longer, and still at rest there.
-        AssertThrow(saved.size() == array->size() || n_steps != n_steps_then, dealii::ExcInternalError());
-        saved.resize(array->size(), 0.);
-        array->swap(saved);
+        AssertThrow(saved.size() == array->size() || (n_steps > n_steps_then && saved.size() < array->size()),
+                    dealii::ExcInternalError());
+        std::fill(std::copy(saved.begin(), saved.end(), array->begin()), array->end(), 0.);
       }
     newmark->resume(state, first, largest, Unknowns(state.force.size(), 0.));
     checkpoint.clear();

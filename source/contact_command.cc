@@ -1,6 +1,7 @@
 #include <voussoir/contact_command.h>
 #include <voussoir/error.h>
 #include <voussoir/log.h>
+#include <voussoir/output_file.h>
 #include <voussoir/sparse_contact.h>
 
 #include <cmath>
@@ -149,13 +150,12 @@ namespace Voussoir
       std::cout << text << std::endl;
       if (!options.solutions.empty())
       {
-        const auto    name = std::filesystem::path(options.solutions) / std::filesystem::path(file).stem();
-        std::ofstream out(name.string() + ".txt");
+        const auto name = std::filesystem::path(options.solutions) / std::filesystem::path(file).stem();
+        OutputFile out(name.string() + ".txt");
         out << std::setprecision(17);
         for (const double f : solution.force)
           out << f << '\n';
-        if (!out.flush())
-          throw InputError("The file " + name.string() + ".txt cannot be written.");
+        out.check();
       }
     }
     const std::string not_converged = std::to_string(failures) + " of " +

@@ -1,8 +1,10 @@
 #include <voussoir/error.h>
 #include <voussoir/fclib_io.h>
 #include <voussoir/guarded.h>
+#include <voussoir/output_file.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <hdf5.h>
 #include <map>
@@ -267,14 +269,16 @@ namespace Voussoir
     local.mu = const_cast<double *>(problem.mu.data());
     local.spacedim = 3;
     local.info = &info;
+    OutputFile(file).check(); // the library ends the program where a file cannot be made
+    std::remove(file.c_str());
     if (fclib_write_local(&local, file.c_str()) != 1)
-      refuse(file, "the problem cannot be written.");
+      throw WriteError("The problem of the joints cannot be written to " + file + ".");
     if (guess_force.empty())
       return;
     fclib_solution guess{};
     guess.r = const_cast<double *>(guess_force.data());
     guess.u = const_cast<double *>(guess_gap.data());
     if (fclib_write_guesses(1, &guess, file.c_str()) != 1)
-      refuse(file, "the initial guess cannot be written.");
+      throw WriteError("The initial guess cannot be written to " + file + ".");
   }
 } // namespace Voussoir

@@ -2,14 +2,19 @@
 #include <voussoir/gmsh_io.h>
 #include <voussoir/guarded.h>
 #include <voussoir/mesh_groups.h>
+#include <voussoir/mesh_pipe.h>
+#include <voussoir/output_file.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <gmsh.h>
 #include <new>
 #include <set>
+#include <sstream>
 #include <stdexcept>
+#include <unistd.h>
 #include <unordered_map>
 
 namespace Voussoir
@@ -284,46 +289,6 @@ namespace Voussoir
       std::unordered_map<std::size_t, unsigned int> node_number; // by gmsh's tag
     };
 
-    void send(const HexMesh &mesh, PipeWriter &pipe)
-    {
-      pipe.put(mesh.nodes);
-      pipe.put(mesh.cells);
-      pipe.put(mesh.faces);
-      pipe.put(mesh.names.size());
-      for (const auto &entry : mesh.names)
-      {
-        pipe.put(entry.first.first);
-        pipe.put(entry.first.second);
-        pipe.put(entry.second);
-      }
-    }
-
-    /** What send() sent. */
-    void receive(PipeReader &pipe, HexMesh &mesh)
-    {
-      std::size_t n_names = 0;
-      pipe.get(mesh.nodes);
-      pipe.get(mesh.cells);
-      pipe.get(mesh.faces);
-      pipe.get(n_names);
-      for (std::size_t i = 0; i < n_names; ++i)
-      {
-        int dimension = 0, id = 0;
-        pipe.get(dimension);
-        pipe.get(id);
-        pipe.get(mesh.names[{dimension, id}]);
-      }
-      const auto check = [&](const auto &elements)
-      {
-        for (const auto &element : elements)
-          for (const unsigned int node : element.nodes)
-            if (node >= mesh.nodes.size()) // a library gone wild
-              throw PipeReader::End();
-      };
-      check(mesh.cells);
-      check(mesh.faces);
-    }
-
     /** Makes a discrete entity for each physical group of @p dimension and adds its elements, tagged in the
      *  mesh's order after @p last_tag. */
     template <typename Range, typename GroupOf>
@@ -364,6 +329,16 @@ namespace Voussoir
     }
   } // namespace
 
+  namespace
+  {
+    /** A file that does not stay. */
+    struct Removed
+    {
+      const std::string &file;
+      ~Removed() { std::remove(file.c_str()); }
+    };
+  } // namespace
+
   HexMesh read_gmsh(const std::string &file)
   {
     expect_gmsh_file(file);
@@ -383,9 +358,10 @@ namespace Voussoir
     if (version != 4.1 && version != 2.2)
       throw InputError("mesh " + file + ": the MSH format is 4.1 or 2.2, not " + std::to_string(version) +
                        ".");
-    if (!std::ofstream(file))
-      throw InputError("mesh " + file +
-                       ": the file cannot be written. Check its directory and your permissions.");
+    OutputFile out(file);
+    // gmsh does not say when the disk is full: it writes beside, and what is whole is copied.
+    const std::string part = file.substr(0, file.size() - 4) + "." + std::to_string(getpid()) + ".msh";
+    const Removed     removed{part};
     with_gmsh(file, "gmsh cannot write this file",
               [&]
               {
@@ -398,7 +374,15 @@ namespace Voussoir
                 gmsh::option::setNumber("Mesh.MshFileVersion", version);
                 gmsh::option::setNumber("Mesh.SaveAll", 0);
                 gmsh::option::setNumber("Mesh.Binary", 0);
-                gmsh::write(file);
+                gmsh::write(part);
               });
+    std::ifstream      in(part, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    const std::string end = "$EndElements\n", whole = text.str();
+    if (whole.size() < end.size() || whole.compare(whole.size() - end.size(), end.size(), end) != 0)
+      throw WriteError("The file " + part + " cannot be written: is the disk full?");
+    out << whole;
+    out.check();
   }
 } // namespace Voussoir

@@ -222,29 +222,6 @@ namespace Voussoir
     };
   } // namespace
 
-  namespace
-  {
-    /** KSM::present() takes a key for seated on a flank within 1e-9 of its height. Steps begin where the one
-     * before was solved to, 1e-12 m (Contact/Tolerance of openings of centimetres): in keys below a
-     * millimetre they begin beyond their flanks, where the pair's problem has no solution that is found in
-     * less than 200 times the time.
-     */
-    void check_size(const KeyParameters &keys)
-    {
-      constexpr double   smallest = 1e-3; // [m]
-      std::ostringstream now;
-      now << " (Height is " << keys.height << " m, Clearance is " << keys.clearance << " m).";
-      if (!std::isfinite(keys.height) || (keys.height != 0. && !(keys.height >= smallest)))
-        throw InputError("Joints/Keys/Height must be at least 0.001 m, or 0 for a joint without keys" +
-                         now.str());
-      if (!(keys.clearance >= 0.) || (keys.height > 0. && !(keys.clearance < keys.height)))
-        throw InputError(
-            "Joints/Keys/Clearance must be at least 0 and less than Joints/Keys/Height: keys with a wider "
-            "gap would never touch" +
-            now.str());
-    }
-  } // namespace
-
   std::unique_ptr<JointLaw> make_key_law(const double friction, const Equations equations,
                                          const KeyParameters &keys)
   {
@@ -254,7 +231,9 @@ namespace Voussoir
           "keys touches on several surfaces at once.");
     if (!(keys.flank_angle >= 0. && keys.flank_angle < 90.))
       throw InputError("Joints/Keys/Flank angle must be at least 0 and less than 90 degrees.");
-    check_size(keys);
+    if (!(keys.height >= 0. && std::isfinite(keys.height)) ||
+        !(keys.clearance >= 0. && std::isfinite(keys.clearance)))
+      throw InputError("Joints/Keys/Height and Joints/Keys/Clearance must be finite and at least 0 m.");
     if (!((keys.friction >= 0. && keys.friction <= 10.) || keys.friction == -1.)) // beyond, flanks only wedge
       throw InputError(
           "Joints/Keys/Friction must be at least 0 and at most 10, or -1: the friction of the faces.");

@@ -4,6 +4,7 @@
 #include <voussoir/motion.h>
 #include <voussoir/motion_artificial.h>
 #include <voussoir/motion_files.h>
+#include <voussoir/output_file.h>
 
 #include <algorithm>
 #include <cmath>
@@ -289,7 +290,7 @@ namespace Voussoir
 
   void write_motion(const GroundMotion &motion, const std::string &file)
   {
-    std::ofstream out(file);
+    OutputFile out(file);
     out << "t,a_x,a_y,a_z\n" << std::setprecision(12);
     for (std::size_t k = 0; k < motion.acceleration.size(); ++k)
     {
@@ -298,9 +299,6 @@ namespace Voussoir
         out << ',' << a;
       out << '\n';
     }
-    out.close();
-    if (!out)
-      throw InputError("The ground motion cannot be written to '" + file +
-                       "': does the directory exist, is it writable, is the disk full?");
+    out.check();
   }
 } // namespace Voussoir

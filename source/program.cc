@@ -48,7 +48,7 @@ namespace Voussoir
       std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of the write
       const int status = run_command(words);
       if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-        throw WriteError::of("standard output");
+        throw WriteError("Standard output cannot be written. Is the disk full?");
       return status;
     }
     catch (const InputError &error)

@@ -140,81 +140,6 @@ namespace Voussoir
     }
   }
 
-  /** What was done to records, and what remains at the end of the motion. */
-  void Simulation::report_motion_notes()
-  {
-    for (const std::string &note : motion.notes)
-      log.line("Records   %s", note.c_str());
-    MotionParameters any = scene.motion;
-    any.source = "file"; // without the errors of an artificial motion's spectrum
-    if (const std::string warning = end_warning(report_motion(motion, any)); n_steps > 0 && !warning.empty())
-      log.line("warning: %s", warning.c_str());
-  }
-
-  void Simulation::report_setup()
-  {
-    const unsigned int n_nodes = dam->structure.n_nodes();
-    log.line("Mesh      %s: %zu cells, degree %u, %u dofs, %u monoliths; volume %.4g m3, crest %.1f m",
-             scene.name.c_str(), dam->n_cells, scene.elements.degree, 3 * n_nodes, dam->n_monoliths,
-             dam->volume, dam->crest_length);
-    if (dam->tied)
-      log.line("Joints    %u joints, tied: the monolithic dam", dam->n_joints);
-    else
-    {
-      std::string laws = scene.joints.model;
-      for (const auto &entry : scene.joints.overrides)
-        laws += ", joint " + std::to_string(entry.first) + ": " + entry.second;
-      log.line("Joints    %u joints, %zu pairs, law %s (friction %g)", dam->n_joints,
-               dam->structure.pairs.size(), laws.c_str(), scene.joints.friction);
-    }
-    if (scene.foundation.model != "rigid")
-    {
-      const FoundationParameters &p = scene.foundation;
-      log.line("Rock      %s: %.4g GPa, Poisson's ratio %g, %g kg/m3, one material",
-               p.model == "rock" ? "explicit" : "massless", 1e-9 * p.rock.young, p.rock.poisson,
-               p.rock.density);
-      if (dam->foundation)
-      {
-        log.line("          %u nodes; boundary %s, free field by %s", dam->foundation->n_nodes(),
-                 p.boundary.c_str(), p.free_field.c_str());
-        if (const std::string warning = dam->foundation->warning(motion.dt / p.substeps); !warning.empty())
-          log.line("warning: %s", warning.c_str());
-      }
-    }
-    log.line("Damping   Rayleigh, C = %.4g 1/s M + %.4g s K: %.3g %% at %g Hz and %g Hz",
-             scene.damping.mass_factor(), scene.damping.stiffness_factor(), 100. * scene.damping.ratio,
-             scene.damping.frequency_1, scene.damping.frequency_2);
-    if (!dam->has_water)
-      log.line("Water     none: the reservoir is empty");
-    else
-      log.line("Water     level %g m; added mass %s x %g, %.4g kg along x", scene.reservoir.level,
-               scene.reservoir.added_mass.c_str(), scene.reservoir.factor, dam->added_mass);
-    report_motion_and_warnings();
-    report_motion_notes();
-    if (options.validate)
-    {
-      std::istringstream groups(dam->groups);
-      const char        *title = "Groups";
-      for (std::string row; std::getline(groups, row); title = "")
-        log.line("%-9s %s", title, row.c_str());
-      double pairs = 0.;
-      for (const Body &body : dam->structure.bodies)
-        pairs += std::pow(3. * body.interface.size(), 2);
-      double entries = 0.;
-      for (const Body &body : dam->structure.bodies)
-        entries += 9. * body.stiffness.value.size();
-      log.line("Unknowns  %u of the bodies, %zu of the joints", 3 * n_nodes, 3 * dam->structure.pairs.size());
-      if (dam->foundation)
-        log.line("Steps     %u of %g s, in each %u of the rock; critical time step of the rock %.4g s",
-                 n_steps, motion.dt, scene.foundation.substeps, dam->foundation->critical_time_step());
-      else
-        log.line("Steps     %u of %g s; the scheme is implicit: there is no critical time step", n_steps,
-                 motion.dt);
-      log.line("Memory    about %.1f GiB",
-               (8. * (entries * 5. + pairs * 3.) + 1e3 * 27 * n_nodes) / std::pow(2., 30));
-    }
-  }
-
   /** Those of the scene; the problems of this @p stage go to a directory of their own. */
   ContactParameters Simulation::contact_parameters(const std::string &stage) const
   {
@@ -389,22 +314,5 @@ namespace Voussoir
     if (e != rigid_ground)
       result = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};
     return result - dam->base_motion(u);
-  }
-
-  void Simulation::report_step()
-  {
-    unsigned int open = 0, slip = 0;
-    for (const PairState state : newmark->pair_states())
-    {
-      open += state == PairState::open;
-      slip += state == PairState::slip;
-    }
-    const double done = step - first_step, elapsed = shaking_clock.seconds();
-    const float  tension = *std::max_element(envelope->maximum.begin(), envelope->maximum.end());
-    log.line("%7.2f  %6.2f %5u %5u  %12.2f %10.2f  %13.2f  %7s  %7s", newmark->state().time,
-             count.newton / step, open, slip, 1e3 * joints->opening.value, 1e3 * joints->slip.value,
-             scene.output.envelope_interval > 0 ? 1e-6 * tension : 0.,
-             clock_time(clock_before + elapsed).c_str(),
-             clock_time(elapsed / done * (n_steps - step)).c_str());
   }
 } // namespace Voussoir

@@ -8,6 +8,7 @@
 #include <voussoir/gmsh_io.h>
 #include <voussoir/mesh_joints.h>
 #include <voussoir/mesh_source.h>
+#include <voussoir/output_file.h>
 
 #include <filesystem>
 #include <fstream>
@@ -124,7 +125,8 @@ namespace
     expect_error([] { read_gmsh("quadratic.msh"); },
                  {"Hexahedron 20", "ElementOrder = 1", "raises the degree"});
 
-    expect_error([] { write_gmsh(bar(1), "no_such_directory/a.msh"); }, {"cannot be written"});
+    expect_error<WriteError>([] { write_gmsh(bar(1), "no_such_directory/a.msh"); },
+                             {"no_such_directory/a.msh", "cannot be written"});
     expect_error([] { write_gmsh(bar(1), "a.txt"); }, {".msh"});
     HexMesh unknown = bar(1);
     unknown.faces[0].surface = 77;

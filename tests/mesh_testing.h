@@ -36,13 +36,14 @@ namespace MeshTesting
   }
 
   /** @p action must throw an InputError whose text holds all of @p parts. */
-  inline void expect_error(const std::function<void()> &action, const std::vector<std::string> &parts)
+  template <class Error = InputError>
+  void expect_error(const std::function<void()> &action, const std::vector<std::string> &parts)
   {
     try
     {
       action();
     }
-    catch (const InputError &error)
+    catch (const Error &error)
     {
       for (const std::string &part : parts)
         expect(std::string(error.what()).find(part) != std::string::npos,

@@ -7,9 +7,7 @@ Each number's source is named where it stands; doc/verification.md has the table
 
 import json
 import math
-import os
 import re
-import shutil
 import sys
 from pathlib import Path
 
@@ -19,7 +17,7 @@ import scenes  # noqa: E402
 from closed_forms import added_mass, oscillator, water, weight  # noqa: E402
 from compare import STRESS, Worst, at_places, key, principal, read_vtu, table_with_names  # noqa: E402
 from ground import motion, rock  # noqa: E402
-from run_program import expect, runs, summary, table, write  # noqa: E402
+from run_program import run_cases, expect, runs, summary, table, write  # noqa: E402
 
 
 # The second program (golden/dam_reference.py)
@@ -179,23 +177,5 @@ def calculix():
         check.done()
 
 
-def main():
-    cases = {c.__name__: c for c in (peaks, reference, calculix, weight, water, added_mass, oscillator, rock, motion)}
-    if len(sys.argv) < 3 or any(name not in cases for name in sys.argv[2:]):
-        sys.exit(f"{__doc__}\nCases: {' '.join(cases)}")
-    start = Path.cwd()
-    for name in sys.argv[2:]:
-        directory = start / "golden" / name
-        shutil.rmtree(directory, ignore_errors=True)
-        directory.mkdir(parents=True)
-        os.chdir(directory)
-        print(name)
-        cases[name]()
-        print(f"{name}: OK")
-
-
 if __name__ == "__main__":
-    try:
-        main()
-    except AssertionError as error:
-        sys.exit(f"FAILED: {error}")
+    run_cases(peaks, reference, calculix, weight, water, added_mass, oscillator, rock, motion)

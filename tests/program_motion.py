@@ -6,11 +6,9 @@
 
 import math
 import os
-import shutil
-import sys
 from pathlib import Path
 
-from run_program import expect, refused, runs, table, write, write_scene
+from run_program import run_cases, expect, refused, runs, table, write, write_scene
 
 QUICKSTART = str(Path(__file__).resolve().parent.parent / "prm" / "quickstart.prm")
 
@@ -79,23 +77,5 @@ def records():
     expect(not Path("none.csv").exists(), "a motion was written")
 
 
-def main():
-    cases = {c.__name__: c for c in (artificial, records)}
-    if len(sys.argv) < 3 or any(name not in cases for name in sys.argv[2:]):
-        sys.exit(f"{__doc__}\nCases: {' '.join(cases)}")
-    start = Path.cwd()
-    for name in sys.argv[2:]:
-        directory = start / "program" / f"motion_{name}"
-        shutil.rmtree(directory, ignore_errors=True)
-        directory.mkdir(parents=True)
-        os.chdir(directory)
-        print(name)
-        cases[name]()
-        print(f"{name}: OK")
-
-
 if __name__ == "__main__":
-    try:
-        main()
-    except AssertionError as error:
-        sys.exit(f"FAILED: {error}")
+    run_cases(artificial, records)

@@ -5,13 +5,11 @@
 """
 
 import math
-import os
-import shutil
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
-from run_program import expect, runs, summary, table, write_scene  # noqa: E402
+from run_program import run_cases, expect, runs, summary, table, write_scene  # noqa: E402
 from vtu import read_vtu  # noqa: E402
 
 TIED = ["--set", "Joints/Model=tied"]
@@ -213,23 +211,5 @@ def on_rock():
     expect(abs(row["base_x"]) > 1e-6, "the base moves")
 
 
-def main():
-    cases = {c.__name__: c for c in (steps_per_sample, damping, static_state, recorders, on_rock)}
-    if len(sys.argv) < 3 or any(name not in cases for name in sys.argv[2:]):
-        sys.exit(f"{__doc__}\nCases: {' '.join(cases)}")
-    start = Path.cwd()
-    for name in sys.argv[2:]:
-        directory = start / "program_physics" / name
-        shutil.rmtree(directory, ignore_errors=True)
-        directory.mkdir(parents=True)
-        os.chdir(directory)
-        print(name)
-        cases[name]()
-        print(f"{name}: OK")
-
-
 if __name__ == "__main__":
-    try:
-        main()
-    except AssertionError as error:
-        sys.exit(f"FAILED: {error}")
+    run_cases(steps_per_sample, damping, static_state, recorders, on_rock)

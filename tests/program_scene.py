@@ -5,23 +5,20 @@
 """
 
 import json
-import os
 import re
-import shutil
-import sys
 from pathlib import Path
 
-from run_program import arch_mesh, expect, from_file, refused, runs, voussoir, write, write_mesh, write_scene
+from run_program import run_cases, arch_mesh, expect, from_file, refused, runs, voussoir, write, write_mesh, write_scene
 
 SOURCE = Path(__file__).resolve().parent.parent
 
 
 def warnings(*arguments):
-    """The warnings of a run that succeeds, from screen and standard error."""
+    """The warnings of a run that succeeds, from screen and standard error; but for that of the tests' short motion."""
     result = voussoir(*arguments)
     expect(result.returncode == 0, f"status {result.returncode} of {arguments}: {result.stderr}")
     lines = (result.stdout + result.stderr).splitlines()
-    found = [re.sub("^voussoir: ", "", line) for line in lines if re.match("(voussoir: )?warning: ", line)]
+    found = [re.sub("^voussoir: ", "", line) for line in lines if re.match("(voussoir: )?warning: ", line) and "does not end at rest" not in line]
     for line in found:
         print("   ", line)
     return found
@@ -93,7 +90,7 @@ def values():
 
     shown = runs(*check("Reservoir/Water level=19500 cm", "Damping/Frequency 1=0.0012 kHz", "Statics/Gravity=1 g",
                         "Concrete/Young's modulus=25 GPa", "Concrete/Density=2.45 t/m3"))
-    expect("level 195 m" in shown and "at 1.2 Hz" in shown and "warning" not in shown, shown)
+    expect("level 195 m" in shown and "at 1.2 Hz" in shown and not re.search("warning: (?!the motion does not end)", shown), shown)
     write("scene2.prm", "include scene.prm\nsubsection Output\n  set Figures = false\nend\n"
                         "subsection Reservoir\n  set Water level = 15 MPa\nend\n")
     refused(["scene2.prm", "--validate"], "scene2.prm, line 6", "Reservoir/Water level", "is in m", "pressure")
@@ -212,23 +209,5 @@ def scenes():
         expect(result == [], f"{scene}: {result}")
 
 
-def main():
-    cases = {c.__name__: c for c in (options, values, groups, axes, scenes)}
-    if len(sys.argv) < 3 or any(name not in cases for name in sys.argv[2:]):
-        sys.exit(f"{__doc__}\nCases: {' '.join(cases)}")
-    start = Path.cwd()
-    for name in sys.argv[2:]:
-        directory = start / "program" / f"scene_{name}"
-        shutil.rmtree(directory, ignore_errors=True)
-        directory.mkdir(parents=True)
-        os.chdir(directory)
-        print(name)
-        cases[name]()
-        print(f"{name}: OK")
-
-
 if __name__ == "__main__":
-    try:
-        main()
-    except AssertionError as error:
-        sys.exit(f"FAILED: {error}")
+    run_cases(options, values, groups, axes, scenes)

@@ -4,13 +4,10 @@
     program_watch.py VOUSSOIR CASE...     cases: see the functions with that name below
 """
 
-import os
 import re
-import shutil
-import sys
 from pathlib import Path
 
-from run_program import expect, refused, runs, summary, table, voussoir, write_scene
+from run_program import run_cases, expect, refused, runs, summary, table, voussoir, write_scene
 
 ROCK = [x for e in ("Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
                     "Dynamics/Steps per sample=5", "Joints/Model=tied", "Motion/Duration=0.3",
@@ -104,23 +101,5 @@ def joint_reach():
     expect(shown.count("warning: joint") == len(warnings) <= 2, "one warning for each joint, in the log too")
 
 
-def main():
-    cases = {c.__name__: c for c in (layers, rock_checks, balance, static_state, joint_reach)}
-    if len(sys.argv) < 3 or any(name not in cases for name in sys.argv[2:]):
-        sys.exit(f"{__doc__}\nCases: {' '.join(cases)}")
-    start = Path.cwd()
-    for name in sys.argv[2:]:
-        directory = start / "program" / name
-        shutil.rmtree(directory, ignore_errors=True)
-        directory.mkdir(parents=True)
-        os.chdir(directory)
-        print(name)
-        cases[name]()
-        print(f"{name}: OK")
-
-
 if __name__ == "__main__":
-    try:
-        main()
-    except AssertionError as error:
-        sys.exit(f"FAILED: {error}")
+    run_cases(layers, rock_checks, balance, static_state, joint_reach)

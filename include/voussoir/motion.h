@@ -139,8 +139,7 @@ namespace Voussoir
   /** A table, then the warnings. */
   void print_report(const MotionReport &report, std::ostream &out);
 
-  /** CSV with the header `t,a_x,a_y,a_z` [s, m/s^2], as make_motion() reads it. InputError if the file
-   *  cannot be written. */
+  /** CSV with the header `t,a_x,a_y,a_z` [s, m/s^2], as make_motion() reads it. Throws WriteError. */
   void write_motion(const GroundMotion &motion, const std::string &file);
 } // namespace Voussoir
 
