@@ -37,8 +37,6 @@ namespace Voussoir
         samples.insert(samples.end(), motion.acceleration[k].begin(), motion.acceleration[k].end());
       return samples;
     }
-
-    constexpr const char *revision_name = "the program's revision";
   } // namespace
 
   void Simulation::save_checkpoint()
@@ -52,8 +50,11 @@ namespace Voussoir
                    cpu = cpu_before + double(std::clock()) / CLOCKS_PER_SEC,
                    largest = newmark->largest_energy();
       const std::vector<double> samples = beginning(motion, step + 1);
-      archive << provenance << step << n_steps << motion.dt << samples << wall << cpu << state << first
-              << largest << count << history << energy << *joints << *envelope << solutions;
+      std::vector<int>          pairs;
+      for (const PairState state : step == start_step ? pairs_at_start : newmark->pair_states())
+        pairs.push_back(static_cast<int>(state));
+      archive << provenance << step << pairs << n_steps << motion.dt << samples << wall << cpu << state
+              << first << largest << count << history << energy << *joints << *envelope << solutions;
       if (dam->foundation && n_steps > 0)
         for (const std::vector<double> *array : dam->foundation->state())
           archive << *array;
@@ -67,7 +68,7 @@ namespace Voussoir
 
   void Simulation::stop_if_asked() const
   {
-    if (const char *signal = interrupt.received())
+    if (const char *signal = interrupt->received())
       throw Interrupted(signal +
                         std::string(" came before the shaking began: there is nothing to go on from") +
                         (options.resume ? " but the checkpoint that is there." : "."));
@@ -78,7 +79,7 @@ namespace Voussoir
     save_checkpoint();
     write_tables();
     std::ostringstream message;
-    message << interrupt.received() << " at t = " << newmark->state().time << " s, after step " << step
+    message << interrupt->received() << " at t = " << newmark->state().time << " s, after step " << step
             << " of " << n_steps << ". The tables so far and a checkpoint are in " << directory
             << ": the same command with --resume goes on.";
     throw Interrupted(message.str());
@@ -87,6 +88,8 @@ namespace Voussoir
   /** After a file could not be written. */
   std::string Simulation::keep_last_state()
   {
+    if (inside_step)
+      return "";
     try
     {
       save_checkpoint();
@@ -110,15 +113,27 @@ namespace Voussoir
       throw InputError("There is no checkpoint " + checkpoint_name() +
                        " to resume from: the run has ended, or never reached one. Run "
                        "without --resume, or name the output directory of the run with --output.");
+    if (options.overwrite)
+      throw InputError("--resume goes on with what is in " + directory +
+                       ", and --overwrite replaces it: give one of the two.");
     std::string warning;
     checkpoint = read_checkpoint_file(checkpoint_name(), warning);
     if (!warning.empty())
       log.line("warning: %s", warning.c_str());
-    Provenance                      then;
-    std::istringstream              in(checkpoint, std::ios::binary);
-    boost::archive::binary_iarchive archive(in);
-    archive >> then;
-    check_provenance(then, provenance, checkpoint_name());
+    try
+    {
+      Provenance                      then;
+      std::istringstream              in(checkpoint, std::ios::binary);
+      boost::archive::binary_iarchive archive(in);
+      archive >> then;
+      check_provenance(then, provenance, checkpoint_name());
+      archive >> start_step;
+    }
+    catch (const boost::archive::archive_exception &)
+    {
+      throw InputError("The checkpoint " + checkpoint_name() +
+                       " is of another build of the program. Run without --resume.");
+    }
   }
 
   void Simulation::load_checkpoint()
@@ -131,7 +146,8 @@ namespace Voussoir
     std::vector<double>             samples;
     DynamicState                    state;
     Energy                          first;
-    archive >> then >> step >> n_steps_then >> dt >> samples;
+    std::vector<int>                pairs;
+    archive >> then >> step >> pairs >> n_steps_then >> dt >> samples;
     if (step > n_steps)
       throw InputError("The checkpoint " + checkpoint_name() + " was written after step " +
                        std::to_string(step) + ", but the motion now ends after " + std::to_string(n_steps) +
@@ -158,21 +174,25 @@ namespace Voussoir
                     dealii::ExcInternalError());
         std::fill(std::copy(saved.begin(), saved.end(), array->begin()), array->end(), 0.);
       }
+    for (std::size_t p = 0; p < pairs.size() && p < pairs_at_start.size(); ++p)
+      pairs_at_start[p] = static_cast<PairState>(pairs[p]);
     newmark->resume(state, first, largest, Unknowns(state.force.size(), 0.));
     checkpoint.clear();
     log.line("Resumed   at t = %.2f s, step %u of %u", newmark->state().time, step, n_steps);
-    // What a full disk kept from being written.
-    if (scene.output.solution_interval > 0 && step % scene.output.solution_interval == 0 &&
-        (solutions.empty() || solutions.back().first != newmark->state().time))
-      write_solution();
   }
 
-  void Simulation::note_provenance()
+  Provenance Simulation::provenance_now() const
   {
-    provenance = decisive_entries(scene_text);
-    provenance[revision_name] = VOUSSOIR_REVISION;
-    for (const std::string &file : scene.input_files())
-      if (std::filesystem::is_regular_file(file)) // else reading it will say so
-        provenance["the file " + file] = digest_of_file(file);
+    const std::string revision = VOUSSOIR_REVISION;
+    Provenance        result = decisive_entries(scene_text);
+    result["the program's revision"] = revision;
+    if (revision == "unknown" || revision.find("dirty") != std::string::npos) // says little
+      result["the program"] = digest_of_file("/proc/self/exe");
+    for (const auto &input : scene.input_files())
+      if (std::error_code error;
+          std::filesystem::is_regular_file(input.second, error)) // else reading it says so
+        result["the file of " + input.first + " (" + std::filesystem::path(input.second).filename().string() +
+               ")"] = digest_of_file(input.second);
+    return result;
   }
 } // namespace Voussoir

@@ -110,7 +110,6 @@ namespace Voussoir
     void run_scene(const Scene &scene, const std::string &text, const Arguments &arguments)
     {
       RunOptions options;
-      options.scene_file = scene_file(arguments);
       options.output = arguments.value("--output");
       options.resume = arguments.has("--resume");
       options.overwrite = arguments.has("--overwrite");
@@ -131,6 +130,8 @@ namespace Voussoir
       if ((command == "mesh" || command == "motion") && arguments.value("--output").empty())
         throw InputError("`voussoir " + command + "` needs --output FILE.");
       read_scene(file, arguments.overrides, scene, prm);
+      if (!command.empty() && !arguments.value("--output").empty())
+        scene.check_not_input(arguments.value("--output"));
       prm.print_parameters(text, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
       if (command.empty())
         return run_scene(scene, text.str(), arguments);

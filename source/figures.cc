@@ -68,7 +68,7 @@ namespace Voussoir
                                        0666);
       posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
       pid_t     child = 0;
-      const int error = posix_spawn(&child, words[0], &actions, nullptr, words.data(), environ);
+      const int error = posix_spawnp(&child, words[0], &actions, nullptr, words.data(), environ);
       posix_spawn_file_actions_destroy(&actions);
       int status = 0;
       if (error != 0 || waitpid(child, &status, 0) != child || !WIFEXITED(status))
@@ -88,6 +88,8 @@ namespace Voussoir
       const int status = run({python, script.string(), fs::absolute(directory).string()}, log_file);
       if (status == 0)
         return "";
+      if (status == -1)
+        return python + " cannot be started, or did not end by itself; see " + log_file;
       if (status != no_matplotlib)
         return "see " + log_file;
     }

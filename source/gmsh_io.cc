@@ -358,10 +358,10 @@ namespace Voussoir
     if (version != 4.1 && version != 2.2)
       throw InputError("mesh " + file + ": the MSH format is 4.1 or 2.2, not " + std::to_string(version) +
                        ".");
-    OutputFile out(file);
     // gmsh does not say when the disk is full: it writes beside, and what is whole is copied.
     const std::string part = file.substr(0, file.size() - 4) + "." + std::to_string(getpid()) + ".msh";
     const Removed     removed{part};
+    OutputFile(part).check();
     with_gmsh(file, "gmsh cannot write this file",
               [&]
               {
@@ -382,6 +382,7 @@ namespace Voussoir
     const std::string end = "$EndElements\n", whole = text.str();
     if (whole.size() < end.size() || whole.compare(whole.size() - end.size(), end.size(), end) != 0)
       throw WriteError("The file " + part + " cannot be written: is the disk full?");
+    OutputFile out(file);
     out << whole;
     out.check();
   }

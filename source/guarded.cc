@@ -107,8 +107,10 @@ namespace Voussoir
                             const std::function<void()> &work, const std::function<void(PipeWriter &)> &send)
     {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
-      for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGINT, SIGTERM})
-        std::signal(number, SIG_DFL); // other handlers are the program's, or MPI's
+      for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU})
+        std::signal(number, SIG_DFL); // other handlers are the program's
+      for (const int number : {SIGINT, SIGTERM, SIGHUP})
+        std::signal(number, SIG_IGN); // they are for the program, which ends its child
       std::signal(SIGPIPE, SIG_IGN);
       std::atexit([] { _exit(1); }); // a library that ends the program does not run what the parent will run
       omp_set_num_threads(1);        // the other threads are not in this process
@@ -161,12 +163,14 @@ namespace Voussoir
 
     std::string reason_of_death(const int status, const GuardLimits &limits)
     {
+      constexpr const char *damaged = ". The file is damaged; write it anew.";
       if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
         return "reading it does not end (" + std::to_string(std::lround(std::ceil(limits.cpu_seconds))) +
-               " s of CPU time), or was killed";
+               " s of CPU time), or was killed (for want of memory?). Is the file damaged?";
       if (WIFSIGNALED(status))
-        return std::string("the library that reads it crashed (") + strsignal(WTERMSIG(status)) + ")";
-      return "the library that reads it gave up";
+        return std::string("the library that reads it crashed (") + strsignal(WTERMSIG(status)) + ")" +
+               damaged;
+      return std::string("the library that reads it gave up") + damaged;
     }
 
     /** Closes in every case. */
@@ -241,7 +245,10 @@ namespace Voussoir
     {
       const Descriptor writing{ends[1]};
       if ((id = fork()) == 0)
+      {
+        close(ends[0]);
         child(ends[1], limits, work, send);
+      }
     }
     if (id < 0)
       throw no_child();
@@ -260,8 +267,7 @@ namespace Voussoir
     }
     catch (const PipeReader::End &)
     {
-      throw InputError(problem + ": " + reason_of_death(reader.end(), limits) +
-                       ". The file is damaged; write it anew.");
+      throw InputError(problem + ": " + reason_of_death(reader.end(), limits));
     }
     switch (outcome)
     {

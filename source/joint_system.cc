@@ -63,8 +63,13 @@ namespace Voussoir
                            const ContactParameters &parameters, const double mass_factor,
                            const double stiffness_factor, const double dashpot_factor)
       : structure(structure), parameters(parameters), laws(laws.of_pair), sides(structure.pairs.size()),
-        W(pairs_per_joint(structure))
+        W(pairs_per_joint(structure)), n_solved(parameters.first_problem)
   {
+    for (const JointLaw *law : this->laws)
+      if (parameters.write_problems && law->flat_friction() < 0.)
+        throw InputError(
+            "Contact/Write problems: only problems with Coulomb friction on flat joints can be written; "
+            "use the joint model FJA.");
     const int                                 n_bodies = structure.bodies.size();
     std::vector<std::optional<CondensedBody>> condensed(n_bodies);
     std::exception_ptr                        failure;
@@ -205,10 +210,6 @@ namespace Voussoir
     for (std::size_t p = 0; p < laws.size(); ++p)
     {
       problem.mu.push_back(laws[p]->flat_friction());
-      if (problem.mu.back() < 0.)
-        throw InputError(
-            "Contact/Write problems: only problems with Coulomb friction on flat joints can be written; "
-            "use the joint model FJA.");
       for (unsigned int c = 1; c < 3; ++c)
         problem.q[3 * p + c] -= start[3 * p + c];
     }
@@ -219,7 +220,7 @@ namespace Voussoir
     char name[40];
     std::snprintf(name, sizeof(name), "/problem-%06u.hdf5", n_solved);
     problem.title = "joints of a dam, gap = W force + q [m, N]";
-    std::filesystem::remove(parameters.write_directory + name); // of a run that was resumed
+    std::filesystem::remove(parameters.write_directory + name); // of a step that is done again
     write_fclib(parameters.write_directory + name, problem, force, gap);
   }
 

@@ -198,7 +198,7 @@ namespace Voussoir
   {
     require(time_step > 0. && time_step <= 1e3, "Time step", time_step,
             "it must be positive, at most 1000 s");
-    if (!duration_is_automatic() || source != "file") // else of the records
+    if (source != "none" && (!duration_is_automatic() || source != "file")) // else of the records
     {
       require(length() >= time_step, "Duration", length(),
               "it must be at least one Time step, or -1: automatic");
@@ -217,7 +217,7 @@ namespace Voussoir
 
   double MotionParameters::length() const
   {
-    return duration_is_automatic() ? 20.48 : duration;
+    return duration_is_automatic() ? time_step * std::floor(20.48 / time_step + 1e-9) : duration;
   }
 
   MotionEnvelope MotionParameters::envelope() const
@@ -228,9 +228,14 @@ namespace Voussoir
       return {choose(rise_end, 2.5 * scale), choose(decay_begin, 11. * scale),
               choose(decay_rate, 0.25 / scale)};
     };
-    const MotionEnvelope usual = scaled(1.);
-    const bool           fits = usual.decay_begin > usual.rise_end && length() > usual.decay_begin;
-    return fits ? usual : scaled(std::min(1., length() / 15.));
+    const auto fits = [&](const MotionEnvelope &e)
+    { return e.decay_begin > e.rise_end && length() > e.decay_begin; };
+    MotionEnvelope result = scaled(1.);
+    if (!fits(result))
+      result = scaled(std::min(1., length() / 15.));
+    if (!fits(result) && decay_begin == automatic) // after a late end of the rise
+      result.decay_begin = .5 * (result.rise_end + length());
+    return result;
   }
 
   unsigned int MotionParameters::n_steps() const

@@ -213,20 +213,36 @@ namespace Voussoir
     output.add_parameters(prm);
   }
 
-  std::vector<std::string> Scene::input_files() const
+  std::vector<std::pair<std::string, std::string>> Scene::input_files() const
   {
-    std::vector<std::string> files;
+    std::vector<std::pair<std::string, std::string>> files;
+    const auto                                       add = [&](const char *entry, const std::string &file)
+    {
+      if (!file.empty())
+        files.emplace_back(entry, (std::filesystem::path(directory) / file).string());
+    };
     if (mesh.source == "file")
-      files.push_back(mesh.file);
+      add("Mesh/File", mesh.file);
     if (motion.source == "file")
     {
-      files.push_back(motion.file);
-      files.insert(files.end(), motion.component_files.begin(), motion.component_files.end());
+      constexpr const char *entries[3] = {"Motion/File x", "Motion/File y", "Motion/File z"};
+      add("Motion/File", motion.file);
+      for (unsigned int d = 0; d < 3; ++d)
+        add(entries[d], motion.component_files[d]);
     }
-    files.erase(std::remove(files.begin(), files.end(), ""), files.end());
-    for (std::string &file : files)
-      file = (std::filesystem::path(directory) / file).string();
     return files;
+  }
+
+  void Scene::check_not_input(const std::string &file) const
+  {
+    std::vector<std::string> inputs = sources;
+    for (const auto &input : input_files())
+      inputs.push_back(input.second);
+    std::error_code error;
+    for (const std::string &input : inputs)
+      if (std::filesystem::equivalent(input, file, error))
+        throw InputError("The file " + file + " would be overwritten, and is input (" + input +
+                         "). Choose another one with --output.");
   }
 
   void Scene::check() const

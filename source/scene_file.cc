@@ -43,8 +43,12 @@ namespace Voussoir
 
     /** All entries of a .prm text. @p directory: of the file, for its includes. */
     void parse(std::istream &in, const std::string &file, const std::string &directory,
-               std::vector<Entry> &entries, std::vector<std::string> &section, const unsigned int depth)
+               std::vector<Entry> &entries, std::vector<std::string> &section,
+               std::vector<std::string> &files)
     {
+      if (files.size() > 1000)
+        throw InputError(file + ": files include each other in a circle.");
+      files.push_back(file);
       const std::size_t outer = section.size();
       std::string       line, more, rest;
       for (unsigned int number = 1; std::getline(in, line); ++number)
@@ -75,10 +79,8 @@ namespace Voussoir
           if (!stream)
             throw InputError(place + ": the included file " + included +
                              " cannot be read. Paths of includes are relative to the including file.");
-          if (depth > 20)
-            throw InputError(place + ": files include each other in a circle.");
           parse(stream, included, std::filesystem::path(included).parent_path().string(), entries, section,
-                depth + 1);
+                files);
         }
         else if (starts_with(line, "set", rest) && rest.find('=') != std::string::npos)
         {
@@ -167,7 +169,7 @@ namespace Voussoir
     const std::filesystem::path path(file);
     scene.name = path.stem().string();
     scene.directory = path.parent_path().string();
-    parse(in, file, scene.directory, entries, section, 0);
+    parse(in, file, scene.directory, entries, section, scene.sources);
     for (const std::string &override : overrides)
     {
       const auto equals = override.find('=');

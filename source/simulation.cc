@@ -41,33 +41,39 @@ namespace Voussoir
 
   void Simulation::run()
   {
-    note_provenance();
+    provenance = provenance_now();
     if (!options.validate)
     {
-      std::vector<std::string> inputs = scene.input_files();
-      inputs.push_back(options.scene_file);
+      interrupt.emplace();
+      std::vector<std::string> inputs = scene.sources;
+      for (const auto &input : scene.input_files())
+        inputs.push_back(input.second);
+      run_directory.claim(options.resume, options.overwrite, inputs);
       if (options.resume)
         open_checkpoint();
-      run_directory.claim(options.resume, options.overwrite, inputs);
     }
     read_input();
+    if (provenance_now() != provenance)
+      throw InputError("A file that the scene names has changed while it was read. Run again.");
     report_setup();
     if (options.validate)
       return;
-    stop_if_asked();
-
-    run_directory.begin(options.resume); // all input is read and found good
-    log.open(directory + "/log.txt", options.resume);
     find_static_state();
     start_shaking();
     if (options.resume)
       load_checkpoint();
+
+    run_directory.begin(options.resume, scene.contact.write_problems); // all input is read and found good
+    log.open(directory + "/log.txt", options.resume);
     OutputFile out(directory + "/scene.prm");
     out << scene_text;
     out.check();
     open_tables();
     if (!options.resume)
       record();
+    else if (scene.output.solution_interval > 0 && step % scene.output.solution_interval == 0 &&
+             (solutions.empty() || solutions.back().first != newmark->state().time))
+      write_solution(); // what a full disk kept from being written
     shake();
   }
 
@@ -109,7 +115,7 @@ namespace Voussoir
         count.seconds_shaking = before + shaking_clock.seconds();
         if (step % scene.output.progress_interval == 0 || step == n_steps)
           report_step();
-        if (step < n_steps && interrupt.received() != nullptr)
+        if (step < n_steps && interrupt->received() != nullptr)
           keep_and_stop();
         if (scene.output.checkpoint_interval > 0 && step % scene.output.checkpoint_interval == 0 &&
             step < n_steps)
@@ -128,11 +134,19 @@ namespace Voussoir
   {
     try
     {
+      inside_step = true;
       advance();
+      inside_step = false;
     }
     catch (const ComputationError &error)
     {
-      write_tables(); // what there is, to see what went wrong
+      try
+      {
+        write_tables(); // what there is, to see what went wrong
+      }
+      catch (const WriteError &) // the first error is the one to tell
+      {
+      }
       const bool resumable = std::filesystem::exists(checkpoint_name());
       throw ComputationError(
           error.what() + (" The tables in " + directory) + " end before it" +
@@ -145,8 +159,19 @@ namespace Voussoir
   {
     ContactParameters parameters = scene.contact;
     parameters.write_directory = directory + "/contact/" + stage;
-    if (parameters.write_problems)
-      std::filesystem::create_directories(parameters.write_directory);
+    if (!parameters.write_problems)
+      return parameters;
+    std::error_code error;
+    std::filesystem::create_directories(parameters.write_directory, error);
+    if (error)
+      throw WriteError("The directory " + parameters.write_directory + " cannot be made: " + error.message() +
+                       ".");
+    if (options.resume)
+      parameters.first_problem = stage == "shaking" ? start_step : 0;
+    else
+      for (const auto &entry : std::filesystem::directory_iterator(parameters.write_directory))
+        if (entry.path().extension() == ".hdf5" && entry.path().filename().string().rfind("problem-", 0) == 0)
+          std::filesystem::remove(entry.path(), error); // of the run before
     return parameters;
   }
 
@@ -269,6 +294,7 @@ namespace Voussoir
     if (const std::string trouble = stability->trouble(*newmark, *joints, step, step == n_steps);
         !trouble.empty())
     {
+      joints->history.rows.pop_back(); // like the other tables
       write_tables();
       throw ComputationError(trouble + " The tables in " + directory + " end before it.");
     }

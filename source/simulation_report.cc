@@ -84,7 +84,7 @@ namespace Voussoir
   /** What the input means that may not be meant. */
   void Simulation::report_motion_and_warnings()
   {
-    constexpr double highest_peak = 2.; // [g]
+    constexpr double lowest_peak = .005, highest_peak = 2.; // [g]
     if (n_steps == 0)
       log.line("Motion    none: the static state alone");
     else
@@ -100,7 +100,7 @@ namespace Voussoir
       double peak = 0.;
       for (const auto &component : c)
         peak = std::max(peak, component.peak_acceleration / g);
-      if (peak > highest_peak || peak < 1e-4)
+      if (peak > highest_peak || peak < lowest_peak)
         log.line("warning: the peak acceleration of the motion is %.3g g; usual is 0.005 to 2 g. Check "
                  "Motion/Unit, Motion/Factor and Motion/Scale x, y, z.",
                  peak);

@@ -26,7 +26,7 @@ namespace Voussoir
       fields[1].values[i] = p[1];
     }
     // Joint state at the nodes of the joints: opening, slip, and 0 open, 1 stick, 2 slip; -1 elsewhere.
-    const std::vector<PairState> &pairs = step == 0 ? statics.pairs : newmark->pair_states();
+    const std::vector<PairState> &pairs = step == start_step ? pairs_at_start : newmark->pair_states();
     std::vector<float> opening(dam->structure.n_nodes(), 0.f), slip(opening), state(opening.size(), -1.f);
     for (unsigned int p = 0; p < dam->structure.pairs.size(); ++p)
     {
@@ -106,9 +106,10 @@ namespace Voussoir
     log.line("Energy    balance closes to %.1e of the largest energy", balance_error());
     if (dam->foundation && n_steps > 0)
       log.line("          that of the rock to %.1e", rock_balance_error());
+    std::error_code ignored;
     for (const char *ending : {"", ".before", ".new"})
-      std::filesystem::remove(checkpoint_name() + ending); // the run is complete: nothing to resume
-    std::filesystem::remove(directory + "/checkpoint.txt");
+      std::filesystem::remove(checkpoint_name() + ending, ignored); // the run is complete: nothing to resume
+    std::filesystem::remove(directory + "/checkpoint.txt", ignored);
     if (scene.output.figures)
       draw_figures();
     log.line("Results   %s", directory.c_str());

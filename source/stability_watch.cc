@@ -129,7 +129,9 @@ namespace Voussoir
     if (moved.value <= largest_joint_share * dam.size)
       return "";
     std::ostringstream text;
-    text << "the joints have moved by " << moved.value << " m at " << place(moved.place) << ".";
+    text << "the joints have moved by " << moved.value << " m at " << place(moved.place) << ", more than "
+         << largest_joint_share
+         << " of the dam's size (or do they really slide? Look at \"Joints/Friction\").";
     return text.str();
   }
 

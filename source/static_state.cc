@@ -91,6 +91,7 @@ namespace Voussoir
     }
     statics.contact = total;
     statics.pairs = system.states();
+    pairs_at_start = statics.pairs;
     statics.n_open = std::count(statics.pairs.begin(), statics.pairs.end(), PairState::open);
     if (const unsigned int e = dam->model->equation[dam->geometry->crown]; e != rigid_ground)
       statics.crown = Vector3{{statics.u[3 * e], statics.u[3 * e + 1], statics.u[3 * e + 2]}} -
@@ -170,8 +171,12 @@ namespace Voussoir
     }
     statics.contact = total;
     if (total.converged && error > 1e-9)
-      throw ComputationError("The static state of dam and rock did not converge: relative error " +
-                             std::to_string(error) + " after " + std::to_string(round) + " rounds.");
+    {
+      std::ostringstream message;
+      message << "The static state of dam and rock did not converge: relative error " << error << " after "
+              << round << " rounds.";
+      throw ComputationError(message.str());
+    }
     for (std::size_t k = 0; k < r.size(); ++k)
       statics.load[k] -= r[k];
     log.line("Rock      static state of dam and rock after %u rounds", round);

@@ -20,8 +20,9 @@ namespace Voussoir
     std::string  method = "newton";    ///< newton (with its fallbacks), proximal, sweeps
     double       max_seconds = std::numeric_limits<double>::infinity(); ///< of wall time
     bool         write_problems = false;                                ///< in FCLib's format
-    unsigned int write_interval = 1;                                    ///< of the problems
-    std::string  write_directory;                                       ///< not an entry: set by the run
+    unsigned int first_problem = 0;  ///< numbers of the files begin after it
+    unsigned int write_interval = 1; ///< of the problems
+    std::string  write_directory;    ///< not an entry: set by the run
 
     void               add_parameters(dealii::ParameterHandler &prm);
     static std::string method_names(); ///< as a ParameterHandler selection

@@ -3,6 +3,8 @@
 
 #include <voussoir/error.h>
 
+#include <array>
+
 namespace Voussoir
 {
   /** The user, or the machine's scheduler, has asked the program to stop. */
@@ -12,8 +14,9 @@ namespace Voussoir
     using ComputationError::ComputationError;
   };
 
-  /** While an object of this class lives, the first SIGINT or SIGTERM is only noted, so that the work can be
-   * put away; a second one ends the program at once. At most one may live at a time. */
+  /** While an object of this class lives, the first SIGINT, SIGTERM or SIGHUP is only noted, so that the work
+   * can be put away, and one line on stderr says so; a second one ends the program at once. A signal that the
+   * program was started to ignore (nohup) stays ignored. At most one may live at a time. */
   class InterruptGuard
   {
   public:
@@ -22,8 +25,11 @@ namespace Voussoir
     InterruptGuard(const InterruptGuard &) = delete;
     InterruptGuard &operator=(const InterruptGuard &) = delete;
 
-    /** "SIGINT" or "SIGTERM" if one has come, else a null pointer. */
+    /** "SIGINT", "SIGTERM" or "SIGHUP" if one has come, else a null pointer. */
     const char *received() const;
+
+  private:
+    std::array<void (*)(int), 3> before; ///< the handlers
   };
 } // namespace Voussoir
 

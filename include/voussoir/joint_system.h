@@ -66,7 +66,7 @@ namespace Voussoir
     InterfaceOperator                   W;
     std::unique_ptr<ContactSolver>      solver;
     std::vector<std::vector<double>>    interface; ///< work space per body
-    unsigned int                        n_solved = 0;
+    unsigned int                        n_solved;  ///< also before this object was made
   };
 } // namespace Voussoir
 

@@ -24,9 +24,10 @@ namespace Voussoir
      * @p resume or @p overwrite), or if an input would be overwritten. */
     void claim(bool resume, bool overwrite, const std::vector<std::string> &inputs);
 
-    /** All input has been read: removes the results of an earlier run, unless @p resume. Throws WriteError.
-     */
-    void begin(bool resume);
+    /** All input has been read and found good: removes the results of an earlier run, unless @p resume; @p
+     * keep_problems: but not those below contact/. In a directory of others nothing but a checkpoint is
+     * removed. Throws WriteError. */
+    void begin(bool resume, bool keep_problems);
 
     const std::string path; ///< as the user gave it
 
@@ -34,7 +35,9 @@ namespace Voussoir
     void lock();
 
     std::vector<std::filesystem::path> created; ///< directories, outermost first
-    bool                               begun = false, marked = false;
+    bool                               begun = false;
+    bool                               marked = false; ///< has this object made the marker?
+    bool                               ours = false;   ///< is the directory a run's?
     int                                descriptor = -1;
   };
 } // namespace Voussoir

@@ -90,7 +90,13 @@ namespace Voussoir
     void add_parameters(dealii::ParameterHandler &prm);
     void check() const;
 
-    std::vector<std::string> input_files() const; ///< meshes and motions that it names, with their paths
+    std::vector<std::string> sources; ///< the scene file and the files that it includes
+
+    /** Meshes and motions that it names: entry and path. */
+    std::vector<std::pair<std::string, std::string>> input_files() const;
+
+    /** Throws InputError if @p file, which a command is to write, is one that the scene is made of. */
+    void check_not_input(const std::string &file) const;
   };
 
   /** Reads a scene file with its includes (relative to the including file), then applies @p overrides, each

@@ -9,11 +9,12 @@
 #include <voussoir/run_directory.h>
 #include <voussoir/stability_watch.h>
 
+#include <optional>
+
 namespace Voussoir
 {
   struct RunOptions
   {
-    std::string scene_file;        ///< so that the run does not overwrite it
     std::string output;            ///< directory; empty: output/NAME
     bool        resume = false;    ///< go on from the last checkpoint
     bool        validate = false;  ///< set up and report, but do not compute
@@ -61,25 +62,28 @@ namespace Voussoir
     std::string       keep_last_state();
     std::string       checkpoint_name() const { return directory + "/checkpoint.bin"; }
     void              save_checkpoint();
-    void              note_provenance();
+    Provenance        provenance_now() const;
     void              open_checkpoint();
     void              load_checkpoint();
 
-    const Scene       scene;
-    const std::string scene_text;
-    const RunOptions  options;
-    RunDirectory      run_directory;
-    const std::string directory; ///< its path
-    InterruptGuard    interrupt;
-    Log               log;
-    Stopwatch         clock, shaking_clock;
-    double            clock_before = 0., cpu_before = 0.; ///< of the runs this one resumes [s]
+    const Scene                   scene;
+    const std::string             scene_text;
+    const RunOptions              options;
+    RunDirectory                  run_directory;
+    const std::string             directory; ///< its path
+    std::optional<InterruptGuard> interrupt; ///< of a run, not of --validate
+    Log                           log;
+    Stopwatch                     clock, shaking_clock;
+    double                        clock_before = 0., cpu_before = 0.; ///< of the runs this one resumes [s]
 
-    std::unique_ptr<Dam> dam;
-    GroundMotion         motion;
-    unsigned int         n_steps = 0, step = 0, first_step = 0;
-    Provenance           provenance;
-    std::string          checkpoint; ///< its payload, until it is loaded
+    std::unique_ptr<Dam>   dam;
+    GroundMotion           motion;
+    unsigned int           n_steps = 0, step = 0, first_step = 0;
+    Provenance             provenance;
+    std::string            checkpoint;          ///< its payload, until it is loaded
+    std::vector<PairState> pairs_at_start;      ///< of this process
+    unsigned int           start_step = 0;      ///< of this process
+    bool                   inside_step = false; ///< the state is not one of any time
 
     struct StaticState
     {
