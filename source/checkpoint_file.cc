@@ -40,8 +40,11 @@ namespace Voussoir
     /** The payload, or why there is none. */
     std::string unsealed(const std::string &file, std::string &why)
     {
-      std::ifstream in(file, std::ios::binary);
-      if (!in)
+      std::error_code error;
+      std::ifstream   in;
+      if (std::filesystem::is_regular_file(file, error))
+        in.open(file, std::ios::binary);
+      if (!in.is_open())
       {
         why = "it cannot be read";
         return "";
@@ -100,13 +103,19 @@ namespace Voussoir
   void write_checkpoint_file(const std::string &file, const std::string &payload)
   {
     const std::string fresh = file + ".new";
+    std::error_code   error;
+    try
     {
       OutputFile out(fresh, std::ios::binary);
       out << seal(payload) << payload;
       out.check();
+      synchronize(fresh);
     }
-    synchronize(fresh);
-    std::error_code error;
+    catch (const WriteError &)
+    {
+      std::filesystem::remove(fresh, error); // what is not whole would only fill the disk
+      throw;
+    }
     if (std::filesystem::exists(file, error))
       move_file(file, file + ".before");
     move_file(fresh, file);
@@ -129,6 +138,22 @@ namespace Voussoir
         "the checkpoint " + file + " cannot be used: " + why + "; the run goes on from the one before it";
     return payload;
   }
+
+  namespace
+  {
+    /** Numbers as they are, however they are written. */
+    std::string normal(const std::string &value)
+    {
+      char        *end = nullptr, text[40];
+      const double number = std::strtod(value.c_str(), &end);
+      if (value.empty() || *end != 0)
+        return value;
+      std::snprintf(text, sizeof(text), "%.15g", number);
+      if (std::strtod(text, nullptr) != number)
+        std::snprintf(text, sizeof(text), "%.17g", number);
+      return text;
+    }
+  } // namespace
 
   Provenance decisive_entries(const std::string &scene_text)
   {
@@ -156,7 +181,7 @@ namespace Voussoir
       }
       else if (const auto equals = line.find('=');
                line.compare(0, 4, "set ") == 0 && equals != std::string::npos)
-        entries[path + trimmed(line.substr(4, equals - 4))] = trimmed(line.substr(equals + 1));
+        entries[path + trimmed(line.substr(4, equals - 4))] = normal(trimmed(line.substr(equals + 1)));
     }
     for (auto entry = entries.begin(); entry != entries.end();)
       if (entry->first.compare(0, 8, "Contact/") == 0 || entry->first == "Motion/Duration" ||

@@ -131,7 +131,7 @@ namespace Voussoir
         throw InputError("`voussoir " + command + "` needs --output FILE.");
       read_scene(file, arguments.overrides, scene, prm);
       if (!command.empty() && !arguments.value("--output").empty())
-        scene.check_not_input(arguments.value("--output"));
+        scene.check_output(arguments.value("--output"));
       prm.print_parameters(text, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
       if (command.empty())
         return run_scene(scene, text.str(), arguments);

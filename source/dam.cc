@@ -28,6 +28,21 @@ namespace Voussoir
       normalize(result); // drops the rock's nodes
       return result;
     }
+
+    /** InputError where joint j is not between monoliths j and j + 1. */
+    void check_joint_numbers(const HexMesh &opened, const unsigned int n_joints, const std::string &source)
+    {
+      std::set<unsigned int> numbers;
+      for (const Joint &joint : joints_of(opened))
+        numbers.insert(joint.number);
+      for (unsigned int j = 1; j <= n_joints; ++j)
+        if (numbers.count(j) == 0)
+          throw InputError(
+              "mesh " + source + ": joint " + std::to_string(j) + " has no faces: monoliths " +
+              std::to_string(j) + " and " + std::to_string(j + 1) +
+              " do not meet. Number the monoliths one after the other, from the right bank to the "
+              "left.");
+    }
   } // namespace
 
   Dam::Dam(const Scene &scene, const bool tie_all) : scene(scene)
@@ -39,6 +54,7 @@ namespace Voussoir
     const std::string source = scene.mesh.source == "file" ? scene.mesh.file : "arch210";
     check_axes_and_units(mesh, scene.mesh, source);
     groups = group_table(mesh);
+    ungrouped = faces_without_group(mesh);
     if ((on_rock || massless) && !has_rock)
       throw InputError("Foundation/Model is " + scene.foundation.model +
                        ", but the mesh has no rock (volumes from id 1000 on). Set "
@@ -59,6 +75,7 @@ namespace Voussoir
     const HexMesh opened = open_joints(concrete);
     for (const Joint &joint : joints_of(opened))
       n_joints = std::max<unsigned int>(n_joints, joint.number);
+    check_joint_numbers(opened, n_joints, source);
 
     tied = true;
     for (unsigned int j = 1; j <= n_joints; ++j)

@@ -342,6 +342,7 @@ namespace Voussoir
   HexMesh read_gmsh(const std::string &file)
   {
     expect_gmsh_file(file);
+    check_physical_names(file);
     HexMesh mesh;
     run_guarded(
         "The mesh file " + file + " cannot be read",
@@ -361,6 +362,7 @@ namespace Voussoir
     // gmsh does not say when the disk is full: it writes beside, and what is whole is copied.
     const std::string part = file.substr(0, file.size() - 4) + "." + std::to_string(getpid()) + ".msh";
     const Removed     removed{part};
+    OutputFile(file, std::ios::app); // may it be written to?
     OutputFile(part).check();
     with_gmsh(file, "gmsh cannot write this file",
               [&]

@@ -26,6 +26,7 @@ namespace Voussoir
   InterruptGuard::InterruptGuard()
   {
     noted = 0;
+    std::signal(SIGPIPE, SIG_IGN); // a reader of the screen that goes away does not end the run
     for (unsigned int i = 0; i < 3; ++i)
       if ((before[i] = std::signal(numbers[i], note)) == SIG_IGN)
         std::signal(numbers[i], SIG_IGN);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace
@@ -31,6 +32,9 @@ namespace
 
 int main(int argc, char *argv[])
 {
+  for (int file = 0; file < 3; ++file) // else the first file that is opened would be the screen
+    if (fcntl(file, F_GETFD) < 0)
+      open("/dev/null", O_RDWR);
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (uses_threads(words))
     wait_politely(argv);

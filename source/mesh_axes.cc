@@ -58,9 +58,9 @@ namespace Voussoir
     }
 
     /** Is @p v within 63 degrees of the axis @p axis, in the sense @p sign? */
-    bool along(const Vector &v, const unsigned int axis, const double sign)
+    bool along(const Vector &v, const unsigned int axis, const double sign, const double cosine = .45)
     {
-      return sign * v[axis] > .45 * norm(v);
+      return sign * v[axis] > cosine * norm(v);
     }
 
     /** The unit vector of the axis that is nearest to @p v. */
@@ -93,7 +93,8 @@ namespace Voussoir
 
       void axes() const
       {
-        if (is_clear(crest) && !along(crest.sum, 2, 1.))
+        constexpr double level = .97; // crests are level, within some 14 degrees
+        if (is_clear(crest) && !along(crest.sum, 2, 1., level))
           fail("the crest does not look up (z), but along " + direction(crest.sum) + ". " + how_to_turn());
         if (is_clear(stream))
         {
@@ -165,8 +166,7 @@ namespace Voussoir
         return "";
       }
 
-      /** Whether the faces or the axes are the wrong ones: monoliths are numbered to the left bank (y). */
-      std::string hint_of_the_numbers() const
+      bool are_numbered_to_the_right() const
       {
         const int last = n_monoliths(mesh);
         double    first_y = 0., last_y = 0.;
@@ -177,8 +177,14 @@ namespace Voussoir
           if (cell.volume == last)
             last_y = centre(mesh, cell.nodes)[1];
         }
-        return last == 1 ? ""
-               : first_y < last_y
+        return first_y > last_y;
+      }
+
+      /** Whether the faces or the axes are the wrong ones: monoliths are numbered to the left bank (y). */
+      std::string hint_of_the_numbers() const
+      {
+        return n_monoliths(mesh) == 1 ? ""
+               : !are_numbered_to_the_right()
                    ? " The monoliths are numbered from the right bank to the left, as they should: the names "
                      "are wrong."
                    : " The monoliths are numbered from the left bank to the right: the axes are wrong.";

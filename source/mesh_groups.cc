@@ -1,7 +1,11 @@
+#include <voussoir/error.h>
 #include <voussoir/mesh_groups.h>
 #include <voussoir/nearest_name.h>
 
 #include <algorithm>
+#include <fstream>
+#include <regex>
+#include <set>
 #include <sstream>
 
 namespace Voussoir
@@ -103,5 +107,70 @@ namespace Voussoir
            << role(rows[i]) << std::string(width_2 - role(rows[i]).size(), ' ') << "  " << rows[i].n
            << (rows[i].dimension == 3 ? " hexahedra" : " faces");
     return text.str();
+  }
+
+  std::string faces_without_group(const HexMesh &mesh)
+  {
+    std::set<std::array<unsigned int, 4>> grouped;
+    for (const HexMesh::Face &face : mesh.faces)
+    {
+      std::array<unsigned int, 4> key = face.nodes;
+      std::sort(key.begin(), key.end());
+      grouped.insert(key);
+    }
+    const FaceTable    table(mesh);
+    const auto        &entries = table.entries();
+    std::size_t        n = 0;
+    std::ostringstream text;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+    {
+      const bool inside = (i > 0 && entries[i - 1].key == entries[i].key) ||
+                          (i + 1 < entries.size() && entries[i + 1].key == entries[i].key);
+      if (!inside && is_monolith(mesh.cells[entries[i].cell].volume) && grouped.count(entries[i].key) == 0 &&
+          n++ == 0)
+        text << " outer faces of the dam, the first at " << place(centre(mesh, entries[i].key))
+             << ", are in no physical surface: they are free, and get no water. Leave it if they are walls "
+                "of a "
+                "gallery or a free face; else put them into \"upstream\", \"downstream\", \"crest\" or "
+                "\"base\".";
+    }
+    return n == 0 ? "" : std::to_string(n) + text.str();
+  }
+
+  void check_physical_names(const std::string &file)
+  {
+    std::ifstream in(file, std::ios::binary);
+    std::string   line;
+    const auto    next = [&]
+    {
+      std::getline(in, line);
+      while (!line.empty() && (line.back() == '\r' || line.back() == ' '))
+        line.pop_back();
+      return bool(in);
+    };
+    while (next() && line != "$PhysicalNames")
+      if (line == "$Nodes" || line == "$Entities" || line == "$Elements")
+        return; // names come before them, and what follows may be binary
+    std::set<std::pair<int, std::string>> names;
+    std::size_t                           n = 0;
+    if (!in || !next())
+      return;
+    const std::string count = line;
+    for (; next() && line != "$EndPhysicalNames"; ++n)
+    {
+      static const std::regex form("\\s*([0-3])\\s+([0-9]+)\\s+\"([^\"]+)\"");
+      std::smatch             parts;
+      if (!std::regex_match(line, parts, form))
+        throw InputError(
+            "mesh " + file + ": the line '" + line.substr(0, 80) +
+            "' of $PhysicalNames is not DIMENSION ID \"NAME\", with a name in quotes. Mend it, or "
+            "remove it: the id counts for groups without a name.");
+      if (parts[3].str().compare(0, 4, "rock") != 0 && !names.emplace(std::stoi(parts[1]), parts[3]).second)
+        throw InputError("mesh " + file + ": two physical groups have the name '" + parts[3].str() +
+                         "'. Give each a name of its own.");
+    }
+    if (count != std::to_string(n))
+      throw InputError("mesh " + file + ": $PhysicalNames says that it has " + count.substr(0, 20) +
+                       " names, and has " + std::to_string(n) + ". Write the file again.");
   }
 } // namespace Voussoir

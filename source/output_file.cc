@@ -7,8 +7,8 @@ namespace Voussoir
 {
   WriteError WriteError::of(const std::string &file)
   {
-    const std::string reason = errno != 0 ? std::strerror(errno) : "the system gives no reason";
-    return WriteError("The file " + file + " cannot be written: " + reason + ".");
+    const std::string reason = errno != 0 ? std::strerror(errno) + std::string(".") : "is the disk full?";
+    return WriteError("The file " + file + " cannot be written: " + reason);
   }
 
   OutputFile::OutputFile(const std::string &file, const std::ios::openmode mode) : name(file)

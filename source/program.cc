@@ -5,6 +5,7 @@
 #include <voussoir/output_file.h>
 #include <voussoir/program.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -47,7 +48,8 @@ namespace Voussoir
       }
       std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of the write
       const int status = run_command(words);
-      if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      errno = 0;
+      if ((!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) && errno != EPIPE)
         throw WriteError("Standard output cannot be written. Is the disk full?");
       return status;
     }

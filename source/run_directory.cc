@@ -61,7 +61,12 @@ namespace Voussoir
       };
       const std::function<void(const fs::path &)> look = [&](const fs::path &folder)
       {
-        for (const auto &entry : fs::directory_iterator(directory / folder))
+        std::error_code        error;
+        fs::directory_iterator inside(directory / folder, error);
+        if (error)
+          throw InputError("The output directory " + directory.string() +
+                           " cannot be read: " + error.message() + ". Choose another one with --output.");
+        for (const auto &entry : inside)
           if (const fs::path relative = folder / entry.path().filename(); is_folder(relative))
             look(relative);
           else
@@ -146,8 +151,8 @@ namespace Voussoir
     if (!resume)
       for (const std::string &input : inputs)
       {
-        const fs::path below = fs::path(input).filename();
-        if (is_result(below) && fs::equivalent(fs::absolute(input).parent_path(), path, error))
+        const fs::path file = fs::weakly_canonical(input, error); // where links lead
+        if (is_result(file.filename()) && fs::equivalent(file.parent_path(), path, error))
           throw InputError("The run would overwrite its own input " + input + " in the output directory " +
                            path + ". Choose another one with --output.");
       }

@@ -63,7 +63,7 @@ namespace Voussoir
         "What happens in the joints: tied (the monolithic dam), FJA (flat, opens, Coulomb friction), FJB "
         "(flat, opens, does not slip), KSM (shear keys on a face that opens and slides: Keys).",
         Patterns::Selection(joint_law_names()));
-    prm.add_parameter("Friction", friction, "Coefficient of friction [-].", Patterns::Double(0.));
+    prm.add_parameter("Friction", friction, "Coefficient of friction [-].", Patterns::Double(0., 1e4));
     prm.add_parameter(
         "Overrides", overrides,
         "Models of single joints, as \"number: model, number: model\"; joints are numbered from the right "
@@ -233,8 +233,12 @@ namespace Voussoir
     return files;
   }
 
-  void Scene::check_not_input(const std::string &file) const
+  void Scene::check_output(const std::string &file) const
   {
+    const std::filesystem::path directory_of_file = std::filesystem::path(file).parent_path();
+    if (!directory_of_file.empty() && !std::filesystem::is_directory(directory_of_file))
+      throw InputError("There is no directory " + directory_of_file.string() + " for the file " + file +
+                       ". Make it, or choose another file with --output.");
     std::vector<std::string> inputs = sources;
     for (const auto &input : input_files())
       inputs.push_back(input.second);

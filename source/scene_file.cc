@@ -41,6 +41,13 @@ namespace Voussoir
       return true;
     }
 
+    /** Not a directory, nor a pipe or a device, which may never end. */
+    bool is_text_file(const std::string &file)
+    {
+      std::error_code error;
+      return std::filesystem::is_regular_file(file, error);
+    }
+
     /** All entries of a .prm text. @p directory: of the file, for its includes. */
     void parse(std::istream &in, const std::string &file, const std::string &directory,
                std::vector<Entry> &entries, std::vector<std::string> &section,
@@ -54,6 +61,8 @@ namespace Voussoir
       for (unsigned int number = 1; std::getline(in, line); ++number)
       {
         const std::string place = file + ", line " + std::to_string(number);
+        if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0) // of editors on Windows
+          line.erase(0, 3);
         line = trimmed(line);
         while (!line.empty() && line.back() == '\\' && std::getline(in, more))
         {
@@ -76,7 +85,7 @@ namespace Voussoir
         {
           const std::string included = (std::filesystem::path(directory) / rest).string();
           std::ifstream     stream(included);
-          if (!stream)
+          if (!stream || !is_text_file(included))
             throw InputError(place + ": the included file " + included +
                              " cannot be read. Paths of includes are relative to the including file.");
           parse(stream, included, std::filesystem::path(included).parent_path().string(), entries, section,
@@ -164,7 +173,7 @@ namespace Voussoir
     std::vector<std::string>         section;
 
     std::ifstream in(file);
-    if (!in || std::filesystem::is_directory(file))
+    if (!in || !is_text_file(file))
       throw InputError("The scene file " + file + " cannot be read. Give the path of a .prm file.");
     const std::filesystem::path path(file);
     scene.name = path.stem().string();
@@ -175,6 +184,8 @@ namespace Voussoir
       const auto equals = override.find('=');
       if (equals == std::string::npos)
         throw InputError("--set '" + override + "': write --set 'Section/Entry=value'.");
+      if (equals == 0)
+        throw InputError("--set '" + override + "': there is no entry before the \"=\".");
       Entry              entry{{}, trimmed(override.substr(equals + 1)), "--set"};
       std::istringstream parts(override.substr(0, equals));
       for (std::string part; std::getline(parts, part, '/');)

@@ -87,7 +87,7 @@ namespace Voussoir
     {
       const double critical = dam->foundation->critical_time_step(),
                    rock_dt = motion.dt / scene.foundation.substeps;
-      if (rock_dt > critical)
+      if (!(rock_dt <= critical)) // or not a number
       {
         std::ostringstream message;
         message << "The time step " << rock_dt << " s is too large for the rock: its critical time step is "

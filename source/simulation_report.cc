@@ -104,6 +104,14 @@ namespace Voussoir
         log.line("warning: the peak acceleration of the motion is %.3g g; usual is 0.005 to 2 g. Check "
                  "Motion/Unit, Motion/Factor and Motion/Scale x, y, z.",
                  peak);
+      constexpr double fastest = 5., farthest = 10.; // [m/s], [m]
+      const auto      &most = *std::max_element(
+               c.begin(), c.end(), [](const auto &a, const auto &b) { return a.peak_velocity < b.peak_velocity; });
+      if (peak <= highest_peak && (most.peak_velocity > fastest || most.peak_displacement > farthest))
+        log.line(
+            "warning: the motion moves at %.3g m/s, by %.3g m; usual is at most %g m/s and %g m. Check the "
+            "times and the unit of the record (Motion/Unit), and Motion/Time step.",
+            most.peak_velocity, most.peak_displacement, fastest, farthest);
     }
     if (scene.mesh.source == "arch210" && scene.mesh.arch210_rock.enabled &&
         scene.foundation.model == "rigid")
@@ -112,6 +120,13 @@ namespace Voussoir
       log.line("warning: the water does not reach the dam: Reservoir/Water level is %g m, below the upstream "
                "face. Raise it, in the axes of the scene, or set Reservoir/Density to 0.",
                scene.reservoir.level);
+    const auto &crest = dam->geometry->joints;
+    if (crest.size() > 1 && crest.front().arc_length > crest.back().arc_length)
+      log.line(
+          "warning: the joints are numbered from the left bank (y > 0) to the right, and so are those of "
+          "Joints/Overrides and of all results; usual is from the right bank.");
+    if (scene.mesh.source == "file" && !dam->ungrouped.empty())
+      log.line("warning: %s", dam->ungrouped.c_str());
     for (const std::string &warning : scene.warnings)
       log.line("warning: %s", warning.c_str());
   }

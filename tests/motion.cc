@@ -5,6 +5,7 @@
 #include <voussoir/error.h>
 #include <voussoir/motion.h>
 #include <voussoir/motion_artificial.h>
+#include <voussoir/output_file.h>
 #include <voussoir/response_spectrum.h>
 
 #include <algorithm>
@@ -37,6 +38,7 @@ namespace
   }
 
   /** The call must throw an InputError whose message has all these parts. */
+  template <class Error = InputError>
   void require_error(const std::function<void()> &call, const std::vector<std::string> &parts)
   {
     std::string message;
@@ -44,7 +46,7 @@ namespace
     {
       call();
     }
-    catch (const InputError &error)
+    catch (const Error &error)
     {
       message = error.what();
     }
@@ -278,7 +280,8 @@ namespace
     parameters.component_files[2] = "motion_late.txt";
     write("motion_late.txt", "1 0\n1.02 1\n1.04 0\n");
     require_error([&] { make_motion(parameters, ""); }, {"motion_late.txt", "first time"});
-    require_error([] { write_motion({}, "no such directory/motion.csv"); }, {"no such directory/motion.csv"});
+    require_error<WriteError>([] { write_motion({}, "no such directory/motion.csv"); },
+                              {"no such directory/motion.csv"});
   }
 
   void entries()

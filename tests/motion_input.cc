@@ -209,7 +209,10 @@ namespace
     require_error([&] { p.check(); }, {"Motion/Duration is 5", "Decay begin, 6 s"});
     p.decay_begin = -1.;
     p.rise_end = 4.;
-    require_error([&] { p.check(); }, {"Motion/Decay begin is 3.66", "Rise end, 4 s"});
+    require(p.envelope().decay_begin == 4.5, "a decay that begins after the rise that is set");
+    p.check();
+    p.rise_end = 5.5;
+    require_error([&] { p.check(); }, {"Motion/Decay begin", "Rise end, 5.5 s"});
   }
 
   void ends()

@@ -39,7 +39,7 @@ def artificial():
                          "Motion/Seed=-1": ("Motion/Seed", "-1"),
                          "Motion/Matching iterations=-1": ("Motion/Matching iterations", "-1"),
                          "Motion/Decay begin=20": ("Motion/Duration is 15.36", "Decay begin, 20 s"),
-                         "Motion/Rise end=12": ("Motion/Decay begin is 11", "Rise end, 12 s")}.items():
+                         "Motion/Rise end=16": ("Rise end, 16 s",)}.items():
         refused(["motion", QUICKSTART, "--output", "none.csv", "--set", entry], *parts)
         expect(not Path("none.csv").exists(), f"{entry}: a file was written")
 

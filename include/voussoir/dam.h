@@ -29,7 +29,8 @@ namespace Voussoir
     Unknowns static_load(double water_part) const; ///< water, and the weight if it is not staged [N]
 
     const Scene &scene;
-    std::string  groups; ///< table of the mesh's groups: group_table()
+    std::string  groups;    ///< table of the mesh's groups: group_table()
+    std::string  ungrouped; ///< faces_without_group()
     std::size_t  n_cells = 0;
     unsigned int n_monoliths = 0, n_joints = 0;
     double       volume = 0., crest_length = 0., size = 0.; ///< [m^3], [m], diagonal of the bounding box [m]

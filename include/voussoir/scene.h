@@ -95,8 +95,9 @@ namespace Voussoir
     /** Meshes and motions that it names: entry and path. */
     std::vector<std::pair<std::string, std::string>> input_files() const;
 
-    /** Throws InputError if @p file, which a command is to write, is one that the scene is made of. */
-    void check_not_input(const std::string &file) const;
+    /** Throws InputError if @p file, which a command is to write, is one that the scene is made of, or has no
+     * directory. */
+    void check_output(const std::string &file) const;
   };
 
   /** Reads a scene file with its includes (relative to the including file), then applies @p overrides, each
