@@ -284,8 +284,7 @@ def energy(output, figures, heading):
     above.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     above.set_title(f"{heading}\nEnergies", loc="left")
     below.plot(time, 100 * balance / scale_of_balance, color="k", linewidth=1)
-    below.text(0.995, 0.95, f"largest {np.abs(balance).max() / scale_of_balance:.1e}", transform=below.transAxes,
-               ha="right", va="top", bbox={"facecolor": "w", "edgecolor": "none", "pad": 1})
+    below.text(1.02, 0.95, f"at most\n{np.abs(balance).max() / scale_of_balance:.1e}", transform=below.transAxes, va="top")
     below.set(xlabel="time [s]", ylabel="balance [% of\nlargest energy]", xlim=(time[0], time[-1]))
     below.ticklabel_format(axis="y", scilimits=(-2, 3), useMathText=True)
     figure.align_ylabels([above, below])
