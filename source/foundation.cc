@@ -25,11 +25,11 @@ namespace Voussoir
     prm.add_parameter("Poisson's ratio", rock.poisson, "Poisson's ratio of the rock [-].", Double(0., .45));
     prm.add_parameter("Density", rock.density, "Density of the rock [kg/m^3].", Double(1e-3));
     prm.add_parameter("Mass damping", mass_damping, "Rayleigh damping of the rock: factor of the mass [1/s].",
-                      Double(0.));
+                      Double(0., 1e3));
     prm.add_parameter(
         "Stiffness damping", stiffness_damping,
         "Rayleigh damping of the rock: factor of the stiffness [s]. It lowers the critical time step.",
-        Double(0.));
+        Double(0., 1.));
     prm.add_parameter(
         "Boundary", boundary,
         "Artificial boundary: mtf1 to mtf4 (Multi-Transmitting Formula of that order), mtf2-plain (that of "

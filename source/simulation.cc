@@ -42,6 +42,8 @@ namespace Voussoir
   void Simulation::run()
   {
     provenance = provenance_now();
+    if (options.validate && options.resume)
+      open_checkpoint();
     if (!options.validate)
     {
       interrupt.emplace();

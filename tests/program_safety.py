@@ -107,6 +107,9 @@ def checkpoints():
     same("other", "whole", 2e-7, ("history", "joint_history", "joints"))
 
     refused([*resume, "kept", "--overwrite"], "--resume", "--overwrite")
+    refused([*resume, "nothing", "--validate"], "nothing/checkpoint.bin")
+    refused(["scene.prm", "--validate", "--set", "=3"], "--set '=3'")
+    refused(["scene.prm", "--validate", "--set", "Foundation/Stiffness damping=1e300"], "a number from 0 to 1")
 
     # More of the same record
     runs("scene.prm", "--output", "whole_longer", *settings, "--set", "Motion/Duration=2.5")
