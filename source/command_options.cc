@@ -174,6 +174,10 @@ namespace Voussoir
       else if (!word.is_option)
         arguments.words.push_back(word.text);
     }
+    for (const Word &word : sorted)
+      if (word.is_option && word.option == nullptr && word.text != "--version" && word.text != "--help" &&
+          word.text != "-h")
+        refuse_option(*find_command(arguments.command), word.text);
     if (arguments.help || arguments.version)
       return arguments;
     const Command &command = *find_command(arguments.command);

@@ -24,6 +24,10 @@ namespace Voussoir
     va_end(again);
     va_end(arguments);
     buffer.pop_back();
+    const std::string sign = "warning: ";
+    if (buffer.compare(0, sign.size(), sign) == 0 &&
+        std::find(warned.begin(), warned.end(), buffer.substr(sign.size())) == warned.end())
+      warned.push_back(buffer.substr(sign.size()));
     if (!quiet)
     {
       std::printf("%s\n", buffer.c_str());
@@ -67,12 +71,30 @@ namespace Voussoir
 
   namespace
   {
+    /** Bytes of the UTF-8 character at @p i; 0 if there is none. */
+    std::size_t utf8_length(const std::string &text, const std::size_t i)
+    {
+      const auto byte = [&](const std::size_t k) -> unsigned char { return k < text.size() ? text[k] : 0; };
+      const auto n = byte(i) < 0x80   ? 1u
+                     : byte(i) < 0xC2 ? 0u
+                     : byte(i) < 0xE0 ? 2u
+                     : byte(i) < 0xF0 ? 3u
+                     : byte(i) < 0xF5 ? 4u
+                                      : 0u;
+      for (std::size_t k = 1; k < n; ++k)
+        if (byte(i + k) >> 6 != 2)
+          return 0;
+      return n;
+    }
+
     std::string quoted_text(const std::string &text)
     {
       std::string quoted = "\"";
-      for (const char c : text)
+      for (std::size_t i = 0, n; i < text.size(); i += std::max<std::size_t>(n, 1))
       {
-        char code[8];
+        const char c = text[i];
+        char       code[8];
+        n = utf8_length(text, i);
         if (c == '"' || c == '\\')
           (quoted += '\\') += c;
         else if (static_cast<unsigned char>(c) < 0x20)
@@ -81,7 +103,7 @@ namespace Voussoir
           quoted += code;
         }
         else
-          quoted += c;
+          quoted += n > 0 ? text.substr(i, n) : "\\ufffd"; // a name need not be UTF-8
       }
       return quoted + "\"";
     }

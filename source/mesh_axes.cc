@@ -9,6 +9,8 @@ namespace Voussoir
 {
   namespace
   {
+    constexpr double pi = 3.14159265358979323846;
+
     using Vector = std::array<double, 3>;
 
     constexpr double lowest_dam = 5., highest_dam = 400.; ///< [m]
@@ -93,7 +95,8 @@ namespace Voussoir
 
       void axes() const
       {
-        constexpr double level = .97; // crests are level, within some 14 degrees
+        constexpr double level = .97;           // crests are level, within some 14 degrees
+        constexpr double downstream_is_x = .77; // within 40 degrees: the sides of a valley differ
         if (is_clear(crest) && !along(crest.sum, 2, 1., level))
           fail("the crest does not look up (z), but along " + direction(crest.sum) + ". " + how_to_turn());
         if (is_clear(stream))
@@ -108,6 +111,11 @@ namespace Voussoir
                  "names of "
                  "the two surfaces in the mesh; or, if its x axis points upstream, set \"Mesh/Axes\" = " +
                  turned_axes() + " (now it is " + parameters.axes + ")." + hint_of_the_numbers());
+          if (along(horizontal, 0, 1.) && !along(horizontal, 0, 1., downstream_is_x))
+            fail(
+                "the downstream face looks " + degrees_off_x(horizontal) +
+                " degrees off x. Turn the mesh about z until x points downstream: the motion and the results "
+                "are along and across the valley.");
           if (!along(horizontal, 0, 1.))
             fail("the downstream face does not look downstream (x), but along " + direction(horizontal) +
                  ". " + how_to_turn());
@@ -164,6 +172,11 @@ namespace Voussoir
           if (axis[d] != 0.)
             return std::string(axis[d] < 0. ? "-" : "") + "xyz"[d];
         return "";
+      }
+
+      static std::string degrees_off_x(const Vector &v)
+      {
+        return std::to_string(std::lround(std::abs(std::atan2(v[1], v[0])) * 180. / pi));
       }
 
       bool are_numbered_to_the_right() const

@@ -137,12 +137,27 @@ namespace Voussoir
       return lines.end();
     }
 
+    /** A header "... IN UNITS OF G" is what the samples are taken for; another unit is refused. */
+    void check_at2_unit(const std::string &file, const Line &line)
+    {
+      for (std::size_t k = 2; k < line.words.size(); ++k)
+        if (line.words[k - 2] == "UNITS" && line.words[k - 1] == "OF" && line.words[k] != "G" &&
+            line.words[k] != "g")
+          fail(file, line.number,
+               "the header says \"UNITS OF " + line.words[k] +
+                   "\", but samples of AT2 files are taken in g. Correct the header; or give a table of t "
+                   "and a, "
+                   "and its unit as Motion/Unit.");
+    }
+
     MotionRecord read_at2(const std::string &file, const std::vector<Line> &lines,
                           std::vector<Line>::const_iterator header)
     {
       for (auto line = lines.begin(); line != header; ++line)
         if (contains(*line, "VELOCITY") || contains(*line, "DISPLACEMENT"))
           fail(file, line->number, "this is not a record of acceleration. Give the .AT2 file instead.");
+        else
+          check_at2_unit(file, *line);
 
       // "4000 .01 NPTS, DT" or "NPTS= 4000, DT= .01 SEC": two numbers in this order.
       std::vector<double> numbers;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace Voussoir
 {
@@ -127,7 +128,7 @@ namespace Voussoir
 
   Extreme EnvelopeRecorder::extreme(const SolidModel &model, const int surface, const bool largest) const
   {
-    Extreme result;
+    Extreme result{std::numeric_limits<double>::quiet_NaN()}; // no such nodes
     bool    found = false;
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
       if (surface == 0 || model.on_surface(i, surface))

@@ -90,6 +90,8 @@ namespace Voussoir
   {
     write_tables();
     write_fields();
+    for (const std::string &warning : joints->reach.warnings())
+      log.line("warning: %s", warning.c_str());
     write_summary();
     log.line("Joints    largest opening %.2f mm, largest slip %.2f mm", 1e3 * joints->opening.value,
              1e3 * joints->slip.value);
@@ -101,8 +103,6 @@ namespace Voussoir
                1e3 * count.seconds_sweeps / n_steps, 1e3 * count.seconds_joints / n_steps,
                1e3 * count.seconds_stepping / n_steps, 1e3 * count.seconds_stresses / n_steps,
                1e3 * count.seconds_output / n_steps);
-    for (const std::string &warning : joints->reach.warnings())
-      log.line("warning: %s", warning.c_str());
     log.line("Energy    balance closes to %.1e of the largest energy", balance_error());
     if (dam->foundation && n_steps > 0)
       log.line("          that of the rock to %.1e", rock_balance_error());

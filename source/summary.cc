@@ -88,7 +88,7 @@ namespace Voussoir
         .add("largest_energy", largest_energy())
         .add("static", statics_json)
         .add("extremes", extremes)
-        .add_texts("warnings", joints->reach.warnings());
+        .add_texts("warnings", log.warnings());
     if (const Foundation *rock = dam->foundation.get())
     {
       Json json;

@@ -49,6 +49,7 @@ namespace Voussoir
         {"t/m^3", "density", 1e3},
         {"g/cm^3", "density", 1e3},
         {"kg/dm^3", "density", 1e3},
+        {"kN/m^3", "density", 1e3 / standard_gravity}, // a unit weight
         {"lb/ft^3", "density", pound / (foot * foot * foot)},
         {"m/s^2", "acceleration", 1.},
         {"cm/s^2", "acceleration", 1e-2},

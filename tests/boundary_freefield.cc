@@ -119,6 +119,39 @@ namespace
     below("  P", error_p, .01);
   }
 
+  /** Where the rock's bottom is deeper, the wave enters earlier: the level ground moves as one. */
+  void stepped_bottom()
+  {
+    auto p = parameters("mtf2", true);
+    p.dt = .1;
+    const auto place = [](const double i, const double j, const double k) -> Vector3 {
+      return {{i, j, (k - 24.) * (i < 3. ? 1. : i < 4. ? .75 : .5)}};
+    };
+    const HexMesh      mesh = box({7, 6, 24}, open_box, place);
+    const RockModel    model = make_rock_model(mesh, p.rock);
+    FreeField          field(model, p.damping, p.dt, 1200,
+                             [](const double t) -> Vector3 {
+                      return {{ricker(t, .02, 50.), 0., ricker(t, .02, 50.)}};
+                    });
+    const unsigned int corner = 24 * 7 * 8;
+    field.add_nodes(model, {corner, corner + 7}); // of the ground above 24 m and above 12 m of rock
+    Unknowns u;
+    double   difference[3] = {0., 0., 0.}, peak[3] = {0., 0., 0.};
+    for (unsigned int i = 1; i <= 1200; ++i)
+    {
+      field.advance();
+      field.evaluate(u);
+      for (const unsigned int c : {0u, 2u})
+      {
+        difference[c] = larger(difference[c], std::abs(u[c] - u[3 + c]));
+        peak[c] = larger(peak[c], std::abs(u[c]));
+      }
+    }
+    above("bottom at two depths: peak of the level ground", peak[0], 1.9);
+    below("  ground above one - above the other / peak, S", difference[0] / peak[0], .01);
+    below("  P", difference[2] / peak[2], .01);
+  }
+
   /** Valley along x: the ground's height over y is lowered in the middle, vertical lines stay vertical. */
   Vector3 valley(const double i, const double j, const double k)
   {
@@ -184,7 +217,7 @@ namespace
 
 int main()
 {
-  return Columns::run_all({refuses, surface_factor, [] { flat("mtf2", true, {}); },
+  return Columns::run_all({refuses, surface_factor, stepped_bottom, [] { flat("mtf2", true, {}); },
                            [] { flat("mtf2", false, {}); }, [] { flat("mtf3", true, {}); },
                            [] {
                              flat("mtf2", true, {.01, .05});

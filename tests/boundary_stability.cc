@@ -248,6 +248,49 @@ namespace
       }
   }
 
+  /** A vertical force that stays, on the ground of a half-space: what the boundaries that hold static loads
+   * leave of the settlement 3/(8 pi G r) (Boussinesq 1885, Poisson's ratio 1/4), r a third to two thirds of
+   * the box. Their factors of spreading and springs were chosen for this. */
+  void settlement()
+  {
+    for (const std::string name : {"mtf2", "mtf3", "viscous-spring"})
+    {
+      constexpr unsigned int size = 24, n_steps = 800;
+      auto                   p = parameters(name);
+      p.rock.centre = {{0., 0., double(size)}};
+      const RockModel model =
+          make_rock_model(box({size, size, size}, {"x+", "y+", "z-"},
+                              [](const double i, const double j, const double k) -> Vector3 {
+                                return {{i, j, k}};
+                              }),
+                          p.rock);
+      const auto                region = make_region(model, p);
+      std::vector<unsigned int> fixed;
+      for (unsigned int i = 0; i < model.points.size(); ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+          if (model.points[i][c] == 0.)
+            fixed.push_back(3 * i + c);
+      region->fix(fixed);
+      const unsigned int source = size * (size + 1) * (size + 1);
+      region->force.assign(3 * model.points.size(), 0.);
+      double least = 10., most = 0.;
+      for (unsigned int i = 0; i < n_steps; ++i)
+      {
+        region->force[3 * source + 2] = -.25 * std::min(1., region->time() / 20.);
+        region->advance();
+      }
+      for (const unsigned int r : {8, 12, 16})
+      {
+        const double ratio = -region->displacement()[3 * (source + r) + 2] * 8. * pi * r / 3.;
+        least = std::min(least, ratio);
+        most = std::max(most, ratio);
+      }
+      const bool is_transmitting = name != "viscous-spring";
+      above("settlement / Boussinesq's, " + name + ", least", least, is_transmitting ? .95 : 1.);
+      below("  most", most, is_transmitting ? 1.05 : 1.15);
+    }
+  }
+
   /** The gamma of a box falls with its number of cells: in a large one it does not hold mtf3 where the Gauss
    * points in the middle meet the layers. */
   void large()
@@ -272,5 +315,5 @@ int main(const int argc, char **argv)
 {
   if (argc > 1)
     n_long = std::stoi(argv[1]);
-  return Columns::run_all({gauss, poisson, drift, diagonal, large, stable});
+  return Columns::run_all({gauss, settlement, poisson, drift, diagonal, large, stable});
 }

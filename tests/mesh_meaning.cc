@@ -109,8 +109,17 @@ namespace
                                         [](const auto &face) { return face.surface == PhysicalId::crest; }),
                          no_crest.faces.end());
     expect_error([&] { check(no_crest); }, {"base looks up"});
-    // An odd dam: turned by 50 degrees about z; and a block that leans.
-    check(moved([](const P &p) { return P{.643 * p[0] - .766 * p[1], .766 * p[0] + .643 * p[1], p[2]}; }));
+    // Turned about z: a valley whose sides differ looks 30 degrees off x, by 50 degrees it is the mesh. And a
+    // block that leans.
+    check(moved([](const P &p) { return P{.866 * p[0] - .5 * p[1], .5 * p[0] + .866 * p[1], p[2]}; }));
+    expect_error(
+        [&] {
+          check(moved(
+              [](const P &p) {
+                return P{.643 * p[0] - .766 * p[1], .766 * p[0] + .643 * p[1], p[2]};
+              }));
+        },
+        {"50 degrees off x", "Turn the mesh about z"});
     check(moved([](const P &p) { return P{p[0] + p[2], p[1], p[2]}; }));
   }
 

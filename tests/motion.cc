@@ -225,6 +225,10 @@ namespace
     }
     parameters.unit = "g";
     require_close(make_motion(parameters, "").acceleration[2][0], standard_gravity, 1e-12, "unit g");
+    write("motion_gal.AT2", "AN EVENT\nACCELERATION TIME SERIES IN UNITS OF CM/S/S\n" + headers[1] + data);
+    parameters.component_files[2] = "motion_gal.AT2";
+    require_error([&] { make_motion(parameters, ""); },
+                  {"motion_gal.AT2", "line 2", "UNITS OF CM/S/S", "Motion/Unit"});
 
     // What is written can be read again.
     write_motion(motion, "motion_written.csv");

@@ -210,6 +210,7 @@ def command_line():
     refused(["parameters", "xml"], "xml", "markdown")
     write_scene()
     refused(["scene.prm", "--fast"], "--fast", "--help")
+    refused(["--help", "--fast"], "--fast", "no option")
     refused(["scene.prm", "--output"], "--output", "needs a value")
     refused(["scene.prm", "other.prm"], "other.prm")
     refused(["mesh", "scene.prm"], "--output")

@@ -24,8 +24,12 @@ namespace Voussoir
     /** printf-style line. */
     void line(const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+    /** What the lines "warning: ..." have said, each once. */
+    const std::vector<std::string> &warnings() const { return warned; }
+
   private:
     const bool                  quiet;
+    std::vector<std::string>    warned;
     std::string                 early;
     std::unique_ptr<OutputFile> file;
   };
