@@ -4,7 +4,7 @@
 
 #include "boundary_canyon.h"
 
-#include <voussoir/log.h>
+#include <voussoir/base/log.h>
 
 #include <cstdio>
 

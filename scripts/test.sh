@@ -15,6 +15,7 @@ form() # the sources as clang-format 14 writes them, scripts without complaints,
   else
     echo "test: this is not clang-format 14: the form of the sources was not checked" >&2
   fi
+  scripts/check_rooms.sh
   shellcheck scripts/*.sh .ci/run
   scripts/mutants.py --check
 }

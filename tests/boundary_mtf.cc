@@ -4,7 +4,7 @@
 #include "box.h"
 #include "column.h"
 
-#include <voussoir/error.h>
+#include <voussoir/base/error.h>
 
 #include <complex>
 

@@ -5,7 +5,7 @@
 #include "box.h"
 #include "column.h"
 
-#include <voussoir/foundation_parameters.h>
+#include <voussoir/foundation/foundation_parameters.h>
 
 namespace
 {

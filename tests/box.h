@@ -3,7 +3,7 @@
 #ifndef voussoir_tests_box_h
 #define voussoir_tests_box_h
 
-#include <voussoir/rock_region.h>
+#include <voussoir/rock/rock_region.h>
 
 #include <algorithm>
 #include <cmath>

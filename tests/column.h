@@ -3,8 +3,9 @@
 #ifndef voussoir_tests_column_h
 #define voussoir_tests_column_h
 
-#include <voussoir/newmark.h>
-#include <voussoir/solid_model.h>
+#include <voussoir/contact/law_table.h>
+#include <voussoir/dynamics/newmark.h>
+#include <voussoir/solid/solid_model.h>
 
 #include <algorithm>
 #include <cmath>

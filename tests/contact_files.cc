@@ -4,8 +4,8 @@
 
 #include "blocks.h"
 
-#include <voussoir/contact_command.h>
-#include <voussoir/error.h>
+#include <voussoir/app/contact_command.h>
+#include <voussoir/base/error.h>
 
 #include <filesystem>
 #include <fstream>

@@ -4,8 +4,9 @@
 #include "blocks.h"
 #include "natural_map.h"
 
-#include <voussoir/error.h>
-#include <voussoir/key_law.h>
+#include <voussoir/base/error.h>
+#include <voussoir/contact/key_law.h>
+#include <voussoir/contact/law_table.h>
 
 using namespace Columns;
 

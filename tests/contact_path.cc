@@ -3,8 +3,9 @@
 
 #include "blocks.h"
 
-#include <voussoir/error.h>
-#include <voussoir/sparse_contact.h>
+#include <voussoir/base/error.h>
+#include <voussoir/contact/law_table.h>
+#include <voussoir/contact/sparse_contact.h>
 
 #include <cstring>
 

@@ -4,8 +4,9 @@
 #include "blocks.h"
 #include "natural_map.h"
 
-#include <voussoir/contact_command.h>
-#include <voussoir/sparse_contact.h>
+#include <voussoir/app/contact_command.h>
+#include <voussoir/contact/law_table.h>
+#include <voussoir/contact/sparse_contact.h>
 
 #include <chrono>
 #include <filesystem>

@@ -3,7 +3,7 @@
 #include "box.h"
 #include "column.h"
 
-#include <voussoir/motion.h>
+#include <voussoir/motion/motion.h>
 
 namespace
 {

@@ -4,7 +4,7 @@
 // a child process, with files "out" and "err" in its directory. Answer: "exit N" or "signal N" (14: time is
 // over).
 
-#include <voussoir/program.h>
+#include <voussoir/app/program.h>
 
 #include <cerrno>
 #include <csignal>

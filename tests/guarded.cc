@@ -2,8 +2,8 @@
 
 #include "blocks.h"
 
-#include <voussoir/error.h>
-#include <voussoir/guarded.h>
+#include <voussoir/base/error.h>
+#include <voussoir/base/guarded.h>
 
 #include <csignal>
 #include <numeric>

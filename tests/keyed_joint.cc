@@ -4,7 +4,8 @@
 
 #include "blocks.h"
 
-#include <voussoir/mesh_joints.h>
+#include <voussoir/contact/law_table.h>
+#include <voussoir/mesh/mesh_joints.h>
 
 using namespace Columns;
 

@@ -3,9 +3,9 @@
 
 #include "mesh_testing.h"
 
-#include <voussoir/gmsh_io.h>
-#include <voussoir/mesh_joints.h>
-#include <voussoir/mesh_source.h>
+#include <voussoir/mesh/gmsh_io.h>
+#include <voussoir/mesh/mesh_joints.h>
+#include <voussoir/mesh/mesh_source.h>
 
 #include <cstdio>
 #include <filesystem>

@@ -5,10 +5,10 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <voussoir/gmsh_io.h>
-#include <voussoir/mesh_joints.h>
-#include <voussoir/mesh_source.h>
-#include <voussoir/output_file.h>
+#include <voussoir/base/output_file.h>
+#include <voussoir/mesh/gmsh_io.h>
+#include <voussoir/mesh/mesh_joints.h>
+#include <voussoir/mesh/mesh_source.h>
 
 #include <filesystem>
 #include <fstream>

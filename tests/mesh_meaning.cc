@@ -3,10 +3,10 @@
 
 #include "mesh_testing.h"
 
-#include <voussoir/dam_geometry.h>
-#include <voussoir/gmsh_io.h>
-#include <voussoir/mesh_axes.h>
-#include <voussoir/mesh_groups.h>
+#include <voussoir/dam/dam_geometry.h>
+#include <voussoir/mesh/gmsh_io.h>
+#include <voussoir/mesh/mesh_axes.h>
+#include <voussoir/mesh/mesh_groups.h>
 
 #include <fstream>
 

@@ -3,10 +3,10 @@
 
 #include "mesh_testing.h"
 
-#include <voussoir/boundary_lines.h>
-#include <voussoir/gmsh_io.h>
-#include <voussoir/mesh_joints.h>
-#include <voussoir/mesh_source.h>
+#include <voussoir/mesh/boundary_lines.h>
+#include <voussoir/mesh/gmsh_io.h>
+#include <voussoir/mesh/mesh_joints.h>
+#include <voussoir/mesh/mesh_source.h>
 
 #include <cstdio>
 

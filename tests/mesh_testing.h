@@ -3,8 +3,8 @@
 #ifndef voussoir_tests_mesh_testing_h
 #define voussoir_tests_mesh_testing_h
 
-#include <voussoir/error.h>
-#include <voussoir/mesh.h>
+#include <voussoir/base/error.h>
+#include <voussoir/mesh/mesh.h>
 
 #include <algorithm>
 #include <array>

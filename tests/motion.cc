@@ -2,11 +2,12 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <voussoir/error.h>
-#include <voussoir/motion.h>
-#include <voussoir/motion_artificial.h>
-#include <voussoir/output_file.h>
-#include <voussoir/response_spectrum.h>
+#include <voussoir/base/error.h>
+#include <voussoir/base/output_file.h>
+#include <voussoir/motion/motion.h>
+#include <voussoir/motion/motion_artificial.h>
+#include <voussoir/motion/motion_report.h>
+#include <voussoir/motion/response_spectrum.h>
 
 #include <algorithm>
 #include <cmath>

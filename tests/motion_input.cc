@@ -3,9 +3,10 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <voussoir/error.h>
-#include <voussoir/motion.h>
-#include <voussoir/resample.h>
+#include <voussoir/base/error.h>
+#include <voussoir/motion/motion.h>
+#include <voussoir/motion/motion_report.h>
+#include <voussoir/motion/resample.h>
 
 #include <cmath>
 #include <filesystem>

@@ -3,7 +3,7 @@
 #ifndef voussoir_tests_natural_map_h
 #define voussoir_tests_natural_map_h
 
-#include <voussoir/vector3.h>
+#include <voussoir/base/tensor3.h>
 
 namespace Columns
 {

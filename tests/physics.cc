@@ -1,18 +1,19 @@
 // Loads, stresses, places, oscillators and rock against closed forms. Usage: physics loads|model|newmark|rock
 
-#include <voussoir/dam_geometry.h>
-#include <voussoir/dam_loads.h>
-#include <voussoir/explicit_region.h>
-#include <voussoir/free_field.h>
-#include <voussoir/gmsh_io.h>
-#include <voussoir/joint_law.h>
-#include <voussoir/mesh_joints.h>
-#include <voussoir/mesh_source.h>
-#include <voussoir/motion.h>
-#include <voussoir/newmark.h>
-#include <voussoir/rock_model.h>
-#include <voussoir/solid_model.h>
-#include <voussoir/stress.h>
+#include <voussoir/contact/law_table.h>
+#include <voussoir/dam/dam_geometry.h>
+#include <voussoir/dam/dam_loads.h>
+#include <voussoir/dynamics/newmark.h>
+#include <voussoir/mesh/gmsh_io.h>
+#include <voussoir/mesh/mesh_joints.h>
+#include <voussoir/mesh/mesh_source.h>
+#include <voussoir/motion/motion.h>
+#include <voussoir/motion/motion_report.h>
+#include <voussoir/rock/explicit_region.h>
+#include <voussoir/rock/free_field.h>
+#include <voussoir/rock/rock_model.h>
+#include <voussoir/solid/solid_model.h>
+#include <voussoir/solid/stress.h>
 
 #include "box.h"
 #include "mesh_testing.h"

@@ -4,9 +4,9 @@
 
 #include "column.h"
 
-#include <voussoir/foundation.h>
-#include <voussoir/mesh_joints.h>
-#include <voussoir/motion.h>
+#include <voussoir/foundation/foundation.h>
+#include <voussoir/mesh/mesh_joints.h>
+#include <voussoir/motion/motion.h>
 
 #include <set>
 

@@ -4,9 +4,9 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <voussoir/nearest_name.h>
-#include <voussoir/scene_warnings.h>
-#include <voussoir/units.h>
+#include <voussoir/app/scene_warnings.h>
+#include <voussoir/base/nearest_name.h>
+#include <voussoir/base/units.h>
 
 #include <fstream>
 

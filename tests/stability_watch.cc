@@ -2,10 +2,10 @@
 
 #include "column.h"
 
-#include <voussoir/energy_check.h>
-#include <voussoir/error.h>
-#include <voussoir/motion.h>
-#include <voussoir/stability_watch.h>
+#include <voussoir/base/error.h>
+#include <voussoir/motion/motion.h>
+#include <voussoir/output/energy_check.h>
+#include <voussoir/output/stability_watch.h>
 
 namespace
 {

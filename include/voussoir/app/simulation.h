@@ -1,0 +1,128 @@
+#ifndef voussoir_simulation_h
+#define voussoir_simulation_h
+
+#include <voussoir/base/interrupt.h>
+#include <voussoir/base/log.h>
+#include <voussoir/dam/dam.h>
+#include <voussoir/output/checkpoint_file.h>
+#include <voussoir/output/recorders.h>
+#include <voussoir/output/run_directory.h>
+#include <voussoir/output/stability_watch.h>
+
+#include <optional>
+
+namespace Voussoir
+{
+  struct RunOptions
+  {
+    std::string output;            ///< directory; empty: output/NAME
+    bool        resume = false;    ///< go on from the last checkpoint
+    bool        validate = false;  ///< set up and report, but do not compute
+    bool        overwrite = false; ///< replace a checkpoint, and write beside files of others
+    bool        quiet = false;
+  };
+
+  /** One run of a scene: set up, static state, shaking, results. */
+  class Simulation
+  {
+  public:
+    /** @p scene_text: the scene with all defaults, for the output directory. */
+    Simulation(const Scene &scene, const std::string &scene_text, const RunOptions &options);
+
+    void run();
+
+  private:
+    void    read_input();
+    void    report_setup();
+    void    report_motion_notes();
+    void    report_motion_and_warnings();
+    void    find_static_state();
+    void    settle(JointSystem &system, const Unknowns &springs, const Unknowns &start, Unknowns &gap);
+    Vector3 relative_to_base(unsigned int node) const;
+    ContactParameters contact_parameters(const std::string &stage) const;
+    void              start_shaking();
+    void              shake();
+    void              advance();
+    void              step_once();
+    void              record();
+    void              report_step();
+    void              write_solution();
+    void              open_tables();
+    void              write_tables();
+    void              write_fields();
+    void              write_results();
+    void              write_summary();
+    double            largest_energy() const; ///< of the dam, that has gone through [J]
+    double            balance_error() const;  ///< largest |balance| of its energies, over largest_energy()
+    double            rock_balance_error() const;
+    void              check_balance() const; ///< ComputationError where an account does not close
+    void              draw_figures();
+    void              stop_if_asked() const;
+    void              keep_and_stop();
+    std::string       keep_last_state();
+    std::string       checkpoint_name() const { return directory + "/checkpoint.bin"; }
+    void              save_checkpoint();
+    Provenance        provenance_now() const;
+    void              open_checkpoint();
+    void              load_checkpoint();
+
+    const Scene                   scene;
+    const std::string             scene_text;
+    const RunOptions              options;
+    RunDirectory                  run_directory;
+    const std::string             directory; ///< its path
+    std::optional<InterruptGuard> interrupt; ///< of a run, not of --validate
+    Log                           log;
+    Stopwatch                     clock, shaking_clock;
+    double                        clock_before = 0., cpu_before = 0.; ///< of the runs this one resumes [s]
+
+    std::unique_ptr<Dam>   dam;
+    GroundMotion           motion;
+    unsigned int           n_steps = 0, step = 0, first_step = 0;
+    Provenance             provenance;
+    std::string            checkpoint;          ///< its payload, until it is loaded
+    std::vector<PairState> pairs_at_start;      ///< of this process
+    unsigned int           start_step = 0;      ///< of this process
+    bool                   inside_step = false; ///< the state is not one of any time
+
+    struct StaticState
+    {
+      Unknowns               u, force, load;
+      std::vector<PairState> pairs;
+      ContactResult          contact;
+      unsigned int           n_open = 0;
+      Vector3                crown = {{0., 0., 0.}}; ///< displacement of the crest, against the base [m]
+    } statics;
+
+    struct Counters
+    {
+      double                      seconds_rock = 0., rock_energy = 0., rock_imbalance = 0.; // largest [J]
+      std::array<unsigned int, 4> path{}; ///< steps by ContactPath
+      double newton = 0., newton_max = 0., krylov = 0., factorisations = 0., sweeps = 0., residual = 0.,
+             imbalance = 0.; // largest |balance| of the energies of the dam [J]
+      double seconds_setup = 0., seconds_static = 0., seconds_sweeps = 0., seconds_joints = 0.,
+             seconds_stepping = 0., seconds_stresses = 0., seconds_output = 0., seconds_shaking = 0.;
+      template <class Archive> void serialize(Archive &archive, unsigned int)
+      {
+        archive &seconds_rock &rock_energy &rock_imbalance;
+        for (unsigned int &n : path)
+          archive &n;
+        archive &newton &newton_max &krylov &factorisations &sweeps &residual &imbalance;
+        archive &seconds_setup &seconds_static &seconds_sweeps &seconds_joints &seconds_stepping
+            &seconds_stresses &seconds_output &seconds_shaking;
+      }
+    } count;
+
+    std::unique_ptr<Newmark>                    newmark;
+    std::unique_ptr<StabilityWatch>             stability;
+    std::unique_ptr<StressRecovery>             stress;
+    std::unique_ptr<EnvelopeRecorder>           envelope;
+    std::unique_ptr<JointRecorder>              joints;
+    Table                                       history, energy;
+    TableFile                                   history_file, energy_file, joint_file;
+    std::vector<unsigned int>                   probes;    ///< nodes
+    std::vector<std::pair<double, std::string>> solutions; ///< time and file of solution.pvd
+  };
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,65 @@
+#ifndef voussoir_tensor3_h
+#define voussoir_tensor3_h
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace Voussoir
+{
+  using Vector3 = std::array<double, 3>;
+  using Matrix3 = std::array<double, 9>; ///< row by row
+  using Unknowns = std::vector<double>;  ///< three components per node, node after node
+
+  Matrix3 inverse(const Matrix3 &a);
+  Vector3 operator*(const Matrix3 &a, const Vector3 &x);
+
+  inline double dot(const Vector3 &a, const Vector3 &b)
+  {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
+
+  inline double norm(const Vector3 &x)
+  {
+    return std::sqrt(dot(x, x));
+  }
+
+  /** Of a vector in the plane. */
+  inline double length(const double x, const double y)
+  {
+    return std::sqrt(x * x + y * y);
+  }
+
+  inline Vector3 operator-(const Vector3 &a, const Vector3 &b)
+  {
+    return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
+  }
+
+  /** y += x. */
+  inline void add(Vector3 &y, const Vector3 &x)
+  {
+    for (unsigned int c = 0; c < 3; ++c)
+      y[c] += x[c];
+  }
+
+  /** a^T x. */
+  inline Vector3 transpose_times(const Matrix3 &a, const Vector3 &x)
+  {
+    return {{a[0] * x[0] + a[3] * x[1] + a[6] * x[2], a[1] * x[0] + a[4] * x[1] + a[7] * x[2],
+             a[2] * x[0] + a[5] * x[1] + a[8] * x[2]}};
+  }
+
+  /** The three components of node or pair @p i. */
+  inline Vector3 get(const Unknowns &x, const std::size_t i)
+  {
+    return {{x[3 * i], x[3 * i + 1], x[3 * i + 2]}};
+  }
+
+  inline void set(Unknowns &x, const std::size_t i, const Vector3 &value)
+  {
+    std::copy(value.begin(), value.end(), x.begin() + 3 * i);
+  }
+} // namespace Voussoir
+
+#endif

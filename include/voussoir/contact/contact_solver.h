@@ -1,0 +1,87 @@
+#ifndef voussoir_contact_solver_h
+#define voussoir_contact_solver_h
+
+#include <voussoir/contact/contact_operator.h>
+#include <voussoir/contact/contact_parameters.h>
+#include <voussoir/contact/contact_result.h>
+
+namespace Voussoir
+{
+  /** Finds the forces at all pairs: gap = W force + b, with a joint law at each pair.
+   *
+   *  Semismooth Newton with a nonmonotone line search (Grippo, Lampariello and Lucidi 1986), its linear
+   *  systems solved to the accuracy that Newton can use (Eisenstat and Walker 1996). A few Gauss-Seidel
+   *  sweeps with the exact solution of each pair settle the states before the first Newton step. When Newton
+   *  stalls, more sweeps follow; when it stalls again, the proximal point method, whose regularised problems
+   *  W + alpha D, alpha falling with the residual, Newton solves (reference: contact, 6).
+   *
+   *  Convergence is measured by the law's own error, |error|/max(|force|, |b|/w, |gap|/w) in 2-norms, w: mean
+   *  diagonal of W. For Coulomb's law this is the full relative natural-map error of Siconos on the problem
+   *  scaled to mean diagonal 1; it does not depend on units. */
+  class ContactSolver
+  {
+  public:
+    /** @p laws: one per pair; they and @p W must outlive the solver. */
+    ContactSolver(const ContactOperator &W, std::vector<const JointLaw *> laws,
+                  const ContactParameters &parameters);
+    ~ContactSolver();
+
+    /** @p start: gap at the start of the step; @p force: the initial guess, then the solution; @p gap:
+     *  receives W force + b. All have three entries per pair. Not converged: the best found. */
+    ContactResult solve(const Unknowns &b, const Unknowns &start, Unknowns &force, Unknowns &gap);
+
+    const std::vector<PairState>     &states() const { return state; }   ///< of the last solution
+    const std::vector<unsigned char> &touching() const { return touch; } ///< surfaces, as in PairEquations
+
+    /** Smallest W_nn/|W_nt| of a pair: friction beyond it may jam (reference: contact, 5.2). */
+    double critical_friction() const;
+
+  private:
+    struct Proximal ///< regularisation: gap + alpha D (force - centre)
+    {
+      double   alpha = 0.;
+      Unknowns centre;
+    };
+    struct Best
+    {
+      double   residual = std::numeric_limits<double>::infinity();
+      Unknowns force;
+    };
+    void         evaluate(const Unknowns &force, const Unknowns &gap);
+    double       merit() const;
+    double       residual(const Unknowns &force, const Unknowns &gap);
+    double       checked_residual(double target, const Unknowns &force, Unknowns &gap);
+    double       forcing_term(double now, double previous, double target, bool stalls) const;
+    void         refresh_gap(const Unknowns &force, Unknowns &gap);
+    double       remember(const Unknowns &force, const Unknowns &gap); ///< if it is the best; its residual
+    bool         newton(double target, unsigned int max_steps, Unknowns &force, Unknowns &gap);
+    double       line_search(double bound, const Unknowns &step, const Unknowns &d_gap, Unknowns &force,
+                             Unknowns &gap);
+    void         sweep(unsigned int count, Unknowns &force, Unknowns &gap);
+    bool         proximal_point(Unknowns &force, Unknowns &gap);
+    bool         out_of_time() const;
+    Vector3      shifted_gap(std::size_t pair, const Unknowns &force, const Unknowns &gap) const;
+    unsigned int steps_left() const;
+
+    const ContactOperator              &W;
+    const std::vector<const JointLaw *> law;
+    const ContactParameters             parameters;
+    std::unique_ptr<ContactJacobian>    jacobian;
+    std::vector<double>                 rho;      ///< per pair [N/m]
+    double                              mean_rho; ///< of the measure of convergence [N/m]
+    std::vector<PairEquations>          equations;
+    std::vector<PairState>              state;
+    std::vector<unsigned char>          touch;
+
+    Unknowns        multiplied, product;           ///< product = W multiplied, of the last refresh
+    const Unknowns *b = nullptr, *start = nullptr; ///< of the present problem
+    double          scale = 0.;                    ///< of the last residual [N]
+    double          drift = 0.; ///< of gap from W force + b, by single precision; relative, as the residual
+    Proximal        proximal;
+    Best            best;
+    ContactResult   result;
+    double          deadline = 0.;
+  };
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,15 @@
+#ifndef voussoir_fjb_law_h
+#define voussoir_fjb_law_h
+
+#include <voussoir/contact/joint_law.h>
+#include <voussoir/contact/law_parameters.h>
+
+#include <memory>
+
+namespace Voussoir
+{
+  /** Law FJB: a flat joint that opens and does not slip, open or closed. */
+  std::unique_ptr<JointLaw> make_fjb_law(const LawParameters &parameters);
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,71 @@
+#ifndef voussoir_joint_law_h
+#define voussoir_joint_law_h
+
+#include <voussoir/base/tensor3.h>
+
+namespace Voussoir
+{
+  enum class PairState : unsigned char
+  {
+    open,
+    stick,
+    slip
+  };
+
+  /** The equations of a pair, zero exactly when its conditions hold, with one element of the generalized
+   * Jacobian. */
+  struct PairEquations
+  {
+    Vector3   residual; ///< [N]
+    Matrix3   d_force;  ///< d residual / d force [-]
+    Matrix3   d_gap;    ///< d residual / d gap [N/m]
+    PairState state;    ///< that the equations stand for
+    unsigned char
+        touching; ///< surfaces of the law that touch, one bit each, if any carries force; bit 0: the face
+  };
+
+  /** The conditions between the two faces of a joint at one pair, in the frame (n,a,b).
+   *
+   *  force: of side 1 on side 2 [N]; force[0] > 0 is compression. gap: displacement of side 2 against side 1
+   *  since the joint was closed [m]; gap[0]: opening, >= 0. start: the gap at the start of the step; friction
+   *  opposes gap - start: force_t = -mu force_n slip/|slip|. (The paper's P_tau has the opposite sign.) */
+  class JointLaw
+  {
+  public:
+    virtual ~JointLaw() = default;
+
+    /** The non-smooth equations of the pair, in forces. @p rho [N/m] makes them independent of units; any
+     *  positive value has the same solution. */
+    virtual void evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, double rho,
+                          PairEquations &equations) const = 0;
+
+    /** What the pair misses, in forces: the measure of convergence, the same for all formulations of a law.
+     *  For Coulomb's law the natural map of De Saxce (reference: contact, 3.1). */
+    virtual Vector3 error(const Vector3 &force, const Vector3 &gap, const Vector3 &start, double rho) const;
+
+    /** Exact solution for one pair alone: the force with gap = H force + b. */
+    virtual Vector3 solve(const Matrix3 &H, const Vector3 &b, const Vector3 &start) const = 0;
+
+    /** The impulse [N s] that the law allows when the velocity without it is @p v [m/s] and the surfaces
+     *  @p touching touch; @p H: inverse mass [1/kg]. */
+    virtual Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, unsigned char touching) const = 0;
+
+    /** As solve_impulse(), but the impulse @p spent stays, and only the velocity @p v normal to the touching
+     *  surfaces is removed: never gives energy. */
+    virtual Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
+                                unsigned char touching) const;
+
+    /** The contact force that goes with the acceleration @p b, given the velocity @p slip_velocity of side 2.
+     */
+    virtual Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
+                                       double still, unsigned char touching) const;
+
+    /** Are the tangential conditions those of a tie, whether the faces touch or not? */
+    virtual bool is_tangentially_tied() const { return false; }
+
+    /** Coefficient of friction if the law is Coulomb's on one flat face, -1 otherwise. */
+    virtual double flat_friction() const { return -1.; }
+  };
+} // namespace Voussoir
+
+#endif

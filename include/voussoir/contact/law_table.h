@@ -1,0 +1,31 @@
+#ifndef voussoir_law_table_h
+#define voussoir_law_table_h
+
+#include <voussoir/contact/joint_law.h>
+#include <voussoir/contact/law_parameters.h>
+
+#include <memory>
+#include <string>
+
+namespace Voussoir
+{
+  /** The law of that name: tied, FJA, FJB, KSM. Throws InputError for an unknown name, and for equations that
+   * the law does not have. */
+  std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters);
+
+  /** The same, in words. */
+  inline std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const double friction,
+                                                  const Equations      equations,
+                                                  const KeyParameters &keys = KeyParameters())
+  {
+    return make_joint_law(name, LawParameters(friction, equations, keys));
+  }
+
+  /** The names of the laws as a ParameterHandler selection: "tied|FJA|FJB|KSM". */
+  std::string joint_law_names();
+
+  /** What the laws are, a sentence each, for the entry that selects one. */
+  std::string joint_law_docs();
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,32 @@
+#ifndef voussoir_sparse_contact_h
+#define voussoir_sparse_contact_h
+
+#include <voussoir/base/node_matrix.h>
+#include <voussoir/contact/contact_operator.h>
+
+namespace Voussoir
+{
+  /** Any W, in 3x3 blocks, symmetric or not, of any rank: the operator of problems whose structure is not
+   *  known. Its Newton systems are solved directly, dense or sparse. */
+  class SparseContactOperator : public ContactOperator
+  {
+  public:
+    explicit SparseContactOperator(BlockSparseMatrix W) : W(std::move(W)) {}
+
+    unsigned int n_pairs() const override { return W.n_rows(); }
+    Matrix3      diagonal(unsigned int pair) const override;
+    void         multiply(const Unknowns &x, Unknowns &y) const override;
+    void         sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const override;
+    std::unique_ptr<ContactJacobian> make_jacobian() const override;
+
+    const BlockSparseMatrix &matrix() const { return W; }
+
+  private:
+    const BlockSparseMatrix W;
+  };
+
+  /** Is W equal to its transpose, to round-off? */
+  bool is_symmetric(const BlockSparseMatrix &W);
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,15 @@
+#ifndef voussoir_tied_law_h
+#define voussoir_tied_law_h
+
+#include <voussoir/contact/joint_law.h>
+#include <voussoir/contact/law_parameters.h>
+
+#include <memory>
+
+namespace Voussoir
+{
+  /** Law tied: both directions bilateral, the monolithic dam. */
+  std::unique_ptr<JointLaw> make_tied_law(const LawParameters &parameters);
+} // namespace Voussoir
+
+#endif

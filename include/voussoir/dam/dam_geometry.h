@@ -1,0 +1,42 @@
+#ifndef voussoir_dam_geometry_h
+#define voussoir_dam_geometry_h
+
+#include <voussoir/solid/solid_model.h>
+
+namespace Voussoir
+{
+  /** The places of a dam that engineers look at. */
+  class DamGeometry
+  {
+  public:
+    /** Throws InputError when the mesh has no surface "crest". */
+    DamGeometry(const SolidModel &model, const std::vector<Pair> &pairs, unsigned int n_joints);
+
+    /** Arc length along the upstream edge of the crest, zero in its middle, positive to the left bank, of the
+     * point of that edge that is nearest in plan [m]. */
+    double arc_length(const dealii::Point<3> &p) const;
+
+    unsigned int crown; ///< node of the crest's upstream edge nearest to its middle
+
+    struct CrestPairs
+    {
+      unsigned int upstream = rigid_ground,
+                   downstream = rigid_ground; ///< pairs; rigid_ground if the joint has none
+      double arc_length = 0.;
+    };
+    std::vector<CrestPairs> joints;
+
+  private:
+    std::vector<dealii::Point<3>> edge; ///< upstream edge of the crest from the right bank to the left
+    std::vector<double>           at;   ///< its arc length
+  };
+
+  /** The node nearest to a point. */
+  unsigned int nearest_node(const SolidModel &model, const dealii::Point<3> &p);
+
+  /** The node nearest to the probe @p name at @p p. Throws InputError if it is farther away than the elements
+   *  there are large (the longest distance from that node to another one of its elements). */
+  unsigned int probe_node(const SolidModel &model, const std::string &name, const dealii::Point<3> &p);
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,113 @@
+#ifndef voussoir_scene_h
+#define voussoir_scene_h
+
+#include <voussoir/contact/contact_solver.h>
+#include <voussoir/contact/law_parameters.h>
+#include <voussoir/dam/dam_loads.h>
+#include <voussoir/foundation/foundation_parameters.h>
+#include <voussoir/mesh/mesh_source.h>
+#include <voussoir/motion/motion_parameters.h>
+#include <voussoir/solid/material.h>
+
+#include <map>
+
+namespace Voussoir
+{
+  struct ElementParameters
+  {
+    unsigned int degree = 1;
+    bool         incompatible_modes = true;
+    void         add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /** Rayleigh damping C = a0 M + a1 K with the damping ratio at two frequencies. */
+  struct DampingParameters
+  {
+    double ratio = .05, frequency_1 = 1.2, frequency_2 = 6.; ///< [-], [Hz], [Hz]
+    void   add_parameters(dealii::ParameterHandler &prm);
+    void   check() const;
+    double mass_factor() const;      ///< a0 [1/s]
+    double stiffness_factor() const; ///< a1 [s]
+  };
+
+  struct JointParameters
+  {
+    std::string                         model = "FJA";
+    double                              friction = .8;
+    std::string                         equations = "alart-curnier";
+    KeyParameters                       keys;
+    std::map<unsigned int, std::string> overrides; ///< joint number -> model
+    void                                add_parameters(dealii::ParameterHandler &prm);
+    void                                check() const;
+    const std::string                  &model_of(const unsigned int joint) const
+    {
+      const auto found = overrides.find(joint);
+      return found == overrides.end() ? model : found->second;
+    }
+  };
+
+  struct StaticParameters
+  {
+    std::string  self_weight = "staged"; ///< or monolithic, none
+    unsigned int water_increments = 1;
+    double       gravity = 9.81; ///< [m/s^2]
+    void         add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  struct OutputParameters
+  {
+    std::map<std::string, std::string> probes;                    ///< name -> "x y z" [m]
+    unsigned int                       envelope_interval = 1;     ///< [steps], 0: none
+    unsigned int                       solution_interval = 0;     ///< [steps], 0: none
+    unsigned int                       checkpoint_interval = 500; ///< [steps], 0: none
+    unsigned int                       progress_interval = 64;    ///< [steps]
+    bool                               figures = true;
+    void                               add_parameters(dealii::ParameterHandler &prm);
+    void                               check() const;
+    std::map<std::string, Vector3>     probe_places() const; ///< throws InputError for a malformed one
+  };
+
+  /** All entries of a scene file. */
+  struct Scene
+  {
+    std::string          name;      ///< of the file, without directory and .prm
+    std::string          directory; ///< of the file: paths in it are relative to this
+    std::string          impact_rule = "mean-force";
+    MeshParameters       mesh;
+    ElementParameters    elements;
+    Material             concrete;
+    DampingParameters    damping;
+    ReservoirParameters  reservoir;
+    JointParameters      joints;
+    ContactParameters    contact;
+    StaticParameters     statics;
+    FoundationParameters foundation;
+    unsigned int         steps_per_sample = 1; ///< of the ground motion
+    MotionParameters     motion;
+    OutputParameters     output;
+
+    std::vector<std::string> warnings; ///< of read_scene(), about entries that the user wrote
+
+    void add_parameters(dealii::ParameterHandler &prm);
+    void check() const;
+
+    std::vector<std::string> sources; ///< the scene file and the files that it includes
+
+    /** Meshes and motions that it names: entry and path. */
+    std::vector<std::pair<std::string, std::string>> input_files() const;
+
+    /** Throws InputError if @p file, which a command is to write, is one that the scene is made of, or has no
+     * directory. */
+    void check_output(const std::string &file) const;
+  };
+
+  /** Reads a scene file with its includes (relative to the including file), then applies @p overrides, each
+   *  "Section/Subsection/Entry=value". Values may carry a unit, see in_declared_unit(). Throws InputError
+   * with file, line and entry; for an unknown entry it names the nearest known one. Entries without effect
+   * and implausible values go to Scene::warnings. @p prm: receives the declarations and values, for printing.
+   */
+  void read_scene(const std::string &file, const std::vector<std::string> &overrides, Scene &scene,
+                  dealii::ParameterHandler &prm);
+} // namespace Voussoir
+
+#endif

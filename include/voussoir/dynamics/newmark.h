@@ -1,0 +1,98 @@
+#ifndef voussoir_newmark_h
+#define voussoir_newmark_h
+
+#include <voussoir/dynamics/impact.h>
+
+namespace Voussoir
+{
+  /** Energies [J] since the start; those above the line are states, those below accumulate. */
+  struct Energy
+  {
+    double kinetic = 0., added_mass = 0., strain = 0.;           // of concrete; of water; of concrete
+    double damping = 0., friction = 0., impact = 0., input = 0.; // input: work of all loads
+
+    /** What the account misses: zero but for round-off in a correct run. */
+    double balance(const Energy &start) const;
+  };
+
+  /** Displacement and velocity, and joint forces, at one time; on a rigid base relative to it. */
+  struct DynamicState
+  {
+    double   time = 0.;
+    Unknowns u, v;  ///< [m], [m/s], 3 per node
+    Unknowns force; ///< [N], 3 per pair, in the frame of the pair: mean over the last step, or at its end
+    Unknowns load;  ///< [N], that of this time
+    Unknowns Ku;    ///< stiffness times displacement [N]
+    Vector3  base_velocity = {{0., 0., 0.}}; ///< see Newmark::advance() [m/s]
+    Energy   energy;
+  };
+
+  /** Trapezoidal Newmark with joints: M a + C v + K u = load + G^T force.
+   *
+   *  The displacements of a step satisfy the joint laws; then impact and release make velocity and
+   *  acceleration fit (Impact). */
+  class Newmark
+  {
+  public:
+    Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters, double dt,
+            ImpactRule rule);
+
+    /** Start from displacement @p u and velocity @p v with the joint forces @p force of that state under @p
+     * load; @p reference: jump of each pair, 3 per pair, at which it is closed and
+     * unslipped [m]. */
+    void start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
+               const Unknowns &reference);
+
+    /** Go on from a saved state, with the energies of the start and the largest one so far. */
+    void resume(const DynamicState &state, const Energy &first, double largest_energy,
+                const Unknowns &reference);
+
+    /** One step to time + dt, under @p load there. When the joints do not converge, two steps of half the
+     *  size take its place, and so on down to dt/8; then throws ComputationError. @p base_velocity: at that
+     * time, where the displacements are absolute: the mass-proportional damping acts on the velocity relative
+     * to it, as on a rigid base [m/s]. */
+    ContactResult advance(const Unknowns &load, const Vector3 &base_velocity = {{0., 0., 0.}});
+
+    const DynamicState &state() const { return now; }
+    const Energy       &initial_energy() const { return first; }
+    double              largest_energy() const { return largest; } ///< that has gone through [J]
+    double              energy_error() const; ///< |balance| / largest energy that has gone through
+
+    /** Opening and slip of a pair since @p reference, (n,a,b) [m]. */
+    Vector3 opening_and_slip(unsigned int pair) const;
+
+    /** Of the last step. */
+    const std::vector<PairState> &pair_states() const
+    {
+      return halved ? finer->pair_states() : system.states();
+    }
+    const Unknowns    &impulses() const { return impulse; } ///< of the last step, 3 per pair [N s]
+    const JointSystem &joint_system() const { return system; }
+
+  private:
+    bool          step(const Unknowns &load, const Vector3 &base_velocity, ContactResult &result);
+    ContactResult advance_in_halves(const Unknowns &load, const Vector3 &base_velocity,
+                                    const ContactResult &failed);
+    Unknowns      right_hand_side(const Unknowns &load, const Vector3 &base_velocity) const;
+    Unknowns      force_without_joints() const;
+    double        kinetic_energy_of_pairs() const;
+    void          account_states();
+
+    const Structure         &structure;
+    const JointLaws         &laws;
+    const ContactParameters  parameters;
+    const double             dt;
+    const ImpactRule         rule;
+    JointSystem              system;
+    Impact                   impact;
+    Unknowns                 reference, impulse, gap;
+    DynamicState             now;
+    Energy                   first; ///< at the start
+    double                   largest = 0.;
+    unsigned int             halvings_left = 3;
+    bool                     halved = false; ///< was the last step?
+    std::unique_ptr<Newmark> finer;          ///< with half the time step; made when it is needed
+  };
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,73 @@
+#ifndef voussoir_joint_system_h
+#define voussoir_joint_system_h
+
+#include <voussoir/contact/contact_solver.h>
+#include <voussoir/joints/condensed_body.h>
+#include <voussoir/joints/interface_operator.h>
+
+namespace Voussoir
+{
+  /** The joint laws of a structure, one per pair; owned once per joint, but for the pairs on edges. */
+  struct JointLaws
+  {
+    std::vector<std::unique_ptr<JointLaw>> of_joint;
+    std::vector<std::unique_ptr<JointLaw>> of_edges; ///< of single pairs
+    std::vector<const JointLaw *>          of_pair;
+
+    /** Gives every pair the law of its joint. A pair on an edge of a joint with Coulomb friction (FJA)
+     * touches on all its planes, with that friction; the other laws do not know edges. */
+    void assign(const std::vector<Pair> &pairs);
+  };
+
+  /** Wall seconds spent in the stages of a linear solution with joints. */
+  struct SystemTimes
+  {
+    double sweeps = 0., joints = 0.;
+  };
+
+  /** The bodies condensed for one operator A = mass_factor M + stiffness_factor K + dashpot_factor D, and the
+   * joints between them: solves A u = load + G^T force, gap = G u + offset, with the joint laws between force
+   * and gap. */
+  class JointSystem
+  {
+  public:
+    JointSystem(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters,
+                double mass_factor, double stiffness_factor, double dashpot_factor);
+
+    /** @p start: gap at the start of the step, 3 per pair [m]; @p force: guess, then solution, 3 per pair
+     * [N];
+     *  @p gap, 3 per pair [m]; @p u, 3 per node [m]. */
+    ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &force,
+                        Unknowns &gap, Unknowns &u);
+
+    /** The bodies without joint forces: A u = load. */
+    void solve_free(const Unknowns &load, Unknowns &u);
+
+    const std::vector<PairState>     &states() const { return solver->states(); }
+    const std::vector<unsigned char> &touching() const { return solver->touching(); }
+    double                            memory() const; ///< of factors and joint operator [bytes]
+    const InterfaceOperator          &joint_operator() const { return W; }
+
+    SystemTimes times;
+
+  private:
+    struct Side ///< one node of a pair: its body, and its number among the interface nodes
+    {
+      unsigned int body = rigid_ground, node = 0;
+    };
+    void condense();
+    void write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &force) const;
+
+    const Structure                    &structure;
+    const ContactParameters             parameters;
+    const std::vector<const JointLaw *> laws;
+    std::vector<CondensedBody>          bodies;
+    std::vector<std::array<Side, 2>>    sides; ///< per pair
+    InterfaceOperator                   W;
+    std::unique_ptr<ContactSolver>      solver;
+    std::vector<std::vector<double>>    interface; ///< work space per body
+    unsigned int                        n_solved;  ///< also before this object was made
+  };
+} // namespace Voussoir
+
+#endif

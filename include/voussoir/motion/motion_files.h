@@ -1,0 +1,18 @@
+#ifndef voussoir_motion_files_h
+#define voussoir_motion_files_h
+
+#include <voussoir/motion/ground_motion.h>
+#include <voussoir/motion/motion_parameters.h>
+
+namespace Voussoir
+{
+  /** The motion of the files that section "Motion" names, in m/s^2, times "Factor", before "Scale".
+   *
+   *  Each record is brought to the analysis' time step on its own (resample()). The motion lasts for
+   *  "Duration", or, where that is automatic, as many whole time steps as the shortest record has.
+   * InputError: a record that cannot be read, that ends before a given "Duration", or that starts at another
+   * time than the component before it. */
+  GroundMotion read_motion(const MotionParameters &parameters, const std::string &scene_directory);
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,123 @@
+#ifndef voussoir_recorders_h
+#define voussoir_recorders_h
+
+#include <voussoir/base/output_file.h>
+#include <voussoir/dam/dam_geometry.h>
+#include <voussoir/dynamics/newmark.h>
+#include <voussoir/joints/joint_reach.h>
+#include <voussoir/solid/stress.h>
+
+#include <memory>
+#include <string>
+
+namespace Voussoir
+{
+  /** Rows of numbers under named columns; written as CSV. */
+  struct Table
+  {
+    std::vector<std::string>         columns;
+    std::vector<std::vector<double>> rows;
+
+    void write(const std::string &file) const; ///< throws WriteError
+
+    template <class Archive> void serialize(Archive &archive, unsigned int) { archive &columns &rows; }
+  };
+
+  /** The file of a table that grows with the run, so that a run that is killed leaves what it had. */
+  class TableFile
+  {
+  public:
+    void open(const std::string &name, const Table &table); ///< with the rows so far; throws WriteError
+    void append(const Table &table); ///< the rows that the file does not have yet; throws WriteError
+
+  private:
+    std::unique_ptr<OutputFile> file;
+    std::size_t                 n_written = 0;
+  };
+
+  /** A value with its place and time. */
+  struct Extreme
+  {
+    double  value = 0., time = 0.;
+    Vector3 place = {{0., 0., 0.}};
+
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &value &time &place[0] & place[1] & place[2];
+    }
+  };
+
+  /** Openings and slips of the joints: at the crest over time, and the largest anywhere. Opening and slip are
+   * counted from the grouted state. */
+  class JointRecorder
+  {
+  public:
+    JointRecorder(const Structure &structure, const DamGeometry &geometry);
+
+    void  record(const Newmark &newmark);
+    Table maxima() const; ///< joints.csv
+
+    Table      history; ///< joint_history.csv
+    Extreme    opening, slip;
+    JointReach reach; ///< counts from when it is set
+
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &history &opening &slip &reach;
+    }
+
+  private:
+    const Structure   &structure;
+    const DamGeometry &geometry;
+  };
+
+  /** Largest and smallest principal stress of every node over time. */
+  class EnvelopeRecorder
+  {
+  public:
+    /** @p initial: stresses to add to those of the displacements (self-weight), one per node. */
+    EnvelopeRecorder(const StressRecovery &recovery, std::vector<Stress> initial);
+
+    void record(double time, const Unknowns &u);
+
+    /** The largest of the maxima (or the smallest of the minima) of the nodes on a surface, 0: of all nodes.
+     */
+    Extreme extreme(const SolidModel &model, int surface, bool largest) const;
+
+    std::vector<float> maximum, minimum, time_of_maximum, time_of_minimum; ///< per node [Pa], [s]
+
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &maximum &minimum &time_of_maximum &time_of_minimum;
+    }
+
+  private:
+    const StressRecovery &recovery;
+    std::vector<Stress>   initial, stress;
+  };
+
+  /** Writes results on the mesh: VTU files for ParaView, and the developed faces for the figures. */
+  class FieldWriter
+  {
+  public:
+    explicit FieldWriter(const SolidModel &model);
+
+    struct NodalField
+    {
+      std::string        name;
+      std::vector<float> values; ///< one per node
+    };
+
+    /** One VTU file. @p u: 3 per free node, or empty. */
+    void write_vtu(const std::string &file, const Unknowns &u, const std::vector<NodalField> &fields) const;
+
+    /** faces.csv and faces_cells.csv: the nodes and quadrilaterals of the upstream and downstream faces. */
+    void write_faces(const std::string &directory, const DamGeometry &geometry,
+                     const std::vector<float> &maximum, const std::vector<float> &minimum) const;
+
+  private:
+    const SolidModel &model;
+  };
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,144 @@
+#ifndef voussoir_explicit_region_h
+#define voussoir_explicit_region_h
+
+#include <voussoir/rock/incident_field.h>
+#include <voussoir/rock/transmitting_boundary.h>
+#include <voussoir/solid/material.h>
+
+#include <memory>
+
+namespace Voussoir
+{
+  /** Energies of the explicit region half a step before its time [J]. */
+  struct RegionEnergy
+  {
+    double kinetic = 0., strain = 0.;
+    double damping = 0.;     ///< dissipated so far by Rayleigh damping
+    double external = 0.;    ///< work so far of the forces handed in
+    double transmitted = 0.; ///< what left so far through the artificial boundary; negative if it came in
+    double prescribed = 0.;  ///< work so far of the prescribed nodes on the region
+
+    double balance() const { return kinetic + strain + damping + transmitted - external - prescribed; }
+  };
+
+  /** A linear elastic region with lumped masses, integrated explicitly: Newmark with beta = 0, gamma = 1/2,
+   * damping evaluated with the predicted velocity (Hughes and Liu 1978, J. Appl. Mech. 45, 371-378).
+   *
+   *  Between the steps it keeps u at t and the predicted velocity of the next step, (u(t + dt) - u(t)) / dt:
+   *  one product with the stiffness per step. Nodes are explicit but for
+   *  - those of the transmitting boundary, whose motion follows from their lines;
+   *  - those with dashpots, explicit with the dashpot's force taken at the time itself;
+   *  - prescribed ones (the dam's base), whose predicted motion is handed in: there the region gives the
+   * force of its elements, the element partition of Hughes and Liu. */
+  class ExplicitRegion
+  {
+  public:
+    /** @p mass: of each node [kg]. At rest. InputError if @p dt exceeds the critical time step. */
+    ExplicitRegion(BlockSparseMatrix stiffness, std::vector<double> mass, const RayleighDamping &damping,
+                   double dt);
+
+    void set_boundary(TransmittingBoundary boundary);
+    void set_boundary(std::vector<Dashpot> dashpots);
+
+    /** Motion without dam; its points are to be boundary.nodes(), or free_field_nodes() with dashpots. */
+    void set_free_field(std::unique_ptr<IncidentField> field);
+
+    /** Dashpots need the free field at these nodes: their own and their neighbours'. */
+    const std::vector<unsigned int> &free_field_nodes() const { return dashpot_neighbours; }
+
+    /** Components that do not move: 3 node + component. */
+    void fix(const std::vector<unsigned int> &components);
+    void fix_nodes(const std::vector<unsigned int> &nodes);
+
+    /** Nodes whose motion is handed in. Their masses do not count here. InputError if they lie on lines of
+     * the transmitting boundary. */
+    void set_prescribed(const std::vector<unsigned int> &nodes);
+
+    /** External forces, three per node [N], kept until changed. Empty at first: none. */
+    Unknowns force;
+
+    /** One step, to t + dt. @p u, @p v: predicted displacement [m] and velocity [m/s] of the prescribed nodes
+     * at t + dt, three values each, in the order of set_prescribed(). Returns what the region's elements and
+     * their damping take from these nodes, K u + C v [N]. */
+    const Unknowns &advance(const Unknowns &u = {}, const Unknowns &v = {});
+
+    double          time() const { return clock[0] * dt; } ///< [s]
+    double          time_step() const { return dt; }
+    unsigned int    n_nodes() const { return stiffness.n_rows(); }
+    const Unknowns &displacement() const { return u; }
+    /** (u(t + dt) - u(t)) / dt [m/s] */
+    const Unknowns &half_step_velocity() const { return w; }
+    /** At the time itself; of prescribed nodes half a step earlier. */
+    Unknowns velocity() const;
+
+    /** Time step beyond which the region is unstable, damping included [s]. */
+    double critical_time_step() const { return dt_critical; }
+
+    /** The energy account costs a tenth of a step; off at first. Switch on at rest. */
+    void                keep_energy() { K_u.assign(u.size(), 0.); }
+    const RegionEnergy &energy() const { return account; }
+
+    std::vector<std::vector<double> *> state();
+
+    /** Any start: displacement at t = 0, and velocity half a step later. Without a free field. */
+    void start(const Unknowns &displacement, const Unknowns &velocity);
+
+    const BlockSparseMatrix &matrix() const { return stiffness; }
+
+  private:
+    void                             move_prescribed(const Unknowns &u_new, const Unknowns &v_new);
+    template <bool with_energy> void step_explicit_nodes();
+    void                             step_dashpots();
+    Vector3                          free_field_force(unsigned int dashpot) const;
+    void                             advance_boundary();
+    void                             check_prescribed() const;
+    double work_at(const std::vector<unsigned int> &nodes, const Unknowns &w_before);
+
+    BlockSparseMatrix   stiffness;
+    std::vector<double> mass, inverse_mass; ///< of nodes; of components, zero where not explicit
+    std::vector<bool>   is_fixed;           ///< components
+    RayleighDamping     damping;
+    double              dt, dt_critical;
+    std::vector<double> clock = {0.}; ///< number of the step
+
+    Unknowns u, w;   ///< displacement, and velocity of half a step later [m, m/s]
+    Unknowns x, K_x; ///< displacement with the stress of damping added, and its force
+    Unknowns K_u;    ///< force of the displacement alone, from K_x; empty without the energy account
+
+    std::vector<unsigned int> prescribed;
+    std::vector<double>       prescribed_mass;
+    Unknowns                  prescribed_w, prescribed_force;
+
+    std::unique_ptr<TransmittingBoundary> transmitting;
+    std::vector<unsigned int>             boundary_nodes;
+    Unknowns                              boundary_w; ///< w of these nodes a step before
+
+    std::vector<Dashpot>      dashpots;
+    std::vector<Matrix3>      dashpot_inverse;    ///< of M + dt/2 C
+    std::vector<unsigned int> dashpot_neighbours; ///< their own nodes included, ascending
+    std::vector<unsigned int> own_number;         ///< of the dashpots' nodes among them
+    std::vector<unsigned int> neighbour_number;   ///< of the entries of the dashpots' rows among them,
+    std::vector<std::size_t>  first_neighbour;    ///< beginning here
+
+    std::unique_ptr<IncidentField> free_field;
+    Unknowns field_before, field, field_next; ///< at its points: last, this and next time
+    enum Work                                 ///< what has been done up to now [J]
+    {
+      lost_in_damping,
+      done_by_forces,
+      gone_through_boundary,
+      done_by_prescribed
+    };
+    std::vector<double> work = {0., 0., 0., 0.};
+    RegionEnergy        account;
+  };
+
+  /** Largest circular frequency of M^-1 K [1/s], from above: power iteration, with the residual added. */
+  double largest_frequency(const BlockSparseMatrix &stiffness, const std::vector<double> &mass);
+
+  /** Critical time step of the explicit scheme with damping lagged [s]: w dt = 2 (sqrt(1 + xi^2) - xi), xi
+   * the damping ratio at the frequency @p w (Hughes and Liu 1978). */
+  double critical_time_step(double w, const RayleighDamping &damping);
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,25 @@
+#ifndef voussoir_incident_field_h
+#define voussoir_incident_field_h
+
+#include <voussoir/base/tensor3.h>
+
+namespace Voussoir
+{
+  /** A motion that enters a region through its artificial boundary, in lock-step with the region: at points
+   * whose order the boundary gives. */
+  class IncidentField
+  {
+  public:
+    virtual ~IncidentField() = default;
+
+    /** To the next time step. */
+    virtual void advance() = 0;
+
+    /** Displacement of the points now, three values each [m]. */
+    virtual void evaluate(Unknowns &u) const = 0;
+
+    virtual std::vector<std::vector<double> *> state() = 0;
+  };
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,73 @@
+#ifndef voussoir_solid_model_h
+#define voussoir_solid_model_h
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/grid/tria.h>
+
+#include <voussoir/mesh/mesh.h>
+#include <voussoir/solid/material.h>
+#include <voussoir/solid/structure.h>
+
+#include <set>
+
+namespace Voussoir
+{
+  /** The finite element mesh of the bodies: deal.II's triangulation of an opened mesh, its nodes (support
+   * points of FE_Q(degree), Gauss-Lobatto), and which of them are free.
+   *
+   *  A node is a scalar degree of freedom of deal.II's; the three displacement components of free node i are
+   * the unknowns 3 equation[i] + c. Free nodes are numbered body after body. */
+  class SolidModel
+  {
+  public:
+    /** @p mesh: opened, see open_joints(). Nodes on the surface "base" are fixed. */
+    SolidModel(const HexMesh &mesh, unsigned int degree);
+
+    /** Number the nodes of the base, too: the dam stands on rock. */
+    void free_base();
+
+    /** Number the free nodes anew; nodes with the same @p master (a node of the same body) move as one. */
+    void number_equations(const std::vector<bool> &fixed, const std::vector<unsigned int> &master);
+
+    /** Make one body of all: coincident nodes on the two sides of joints 1..n_joints move as one, or only
+     * those on the base, when @p feet_only. */
+    void tie_joints(unsigned int n_joints, bool feet_only = false);
+
+    bool         base_is_fixed = true;
+    unsigned int n_nodes() const { return static_cast<unsigned int>(points.size()); }
+    unsigned int n_bodies() const { return static_cast<unsigned int>(body_numbers.size()); }
+    bool         on_surface(const unsigned int node, const int surface) const
+    {
+      return surfaces[node].count(surface) > 0;
+    }
+
+    dealii::Triangulation<3>      triangulation; ///< material ids are monolith numbers, boundary ids surfaces
+    dealii::FE_Q<3>               fe;
+    dealii::DoFHandler<3>         dof_handler;
+    std::vector<dealii::Point<3>> points;         ///< of the nodes [m]
+    std::vector<unsigned int>     body;           ///< of each node: index into body_numbers
+    std::vector<int>              body_numbers;   ///< monolith numbers, ascending
+    std::vector<std::set<int>>    surfaces;       ///< of each node
+    std::vector<unsigned int>     equation;       ///< of each node; rigid_ground where fixed
+    std::vector<unsigned int>     first_equation; ///< of each body, and the number of free nodes at the end
+  };
+
+  /** Bodies with stiffness and lumped mass (row sums). Degree 1: eight-node elements with incompatible modes
+   * (Wilson; Taylor, Beresford and Wilson 1976: constant Jacobian in the modes, so the patch test holds), or
+   * plain trilinear ones when @p incompatible_modes is false. Degree 2: 27-node elements.
+   *  @p materials: one per body, or a single one for all. */
+  Structure assemble_structure(const SolidModel &model, const std::vector<Material> &materials,
+                               bool incompatible_modes);
+
+  /** The pairs of all joints 1..n_joints, in joint order: nodes of surfaces 100 + j and 200 + j that
+   * coincide, with frame {n, a, b}: n from side 1 to side 2, b upwards in the joint, a = b x n. Throws
+   * InputError for nodes that do not match. Pairs of two fixed nodes, and of nodes that
+   * move as one, are left out.
+   *
+   *  Where faces meet at an edge (their normals differ by more than 20 degrees, as at meshed shear keys) the
+   *  pair has several planes, and the frame of the one that is nearest to the joint's mean normal. */
+  std::vector<Pair> find_pairs(const SolidModel &model, unsigned int n_joints);
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Do the rooms stand? A room includes itself and rooms above it only, no two files need each other, no file is longer
+# than 400 lines.
+# Usage: scripts/check_rooms.sh
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+rooms=(base motion mesh contact solid joints dynamics rock foundation dam output app)
+
+# Edges "room/file room/file" of all sources and headers that include another file.
+edges=$(grep -rHo '#include <voussoir/[a-z]*/[a-z0-9_]*' source include/voussoir |
+  sed -E 's,^(source|include/voussoir)/([a-z]+/[a-z0-9_]+)\.(cc|h):#include <voussoir/,\2 ,' | awk '$1 != $2' | sort -u)
+awk -v order="${rooms[*]}" '
+  BEGIN { n = split(order, name, " "); for (i = 1; i <= n; i++) floor[name[i]] = i }
+  { split($1, from, "/"); split($2, to, "/")
+    if (!floor[from[1]] || floor[to[1]] > floor[from[1]]) { print "rooms: " $1 " includes " $2 ", which is below it"; bad = 1 } }
+  END { exit bad }' <<< "$edges"
+tsort <<< "$edges" > /dev/null 2> >(sed 's/^tsort: /rooms: files that need each other: /' >&2)
+find source include/voussoir -type f -exec wc -l {} + |
+  awk '$2 != "total" && $1 > 400 { print "rooms: " $2 " has " $1 " lines, more than 400"; bad = 1 } END { exit bad }'

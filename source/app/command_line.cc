@@ -1,0 +1,187 @@
+#include <deal.II/base/config.h>
+#include <deal.II/base/parameter_handler.h>
+
+#include <voussoir/app/command_line.h>
+#include <voussoir/app/command_options.h>
+#include <voussoir/app/contact_command.h>
+#include <voussoir/app/declared_entries.h>
+#include <voussoir/app/simulation.h>
+#include <voussoir/base/error.h>
+#include <voussoir/dynamics/modes.h>
+#include <voussoir/mesh/gmsh_io.h>
+#include <voussoir/mesh/mesh_axes.h>
+#include <voussoir/mesh/mesh_joints.h>
+#include <voussoir/motion/motion.h>
+#include <voussoir/motion/motion_report.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+
+extern "C" void openblas_set_num_threads(int);
+
+namespace Voussoir
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** The entries of all scenes, or of a section. The format may be left out. */
+    void print_parameters(const std::vector<std::string> &words)
+    {
+      const bool has_format =
+          !words.empty() && (words[0] == "prm" || words[0] == "json" || words[0] == "markdown");
+      if (words.size() > (has_format ? 2 : 1))
+        throw InputError("`voussoir parameters` prints prm, json or markdown, of one section: \"" +
+                         words.back() + "\" is one word too many.");
+      ParameterHandler prm;
+      Scene            scene;
+      scene.add_parameters(prm);
+      const std::string  section = words.empty() ? "" : words.back();
+      std::ostringstream text; // deal.II does not like streams that fail
+      print_entries(prm, has_format ? words[0] : "prm", has_format && words.size() == 1 ? "" : section, text);
+      std::cout << text.str();
+    }
+
+    void print_mesh(const HexMesh &mesh)
+    {
+      std::printf("%zu nodes, %zu hexahedra\n", mesh.nodes.size(), mesh.cells.size());
+      for (const bool of_rock : {false, true})
+      {
+        const auto n_cells =
+            std::count_if(mesh.cells.begin(), mesh.cells.end(),
+                          [&](const auto &cell) { return is_monolith(cell.volume) != of_rock; });
+        if (n_cells == 0)
+          continue;
+        const MeshQuality quality = mesh_quality(mesh, of_rock);
+        std::printf("%s: %td hexahedra, edges %.3g to %.3g m, smallest height %.3g m at %s, smallest scaled "
+                    "Jacobian %.2f\n",
+                    of_rock ? "rock" : "dam ", n_cells, quality.shortest_edge, quality.longest_edge,
+                    quality.smallest_height, place(quality.smallest_height_at).c_str(),
+                    quality.smallest_scaled_jacobian);
+      }
+    }
+
+    void print_modes(const Scene &scene, const std::string &count_text)
+    {
+      unsigned int count = 0;
+      if (count_text.find_first_not_of("0123456789") != std::string::npos ||
+          std::sscanf(count_text.c_str(), "%u", &count) != 1 || count == 0)
+        throw InputError("--count must be a positive number, not \"" + count_text + "\".");
+      if (scene.foundation.model == "rock")
+        throw InputError(
+            "`voussoir modes` finds the frequencies of a dam on a rigid base or on massless rock: rock with "
+            "mass radiates. Give --set Foundation/Model=massless or rigid.");
+      Dam dam(scene, true);
+      std::printf("mode  frequency [Hz]\n");
+      const std::vector<double> frequencies = natural_frequencies(dam.structure, count);
+      for (unsigned int i = 0; i < frequencies.size(); ++i)
+        std::printf("%4u  %10.5f\n", i + 1, frequencies[i]);
+    }
+  } // namespace
+
+  namespace
+  {
+    /** The scene file among the words. */
+    std::string scene_file(const Arguments &arguments)
+    {
+      const auto &words = arguments.words;
+      if (arguments.command.empty() && words.size() > 1 && words[0].find('.') == std::string::npos)
+        throw InputError("There is no command \"" + words[0] + "\". Did you mean `voussoir " +
+                         nearest_command(words[0]) + "`? `voussoir --help` shows all.");
+      if (words.size() > 1)
+        throw InputError("\"" + words[1] + "\" is one word too many. `voussoir --help` shows how.");
+      if (words.empty())
+        throw InputError("`voussoir " + arguments.command + "` needs one scene file. `voussoir " +
+                         arguments.command + " --help` shows how.");
+      return words[0];
+    }
+
+    void write_mesh(const Scene &scene, const Arguments &arguments)
+    {
+      const std::string format = arguments.value("--format", "4.1");
+      if (format != "4.1" && format != "2.2")
+        throw InputError("--format must be 4.1 or 2.2, not \"" + format + "\".");
+      const HexMesh mesh = make_mesh(scene.mesh, scene.directory);
+      check_axes_and_units(mesh, scene.mesh, scene.mesh.file);
+      write_gmsh(mesh, arguments.value("--output"), format == "2.2" ? 2.2 : 4.1);
+      print_mesh(mesh);
+    }
+
+    void run_scene(const Scene &scene, const std::string &text, const Arguments &arguments)
+    {
+      RunOptions options;
+      options.output = arguments.value("--output");
+      options.resume = arguments.has("--resume");
+      options.overwrite = arguments.has("--overwrite");
+      options.validate = arguments.has("--validate");
+      options.quiet = arguments.has("--quiet");
+#ifdef DEBUG
+      std::cerr << "voussoir: warning: this is a Debug build, many times slower than Release.\n";
+#endif
+      Simulation(scene, text, options).run();
+    }
+
+    void run_with_scene(const Arguments &arguments)
+    {
+      Scene              scene;
+      ParameterHandler   prm;
+      std::ostringstream text;
+      const std::string &command = arguments.command, file = scene_file(arguments);
+      if ((command == "mesh" || command == "motion") && arguments.value("--output").empty())
+        throw InputError("`voussoir " + command + "` needs --output FILE.");
+      read_scene(file, arguments.overrides, scene, prm);
+      if (!command.empty() && !arguments.value("--output").empty())
+        scene.check_output(arguments.value("--output"));
+      prm.print_parameters(text, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
+      if (command.empty())
+        return run_scene(scene, text.str(), arguments);
+      if (command == "modes")
+        print_modes(scene, arguments.value("--count", "10"));
+      else if (command == "mesh")
+        write_mesh(scene, arguments);
+      else
+      {
+        const GroundMotion motion = make_motion(scene.motion, scene.directory);
+        write_motion(motion, arguments.value("--output"));
+        for (const std::string &note : motion.notes)
+          std::cout << note << '\n';
+        print_report(report_motion(motion, scene.motion), std::cout);
+      }
+      for (const std::string &warning : scene.warnings) // an error would come first
+        std::cerr << "voussoir: warning: " << warning << "\n";
+    }
+  } // namespace
+
+  int run_command(const std::vector<std::string> &words)
+  {
+    openblas_set_num_threads(1); // bodies and joints are what runs in parallel
+    const Arguments arguments = read_arguments(words);
+    if (arguments.version)
+      std::cout << "Voussoir " VOUSSOIR_VERSION " (" VOUSSOIR_REVISION "), deal.II " DEAL_II_PACKAGE_VERSION
+                   "\n";
+    else if (arguments.help)
+      std::cout << (arguments.command.empty() && arguments.words.empty() ? help_about_all()
+                                                                         : help_about(arguments.command));
+    else if (arguments.command == "parameters")
+      print_parameters(arguments.words);
+    else if (arguments.command == "contact")
+    {
+      ContactOptions options;
+      options.tolerance = arguments.value("--tolerance", options.tolerance);
+      options.solver = arguments.value("--solver", options.solver);
+      options.max_seconds = arguments.value("--max-seconds", options.max_seconds);
+      options.solutions = arguments.value("--write-solutions");
+      run_contact(arguments.words, options);
+    }
+    else if (arguments.command.empty() && arguments.words.empty())
+    {
+      std::cout << help_about_all();
+      throw InputError("which scene? Give a .prm file, for example prm/quickstart.prm.");
+    }
+    else
+      run_with_scene(arguments);
+    return 0;
+  }
+} // namespace Voussoir

@@ -1,0 +1,231 @@
+#include <voussoir/app/command_options.h>
+#include <voussoir/base/error.h>
+#include <voussoir/base/nearest_name.h>
+
+#include <algorithm>
+
+namespace Voussoir
+{
+  namespace
+  {
+    struct Option
+    {
+      const char *name, *value, *meaning; ///< without a value: a flag
+      bool        needed = false;
+    };
+
+    struct Command
+    {
+      const char         *name, *words, *summary;
+      std::vector<Option> options;
+    };
+
+    const Option set = {"--set", "'Section/Entry=value'",
+                        "override an entry of the scene; may be given several times"};
+
+    const std::vector<Command> commands = {
+        {"",
+         "SCENE.prm",
+         "Static state and earthquake of the dam of a scene.",
+         {{"--output", "DIR", "directory for the results, by default output/SCENE"},
+          set,
+          {"--resume", "", "go on from the last checkpoint in the directory"},
+          {"--overwrite", "", "replace what is in the directory"},
+          {"--validate", "", "check scene, mesh and motion, print what would be run, and stop"},
+          {"--quiet", "", "print nothing but errors"}}},
+        {"mesh",
+         "SCENE.prm",
+         "The scene's mesh, for gmsh.",
+         {{"--output", "FILE.msh", "the file to write", true},
+          {"--format", "4.1|2.2", "MSH format, by default 4.1"},
+          set}},
+        {"modes",
+         "SCENE.prm",
+         "Natural frequencies of the tied dam, with added mass [Hz].",
+         {{"--count", "N", "how many, by default 10"}, set}},
+        {"motion",
+         "SCENE.prm",
+         "The scene's ground motion, t, a_x, a_y, a_z [s, m/s^2], and a report about it.",
+         {{"--output", "FILE.csv", "the file to write", true}, set}},
+        {"contact",
+         "FILE.hdf5...",
+         "Solves frictional contact problems in FCLib's format; a JSON object per file, seconds are CPU "
+         "seconds.",
+         {{"--tolerance", "X", "largest residual, by default 1e-12"},
+          {"--solver", "NAME",
+           "newton (the default, with its fallbacks), proximal, sweeps, paper, fischer-burmeister"},
+          {"--max-seconds", "X", "for each problem, by default 10"},
+          {"--write-solutions", "DIR", "write the contact forces into this directory"}}},
+        {"parameters",
+         "[prm|json|markdown] [SECTION]",
+         "All entries of a scene file, or those of a section, with their defaults and meaning.",
+         {}}};
+
+    constexpr const char *status = "Exit status: 0 done; 1 the computation failed; 2 bad input.\n";
+
+    const Command *find_command(const std::string &name)
+    {
+      const auto found = std::find_if(commands.begin(), commands.end(),
+                                      [&](const Command &command) { return name == command.name; });
+      return found == commands.end() ? nullptr : &*found;
+    }
+
+    const Option *find_option(const Command &command, const std::string &name)
+    {
+      const auto found = std::find_if(command.options.begin(), command.options.end(),
+                                      [&](const Option &option) { return name == option.name; });
+      return found == command.options.end() ? nullptr : &*found;
+    }
+
+    std::string called(const Command &command)
+    {
+      return "voussoir " + (*command.name == '\0' ? command.words : std::string(command.name));
+    }
+
+    std::string synopsis(const Command &command)
+    {
+      std::string text = called(command);
+      if (*command.name != '\0')
+        text += " " + std::string(command.words);
+      for (const Option &option : command.options)
+      {
+        const std::string usage =
+            option.name + (*option.value == '\0' ? "" : " " + std::string(option.value));
+        text += option.needed ? " " + usage
+                              : " [" + usage + "]" + (option.name == std::string("--set") ? "..." : "");
+      }
+      return text + "\n    " + command.summary + "\n";
+    }
+
+    /** The option of any command: whether it has a value does not depend on which. */
+    const Option *find_anywhere(const std::string &name)
+    {
+      for (const Command &command : commands)
+        if (const Option *option = find_option(command, name))
+          return option;
+      return nullptr;
+    }
+
+    [[noreturn]] void refuse_option(const Command &command, const std::string &word)
+    {
+      std::vector<std::string> names;
+      for (const Option &option : command.options)
+        names.push_back(option.name);
+      std::string owner;
+      for (const Command &other : commands)
+        if (find_option(other, word) != nullptr)
+          owner += (owner.empty() ? "" : ", ") + ("`" + called(other)) + "`";
+      std::string text = "`" + called(command) + "` has no option " + word;
+      if (!owner.empty())
+        text += "; it belongs to " + owner;
+      else if (!names.empty())
+        text += ". Did you mean " + nearest_name(names, word) + "?";
+      throw InputError(text + (owner.empty() && !names.empty() ? "" : ".") + " `" + called(command) +
+                       " --help` shows all options.");
+    }
+
+    /** All words, by the options they may be of any command; the first other word names the command. */
+    struct Word
+    {
+      std::string   text, value;
+      const Option *option = nullptr;
+      bool          is_option = false;
+    };
+
+    std::vector<Word> sort_out(const std::vector<std::string> &words)
+    {
+      std::vector<Word> result;
+      bool              options_end = false;
+      for (std::size_t i = 0; i < words.size(); ++i)
+      {
+        Word word{words[i], "", nullptr, !options_end && words[i].size() > 1 && words[i][0] == '-'};
+        if (!options_end && words[i] == "--")
+        {
+          options_end = true;
+          continue;
+        }
+        word.option = word.is_option ? find_anywhere(words[i]) : nullptr;
+        if (word.option != nullptr && *word.option->value != '\0')
+        {
+          if (i + 1 == words.size() || words[i + 1].empty() || find_anywhere(words[i + 1]) != nullptr)
+            throw InputError("The option " + words[i] + " needs a value after it, " + word.option->value +
+                             ". `voussoir --help` shows how.");
+          word.value = words[++i];
+        }
+        result.push_back(word);
+      }
+      return result;
+    }
+  } // namespace
+
+  Arguments read_arguments(const std::vector<std::string> &words)
+  {
+    Arguments               arguments;
+    const std::vector<Word> sorted = sort_out(words);
+    for (const Word &word : sorted)
+    {
+      if (word.text == "--version" || word.text == "version")
+        arguments.version = true;
+      else if (word.text == "--help" || word.text == "-h" || word.text == "help")
+        arguments.help = true;
+      else if (!word.is_option && arguments.command.empty() && arguments.words.empty() &&
+               find_command(word.text) != nullptr)
+        arguments.command = word.text;
+      else if (!word.is_option)
+        arguments.words.push_back(word.text);
+    }
+    for (const Word &word : sorted)
+      if (word.is_option && word.option == nullptr && word.text != "--version" && word.text != "--help" &&
+          word.text != "-h")
+        refuse_option(*find_command(arguments.command), word.text);
+    if (arguments.help || arguments.version)
+      return arguments;
+    const Command &command = *find_command(arguments.command);
+    for (const Word &word : sorted)
+    {
+      if (!word.is_option)
+        continue;
+      if (find_option(command, word.text) == nullptr)
+        refuse_option(command, word.text);
+      if (word.text == set.name)
+        arguments.overrides.push_back(word.value);
+      else if (*word.option->value == '\0')
+        arguments.flags.insert(word.text);
+      else if (!arguments.values.emplace(word.text, word.value).second)
+        throw InputError("The option " + word.text + " is given twice. Leave one.");
+    }
+    return arguments;
+  }
+
+  std::string help_about(const std::string &name)
+  {
+    const Command &command = *find_command(name);
+    std::string    text = synopsis(command);
+    for (const Option &option : command.options)
+    {
+      const std::string usage = "  " + std::string(option.name) + " " + option.value;
+      text += usage + std::string(usage.size() < 30 ? 30 - usage.size() : 1, ' ') + option.meaning + "\n";
+    }
+    if (name == "parameters")
+      text += "  SECTION is a path such as Joints/Keys, or a single entry such as Joints/Friction.\n";
+    return text + status;
+  }
+
+  std::string help_about_all()
+  {
+    std::string text;
+    for (const Command &command : commands)
+      text += synopsis(command);
+    return text + "voussoir --help, voussoir --version, voussoir COMMAND --help\n\n" +
+           "--set overrides an entry of the scene, and may be given several times.\n" + status;
+  }
+
+  std::string nearest_command(const std::string &word)
+  {
+    std::vector<std::string> names;
+    for (const Command &command : commands)
+      if (*command.name != '\0')
+        names.push_back(command.name);
+    return nearest_name(names, word);
+  }
+} // namespace Voussoir

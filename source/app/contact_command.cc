@@ -1,0 +1,174 @@
+#include <voussoir/app/contact_command.h>
+#include <voussoir/base/error.h>
+#include <voussoir/base/log.h>
+#include <voussoir/base/output_file.h>
+#include <voussoir/contact/law_table.h>
+#include <voussoir/contact/sparse_contact.h>
+#include <voussoir/joints/pair_groups.h>
+
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <omp.h>
+
+namespace Voussoir
+{
+  namespace
+  {
+    /** Joint by joint pays when there are several groups of many pairs, and needs a symmetric W. */
+    bool has_joints(const BlockSparseMatrix &W, const PairGroups &groups)
+    {
+      return groups.size.size() > 1 && W.n_rows() >= 8 * groups.size.size() && is_symmetric(W);
+    }
+
+    std::string path_name(const ContactParameters &parameters, const Equations equations,
+                          const ContactPath path)
+    {
+      std::string name = equations == Equations::paper                ? "paper"
+                         : equations == Equations::fischer_burmeister ? "fischer-burmeister"
+                                                                      : parameters.method;
+      if (parameters.method == "newton" && path >= ContactPath::sweeps)
+        name += "+sweeps";
+      if (parameters.method == "newton" && path >= ContactPath::proximal)
+        name += "+proximal";
+      return name;
+    }
+
+    double positive_number(const std::string &option, const std::string &text)
+    {
+      char        *end = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      if (text.empty() || *end != '\0' || !(value > 0.))
+        throw InputError(option + " must be a positive number, not \"" + text + "\".");
+      return value;
+    }
+  } // namespace
+
+  FrictionSolution solve_friction_problem(const FrictionProblem &problem, const ContactParameters &parameters,
+                                          const Equations equations)
+  {
+    const unsigned int                          n = problem.W.n_rows();
+    std::map<double, std::unique_ptr<JointLaw>> laws;
+    std::vector<const JointLaw *>               law(n);
+    for (const double mu : problem.mu)
+      if (laws.find(mu) == laws.end())
+        laws[mu] = make_joint_law("FJA", mu, equations);
+    const PairGroups groups = find_groups(problem.W);
+    const bool       joints = has_joints(problem.W, groups);
+    const auto       old = [&](const unsigned int i) { return joints ? groups.order[i] : i; };
+    for (unsigned int i = 0; i < n; ++i)
+      law[i] = laws[problem.mu[old(i)]].get();
+
+    std::unique_ptr<ContactOperator> W;
+    if (joints)
+      W = std::make_unique<InterfaceOperator>(make_interface_operator(problem.W, groups));
+    else
+      W = std::make_unique<SparseContactOperator>(problem.W);
+    ContactSolver solver(*W, law, parameters);
+
+    FrictionSolution solution;
+    Unknowns         q(3 * n), force(3 * n, 0.), gap, start(3 * n, 0.);
+    for (unsigned int k = 0; k < 3 * n; ++k)
+      q[k] = problem.q[3 * old(k / 3) + k % 3];
+    solution.result = solver.solve(q, start, force, gap);
+    solution.force.resize(3 * n);
+    solution.gap.resize(3 * n);
+    for (unsigned int k = 0; k < 3 * n; ++k)
+    {
+      solution.force[3 * old(k / 3) + k % 3] = force[k];
+      solution.gap[3 * old(k / 3) + k % 3] = gap[k];
+    }
+    solution.solver = path_name(parameters, equations, solution.result.path);
+    return solution;
+  }
+
+  void run_contact(const std::vector<std::string> &files, const ContactOptions &options)
+  {
+    omp_set_num_threads(1); // small problems; CPU seconds are those of the solution
+    if (files.empty())
+      throw InputError("`voussoir contact` needs FCLib files. `voussoir --help` shows how.");
+    ContactParameters parameters;
+    parameters.tolerance = positive_number("--tolerance", options.tolerance);
+    if (!std::isfinite(parameters.tolerance))
+      throw InputError("--tolerance must be a finite number, not \"" + options.tolerance + "\".");
+    parameters.max_seconds = positive_number("--max-seconds", options.max_seconds);
+    parameters.max_iterations = 1000000; // time is the limit
+    Equations equations = Equations::alart_curnier;
+    if (options.solver == "paper" || options.solver == "fischer-burmeister")
+      equations = equations_from_name(options.solver);
+    else if (options.solver == "newton" || options.solver == "proximal" || options.solver == "sweeps")
+      parameters.method = options.solver;
+    else
+      throw InputError("There is no solver \"" + options.solver +
+                       "\". The solvers are: newton, proximal, sweeps, paper, fischer-burmeister.");
+    if (!options.solutions.empty())
+    {
+      std::error_code error;
+      std::filesystem::create_directories(options.solutions, error);
+      if (error || !std::filesystem::is_directory(options.solutions, error))
+        throw InputError("--write-solutions: the directory " + options.solutions + " cannot be made.");
+      std::map<std::string, std::string> names; // and their files: a file may repeat
+      for (const std::string &file : files)
+        if (names.try_emplace(std::filesystem::path(file).stem().string(), file).first->second != file)
+          throw InputError("--write-solutions: two of the files are called " +
+                           std::filesystem::path(file).stem().string() +
+                           ", and their solutions would be, too. Solve them one by one.");
+    }
+    unsigned int failures = 0, unreadable = 0;
+    for (const std::string &file : files)
+    {
+      FrictionProblem problem;
+      try
+      {
+        problem = read_fclib(file);
+      }
+      catch (const InputError &error)
+      {
+        if (files.size() == 1)
+          throw;
+        std::cerr << "voussoir: error: " << error.what() << std::endl;
+        ++unreadable; // the others are solved
+        continue;
+      }
+      const std::clock_t     start = std::clock();
+      const FrictionSolution solution = solve_friction_problem(problem, parameters, equations);
+      const double           seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+      const ContactResult   &result = solution.result;
+      failures += !result.converged;
+      const std::string text = Json()
+                                   .add("file", file)
+                                   .add("contacts", problem.W.n_rows())
+                                   .add_flag("converged", result.converged)
+                                   .add("residual", result.residual)
+                                   .add("iterations", result.iterations)
+                                   .add("seconds", seconds)
+                                   .add("solver", solution.solver)
+                                   .add("sweeps", result.sweeps)
+                                   .line();
+      std::cout << text << std::endl;
+      if (!options.solutions.empty())
+      {
+        const auto name = std::filesystem::path(options.solutions) / std::filesystem::path(file).stem();
+        OutputFile out(name.string() + ".txt");
+        out << std::setprecision(17);
+        for (const double f : solution.force)
+          out << f << '\n';
+        out.check();
+      }
+    }
+    const std::string not_converged = std::to_string(failures) + " of " +
+                                      std::to_string(files.size() - unreadable) +
+                                      " problems did not converge to " + options.tolerance + " within " +
+                                      options.max_seconds + " s each (\"converged\": false).";
+    if (unreadable > 0)
+      throw InputError(std::to_string(unreadable) + " of " + std::to_string(files.size()) +
+                       " files cannot be read, as said above; the others were solved." +
+                       (failures > 0 ? " Of these, " + not_converged : ""));
+    if (failures > 0)
+      throw ComputationError(not_converged);
+  }
+} // namespace Voussoir

@@ -1,0 +1,84 @@
+#include <deal.II/base/multithread_info.h>
+
+#include <voussoir/app/command_line.h>
+#include <voussoir/app/program.h>
+#include <voussoir/base/interrupt.h>
+#include <voussoir/base/output_file.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <new>
+
+namespace Voussoir
+{
+  namespace
+  {
+    /** Rank and number of ranks, as mpirun of Open MPI, of MPICH and Intel (and Slurm's PMI-2), or srun tell
+     *  them in the environment; 0 and 1 for a program that was started alone. */
+    std::pair<int, int> rank_of_launcher()
+    {
+      constexpr const char *names[][2] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
+                                          {"PMI_RANK", "PMI_SIZE"},
+                                          {"SLURM_PROCID", "SLURM_STEP_NUM_TASKS"}};
+      for (const auto &[rank, size] : names)
+        if (std::getenv(rank) != nullptr && std::getenv(size) != nullptr)
+          return {std::atoi(std::getenv(rank)), std::atoi(std::getenv(size))};
+      return {0, 1};
+    }
+  } // namespace
+
+  int run_program(const std::vector<std::string> &words)
+  {
+    try
+    {
+      // Nothing here needs MPI, which takes longer to start than many a command to run.
+      dealii::MultithreadInfo::set_thread_limit(1);
+      if (const auto [rank, n_ranks] = rank_of_launcher(); n_ranks > 1)
+      {
+        if (rank != 0)
+          return 0; // a failure here would make the launcher end the first one before it speaks
+        std::cerr << "voussoir: error: This version runs on one rank: start it without mpirun. It uses all "
+                     "cores, or as many as OMP_NUM_THREADS says."
+                  << std::endl;
+        return 2;
+      }
+      std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of the write
+      const int status = run_command(words);
+      errno = 0;
+      if ((!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) && errno != EPIPE)
+        throw WriteError("Standard output cannot be written. Is the disk full?");
+      return status;
+    }
+    catch (const InputError &error)
+    {
+      std::cerr << "voussoir: error: " << error.what() << std::endl;
+      return 2;
+    }
+    catch (const Interrupted &error)
+    {
+      std::cerr << "voussoir: stopped: " << error.what() << std::endl;
+      return 1;
+    }
+    catch (const ComputationError &error)
+    {
+      std::cerr << "voussoir: failed: " << error.what() << std::endl;
+      return 1;
+    }
+    catch (const std::bad_alloc &)
+    {
+      std::cerr << "voussoir: failed: there is not enough memory. Use fewer elements; --validate estimates "
+                   "what is needed."
+                << std::endl;
+      return 1;
+    }
+    catch (const std::exception &error)
+    {
+      std::cerr << "voussoir: internal error, please report it: " << error.what() << std::endl;
+      return 1;
+    }
+  }
+} // namespace Voussoir

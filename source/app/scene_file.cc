@@ -1,0 +1,209 @@
+#include <deal.II/base/parameter_handler.h>
+
+#include <voussoir/app/scene_warnings.h>
+#include <voussoir/base/error.h>
+#include <voussoir/base/nearest_name.h>
+#include <voussoir/base/units.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace Voussoir
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A line "set a = b" with the subsections around it. */
+    struct Entry
+    {
+      std::vector<std::string> path; ///< subsections, then the entry
+      std::string              value;
+      std::string              place; ///< for messages
+    };
+
+    std::string trimmed(const std::string &s)
+    {
+      const auto first = s.find_first_not_of(" \t\r\n"), last = s.find_last_not_of(" \t\r\n");
+      return first == std::string::npos ? "" : s.substr(first, last - first + 1);
+    }
+
+    bool starts_with(const std::string &line, const std::string &word, std::string &rest)
+    {
+      if (line.compare(0, word.size(), word) != 0 ||
+          (line.size() > word.size() && line[word.size()] != ' ' && line[word.size()] != '\t'))
+        return false;
+      rest = trimmed(line.substr(word.size()));
+      return true;
+    }
+
+    /** Not a directory, nor a pipe or a device, which may never end. */
+    bool is_text_file(const std::string &file)
+    {
+      std::error_code error;
+      return std::filesystem::is_regular_file(file, error);
+    }
+
+    /** All entries of a .prm text. @p directory: of the file, for its includes. */
+    void parse(std::istream &in, const std::string &file, const std::string &directory,
+               std::vector<Entry> &entries, std::vector<std::string> &section,
+               std::vector<std::string> &files)
+    {
+      if (files.size() > 1000)
+        throw InputError(file + ": files include each other in a circle.");
+      files.push_back(file);
+      const std::size_t outer = section.size();
+      std::string       line, more, rest;
+      for (unsigned int number = 1; std::getline(in, line); ++number)
+      {
+        const std::string place = file + ", line " + std::to_string(number);
+        if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0) // of editors on Windows
+          line.erase(0, 3);
+        line = trimmed(line);
+        while (!line.empty() && line.back() == '\\' && std::getline(in, more))
+        {
+          line.pop_back();
+          line += trimmed(more);
+          ++number;
+        }
+        line = trimmed(line.substr(0, line.find('#')));
+        if (line.empty())
+          continue;
+        if (starts_with(line, "subsection", rest) && !rest.empty())
+          section.push_back(rest);
+        else if (line == "end")
+        {
+          if (section.size() == outer)
+            throw InputError(place + ": \"end\" without a \"subsection\" before it. Remove it.");
+          section.pop_back();
+        }
+        else if (starts_with(line, "include", rest))
+        {
+          const std::string included = (std::filesystem::path(directory) / rest).string();
+          std::ifstream     stream(included);
+          if (!stream || !is_text_file(included))
+            throw InputError(place + ": the included file " + included +
+                             " cannot be read. Paths of includes are relative to the including file.");
+          parse(stream, included, std::filesystem::path(included).parent_path().string(), entries, section,
+                files);
+        }
+        else if (starts_with(line, "set", rest) && rest.find('=') != std::string::npos)
+        {
+          Entry entry{section, trimmed(rest.substr(rest.find('=') + 1)), place};
+          entry.path.push_back(trimmed(rest.substr(0, rest.find('='))));
+          entries.push_back(entry);
+        }
+        else
+          throw InputError(
+              place + ": \"" + line +
+              "\" is none of: subsection NAME, end, set ENTRY = VALUE, include FILE, # comment.");
+      }
+      if (section.size() != outer)
+        throw InputError(file + ": subsection \"" + section.back() + "\" is not closed. Add an \"end\".");
+    }
+
+    /** The declaration of an entry. Throws InputError, with the nearest one, if there is none. */
+    const DeclaredEntry &declaration(const std::vector<DeclaredEntry> &known, const Entry &entry)
+    {
+      const auto found = std::find_if(known.begin(), known.end(),
+                                      [&](const DeclaredEntry &k) { return k.path == entry.path; });
+      if (found != known.end())
+        return *found;
+      // Nearest by name; the same entry in another section counts as near.
+      const std::string path = joined(entry.path);
+      const auto        distance = [&](const DeclaredEntry &k) {
+        return std::min(edit_distance(k.name(), path), edit_distance(k.path.back(), entry.path.back()) + 2);
+      };
+      const auto nearest = std::min_element(known.begin(), known.end(),
+                                            [&](const DeclaredEntry &a, const DeclaredEntry &b)
+                                            { return distance(a) < distance(b); });
+      throw InputError(entry.place + ": there is no entry \"" + path + "\". Did you mean \"" +
+                       nearest->name() + "\"? `voussoir parameters` prints all entries.");
+    }
+
+    /** Throws InputError for a list of pairs "key: value" in which a key is twice: the first would be lost.
+     */
+    void expect_different_keys(const std::string &value, const char separator, const std::string &what)
+    {
+      std::istringstream    pairs(value);
+      std::set<std::string> keys;
+      for (std::string pair; std::getline(pairs, pair, separator);)
+        if (const std::string key = trimmed(pair.substr(0, pair.find(':'))); !keys.insert(key).second)
+          throw InputError(what + " has \"" + key + "\" twice. Leave one, or give the other another name.");
+    }
+
+    /** Sets the entry, and writes its value in the declared unit back. */
+    void apply(ParameterHandler &prm, const DeclaredEntry &declared, Entry &entry)
+    {
+      const std::string what = entry.place + ": entry \"" + declared.name() + "\"",
+                        &pattern = declared.pattern;
+      const std::string as_written = entry.value;
+      const bool        is_number = pattern.rfind("[Double", 0) == 0 || pattern.rfind("[Integer", 0) == 0;
+      if (is_number)
+        entry.value = in_declared_unit(entry.value, declared.unit(), what);
+      if (pattern.rfind("[Map", 0) == 0)
+        expect_different_keys(entry.value, separator_of(pattern), what);
+      for (std::size_t i = 0; i + 1 < entry.path.size(); ++i)
+        prm.enter_subsection(entry.path[i]);
+      try
+      {
+        prm.set(entry.path.back(), entry.value);
+      }
+      catch (const ExceptionBase &)
+      {
+        const std::string unit = declared.unit();
+        throw InputError(what + " cannot be \"" + as_written + "\". It must be " + pattern_in_words(pattern) +
+                         (is_number && !unit.empty() && unit != "-" ? ", in " + unit : "") + ".");
+      }
+      for (std::size_t i = 0; i + 1 < entry.path.size(); ++i)
+        prm.leave_subsection();
+    }
+  } // namespace
+
+  void read_scene(const std::string &file, const std::vector<std::string> &overrides, Scene &scene,
+                  ParameterHandler &prm)
+  {
+    scene.add_parameters(prm);
+    const std::vector<DeclaredEntry> known = declared_entries(prm);
+    std::vector<Entry>               entries;
+    std::vector<std::string>         section;
+
+    std::ifstream in(file);
+    if (!in || !is_text_file(file))
+      throw InputError("The scene file " + file + " cannot be read. Give the path of a .prm file.");
+    const std::filesystem::path path(file);
+    scene.name = path.stem().string();
+    scene.directory = path.parent_path().string();
+    parse(in, file, scene.directory, entries, section, scene.sources);
+    for (const std::string &override : overrides)
+    {
+      const auto equals = override.find('=');
+      if (equals == std::string::npos)
+        throw InputError("--set '" + override + "': write --set 'Section/Entry=value'.");
+      if (equals == 0)
+        throw InputError("--set '" + override + "': there is no entry before the \"=\".");
+      Entry              entry{{}, trimmed(override.substr(equals + 1)), "--set"};
+      std::istringstream parts(override.substr(0, equals));
+      for (std::string part; std::getline(parts, part, '/');)
+        entry.path.push_back(trimmed(part));
+      entries.push_back(entry);
+    }
+    std::map<std::string, WrittenEntry> written; // the last value holds
+    for (Entry &entry : entries)
+    {
+      const DeclaredEntry &declared = declaration(known, entry);
+      apply(prm, declared, entry);
+      written[declared.name()] = {declared, entry.value, entry.place};
+    }
+    scene.check();
+    std::vector<WrittenEntry> in_order;
+    for (const DeclaredEntry &declared : known)
+      if (const auto found = written.find(declared.name()); found != written.end())
+        in_order.push_back(found->second);
+    scene.warnings = scene_warnings(scene, in_order);
+  }
+} // namespace Voussoir

@@ -1,0 +1,244 @@
+#include <voussoir/app/scene_warnings.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <sstream>
+
+namespace Voussoir
+{
+  namespace
+  {
+    bool any_joint(const Scene &scene, const std::vector<std::string> &models)
+    {
+      const auto is_one = [&](const std::string &model)
+      { return std::find(models.begin(), models.end(), model) != models.end(); };
+      const JointParameters &joints = scene.joints;
+      return is_one(joints.model) || std::any_of(joints.overrides.begin(), joints.overrides.end(),
+                                                 [&](const auto &joint) { return is_one(joint.second); });
+    }
+
+    bool is_arch210(const Scene &scene)
+    {
+      return scene.mesh.source == "arch210";
+    }
+    bool is_generated_without_joints(const Scene &scene)
+    {
+      return is_arch210(scene) && scene.mesh.arch210.n_joints == 0;
+    }
+    bool all_tied(const Scene &scene)
+    {
+      return !any_joint(scene, {"FJA", "FJB", "KSM"});
+    }
+    bool no_water(const Scene &scene)
+    {
+      return scene.reservoir.density == 0.;
+    }
+
+    /** When the condition holds, the entries have no effect, but for the exceptions. An entry that ends in a
+     *  slash stands for all below it. */
+    struct Rule
+    {
+      const char                        *reason;
+      std::function<bool(const Scene &)> holds;
+      std::vector<std::string>           entries, exceptions;
+    };
+
+    /** The first that holds is the one that is told. */
+    const std::vector<Rule> rules = {
+        {"Mesh/Source is file", [](const Scene &s) { return !is_arch210(s); }, {"Mesh/Arch210/"}, {}},
+        {"Mesh/Source is arch210", is_arch210, {"Mesh/File", "Mesh/Axes", "Mesh/Length unit"}, {}},
+        {"Mesh/Arch210/Rock/Enabled is false",
+         [](const Scene &s) { return !s.mesh.arch210_rock.enabled; },
+         {"Mesh/Arch210/Rock/"},
+         {"Mesh/Arch210/Rock/Enabled"}},
+        {"Elements/Degree is 2",
+         [](const Scene &s) { return s.elements.degree == 2; },
+         {"Elements/Incompatible modes"},
+         {}},
+        {"Reservoir/Density is 0",
+         no_water,
+         {"Reservoir/", "Statics/Water increments"},
+         {"Reservoir/Density"}},
+        {"Reservoir/Added mass is none",
+         [](const Scene &s) { return s.reservoir.added_mass == "none"; },
+         {"Reservoir/Factor", "Reservoir/Depth"},
+         {}},
+        {"the dam has no joints (Mesh/Arch210/Joints)",
+         is_generated_without_joints,
+         {"Joints/", "Contact/", "Dynamics/Impact"},
+         {}},
+        {"all joints are tied (Joints/Model, Joints/Overrides)",
+         all_tied,
+         {"Joints/", "Contact/", "Dynamics/Impact"},
+         {"Joints/Model", "Joints/Overrides"}},
+        {"no joint slides with friction: Joints/Model is FJB",
+         [](const Scene &s) {
+           return !any_joint(s, {"FJA", "KSM"});
+         },
+         {"Joints/Friction"},
+         {}},
+        {"no joint has the model KSM (Joints/Model, Joints/Overrides)",
+         [](const Scene &s) { return !any_joint(s, {"KSM"}); },
+         {"Joints/Keys/"},
+         {}},
+        {"Contact/Write problems is false",
+         [](const Scene &s) { return !s.contact.write_problems; },
+         {"Contact/Write interval"},
+         {}},
+        {"Statics/Self-weight is none and there is no water",
+         [](const Scene &s) { return s.statics.self_weight == "none" && no_water(s); },
+         {"Statics/Gravity"},
+         {}},
+        {"Motion/Source is none",
+         [](const Scene &s) { return s.motion.source == "none"; },
+         {"Motion/", "Dynamics/", "Damping/"},
+         {"Motion/Source"}},
+        {"Motion/Source is artificial",
+         [](const Scene &s) { return s.motion.source == "artificial"; },
+         {"Motion/File", "Motion/File x", "Motion/File y", "Motion/File z", "Motion/Unit"},
+         {}},
+        {"Motion/Source is file",
+         [](const Scene &s) { return s.motion.source == "file"; },
+         {"Motion/Spectrum", "Motion/Characteristic period", "Motion/Maximum beta",
+          "Motion/Peak acceleration", "Motion/Vertical ratio", "Motion/Damping", "Motion/Seed",
+          "Motion/Rise end", "Motion/Decay begin", "Motion/Decay rate", "Motion/Matching iterations"},
+         {}},
+        {"Foundation/Model is rigid",
+         [](const Scene &s) { return s.foundation.model == "rigid"; },
+         {"Foundation/"},
+         {"Foundation/Model"}},
+        {"Foundation/Model is massless",
+         [](const Scene &s) { return s.foundation.model == "massless"; },
+         {"Foundation/"},
+         {"Foundation/Model", "Foundation/Young's modulus", "Foundation/Poisson's ratio"}},
+        {"Foundation/Nodal quadrature everywhere is true",
+         [](const Scene &s) { return s.foundation.nodal_everywhere; },
+         {"Foundation/Nodal layers"},
+         {}},
+    };
+
+    bool names(const std::vector<std::string> &list, const std::string &entry)
+    {
+      return std::any_of(list.begin(), list.end(),
+                         [&](const std::string &name)
+                         { return name.back() == '/' ? entry.rfind(name, 0) == 0 : entry == name; });
+    }
+
+    /** What dams, rock, water and earthquakes have; in the declared units. Zero switches things off. */
+    struct Range
+    {
+      const char *entry;
+      double      low, high;
+      bool        or_zero = false;
+    };
+
+    const std::vector<Range> ranges = {{"Mesh/Arch210/Rock/Upstream", 50., 2000.},
+                                       {"Mesh/Arch210/Rock/Downstream", 50., 2000.},
+                                       {"Mesh/Arch210/Rock/Sides", 50., 2000.},
+                                       {"Mesh/Arch210/Rock/Depth", 50., 2000.},
+                                       {"Mesh/Arch210/Rock/Element size", 2., 100.},
+                                       {"Concrete/Young's modulus", 5e9, 6e10},
+                                       {"Concrete/Poisson's ratio", .1, .3, true},
+                                       {"Concrete/Density", 1800., 3000.},
+                                       {"Damping/Ratio", .001, .2, true},
+                                       {"Damping/Frequency 1", 0., 20.},
+                                       {"Damping/Frequency 2", .5, 100.},
+                                       {"Reservoir/Density", 900., 1300., true},
+                                       {"Reservoir/Factor", .1, 1.5, true},
+                                       {"Reservoir/Water level", -500., 9000.},
+                                       {"Joints/Friction", .1, 2., true},
+                                       {"Joints/Keys/Height", .005, 2., true},
+                                       {"Joints/Keys/Clearance", 0., .1},
+                                       {"Joints/Keys/Friction", -1., 2.},
+                                       {"Statics/Gravity", 9.7, 9.9, true},
+                                       {"Motion/Duration", 0., 300.},
+                                       {"Motion/Time step", 1e-4, .05},
+                                       {"Motion/Characteristic period", .1, 2.},
+                                       {"Motion/Maximum beta", 1.5, 4.},
+                                       {"Motion/Peak acceleration", .005, 2.},
+                                       {"Motion/Vertical ratio", .2, 1.5},
+                                       {"Motion/Damping", .005, .2},
+                                       {"Foundation/Young's modulus", 5e8, 1.2e11},
+                                       {"Foundation/Poisson's ratio", .1, .4, true},
+                                       {"Foundation/Density", 1800., 3300.},
+                                       {"Foundation/Mass damping", 0., 10.},
+                                       {"Foundation/Stiffness damping", 0., .01}};
+
+    const std::map<std::string, std::string> examples = {{"Pa", "21 GPa"}, {"kg/m^3", "2.4 t/m^3"},
+                                                         {"m", "20 cm"},   {"s", "10 ms"},
+                                                         {"g", "3 m/s^2"}, {"m/s^2", "1 g"}};
+
+    bool is_default(const WrittenEntry &entry)
+    {
+      const std::string &value = entry.value, &standard = entry.declared.default_value;
+      char              *end_1, *end_2;
+      const double       a = std::strtod(value.c_str(), &end_1), b = std::strtod(standard.c_str(), &end_2);
+      const bool         numbers = !value.empty() && !standard.empty() && *end_1 == '\0' && *end_2 == '\0';
+      return numbers ? a == b : value == standard;
+    }
+
+    std::string without_effect(const std::vector<const WrittenEntry *> &entries, const char *reason)
+    {
+      std::string text;
+      for (const WrittenEntry *entry : entries)
+        text += (text.empty() ? "" : ", ") + entry->declared.name() + " (" + entry->place + ")";
+      return text + (entries.size() == 1 ? " has" : " have") + " no effect: " + reason + ".";
+    }
+
+    /** Empty if the value is plausible, or nothing is known about it. */
+    std::string implausible(const WrittenEntry &entry)
+    {
+      const double value = std::strtod(entry.value.c_str(), nullptr);
+      for (const Range &range : ranges)
+      {
+        if (entry.declared.name() != range.entry || (value >= range.low && value <= range.high) ||
+            (range.or_zero && value == 0.))
+          continue;
+        const std::string  unit = entry.declared.unit() == "-" ? "" : " " + entry.declared.unit();
+        std::ostringstream text;
+        text << range.entry << " (" << entry.place << ") is " << value << unit << ": usual is " << range.low
+             << " to " << range.high << unit << ".";
+        if (const auto example = examples.find(entry.declared.unit()); example != examples.end())
+          text << " A value may carry its unit, as in \"" << example->second << "\".";
+        return text.str();
+      }
+      return "";
+    }
+  } // namespace
+
+  std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<WrittenEntry> &entries)
+  {
+    std::vector<std::string>                       warnings;
+    std::vector<std::vector<const WrittenEntry *>> idle(rules.size());
+    for (const WrittenEntry &entry : entries)
+    {
+      if (is_default(entry))
+        continue;
+      const std::string name = entry.declared.name();
+      const auto        rule =
+          std::find_if(rules.begin(), rules.end(),
+                       [&](const Rule &r)
+                       { return names(r.entries, name) && !names(r.exceptions, name) && r.holds(scene); });
+      if (rule != rules.end())
+        idle[rule - rules.begin()].push_back(&entry);
+      else if (const std::string warning = implausible(entry); !warning.empty())
+        warnings.push_back(warning);
+    }
+    for (std::size_t r = 0; r < rules.size(); ++r)
+      if (!idle[r].empty())
+        warnings.push_back(without_effect(idle[r], rules[r].reason));
+    return warnings;
+  }
+
+  std::vector<std::string> entries_with_warnings()
+  {
+    std::vector<std::string> entries;
+    for (const Rule &rule : rules)
+      for (const auto *list : {&rule.entries, &rule.exceptions})
+        entries.insert(entries.end(), list->begin(), list->end());
+    for (const Range &range : ranges)
+      entries.push_back(range.entry);
+    return entries;
+  }
+} // namespace Voussoir

@@ -1,0 +1,348 @@
+#include <voussoir/app/simulation.h>
+#include <voussoir/base/error.h>
+#include <voussoir/motion/motion.h>
+#include <voussoir/motion/motion_report.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+namespace Voussoir
+{
+  Simulation::Simulation(const Scene &scene, const std::string &scene_text, const RunOptions &options)
+      : scene(scene), scene_text(scene_text), options(options),
+        run_directory(options.output.empty() ? "output/" + scene.name : options.output),
+        directory(run_directory.path), log(options.quiet)
+  {
+  }
+
+  namespace
+  {
+    /** The motion with @p n steps in each sampling interval. */
+    GroundMotion refined(const GroundMotion &motion, const unsigned int n)
+    {
+      if (n == 1 || motion.acceleration.empty())
+        return motion;
+      GroundMotion result;
+      result.dt = motion.dt / n;
+      result.notes = motion.notes;
+      for (std::size_t k = 0; k + 1 < motion.acceleration.size(); ++k)
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          std::array<double, 3> a;
+          for (unsigned int c = 0; c < 3; ++c)
+            a[c] = motion.acceleration[k][c] +
+                   double(i) / n * (motion.acceleration[k + 1][c] - motion.acceleration[k][c]);
+          result.acceleration.push_back(a);
+        }
+      result.acceleration.push_back(motion.acceleration.back());
+      return result;
+    }
+  } // namespace
+
+  void Simulation::run()
+  {
+    provenance = provenance_now();
+    if (options.validate && options.resume)
+      open_checkpoint();
+    if (!options.validate)
+    {
+      interrupt.emplace();
+      std::vector<std::string> inputs = scene.sources;
+      for (const auto &input : scene.input_files())
+        inputs.push_back(input.second);
+      run_directory.claim(options.resume, options.overwrite, inputs);
+      if (options.resume)
+        open_checkpoint();
+    }
+    read_input();
+    if (provenance_now() != provenance)
+      throw InputError("A file that the scene names has changed while it was read. Run again.");
+    report_setup();
+    if (options.validate)
+      return;
+    find_static_state();
+    start_shaking();
+    if (options.resume)
+      load_checkpoint();
+
+    run_directory.begin(options.resume, scene.contact.write_problems); // all input is read and found good
+    log.open(directory + "/log.txt", options.resume);
+    OutputFile out(directory + "/scene.prm");
+    out << scene_text;
+    out.check();
+    open_tables();
+    if (!options.resume)
+      record();
+    else if (scene.output.solution_interval > 0 && step % scene.output.solution_interval == 0 &&
+             (solutions.empty() || solutions.back().first != newmark->state().time))
+      write_solution(); // what a full disk kept from being written
+    shake();
+  }
+
+  /** All files that the scene names; InputError for what cannot be run. */
+  void Simulation::read_input()
+  {
+    motion = refined(make_motion(scene.motion, scene.directory), scene.steps_per_sample);
+    n_steps = scene.motion.source == "none" ? 0 : motion.acceleration.size() - 1;
+    dam = std::make_unique<Dam>(scene);
+    if (dam->foundation && n_steps > 0)
+    {
+      const double critical = dam->foundation->critical_time_step(),
+                   rock_dt = motion.dt / scene.foundation.substeps;
+      if (!(rock_dt <= critical)) // or not a number
+      {
+        std::ostringstream message;
+        message << "The time step " << rock_dt << " s is too large for the rock: its critical time step is "
+                << critical << " s. Raise \"Dynamics/Steps per sample\" to "
+                << std::ceil(scene.steps_per_sample * rock_dt / critical) << " or \"Foundation/Substeps\" to "
+                << std::ceil(motion.dt / critical)
+                << ", take larger rock elements, or less \"Foundation/Stiffness damping\".";
+        throw InputError(message.str());
+      }
+      dam->foundation->check(motion.dt);
+    }
+    count.seconds_setup = clock.seconds();
+  }
+
+  void Simulation::shake()
+  {
+    shaking_clock = Stopwatch();
+    const double before = count.seconds_shaking;
+    try
+    {
+      for (first_step = step; step < n_steps;)
+      {
+        step_once();
+        record();
+        count.seconds_shaking = before + shaking_clock.seconds();
+        if (step % scene.output.progress_interval == 0 || step == n_steps)
+          report_step();
+        if (step < n_steps && interrupt->received() != nullptr)
+          keep_and_stop();
+        if (scene.output.checkpoint_interval > 0 && step % scene.output.checkpoint_interval == 0 &&
+            step < n_steps)
+          save_checkpoint();
+      }
+      write_results();
+      check_balance();
+    }
+    catch (const WriteError &error)
+    {
+      throw WriteError(error.what() + keep_last_state());
+    }
+  }
+
+  void Simulation::step_once()
+  {
+    try
+    {
+      inside_step = true;
+      advance();
+      inside_step = false;
+    }
+    catch (const ComputationError &error)
+    {
+      try
+      {
+        write_tables(); // what there is, to see what went wrong
+      }
+      catch (const WriteError &) // the first error is the one to tell
+      {
+      }
+      const bool resumable = std::filesystem::exists(checkpoint_name());
+      throw ComputationError(
+          error.what() + (" The tables in " + directory) + " end before it" +
+          (resumable ? "; the last checkpoint is there, too: go on from it with --resume." : "."));
+    }
+  }
+
+  /** Those of the scene; the problems of this @p stage go to a directory of their own. */
+  ContactParameters Simulation::contact_parameters(const std::string &stage) const
+  {
+    ContactParameters parameters = scene.contact;
+    parameters.write_directory = directory + "/contact/" + stage;
+    if (!parameters.write_problems)
+      return parameters;
+    std::error_code error;
+    std::filesystem::create_directories(parameters.write_directory, error);
+    if (error)
+      throw WriteError("The directory " + parameters.write_directory + " cannot be made: " + error.message() +
+                       ".");
+    if (options.resume)
+      parameters.first_problem = stage == "shaking" ? start_step : 0;
+    else
+      for (const auto &entry : std::filesystem::directory_iterator(parameters.write_directory))
+        if (entry.path().extension() == ".hdf5" && entry.path().filename().string().rfind("problem-", 0) == 0)
+          std::filesystem::remove(entry.path(), error); // of the run before
+    return parameters;
+  }
+
+  void Simulation::start_shaking()
+  {
+    const Stopwatch  watch;
+    const Structure &structure = dam->structure;
+    if (dam->foundation && n_steps > 0)
+    {
+      dam->foundation->start(motion, motion.dt, n_steps, statics.u);
+      if (const double added = dam->foundation->add_interface_mass(dam->structure, motion.dt); added > 0.)
+      {
+        double mass = 0.;
+        for (const Matrix3 &m : structure.mass)
+          mass += m[0];
+        log.line("Feet      %.3g kg heavier for the sub-steps, %.1f %% of dam, water and feet", added,
+                 100. * added / mass);
+      }
+    }
+    newmark = std::make_unique<Newmark>(structure, dam->laws, contact_parameters("shaking"), motion.dt,
+                                        impact_rule(scene.impact_rule));
+    Unknowns load = statics.load;
+    if (n_steps > 0)
+      for (unsigned int d = 0; d < 3; ++d)
+        for (std::size_t k = 0; k < load.size(); ++k)
+          load[k] += motion.acceleration[0][d] * dam->inertia[d][k];
+    newmark->start(statics.u, Unknowns(statics.u.size(), 0.), statics.force, load,
+                   Unknowns(3 * structure.pairs.size(), 0.));
+
+    stability = std::make_unique<StabilityWatch>(*dam, motion, *newmark);
+    joints = std::make_unique<JointRecorder>(structure, *dam->geometry);
+    joints->reach = JointReach(*dam->model, structure.pairs);
+    stress = std::make_unique<StressRecovery>(*dam->model, std::vector<Material>{scene.concrete},
+                                              scene.elements.incompatible_modes);
+    envelope = std::make_unique<EnvelopeRecorder>(*stress, dam->initial_stress);
+    history.columns = {"time",
+                       "crest_x",
+                       "crest_y",
+                       "crest_z",
+                       "base_acceleration_x",
+                       "base_acceleration_y",
+                       "base_acceleration_z"};
+    if (!dam->base_is_held())
+      for (const char *name : {"base_x", "base_y", "base_z"})
+        history.columns.push_back(name);
+    probes = {dam->geometry->crown};
+    for (const auto &probe : scene.output.probe_places())
+    {
+      const Vector3 &p = probe.second;
+      probes.push_back(probe_node(*dam->model, probe.first, dealii::Point<3>(p[0], p[1], p[2])));
+      for (const char *c : {"_x", "_y", "_z"})
+        history.columns.push_back(probe.first + c);
+    }
+    energy.columns = {"time",     "kinetic", "strain", "added_mass", "damping",
+                      "friction", "impact",  "input",  "balance"};
+    if (dam->foundation && n_steps > 0)
+      for (const char *name : {"rock_kinetic", "rock_strain", "rock_damping", "rock_feet", "transmitted",
+                               "rock_balance", "interface"})
+        energy.columns.push_back(name);
+    count.seconds_static += watch.seconds();
+    if (n_steps > 0)
+    {
+      log.line("Shaking   %.2f s in %u steps of %g s; joints and factors hold %.2f GiB", n_steps * motion.dt,
+               n_steps, motion.dt, newmark->joint_system().memory() / std::pow(2., 30));
+      log.line("\n   time  newton  open  slip  opening [mm]  slip [mm]  tension [MPa]  elapsed     left");
+    }
+  }
+
+  void Simulation::advance()
+  {
+    const Stopwatch watch;
+    const double    rock_before = dam->foundation ? dam->foundation->seconds : 0.;
+    Unknowns        load = statics.load;
+    const auto     &a = motion.acceleration[step + 1];
+    for (std::size_t k = 0; k < load.size(); ++k)
+      load[k] += a[0] * dam->inertia[0][k] + a[1] * dam->inertia[1][k] + a[2] * dam->inertia[2][k];
+    if (dam->foundation)
+      dam->foundation->advance(load);
+    const SystemTimes   before = newmark->joint_system().times;
+    const Vector3       base_velocity = dam->foundation ? dam->foundation->base_velocity() : Vector3{};
+    const ContactResult result = newmark->advance(load, base_velocity);
+    if (dam->foundation)
+    {
+      dam->foundation->follow(newmark->state());
+      const RegionEnergy &rock = dam->foundation->energy();
+      count.rock_energy = std::max({count.rock_energy, rock.kinetic + rock.strain, rock.damping,
+                                    std::abs(rock.prescribed), std::abs(rock.transmitted)});
+      count.rock_imbalance = std::max(count.rock_imbalance, std::abs(rock.balance()));
+    }
+    ++count.path[static_cast<unsigned int>(result.path)];
+    ++step;
+    const double rock_seconds = dam->foundation ? dam->foundation->seconds - rock_before : 0.;
+    count.seconds_rock += rock_seconds;
+    const SystemTimes &after = newmark->joint_system().times;
+    count.seconds_sweeps += after.sweeps - before.sweeps;
+    count.seconds_joints += after.joints - before.joints;
+    count.seconds_stepping +=
+        watch.seconds() - (after.sweeps - before.sweeps) - (after.joints - before.joints) - rock_seconds;
+    count.newton += result.iterations;
+    count.newton_max = std::max<double>(count.newton_max, result.iterations);
+    count.krylov += result.krylov;
+    count.factorisations += result.factorisations;
+    count.sweeps += result.sweeps;
+    count.residual = std::max(count.residual, result.residual);
+    count.imbalance =
+        std::max(count.imbalance, std::abs(newmark->state().energy.balance(newmark->initial_energy())));
+  }
+
+  void Simulation::record()
+  {
+    const DynamicState &state = newmark->state();
+    if (scene.output.envelope_interval > 0 && step % scene.output.envelope_interval == 0)
+    {
+      const Stopwatch watch;
+      envelope->record(state.time, state.u);
+      count.seconds_stresses += watch.seconds();
+    }
+    const Stopwatch watch;
+    joints->record(*newmark);
+    if (const std::string trouble = stability->trouble(*newmark, *joints, step, step == n_steps);
+        !trouble.empty())
+    {
+      joints->history.rows.pop_back(); // like the other tables
+      write_tables();
+      throw ComputationError(trouble + " The tables in " + directory + " end before it.");
+    }
+    std::vector<double> row = {state.time};
+    for (std::size_t i = 0; i < probes.size(); ++i)
+    {
+      const Vector3 u = relative_to_base(probes[i]);
+      row.insert(row.end(), u.begin(), u.end());
+      if (i == 0)
+        row.insert(row.end(), motion.acceleration[step].begin(), motion.acceleration[step].end());
+      if (i == 0 && !dam->base_is_held())
+      {
+        const Vector3 base = dam->base_motion(state.u);
+        row.insert(row.end(), base.begin(), base.end());
+      }
+    }
+    history.rows.push_back(row);
+    const Energy &e = state.energy, &e0 = newmark->initial_energy();
+    row = {state.time, e.kinetic, e.strain - e0.strain, e.added_mass, e.damping, e.friction,
+           e.impact,   e.input,   e.balance(e0)};
+    if (dam->foundation && n_steps > 0)
+    {
+      const RegionEnergy &rock = dam->foundation->energy();
+      for (const double value : {rock.kinetic, rock.strain, rock.damping, rock.prescribed, rock.transmitted,
+                                 rock.balance(), rock.prescribed + dam->foundation->work_on_dam()})
+        row.push_back(value);
+    }
+    energy.rows.push_back(row);
+    history_file.append(history);
+    energy_file.append(energy);
+    joint_file.append(joints->history);
+    if (scene.output.solution_interval > 0 && step % scene.output.solution_interval == 0)
+      write_solution();
+    count.seconds_output += watch.seconds();
+  }
+
+  /** Displacement of a node against the base (on rock: against its lowest part), the static one included. */
+  Vector3 Simulation::relative_to_base(const unsigned int node) const
+  {
+    const Unknowns    &u = newmark->state().u;
+    const unsigned int e = dam->model->equation[node];
+    Vector3            result{};
+    if (e != rigid_ground)
+      result = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};
+    return result - dam->base_motion(u);
+  }
+} // namespace Voussoir

@@ -1,0 +1,152 @@
+#include <voussoir/app/simulation.h>
+#include <voussoir/motion/motion.h>
+#include <voussoir/motion/motion_report.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Voussoir
+{
+  void Simulation::report_setup()
+  {
+    const unsigned int n_nodes = dam->structure.n_nodes();
+    log.line("Mesh      %s: %zu cells, degree %u, %u dofs, %u monoliths; volume %.4g m3, crest %.1f m",
+             scene.name.c_str(), dam->n_cells, scene.elements.degree, 3 * n_nodes, dam->n_monoliths,
+             dam->volume, dam->crest_length);
+    if (dam->tied)
+      log.line("Joints    %u joints, tied: the monolithic dam", dam->n_joints);
+    else
+    {
+      std::string laws = scene.joints.model;
+      for (const auto &entry : scene.joints.overrides)
+        laws += ", joint " + std::to_string(entry.first) + ": " + entry.second;
+      log.line("Joints    %u joints, %zu pairs, law %s (friction %g)", dam->n_joints,
+               dam->structure.pairs.size(), laws.c_str(), scene.joints.friction);
+    }
+    if (scene.foundation.model != "rigid")
+    {
+      const FoundationParameters &p = scene.foundation;
+      log.line("Rock      %s: %.4g GPa, Poisson's ratio %g, %g kg/m3, one material",
+               p.model == "rock" ? "explicit" : "massless", 1e-9 * p.rock.young, p.rock.poisson,
+               p.rock.density);
+      if (dam->foundation)
+      {
+        log.line("          %u nodes; boundary %s, free field by %s", dam->foundation->n_nodes(),
+                 p.boundary.c_str(), p.free_field.c_str());
+        if (const std::string warning = dam->foundation->warning(motion.dt / p.substeps); !warning.empty())
+          log.line("warning: %s", warning.c_str());
+      }
+    }
+    log.line("Damping   Rayleigh, C = %.4g 1/s M + %.4g s K: %.3g %% at %g Hz and %g Hz",
+             scene.damping.mass_factor(), scene.damping.stiffness_factor(), 100. * scene.damping.ratio,
+             scene.damping.frequency_1, scene.damping.frequency_2);
+    if (!dam->has_water)
+      log.line("Water     none: the reservoir is empty");
+    else
+      log.line("Water     level %g m; added mass %s x %g, %.4g kg along x", scene.reservoir.level,
+               scene.reservoir.added_mass.c_str(), scene.reservoir.factor, dam->added_mass);
+    report_motion_and_warnings();
+    report_motion_notes();
+    if (options.validate)
+    {
+      std::istringstream groups(dam->groups);
+      const char        *title = "Groups";
+      for (std::string row; std::getline(groups, row); title = "")
+        log.line("%-9s %s", title, row.c_str());
+      double pairs = 0.;
+      for (const Body &body : dam->structure.bodies)
+        pairs += std::pow(3. * body.interface.size(), 2);
+      double entries = 0.;
+      for (const Body &body : dam->structure.bodies)
+        entries += 9. * body.stiffness.value.size();
+      log.line("Unknowns  %u of the bodies, %zu of the joints", 3 * n_nodes, 3 * dam->structure.pairs.size());
+      if (dam->foundation)
+        log.line("Steps     %u of %g s, in each %u of the rock; critical time step of the rock %.4g s",
+                 n_steps, motion.dt, scene.foundation.substeps, dam->foundation->critical_time_step());
+      else
+        log.line("Steps     %u of %g s; the scheme is implicit: there is no critical time step", n_steps,
+                 motion.dt);
+      log.line("Memory    about %.1f GiB",
+               (8. * (entries * 5. + pairs * 3.) + 1e3 * 27 * n_nodes) / std::pow(2., 30));
+    }
+  }
+
+  /** What was done to records, and what remains at the end of the motion. */
+  void Simulation::report_motion_notes()
+  {
+    for (const std::string &note : motion.notes)
+      log.line("Records   %s", note.c_str());
+    MotionParameters any = scene.motion;
+    any.source = "file"; // without the errors of an artificial motion's spectrum
+    if (const std::string warning = end_warning(report_motion(motion, any)); n_steps > 0 && !warning.empty())
+      log.line("warning: %s", warning.c_str());
+  }
+
+  /** What the input means that may not be meant. */
+  void Simulation::report_motion_and_warnings()
+  {
+    constexpr double lowest_peak = .005, highest_peak = 2.; // [g]
+    if (n_steps == 0)
+      log.line("Motion    none: the static state alone");
+    else
+    {
+      MotionParameters measures_only = scene.motion;
+      measures_only.source = "file"; // without the errors of an artificial motion's spectrum
+      const auto   c = Voussoir::report_motion(motion, measures_only).components;
+      const double g = standard_gravity;
+      log.line("Motion    x, y, z: PGA %.3f %.3f %.3f g, PGV %.3f %.3f %.3f m/s, PGD %.3f %.3f %.3f m",
+               c[0].peak_acceleration / g, c[1].peak_acceleration / g, c[2].peak_acceleration / g,
+               c[0].peak_velocity, c[1].peak_velocity, c[2].peak_velocity, c[0].peak_displacement,
+               c[1].peak_displacement, c[2].peak_displacement);
+      double peak = 0.;
+      for (const auto &component : c)
+        peak = std::max(peak, component.peak_acceleration / g);
+      if (peak > highest_peak || peak < lowest_peak)
+        log.line("warning: the peak acceleration of the motion is %.3g g; usual is 0.005 to 2 g. Check "
+                 "Motion/Unit, Motion/Factor and Motion/Scale x, y, z.",
+                 peak);
+      constexpr double fastest = 5., farthest = 10.; // [m/s], [m]
+      const auto      &most = *std::max_element(
+               c.begin(), c.end(), [](const auto &a, const auto &b) { return a.peak_velocity < b.peak_velocity; });
+      if (peak <= highest_peak && (most.peak_velocity > fastest || most.peak_displacement > farthest))
+        log.line(
+            "warning: the motion moves at %.3g m/s, by %.3g m; usual is at most %g m/s and %g m. Check the "
+            "times and the unit of the record (Motion/Unit), and Motion/Time step.",
+            most.peak_velocity, most.peak_displacement, fastest, farthest);
+    }
+    if (scene.mesh.source == "arch210" && scene.mesh.arch210_rock.enabled &&
+        scene.foundation.model == "rigid")
+      log.line("warning: the rock of Mesh/Arch210/Rock is left out: Foundation/Model is rigid.");
+    if (scene.reservoir.density > 0. && !dam->has_water)
+      log.line("warning: the water does not reach the dam: Reservoir/Water level is %g m, below the upstream "
+               "face. Raise it, in the axes of the scene, or set Reservoir/Density to 0.",
+               scene.reservoir.level);
+    const auto &crest = dam->geometry->joints;
+    if (crest.size() > 1 && crest.front().arc_length > crest.back().arc_length)
+      log.line(
+          "warning: the joints are numbered from the left bank (y > 0) to the right, and so are those of "
+          "Joints/Overrides and of all results; usual is from the right bank.");
+    if (scene.mesh.source == "file" && !dam->ungrouped.empty())
+      log.line("warning: %s", dam->ungrouped.c_str());
+    for (const std::string &warning : scene.warnings)
+      log.line("warning: %s", warning.c_str());
+  }
+
+  void Simulation::report_step()
+  {
+    unsigned int open = 0, slip = 0;
+    for (const PairState state : newmark->pair_states())
+    {
+      open += state == PairState::open;
+      slip += state == PairState::slip;
+    }
+    const double done = step - first_step, elapsed = shaking_clock.seconds();
+    const float  tension = *std::max_element(envelope->maximum.begin(), envelope->maximum.end());
+    log.line("%7.2f  %6.2f %5u %5u  %12.2f %10.2f  %13.2f  %7s  %7s", newmark->state().time,
+             count.newton / step, open, slip, 1e3 * joints->opening.value, 1e3 * joints->slip.value,
+             scene.output.envelope_interval > 0 ? 1e-6 * tension : 0.,
+             clock_time(clock_before + elapsed).c_str(),
+             clock_time(elapsed / done * (n_steps - step)).c_str());
+  }
+} // namespace Voussoir

@@ -1,0 +1,148 @@
+#include <voussoir/app/simulation.h>
+#include <voussoir/output/energy_check.h>
+#include <voussoir/output/figures.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace Voussoir
+{
+  void Simulation::write_solution()
+  {
+    std::vector<Stress> s;
+    stress->apply(newmark->state().u, s);
+    std::vector<FieldWriter::NodalField> fields = {{"max_principal", std::vector<float>(s.size())},
+                                                   {"min_principal", std::vector<float>(s.size())}};
+    constexpr const char                *components[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+    for (unsigned int c = 0; c < 6; ++c)
+      fields.push_back({std::string("stress_") + components[c], std::vector<float>(s.size())});
+    for (std::size_t i = 0; i < s.size(); ++i)
+    {
+      for (unsigned int c = 0; c < 6; ++c)
+        fields[2 + c].values[i] = s[i][c] += dam->initial_stress[i][c];
+      const auto p = principal_stresses(s[i]);
+      fields[0].values[i] = p[0];
+      fields[1].values[i] = p[1];
+    }
+    // Joint state at the nodes of the joints: opening, slip, and 0 open, 1 stick, 2 slip; -1 elsewhere.
+    const std::vector<PairState> &pairs = step == start_step ? pairs_at_start : newmark->pair_states();
+    std::vector<float> opening(dam->structure.n_nodes(), 0.f), slip(opening), state(opening.size(), -1.f);
+    for (unsigned int p = 0; p < dam->structure.pairs.size(); ++p)
+    {
+      const Vector3 d = newmark->opening_and_slip(p);
+      for (const unsigned int node : {dam->structure.pairs[p].node_1, dam->structure.pairs[p].node_2})
+        if (node != rigid_ground)
+        {
+          opening[node] = d[0];
+          slip[node] = std::hypot(d[1], d[2]);
+          state[node] = static_cast<float>(pairs[p]);
+        }
+    }
+    for (const auto &field : {std::make_pair("opening", &opening), {"slip", &slip}, {"joint_state", &state}})
+    {
+      fields.push_back({field.first, std::vector<float>(s.size(), field.second == &state ? -1.f : 0.f)});
+      for (std::size_t i = 0; i < s.size(); ++i)
+        if (dam->model->equation[i] != rigid_ground)
+          fields.back().values[i] = (*field.second)[dam->model->equation[i]];
+    }
+    char name[40];
+    std::snprintf(name, sizeof(name), "solution-%05u.vtu", step);
+    FieldWriter(*dam->model).write_vtu(directory + "/" + name, newmark->state().u, fields);
+    solutions.emplace_back(newmark->state().time, name);
+    OutputFile pvd(directory + "/solution.pvd");
+    pvd << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+    for (const auto &solution : solutions)
+      pvd << "<DataSet timestep=\"" << solution.first << "\" file=\"" << solution.second << "\"/>\n";
+    pvd << "</Collection>\n</VTKFile>\n";
+    pvd.check();
+  }
+
+  void Simulation::open_tables()
+  {
+    history_file.open(directory + "/history.csv", history);
+    energy_file.open(directory + "/energy.csv", energy);
+    joint_file.open(directory + "/joint_history.csv", joints->history);
+  }
+
+  void Simulation::write_tables()
+  {
+    history_file.append(history);
+    energy_file.append(energy);
+    joint_file.append(joints->history);
+    joints->maxima().write(directory + "/joints.csv");
+  }
+
+  void Simulation::write_fields()
+  {
+    const Stopwatch watch;
+    if (scene.output.envelope_interval > 0)
+    {
+      const FieldWriter writer(*dam->model);
+      writer.write_vtu(directory + "/envelope.vtu", {},
+                       {{"max_principal", envelope->maximum}, {"min_principal", envelope->minimum}});
+      writer.write_faces(directory, *dam->geometry, envelope->maximum, envelope->minimum);
+    }
+    count.seconds_output += watch.seconds();
+  }
+
+  void Simulation::write_results()
+  {
+    write_tables();
+    write_fields();
+    for (const std::string &warning : joints->reach.warnings())
+      log.line("warning: %s", warning.c_str());
+    write_summary();
+    log.line("Joints    largest opening %.2f mm, largest slip %.2f mm", 1e3 * joints->opening.value,
+             1e3 * joints->slip.value);
+    if (n_steps > 0)
+      log.line("Speed     %.2f s of wall time per second of shaking; per step %.1f ms: sweeps %.1f, joints "
+               "%.1f, stepping "
+               "%.1f, stresses %.1f, output %.1f",
+               count.seconds_shaking / (n_steps * motion.dt), 1e3 * count.seconds_shaking / n_steps,
+               1e3 * count.seconds_sweeps / n_steps, 1e3 * count.seconds_joints / n_steps,
+               1e3 * count.seconds_stepping / n_steps, 1e3 * count.seconds_stresses / n_steps,
+               1e3 * count.seconds_output / n_steps);
+    log.line("Energy    balance closes to %.1e of the largest energy", balance_error());
+    if (dam->foundation && n_steps > 0)
+      log.line("          that of the rock to %.1e", rock_balance_error());
+    std::error_code ignored;
+    for (const char *ending : {"", ".before", ".new"})
+      std::filesystem::remove(checkpoint_name() + ending, ignored); // the run is complete: nothing to resume
+    std::filesystem::remove(directory + "/checkpoint.txt", ignored);
+    if (scene.output.figures)
+      draw_figures();
+    log.line("Results   %s", directory.c_str());
+  }
+
+  double Simulation::largest_energy() const
+  {
+    // Before the motion has begun there is only the round-off of the static state.
+    return std::max(newmark->largest_energy(), 1e-6 * std::abs(newmark->initial_energy().strain));
+  }
+
+  double Simulation::balance_error() const
+  {
+    return count.imbalance / std::max(largest_energy(), 1e-300);
+  }
+
+  double Simulation::rock_balance_error() const
+  {
+    return count.rock_imbalance / std::max(count.rock_energy, 1e-300);
+  }
+
+  void Simulation::check_balance() const
+  {
+    if (n_steps > 0)
+      check_energies(scene, balance_error(), dam->foundation ? rock_balance_error() : 0., directory);
+  }
+
+  void Simulation::draw_figures()
+  {
+    const std::string error = draw_figures_of(directory, directory + "/figures.log");
+    if (error.empty())
+      log.line("Figures   %s/figures", directory.c_str());
+    else
+      log.line("warning: the figures could not be drawn: %s. The results are complete.", error.c_str());
+  }
+} // namespace Voussoir

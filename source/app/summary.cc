@@ -1,0 +1,109 @@
+#include <deal.II/base/config.h>
+
+#include <voussoir/app/simulation.h>
+#include <voussoir/base/error.h>
+
+#include <sys/resource.h>
+
+#include <ctime>
+
+namespace Voussoir
+{
+  namespace
+  {
+    Json json_of(const Extreme &extreme)
+    {
+      Json json;
+      json.add("value", extreme.value).add_list("place", extreme.place).add("time", extreme.time);
+      return json;
+    }
+  } // namespace
+
+  void Simulation::write_summary()
+  {
+    const Structure &structure = dam->structure;
+    Json             mesh, seconds, newton, path, statics_json, extremes, summary;
+    mesh.add("cells", dam->n_cells)
+        .add("degree", scene.elements.degree)
+        .add("nodes", structure.n_nodes())
+        .add("dofs", 3. * structure.n_nodes())
+        .add("monoliths", dam->n_monoliths)
+        .add("joints", dam->n_joints)
+        .add("pairs", structure.pairs.size())
+        .add("volume", dam->volume)
+        .add("crest_length", dam->crest_length);
+    seconds.add("wall", clock_before + clock.seconds())
+        .add("cpu", cpu_before + double(std::clock()) / CLOCKS_PER_SEC)
+        .add("setup", count.seconds_setup)
+        .add("static", count.seconds_static)
+        .add("shaking", count.seconds_shaking)
+        .add("sweeps", count.seconds_sweeps)
+        .add("joints", count.seconds_joints)
+        .add("stepping", count.seconds_stepping)
+        .add("rock", count.seconds_rock)
+        .add("stresses", count.seconds_stresses)
+        .add("output", count.seconds_output)
+        .add("per_second_of_earthquake", n_steps > 0 ? count.seconds_shaking / (n_steps * motion.dt) : 0.);
+    const double n = std::max(1u, step);
+    newton.add("mean", count.newton / n)
+        .add("max", count.newton_max)
+        .add("linear_iterations_mean", count.krylov / n)
+        .add("joint_factorisations_mean", count.factorisations / n)
+        .add("sweeps", count.sweeps);
+    for (unsigned int i = 0; i < count.path.size(); ++i)
+      path.add(name(static_cast<ContactPath>(i)), count.path[i]);
+    const auto &crown = dam->model->points[dam->geometry->crown];
+    statics_json.add_list("crest_point", Vector3{{crown[0], crown[1], crown[2]}})
+        .add_list("crest_displacement", statics.crown)
+        .add_list("self_weight_crest_displacement", dam->self_weight_crown)
+        .add("newton_iterations", statics.contact.iterations)
+        .add("path", std::string(name(statics.contact.path)))
+        .add("residual", statics.contact.residual)
+        .add("open_pairs", statics.n_open);
+    extremes.add("max_opening", json_of(joints->opening)).add("max_slip", json_of(joints->slip));
+    if (scene.output.envelope_interval > 0)
+      extremes
+          .add("max_tension_upstream", json_of(envelope->extreme(*dam->model, PhysicalId::upstream, true)))
+          .add("max_tension_downstream",
+               json_of(envelope->extreme(*dam->model, PhysicalId::downstream, true)))
+          .add("max_compression", json_of(envelope->extreme(*dam->model, 0, false)));
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    summary.add("scene", scene.name)
+        .add("law", dam->tied ? "tied" : scene.joints.model)
+        .add("foundation", scene.foundation.model)
+        .add("version", VOUSSOIR_VERSION)
+        .add("revision", VOUSSOIR_REVISION)
+        .add("dealii", DEAL_II_PACKAGE_VERSION)
+        .add("ranks", 1.)
+        .add("mesh", mesh)
+        .add("steps", step)
+        .add("time_step", motion.dt)
+        .add("seconds", seconds)
+        .add("memory_bytes", 1024. * usage.ru_maxrss)
+        .add("newton_iterations", newton)
+        .add("contact_path", path)
+        .add("contact_residual", count.residual)
+        .add("energy_balance_error", balance_error())
+        .add("largest_energy", largest_energy())
+        .add("static", statics_json)
+        .add("extremes", extremes)
+        .add_texts("warnings", log.warnings());
+    if (const Foundation *rock = dam->foundation.get())
+    {
+      Json json;
+      json.add("nodes", rock->n_nodes())
+          .add("dofs", 3. * rock->n_nodes())
+          .add("boundary", scene.foundation.boundary)
+          .add("time_step", motion.dt / scene.foundation.substeps)
+          .add("critical_time_step", rock->critical_time_step());
+      if (step > 0)
+        json.add("transmitted_energy", rock->energy().transmitted)
+            .add("energy_balance_error", rock_balance_error());
+      summary.add("rock", json);
+    }
+    OutputFile out(directory + "/summary.json");
+    out << summary.text() << "\n";
+    out.check();
+  }
+} // namespace Voussoir

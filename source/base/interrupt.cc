@@ -1,0 +1,48 @@
+#include <voussoir/base/interrupt.h>
+
+#include <csignal>
+#include <unistd.h>
+
+namespace Voussoir
+{
+  namespace
+  {
+    constexpr int         numbers[3] = {SIGINT, SIGTERM, SIGHUP};
+    constexpr const char *names[3] = {"SIGINT", "SIGTERM", "SIGHUP"};
+
+    volatile std::sig_atomic_t noted = 0;
+
+    void note(const int signal)
+    {
+      noted = signal;
+      for (const int number : numbers)
+        std::signal(number, SIG_DFL);
+      constexpr char text[] = "voussoir: stopping as soon as the state can be kept; once more ends at once\n";
+      if (write(STDERR_FILENO, text, sizeof(text) - 1) < 0) // nobody to tell
+        return;
+    }
+  } // namespace
+
+  InterruptGuard::InterruptGuard()
+  {
+    noted = 0;
+    std::signal(SIGPIPE, SIG_IGN); // a reader of the screen that goes away does not end the run
+    for (unsigned int i = 0; i < 3; ++i)
+      if ((before[i] = std::signal(numbers[i], note)) == SIG_IGN)
+        std::signal(numbers[i], SIG_IGN);
+  }
+
+  InterruptGuard::~InterruptGuard()
+  {
+    for (unsigned int i = 0; i < 3; ++i)
+      std::signal(numbers[i], before[i]);
+  }
+
+  const char *InterruptGuard::received() const
+  {
+    for (unsigned int i = 0; i < 3; ++i)
+      if (noted == numbers[i])
+        return names[i];
+    return nullptr;
+  }
+} // namespace Voussoir

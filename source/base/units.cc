@@ -1,0 +1,137 @@
+#include <voussoir/base/error.h>
+#include <voussoir/base/units.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+namespace Voussoir
+{
+  namespace
+  {
+    struct Unit
+    {
+      const char *name, *dimension;
+      double      factor; ///< in the SI unit; degrees for angles
+    };
+
+    constexpr double pi = 3.14159265358979323846, standard_gravity = 9.80665, foot = .3048,
+                     pound_force = 4.4482216152605, pound = .45359237;
+
+    const std::vector<Unit> units = {
+        // The first of a dimension is what messages call it by.
+        {"m", "length", 1.},
+        {"km", "length", 1e3},
+        {"dm", "length", .1},
+        {"cm", "length", 1e-2},
+        {"mm", "length", 1e-3},
+        {"ft", "length", foot},
+        {"in", "length", foot / 12.},
+        {"s", "time", 1.},
+        {"ms", "time", 1e-3},
+        {"min", "time", 60.},
+        {"Pa", "pressure", 1.},
+        {"N/m^2", "pressure", 1.},
+        {"kPa", "pressure", 1e3},
+        {"kN/m^2", "pressure", 1e3},
+        {"MPa", "pressure", 1e6},
+        {"N/mm^2", "pressure", 1e6},
+        {"MN/m^2", "pressure", 1e6},
+        {"GPa", "pressure", 1e9},
+        {"kN/mm^2", "pressure", 1e9},
+        {"bar", "pressure", 1e5},
+        {"psi", "pressure", pound_force / (foot * foot / 144.)},
+        {"ksi", "pressure", 1e3 * pound_force / (foot * foot / 144.)},
+        {"kg/m^3", "density", 1.},
+        {"t/m^3", "density", 1e3},
+        {"g/cm^3", "density", 1e3},
+        {"kg/dm^3", "density", 1e3},
+        {"kN/m^3", "density", 1e3 / standard_gravity}, // a unit weight
+        {"lb/ft^3", "density", pound / (foot * foot * foot)},
+        {"m/s^2", "acceleration", 1.},
+        {"cm/s^2", "acceleration", 1e-2},
+        {"mm/s^2", "acceleration", 1e-3},
+        {"gal", "acceleration", 1e-2},
+        {"g", "acceleration", standard_gravity},
+        {"ft/s^2", "acceleration", foot},
+        {"m/s", "velocity", 1.},
+        {"km/s", "velocity", 1e3},
+        {"cm/s", "velocity", 1e-2},
+        {"mm/s", "velocity", 1e-3},
+        {"ft/s", "velocity", foot},
+        {"degrees", "angle", 1.},
+        {"degree", "angle", 1.},
+        {"deg", "angle", 1.},
+        {"\u00b0", "angle", 1.},
+        {"rad", "angle", 180. / pi},
+        {"Hz", "frequency", 1.},
+        {"kHz", "frequency", 1e3},
+        {"1/s", "rate", 1.},
+        {"%", "ratio", 1e-2},
+        {"-", "ratio", 1.},
+    };
+
+    /** "kg / m³" -> "kg/m^3", "kg/m3" -> "kg/m^3" */
+    std::string spelled(std::string text)
+    {
+      text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
+      for (const auto &power : {std::pair<const char *, const char *>{"\u00b2", "2"}, {"\u00b3", "3"}})
+        for (std::size_t at; (at = text.find(power.first)) != std::string::npos;)
+          text.replace(at, std::string(power.first).size(), power.second);
+      const auto n = text.size();
+      if (n > 1 && (text[n - 1] == '2' || text[n - 1] == '3') &&
+          std::isalpha(static_cast<unsigned char>(text[n - 2])))
+        text.insert(n - 1, "^");
+      return text;
+    }
+
+    const Unit *find_unit(const std::string &name)
+    {
+      const std::string text = spelled(name);
+      const auto        found =
+          std::find_if(units.begin(), units.end(), [&](const Unit &unit) { return text == unit.name; });
+      return found == units.end() ? nullptr : &*found;
+    }
+
+    std::string units_of(const std::string &dimension)
+    {
+      std::string list;
+      for (const Unit &unit : units)
+        if (dimension == unit.dimension)
+          list += (list.empty() ? "" : ", ") + std::string(unit.name);
+      return list;
+    }
+  } // namespace
+
+  std::string in_declared_unit(const std::string &value, const std::string &declared, const std::string &what)
+  {
+    char        *end = nullptr;
+    const double number = std::strtod(value.c_str(), &end);
+    std::string  rest = end;
+    rest.erase(0, rest.find_first_not_of(" \t"));
+    rest.erase(rest.find_last_not_of(" \t") + 1);
+    if (end == value.c_str() || rest.empty() || !std::isfinite(number) || rest[0] == ',' ||
+        value.find_first_of("xX") != std::string::npos) // no hexadecimal numbers
+      return value;
+
+    const bool  is_pure = declared.empty() || declared == "-";
+    const Unit *written = find_unit(rest), *target = find_unit(is_pure ? "-" : declared);
+    if (written == nullptr || target == nullptr || written->dimension != std::string(target->dimension))
+    {
+      if (is_pure)
+        throw InputError(what + " has no unit, but the value is \"" + value + "\". Give the number alone.");
+      throw InputError(
+          what + " is in " + declared + "; \"" + rest + "\" is " +
+          (written == nullptr ? std::string("not a unit that is known")
+                              : "a unit of " + std::string(written->dimension)) +
+          ". " + (target == nullptr ? "Give" : "Known are " + units_of(target->dimension) + "; or give") +
+          " the number alone, in " + declared + ".");
+    }
+    char text[40];
+    std::snprintf(text, sizeof(text), "%.15g", number * written->factor / target->factor);
+    return text;
+  }
+} // namespace Voussoir

@@ -1,0 +1,39 @@
+#include <voussoir/contact/contact_result.h>
+
+#include <algorithm>
+
+namespace Voussoir
+{
+  const char *name(const ContactPath path)
+  {
+    switch (path)
+    {
+    case ContactPath::newton:
+      return "newton";
+    case ContactPath::sweeps:
+      return "sweeps";
+    case ContactPath::proximal:
+      return "proximal";
+    case ContactPath::smaller_step:
+      return "smaller_step";
+    }
+    return "";
+  }
+
+  void ContactResult::add_work(const ContactResult &other)
+  {
+    iterations += other.iterations;
+    krylov += other.krylov;
+    factorisations += other.factorisations;
+    sweeps += other.sweeps;
+  }
+
+  ContactResult &ContactResult::operator+=(const ContactResult &other)
+  {
+    add_work(other);
+    converged = converged && other.converged;
+    residual = std::max(residual, other.residual);
+    path = std::max(path, other.path);
+    return *this;
+  }
+} // namespace Voussoir

@@ -1,0 +1,209 @@
+#include <voussoir/base/error.h>
+#include <voussoir/contact/law_table.h>
+#include <voussoir/dam/dam.h>
+#include <voussoir/foundation/massless_rock.h>
+#include <voussoir/mesh/mesh_axes.h>
+#include <voussoir/mesh/mesh_groups.h>
+#include <voussoir/mesh/mesh_joints.h>
+
+#include <cmath>
+#include <numeric>
+#include <set>
+
+namespace Voussoir
+{
+  namespace
+  {
+    /** The dam without the rock. */
+    HexMesh monoliths_only(const HexMesh &mesh)
+    {
+      HexMesh result = mesh;
+      result.cells.clear();
+      result.faces.clear();
+      for (const HexMesh::Cell &cell : mesh.cells)
+        if (is_monolith(cell.volume))
+          result.cells.push_back(cell);
+      for (const HexMesh::Face &face : mesh.faces)
+        if (face.surface != PhysicalId::free_surface && face.surface != PhysicalId::artificial)
+          result.faces.push_back(face);
+      normalize(result); // drops the rock's nodes
+      return result;
+    }
+
+    /** InputError where joint j is not between monoliths j and j + 1. */
+    void check_joint_numbers(const HexMesh &opened, const unsigned int n_joints, const std::string &source)
+    {
+      std::set<unsigned int> numbers;
+      for (const Joint &joint : joints_of(opened))
+        numbers.insert(joint.number);
+      for (unsigned int j = 1; j <= n_joints; ++j)
+        if (numbers.count(j) == 0)
+          throw InputError(
+              "mesh " + source + ": joint " + std::to_string(j) + " has no faces: monoliths " +
+              std::to_string(j) + " and " + std::to_string(j + 1) +
+              " do not meet. Number the monoliths one after the other, from the right bank to the "
+              "left.");
+    }
+  } // namespace
+
+  Dam::Dam(const Scene &scene, const bool tie_all) : scene(scene)
+  {
+    const HexMesh mesh = make_mesh(scene.mesh, scene.directory);
+    const HexMesh concrete = monoliths_only(mesh);
+    const bool    has_rock = concrete.cells.size() < mesh.cells.size(),
+               on_rock = scene.foundation.model == "rock", massless = scene.foundation.model == "massless";
+    const std::string source = scene.mesh.source == "file" ? scene.mesh.file : "arch210";
+    check_axes_and_units(mesh, scene.mesh, source);
+    groups = group_table(mesh);
+    ungrouped = faces_without_group(mesh);
+    if ((on_rock || massless) && !has_rock)
+      throw InputError("Foundation/Model is " + scene.foundation.model +
+                       ", but the mesh has no rock (volumes from id 1000 on). Set "
+                       "Mesh/Arch210/Rock/Enabled = true, or give a mesh with rock.");
+    if (has_rock && !on_rock && !massless && scene.mesh.source == "file")
+      throw InputError(
+          "The mesh has rock (volumes from id 1000 on), but Foundation/Model is rigid: set it to rock or "
+          "massless, or leave the rock out of the mesh.");
+    if (on_rock && scene.elements.degree != 1)
+      throw InputError("Foundation/Model = rock needs Elements/Degree = 1: dam and rock share their nodes.");
+    volume = Voussoir::volume(concrete);
+    crest_length = Voussoir::crest_length(concrete);
+    const auto box = bounding_box(concrete);
+    size =
+        std::hypot(box.second[0] - box.first[0], box.second[1] - box.first[1], box.second[2] - box.first[2]);
+    n_cells = concrete.cells.size();
+    n_monoliths = Voussoir::n_monoliths(concrete);
+    const HexMesh opened = open_joints(concrete);
+    for (const Joint &joint : joints_of(opened))
+      n_joints = std::max<unsigned int>(n_joints, joint.number);
+    check_joint_numbers(opened, n_joints, source);
+
+    tied = true;
+    for (unsigned int j = 1; j <= n_joints; ++j)
+    {
+      const std::string &law = tie_all ? "tied" : scene.joints.model_of(j);
+      tied = tied && law == "tied";
+      laws.of_joint.push_back(make_joint_law(law, scene.joints.friction,
+                                             equations_from_name(scene.joints.equations), scene.joints.keys));
+    }
+    for (const auto &entry : scene.joints.overrides)
+      if (entry.first > n_joints)
+        throw InputError("Entry \"Joints/Overrides\" names joint " + std::to_string(entry.first) +
+                         ", but the dam has " + std::to_string(n_joints) + " joints.");
+
+    model = std::make_unique<SolidModel>(opened, scene.elements.degree);
+    const bool        incompatible_modes = scene.elements.incompatible_modes;
+    std::vector<Pair> pairs = find_pairs(*model, n_joints);
+    structure = assemble_structure(*model, {scene.concrete}, incompatible_modes);
+    geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
+    initial_stress.assign(model->n_nodes(), Stress{});
+    if (scene.statics.self_weight == "staged")
+      stage_self_weight(); // on a rigid base: displacements count from there
+    if (on_rock || massless)
+    {
+      model->free_base();
+      if (massless)
+        model->tie_joints(n_joints, true); // the rock joins all monoliths
+      structure = assemble_structure(*model, {scene.concrete}, incompatible_modes);
+      pairs = find_pairs(*model, n_joints);
+      geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
+    }
+    if (tied && n_joints > 0)
+    {
+      model->tie_joints(n_joints);
+      structure = assemble_structure(*model, {scene.concrete}, incompatible_modes);
+    }
+    else
+      structure.pairs = std::move(pairs);
+    if (massless)
+      add_massless_rock(scene.foundation, mesh, *model, incompatible_modes, source, structure);
+    structure.n_joints = tied ? 0 : n_joints;
+    structure.mass_damping = scene.damping.mass_factor();
+    structure.stiffness_damping = scene.damping.stiffness_factor();
+    structure.collect_interfaces();
+    laws.assign(structure.pairs);
+    std::set<unsigned int> base; // the feet of the joints are tied: the rock does not open there
+    for (unsigned int i = 0; i < model->n_nodes(); ++i)
+      if (on_rock && model->on_surface(i, PhysicalId::base))
+        base.insert(model->equation[i]);
+    laws.of_joint.push_back(make_joint_law("tied", 0.));
+    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+      if (base.count(structure.pairs[p].node_1) > 0)
+        laws.of_pair[p] = laws.of_joint.back().get();
+
+    const std::size_t n = 3 * structure.n_nodes();
+    weight.assign(n, 0.);
+    water.assign(n, 0.);
+    add_weight(structure, scene.statics.gravity, weight);
+    if (scene.reservoir.density > 0.)
+    {
+      add_water_pressure(*model, scene.reservoir, scene.statics.gravity, water);
+      if (scene.reservoir.added_mass != "none")
+        added_mass = add_westergaard_mass(*model, scene.reservoir, structure);
+    }
+    inertia = inertial_loads(structure);
+    if (on_rock)
+    {
+      foundation = std::make_unique<Foundation>(scene.foundation, mesh, *model, source);
+      foundation->add_mass(structure);
+      for (Unknowns &load : inertia) // the earthquake comes through the rock, and displacements are absolute
+        std::fill(load.begin(), load.end(), 0.);
+    }
+
+    for (const auto &probe : scene.output.probe_places())
+      probe_node(*model, probe.first, {probe.second[0], probe.second[1], probe.second[2]});
+    find_lowest_base();
+    double top = -1e300, bottom = 1e300;
+    for (unsigned int i = 0; i < model->n_nodes(); ++i)
+      if (model->on_surface(i, PhysicalId::upstream))
+      {
+        top = std::max(top, model->points[i][2]);
+        bottom = std::min(bottom, model->points[i][2]);
+      }
+    if (scene.reservoir.density > 0. && scene.reservoir.level > top + 1e-6 * (top - bottom))
+      throw InputError("Entry \"Reservoir/Water level\" is " + std::to_string(scene.reservoir.level) +
+                       " m, above the dam, which ends at " + std::to_string(top) +
+                       " m. Lower the water, or check the axes and the length unit of the mesh.");
+    has_water = scene.reservoir.density > 0. && scene.reservoir.level > bottom;
+  }
+
+  void Dam::find_lowest_base()
+  {
+    double bottom = 1e300;
+    for (unsigned int i = 0; i < model->n_nodes(); ++i)
+      if (model->on_surface(i, PhysicalId::base))
+        bottom = std::min(bottom, model->points[i][2]);
+    for (unsigned int i = 0; i < model->n_nodes(); ++i)
+      if (model->on_surface(i, PhysicalId::base) && model->equation[i] != rigid_ground &&
+          model->points[i][2] < bottom + 1e-3)
+        lowest_base.push_back(model->equation[i]);
+  }
+
+  Vector3 Dam::base_motion(const Unknowns &u) const
+  {
+    Vector3 mean{};
+    for (const unsigned int node : lowest_base)
+      for (unsigned int c = 0; c < 3; ++c)
+        mean[c] += u[3 * node + c] / lowest_base.size();
+    return mean;
+  }
+
+  void Dam::stage_self_weight()
+  {
+    Unknowns load(3 * structure.n_nodes(), 0.), u;
+    add_weight(structure, scene.statics.gravity, load);
+    JointSystem system(structure, JointLaws(), ContactParameters(), 0., 1., 0.);
+    system.solve_free(load, u);
+    StressRecovery(*model, {scene.concrete}, scene.elements.incompatible_modes).apply(u, initial_stress);
+    if (const unsigned int e = model->equation[geometry->crown]; e != rigid_ground)
+      self_weight_crown = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};
+  }
+
+  Unknowns Dam::static_load(const double water_part) const
+  {
+    Unknowns load = water;
+    for (std::size_t i = 0; i < load.size(); ++i)
+      load[i] = water_part * water[i] + (scene.statics.self_weight == "monolithic" ? weight[i] : 0.);
+    return load;
+  }
+} // namespace Voussoir

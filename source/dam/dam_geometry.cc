@@ -1,0 +1,113 @@
+#include <voussoir/base/error.h>
+#include <voussoir/dam/dam_geometry.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace Voussoir
+{
+  using namespace dealii;
+
+  DamGeometry::DamGeometry(const SolidModel &model, const std::vector<Pair> &pairs,
+                           const unsigned int n_joints)
+      : joints(n_joints)
+  {
+    std::vector<unsigned int> nodes;
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      if (model.on_surface(i, PhysicalId::crest) && model.on_surface(i, PhysicalId::upstream))
+        nodes.push_back(i);
+    if (nodes.size() < 2)
+      throw InputError(
+          "The surfaces \"crest\" and \"upstream\" of the mesh do not meet, or are missing. Results are "
+          "reported along their common edge: mark both surfaces in the mesh.");
+    std::sort(nodes.begin(), nodes.end(),
+              [&](const unsigned int i, const unsigned int j)
+              { return model.points[i][1] < model.points[j][1]; });
+    for (const unsigned int i : nodes)
+      if (edge.empty() ||
+          edge.back().distance(model.points[i]) > 1e-6 * (model.points[nodes.back()] - edge[0]).norm())
+        edge.push_back(model.points[i]);
+    at.push_back(0.);
+    for (std::size_t i = 1; i < edge.size(); ++i)
+      at.push_back(at.back() + std::hypot(edge[i][0] - edge[i - 1][0], edge[i][1] - edge[i - 1][1]));
+    const double middle = .5 * at.back();
+    for (double &s : at)
+      s -= middle;
+    crown = *std::min_element(
+        nodes.begin(), nodes.end(),
+        [&](const unsigned int i, const unsigned int j)
+        { return std::abs(arc_length(model.points[i])) < std::abs(arc_length(model.points[j])) - 1e-6; });
+
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+    {
+      CrestPairs  &crest = joints[pairs[p].joint];
+      const double tall = 1e-3; // nodes of the crest may differ a little in height [m]
+      for (const bool upstream : {true, false})
+      {
+        unsigned int &best = upstream ? crest.upstream : crest.downstream;
+        if (best == rigid_ground || pairs[p].place[2] > pairs[best].place[2] + tall ||
+            (pairs[p].place[2] > pairs[best].place[2] - tall &&
+             (pairs[p].place[0] < pairs[best].place[0]) == upstream))
+          best = p;
+      }
+    }
+    for (CrestPairs &crest : joints)
+      if (crest.upstream != rigid_ground)
+      {
+        const Vector3 &x = pairs[crest.upstream].place;
+        crest.arc_length = arc_length(Point<3>(x[0], x[1], x[2]));
+      }
+  }
+
+  double DamGeometry::arc_length(const Point<3> &p) const
+  {
+    double nearest = 1e300, result = 0.;
+    for (std::size_t i = 0; i + 1 < edge.size(); ++i)
+    {
+      const double dx = edge[i + 1][0] - edge[i][0], dy = edge[i + 1][1] - edge[i][1],
+                   length = at[i + 1] - at[i];
+      const double     t = ((p[0] - edge[i][0]) * dx + (p[1] - edge[i][1]) * dy) / (length * length);
+      constexpr double endless = std::numeric_limits<double>::infinity(); // beyond the ends the edge goes on
+      const double     s = std::clamp(t, i == 0 ? -endless : 0., i + 2 == edge.size() ? endless : 1.);
+      const double     d = std::hypot(p[0] - edge[i][0] - s * dx, p[1] - edge[i][1] - s * dy);
+      if (d < nearest)
+        nearest = d, result = at[i] + s * length;
+    }
+    return result;
+  }
+
+  unsigned int nearest_node(const SolidModel &model, const Point<3> &p)
+  {
+    return std::min_element(model.points.begin(), model.points.end(),
+                            [&](const Point<3> &a, const Point<3> &b)
+                            { return a.distance(p) < b.distance(p); }) -
+           model.points.begin();
+  }
+
+  unsigned int probe_node(const SolidModel &model, const std::string &name, const Point<3> &p)
+  {
+    const unsigned int                   node = nearest_node(model, p);
+    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+    double                               element = 0.; // how far its elements reach
+    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      if (std::find(dofs.begin(), dofs.end(), node) != dofs.end())
+        for (const auto other : dofs)
+          element = std::max(element, model.points[node].distance(model.points[other]));
+    }
+    if (const double distance = model.points[node].distance(p); distance > element)
+    {
+      std::ostringstream message;
+      message << "Entry \"Output/Probes\": probe \"" << name << "\" at " << place({{p[0], p[1], p[2]}})
+              << " is " << distance << " m from the dam, more than an element (" << element
+              << " m): its nearest node is at "
+              << place({{model.points[node][0], model.points[node][1], model.points[node][2]}})
+              << ". Give a point of the dam, in the axes of the scene.";
+      throw InputError(message.str());
+    }
+    return node;
+  }
+} // namespace Voussoir

@@ -1,0 +1,172 @@
+#include <voussoir/dynamics/impact.h>
+
+#include <voussoir/base/names.h>
+#include <voussoir/contact/pair_conditions.h>
+
+namespace Voussoir
+{
+  namespace
+  {
+    /** Has a pair that slips slid through the step, with nothing struck and no turn of more than 60 degrees?
+     *  Struck: what it would take to stop its motion into or off its surfaces is more than a millionth of the
+     *  impulse of the step. @p jump, @p change: velocity at the end, displacement of the step. */
+    bool slides_on(const JointLaw &law, const Matrix3 &H, const Vector3 &jump, const Vector3 &spent,
+                   const Vector3 &change, const unsigned char touching)
+    {
+      const Vector3 back = {{-jump[0], -jump[1], -jump[2]}};
+      const double  strike =
+          norm(law.stop_normal(H, jump, {}, touching)) + norm(law.stop_normal(H, back, {}, touching));
+      return strike <= 1e-6 * norm(spent) && dot(jump, change) >= .5 * norm(jump) * norm(change);
+    }
+
+    const Names<ImpactRule> names_of_rules = {{"mean-force", ImpactRule::mean_force},
+                                              {"impulse-consistent", ImpactRule::impulse_consistent},
+                                              {"paper", ImpactRule::paper},
+                                              {"none", ImpactRule::none}};
+  } // namespace
+
+  ImpactRule impact_rule(const std::string &name)
+  {
+    return value_of(names_of_rules, name, "is no impact rule", "rules");
+  }
+
+  std::string impact_rule_names()
+  {
+    return selection(names_of_rules);
+  }
+
+  Impact::Impact(const Structure &structure, const JointLaws &laws, const ImpactRule rule)
+      : structure(structure), laws(laws), rule(rule)
+  {
+    for (const Matrix3 &m : structure.mass)
+      inverse_mass.push_back(inverse(m));
+    std::vector<bool> in_pair(structure.n_nodes(), false);
+    for (const Pair &pair : structure.pairs)
+    {
+      Matrix3 H{};
+      for (const unsigned int node : {pair.node_1, pair.node_2})
+        if (node != rigid_ground)
+        {
+          if (in_pair[node])
+            throw InputError(
+                "A node of the mesh near (" + std::to_string(pair.place[0]) + ", " +
+                std::to_string(pair.place[1]) + ", " + std::to_string(pair.place[2]) +
+                ") belongs to two joints. Joints must not cross or share nodes of one monolith.");
+          in_pair[node] = true;
+          for (unsigned int j = 0; j < 3; ++j)
+          {
+            const Vector3 Mq = inverse_mass[node] * pair.frame[j];
+            for (unsigned int i = 0; i < 3; ++i)
+              H[3 * i + j] += dot(pair.frame[i], Mq);
+          }
+        }
+      pair_inverse.push_back(H);
+    }
+  }
+
+  void Impact::add_kick(const Pair &pair, const Vector3 &f, Unknowns &v) const
+  {
+    Vector3 x;
+    for (unsigned int c = 0; c < 3; ++c)
+      x[c] = pair.frame[0][c] * f[0] + pair.frame[1][c] * f[1] + pair.frame[2][c] * f[2];
+    for (const unsigned int node : {pair.node_1, pair.node_2})
+      if (node != rigid_ground)
+      {
+        const Vector3 kick = inverse_mass[node] * x;
+        for (unsigned int c = 0; c < 3; ++c)
+          v[3 * node + c] += (node == pair.node_2 ? 1. : -1.) * kick[c];
+      }
+  }
+
+  void Impact::correct_velocity(const JointSystem &system, const double dt, const Unknowns &change,
+                                Unknowns &v, Unknowns &impulse) const
+  {
+    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+    {
+      const Pair     &pair = structure.pairs[p];
+      const JointLaw &law = *laws.of_pair[p];
+      const bool      closed = system.states()[p] != PairState::open;
+      if (!closed && !law.is_tangentially_tied())
+        continue;
+      const Vector3 jump = structure.jump(pair, v), spent = get(impulse, p);
+      if (rule == ImpactRule::paper)
+      {
+        const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
+        const bool    face = system.touching()[p] & 1; // not of a pair that touches on a flank only
+        const Vector3 f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
+        add_kick(pair, f, v);
+        for (unsigned int c = 0; c < 3; ++c)
+          impulse[3 * p + c] += f[c];
+        continue;
+      }
+      if (rule == ImpactRule::mean_force && system.states()[p] == PairState::slip &&
+          slides_on(law, pair_inverse[p], jump, spent, get(change, p), system.touching()[p]))
+      {
+        // The mean friction of the step is of second order; that of its end velocity would be of first.
+        const Vector3 kept = law.stop_normal(pair_inverse[p], jump, spent, system.touching()[p]);
+        add_kick(pair, kept - spent, v);
+        set(impulse, p, kept);
+        continue;
+      }
+      // The velocity without any joint force of this step, then the impulse that the law allows.
+      const Vector3 lost = pair_inverse[p] * spent;
+      Vector3       allowed = law.solve_impulse(pair_inverse[p], jump - lost, system.touching()[p]);
+      if (rule == ImpactRule::mean_force && !law.is_tangentially_tied())
+      {
+        // Where loads tear at a pair more than it strikes, returning the friction of the step could give more
+        // energy than the pair took: then only the normal row is corrected, which always takes energy.
+        const Vector3 f = allowed - spent, gained = pair_inverse[p] * f;
+        double        gain = 0., size = 0.;
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          gain += .5 * f[c] * (2. * jump[c] + gained[c]);
+          size += std::abs(f[c] * jump[c]) + std::abs(f[c] * gained[c]);
+        }
+        if (gain > -dot(spent, get(change, p)) / dt + 1e-12 * size)
+          allowed = law.stop_normal(pair_inverse[p], jump, spent, system.touching()[p]);
+      }
+      add_kick(pair, allowed - spent, v);
+      set(impulse, p, allowed);
+    }
+  }
+
+  Unknowns Impact::end_force(const JointSystem &system, const Unknowns &force, const Unknowns &v,
+                             const Unknowns &nodal_force) const
+  {
+    Unknowns a(nodal_force.size()), result(force.size(), 0.);
+    for (std::size_t i = 0; i < structure.n_nodes(); ++i)
+      set(a, i, inverse_mass[i] * get(nodal_force, i));
+    if (rule == ImpactRule::paper)
+      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+        add_kick(structure.pairs[p], get(force, p), a);
+
+    double fastest = 0.;
+    for (const double x : v)
+      fastest = std::max(fastest, std::abs(x));
+    const double still = std::max(1e-9 * fastest, 1e-12);
+    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+    {
+      const Pair     &pair = structure.pairs[p];
+      const JointLaw &law = *laws.of_pair[p];
+      const bool      closed = system.states()[p] != PairState::open;
+      const Vector3   jump = structure.jump(pair, a);
+      if (rule == ImpactRule::paper)
+      {
+        const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
+        const bool    face = system.touching()[p] & 1;
+        const Vector3 f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
+        add_kick(pair, f, a);
+        for (unsigned int c = 0; c < 3; ++c)
+          result[3 * p + c] = force[3 * p + c] + f[c];
+      }
+      else if (closed || law.is_tangentially_tied())
+      {
+        const Vector3 f = law.solve_acceleration(pair_inverse[p], jump, structure.jump(pair, v), still,
+                                                 system.touching()[p]);
+        add_kick(pair, f, a);
+        set(result, p, f);
+      }
+    }
+    return result;
+  }
+} // namespace Voussoir

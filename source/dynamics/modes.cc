@@ -1,0 +1,70 @@
+#include <deal.II/lac/arpack_solver.h>
+#include <deal.II/lac/vector.h>
+
+#include <voussoir/base/error.h>
+#include <voussoir/dynamics/modes.h>
+#include <voussoir/joints/joint_system.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+
+namespace Voussoir
+{
+  using namespace dealii;
+
+  namespace
+  {
+    struct Operator
+    {
+      std::function<void(Vector<double> &, const Vector<double> &)> apply;
+      void vmult(Vector<double> &y, const Vector<double> &x) const { apply(y, x); }
+    };
+  } // namespace
+
+  std::vector<double> natural_frequencies(const Structure &structure, const unsigned int n_modes)
+  {
+    const unsigned int n = 3 * structure.n_nodes();
+    if (2 * n_modes + 2 > n)
+      throw InputError("The dam has only " + std::to_string(n) +
+                       " unknowns: fewer modes must be asked for (--count).");
+    JointSystem    system(structure, JointLaws(), ContactParameters(), 0., 1., 0.);
+    Unknowns       load(n), u;
+    const Operator mass{
+        [&](Vector<double> &y, const Vector<double> &x)
+        {
+          for (unsigned int i = 0; i < structure.n_nodes(); ++i)
+          {
+            const Vector3 Mx = structure.mass[i] * Vector3{{x[3 * i], x[3 * i + 1], x[3 * i + 2]}};
+            for (unsigned int c = 0; c < 3; ++c)
+              y[3 * i + c] = Mx[c];
+          }
+        }};
+    const Operator inverse_stiffness{[&](Vector<double> &y, const Vector<double> &x)
+                                     {
+                                       std::copy(x.begin(), x.end(), load.begin());
+                                       system.solve_free(load, u);
+                                       std::copy(u.begin(), u.end(), y.begin());
+                                     }};
+
+    SolverControl                     control(1000, 1e-10);
+    ArpackSolver                      arpack(control,
+                                             ArpackSolver::AdditionalData(2 * n_modes + 2, ArpackSolver::largest_magnitude, true));
+    std::vector<std::complex<double>> eigenvalues(n_modes);
+    std::vector<Vector<double>>       eigenvectors(n_modes, Vector<double>(n));
+    try
+    {
+      arpack.solve(inverse_stiffness, mass, inverse_stiffness, eigenvalues, eigenvectors, n_modes);
+    }
+    catch (const ExceptionBase &)
+    {
+      throw ComputationError("The natural frequencies did not converge.");
+    }
+    std::vector<double> frequencies;
+    for (const auto &lambda : eigenvalues)
+      frequencies.push_back(std::sqrt(lambda.real()) / (2. * 3.14159265358979323846));
+    std::sort(frequencies.begin(), frequencies.end());
+    return frequencies;
+  }
+} // namespace Voussoir

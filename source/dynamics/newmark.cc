@@ -1,0 +1,277 @@
+#include <voussoir/dynamics/newmark.h>
+
+#include <voussoir/base/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Voussoir
+{
+  double Energy::balance(const Energy &start) const
+  {
+    return (kinetic - start.kinetic) + (added_mass - start.added_mass) + (strain - start.strain) + damping +
+           friction + impact - input;
+  }
+
+  Newmark::Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters,
+                   const double dt, const ImpactRule rule)
+      : structure(structure), laws(laws), parameters(parameters), dt(dt), rule(rule),
+        system(structure, laws, parameters, 4. / (dt * dt) + 2. / dt * structure.mass_damping,
+               1. + 2. / dt * structure.stiffness_damping, 2. / dt),
+        impact(structure, laws, rule)
+  {
+  }
+
+  void Newmark::start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
+                      const Unknowns &reference_jump)
+  {
+    reference = reference_jump;
+    impulse.assign(force.size(), 0.);
+    now = DynamicState();
+    now.u = u;
+    now.v = v;
+    now.load = load;
+    now.force = force;
+    structure.multiply_stiffness(now.u, now.Ku);
+    account_states();
+    first = now.energy;
+    largest = 0.;
+  }
+
+  void Newmark::resume(const DynamicState &state, const Energy &first_energy, const double largest_so_far,
+                       const Unknowns &reference_jump)
+  {
+    first = first_energy;
+    largest = largest_so_far;
+    reference = reference_jump;
+    impulse.assign(state.force.size(), 0.);
+    now = state;
+  }
+
+  void Newmark::account_states()
+  {
+    double kinetic = 0., water = 0., strain = 0.;
+    for (unsigned int i = 0; i < structure.n_nodes(); ++i)
+    {
+      const Vector3 v = get(now.v, i);
+      kinetic += .5 * dot(v, structure.mass[i] * v);
+      if (!structure.added_mass.empty())
+        water += .5 * dot(v, structure.added_mass[i] * v);
+      strain += .5 * dot(get(now.u, i), get(now.Ku, i));
+    }
+    now.energy.kinetic = kinetic - water;
+    now.energy.added_mass = water;
+    now.energy.strain = strain;
+  }
+
+  Vector3 Newmark::opening_and_slip(const unsigned int pair) const
+  {
+    const Vector3 jump = structure.jump(structure.pairs[pair], now.u), r = get(reference, pair);
+    return {{jump[0] - r[0], jump[1] - r[1], jump[2] - r[2]}};
+  }
+
+  double Newmark::energy_error() const
+  {
+    // Before the motion has begun there is only the round-off of the static state.
+    const double scale = std::max(largest, 1e-6 * std::abs(first.strain));
+    return scale > 0. ? std::abs(now.energy.balance(first)) / scale : 0.;
+  }
+
+  /** The sum of the equations of motion at both ends of the step, in which accelerations cancel:
+   *  S u_new = load + load_old + M (4/dt^2 u + 4/dt v) + 2/dt C u - K u + G^T (force + force_old), and the
+   *  damping's part of the moving base. */
+  Unknowns Newmark::right_hand_side(const Unknowns &load, const Vector3 &base_velocity) const
+  {
+    Unknowns     rhs(load.size());
+    const double c_m = 4. / (dt * dt) + 2. / dt * structure.mass_damping,
+                 c_k = 2. / dt * structure.stiffness_damping - 1.;
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < static_cast<int>(structure.n_nodes()); ++i)
+    {
+      Vector3 x;
+      for (unsigned int c = 0; c < 3; ++c)
+        x[c] = c_m * now.u[3 * i + c] + 4. / dt * now.v[3 * i + c] +
+               structure.mass_damping * (now.base_velocity[c] + base_velocity[c]);
+      const Vector3 Mx = structure.mass[i] * x;
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const std::size_t k = 3 * i + c;
+        rhs[k] = load[k] + now.load[k] + Mx[c] + c_k * now.Ku[k];
+        if (!structure.dashpots.empty())
+          rhs[k] += 2. / dt * structure.dashpots[k] * now.u[k];
+      }
+    }
+    if (rule != ImpactRule::mean_force) // there the unknown is the sum of the forces
+      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+        structure.add_pair_force(structure.pairs[p], get(now.force, p), rhs);
+    return rhs;
+  }
+
+  ContactResult Newmark::advance(const Unknowns &load, const Vector3 &base_velocity)
+  {
+    ContactResult result;
+    if (!step(load, base_velocity, result))
+      return advance_in_halves(load, base_velocity, result);
+    halved = false;
+    return result;
+  }
+
+  ContactResult Newmark::advance_in_halves(const Unknowns &load, const Vector3 &base_velocity,
+                                           const ContactResult &failed)
+  {
+    if (halvings_left == 0)
+    {
+      std::ostringstream message;
+      message << "The joint conditions did not converge at t = " << now.time + dt
+              << " s, not with time steps of " << dt << " s either: relative residual " << failed.residual
+              << " after " << failed.iterations << " Newton steps and " << failed.sweeps
+              << " sweeps. See entries \"Motion/Time step\" and \"Contact/Maximum iterations\".";
+      throw ComputationError(message.str());
+    }
+    if (!finer)
+    {
+      ContactParameters quiet = parameters;
+      quiet.write_problems = false;
+      finer = std::make_unique<Newmark>(structure, laws, quiet, .5 * dt, rule);
+      finer->halvings_left = halvings_left - 1;
+    }
+    Unknowns middle = load;
+    for (std::size_t k = 0; k < load.size(); ++k)
+      middle[k] = .5 * (load[k] + now.load[k]);
+    Vector3 middle_base;
+    for (unsigned int c = 0; c < 3; ++c)
+      middle_base[c] = .5 * (base_velocity[c] + now.base_velocity[c]);
+    finer->resume(now, first, largest, reference);
+    ContactResult result = finer->advance(middle, middle_base);
+    impulse = finer->impulse;
+    result += finer->advance(load, base_velocity);
+    result.add_work(failed);
+    result.path = ContactPath::smaller_step;
+    const double end = now.time + dt; // free of the round-off of halves
+    now = finer->now;
+    now.time = end;
+    largest = finer->largest;
+    halved = true;
+    for (std::size_t k = 0; k < impulse.size(); ++k)
+      impulse[k] += finer->impulse[k];
+    return result;
+  }
+
+  /** One step; false when the joints do not converge: then nothing has changed. */
+  bool Newmark::step(const Unknowns &load, const Vector3 &base_velocity, ContactResult &result)
+  {
+    const std::size_t n_pairs = structure.pairs.size();
+    Unknowns          offset(3 * n_pairs), start(3 * n_pairs), force = now.force, u_new;
+    for (std::size_t p = 0; p < n_pairs; ++p)
+    {
+      set(start, p, opening_and_slip(p));
+      for (unsigned int c = 0; c < 3; ++c)
+        offset[3 * p + c] = -reference[3 * p + c];
+    }
+    if (rule == ImpactRule::mean_force)
+      for (double &f : force)
+        f *= 2.;
+    result = system.solve(right_hand_side(load, base_velocity), offset, start, force, gap, u_new);
+    if (!result.converged)
+      return false;
+
+    // The impulse of each pair, from the mean of its force over the step.
+    const double half_dt = .5 * dt;
+    for (std::size_t k = 0; k < 3 * n_pairs; ++k)
+      impulse[k] = half_dt * (rule == ImpactRule::mean_force ? force[k] : now.force[k] + force[k]);
+
+    // The work of the step: exact, since all forces enter by their means and u_new - u = dt/2 (v + v_new).
+    double   friction = 0., opening = 0.;
+    Unknowns change(3 * n_pairs); // of the jumps
+    for (std::size_t p = 0; p < n_pairs; ++p)
+    {
+      const Vector3 before = structure.jump(structure.pairs[p], now.u),
+                    after = structure.jump(structure.pairs[p], u_new);
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        change[3 * p + c] = after[c] - before[c];
+        (c == 0 ? opening : friction) -= impulse[3 * p + c] / dt * change[3 * p + c];
+      }
+    }
+    Unknowns Ku;
+    structure.multiply_stiffness(u_new, Ku);
+    double  input = 0., damping = 0.;
+    Vector3 base; // its mean velocity
+    for (unsigned int c = 0; c < 3; ++c)
+      base[c] = .5 * (now.base_velocity[c] + base_velocity[c]);
+    for (unsigned int i = 0; i < structure.n_nodes(); ++i)
+    {
+      Vector3 du;
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const std::size_t k = 3 * i + c;
+        du[c] = u_new[k] - now.u[k];
+        input += .5 * (load[k] + now.load[k]) * du[c];
+        damping += structure.stiffness_damping / dt * (Ku[k] - now.Ku[k]) * du[c];
+        if (!structure.dashpots.empty())
+          damping += structure.dashpots[k] / dt * du[c] * du[c];
+        now.v[k] = 2. / dt * du[c] - now.v[k];
+        now.u[k] = u_new[k];
+      }
+      const Vector3 relative = {{du[0] - dt * base[0], du[1] - dt * base[1], du[2] - dt * base[2]}};
+      const Vector3 momentum = structure.mass[i] * relative;
+      damping += structure.mass_damping / dt * dot(relative, momentum);
+      input -= structure.mass_damping * dot(base, momentum);
+    }
+    now.Ku.swap(Ku);
+    now.load = load;
+    now.base_velocity = base_velocity;
+    now.time += dt;
+    if (!std::isfinite(input))
+      throw ComputationError("The displacements are not finite at t = " + std::to_string(now.time) + " s.");
+
+    const double kinetic_before = kinetic_energy_of_pairs();
+    if (rule != ImpactRule::none)
+      impact.correct_velocity(system, dt, change, now.v, impulse);
+    now.energy.input += input;
+    now.energy.damping += damping;
+    now.energy.friction += friction;
+    now.energy.impact += opening + kinetic_before - kinetic_energy_of_pairs();
+    account_states();
+    largest = std::max({largest, std::abs(now.energy.input), now.energy.kinetic + now.energy.added_mass,
+                        first.kinetic, std::abs(now.energy.strain - first.strain), now.energy.damping});
+
+    if (rule == ImpactRule::mean_force)
+      for (std::size_t k = 0; k < 3 * n_pairs; ++k)
+        now.force[k] = .5 * force[k];
+    else if (rule == ImpactRule::none || n_pairs == 0)
+      now.force = force;
+    else
+      now.force = impact.end_force(system, force, now.v, force_without_joints());
+    return true;
+  }
+
+  double Newmark::kinetic_energy_of_pairs() const
+  {
+    double sum = 0.;
+    for (const Pair &pair : structure.pairs)
+      for (const unsigned int node : {pair.node_1, pair.node_2})
+        if (node != rigid_ground)
+          sum += .5 * dot(get(now.v, node), structure.mass[node] * get(now.v, node));
+    return sum;
+  }
+
+  /** load - C v - K u: what would move the nodes at the end of the step if there were no joints [N]. */
+  Unknowns Newmark::force_without_joints() const
+  {
+    Unknowns Kv, result(now.u.size());
+    structure.multiply_stiffness(now.v, Kv);
+    for (std::size_t i = 0; i < structure.n_nodes(); ++i)
+    {
+      const Vector3 momentum = structure.mass[i] * (get(now.v, i) - now.base_velocity);
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const std::size_t k = 3 * i + c;
+        result[k] = now.load[k] - structure.mass_damping * momentum[c] - structure.stiffness_damping * Kv[k] -
+                    now.Ku[k] - (structure.dashpots.empty() ? 0. : structure.dashpots[k] * now.v[k]);
+      }
+    }
+    return result;
+  }
+} // namespace Voussoir

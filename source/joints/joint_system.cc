@@ -1,0 +1,244 @@
+#include <voussoir/joints/joint_system.h>
+
+#include <voussoir/base/error.h>
+#include <voussoir/contact/fclib_io.h>
+#include <voussoir/contact/key_law.h>
+#include <voussoir/joints/pair_groups.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <optional>
+
+namespace Voussoir
+{
+  namespace
+  {
+    std::vector<unsigned int> pairs_per_joint(const Structure &structure)
+    {
+      std::vector<unsigned int> n(structure.n_joints, 0);
+      for (const Pair &pair : structure.pairs)
+        ++n[pair.joint];
+      return n;
+    }
+
+    double now()
+    {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    }
+
+    /** R F R^T for frames of two pairs. */
+    Matrix3 rotate(const std::array<Vector3, 3> &p, const Matrix3 &F, const std::array<Vector3, 3> &q)
+    {
+      Matrix3 result;
+      for (unsigned int j = 0; j < 3; ++j)
+      {
+        const Vector3 Fq = F * q[j];
+        for (unsigned int i = 0; i < 3; ++i)
+          result[3 * i + j] = p[i][0] * Fq[0] + p[i][1] * Fq[1] + p[i][2] * Fq[2];
+      }
+      return result;
+    }
+  } // namespace
+
+  void JointLaws::assign(const std::vector<Pair> &pairs)
+  {
+    for (const Pair &pair : pairs)
+    {
+      const JointLaw *law = of_joint[pair.joint].get();
+      if (const double friction = law->flat_friction(); friction >= 0. && !pair.planes.empty())
+      {
+        std::vector<ContactSurface> surfaces;
+        for (const Matrix3 &plane : pair.planes)
+          surfaces.push_back({plane, 0., friction, 0});
+        of_edges.push_back(std::make_unique<SurfacesLaw>(std::move(surfaces)));
+        law = of_edges.back().get();
+      }
+      of_pair.push_back(law);
+    }
+  }
+
+  JointSystem::JointSystem(const Structure &structure, const JointLaws &laws,
+                           const ContactParameters &parameters, const double mass_factor,
+                           const double stiffness_factor, const double dashpot_factor)
+      : structure(structure), parameters(parameters), laws(laws.of_pair), sides(structure.pairs.size()),
+        W(pairs_per_joint(structure)), n_solved(parameters.first_problem)
+  {
+    for (const JointLaw *law : this->laws)
+      if (parameters.write_problems && law->flat_friction() < 0.)
+        throw InputError(
+            "Contact/Write problems: only problems with Coulomb friction on flat joints can be written; "
+            "use the joint model FJA.");
+    const int                                 n_bodies = structure.bodies.size();
+    std::vector<std::optional<CondensedBody>> condensed(n_bodies);
+    std::exception_ptr                        failure;
+#pragma omp parallel for schedule(dynamic)
+    for (int i = 0; i < n_bodies; ++i)
+      try
+      {
+        condensed[i].emplace(structure, structure.bodies[i], mass_factor, stiffness_factor, dashpot_factor);
+      }
+      catch (...)
+      {
+#pragma omp critical
+        failure = std::current_exception();
+      }
+    if (failure)
+      std::rethrow_exception(failure);
+    for (auto &body : condensed)
+    {
+      interface.emplace_back(body->n_interface());
+      bodies.push_back(std::move(*body));
+    }
+    condense();
+    W.finish();
+    solver = std::make_unique<ContactSolver>(W, laws.of_pair, parameters);
+  }
+
+  /** W = G A^-1 G^T from the flexibilities of the bodies. */
+  void JointSystem::condense()
+  {
+    std::vector<std::vector<std::pair<unsigned int, unsigned int>>> of_body(bodies.size()); // pair, side
+    for (unsigned int p = 0; p < sides.size(); ++p)
+      for (unsigned int side = 0; side < 2; ++side)
+      {
+        const Pair        &pair = structure.pairs[p];
+        const unsigned int node = side == 0 ? pair.node_1 : pair.node_2;
+        if (node == rigid_ground)
+          continue;
+        const auto after =
+            std::upper_bound(structure.bodies.begin(), structure.bodies.end(), node,
+                             [](const unsigned int n, const Body &b) { return n < b.first_node; });
+        const Body &body = *(after - 1);
+        const auto &nodes = body.interface;
+        sides[p][side] = {
+            static_cast<unsigned int>(after - 1 - structure.bodies.begin()),
+            static_cast<unsigned int>(std::lower_bound(nodes.begin(), nodes.end(), node - body.first_node) -
+                                      nodes.begin())};
+        of_body[sides[p][side].body].push_back({p, side});
+      }
+
+    for (unsigned int j = 0; j < W.n_groups(); ++j)
+      W.block(j, j); // joints without pairs have one, too: an empty one
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+    {
+      const std::vector<double> F = bodies[b].flexibility();
+      const std::size_t         m = bodies[b].n_interface();
+      for (const auto &q : of_body[b]) // columns
+        for (const auto &p : of_body[b])
+        {
+          const Pair &pair_p = structure.pairs[p.first], &pair_q = structure.pairs[q.first];
+          if (pair_p.joint > pair_q.joint)
+            continue;
+          Matrix3      f;
+          const double sign = p.second == q.second ? 1. : -1.;
+          for (unsigned int j = 0; j < 3; ++j)
+            for (unsigned int i = 0; i < 3; ++i)
+              f[3 * i + j] = sign * F[bodies[b].position(sides[q.first][q.second].node, j) * m +
+                                      bodies[b].position(sides[p.first][p.second].node, i)];
+          const Matrix3        w = rotate(pair_p.frame, f, pair_q.frame);
+          std::vector<double> &block = W.block(pair_p.joint, pair_q.joint);
+          const std::size_t    rows = W.size(pair_p.joint), row = 3 * p.first - W.begin(pair_p.joint),
+                            column = 3 * q.first - W.begin(pair_q.joint);
+          for (unsigned int j = 0; j < 3; ++j)
+            for (unsigned int i = 0; i < 3; ++i)
+              block[(column + j) * rows + row + i] += w[3 * i + j];
+        }
+    }
+  }
+
+  ContactResult JointSystem::solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
+                                   Unknowns &force, Unknowns &gap, Unknowns &u)
+  {
+    const double begin = now();
+    const int    n_bodies = bodies.size();
+    u.resize(load.size());
+#pragma omp parallel for schedule(dynamic)
+    for (int i = 0; i < n_bodies; ++i)
+    {
+      bodies[i].forward(load.data() + 3 * std::size_t(structure.bodies[i].first_node));
+      bodies[i].interface_displacement(interface[i].data());
+    }
+
+    const double  middle = now();
+    ContactResult result;
+    result.converged = true;
+    if (!sides.empty())
+    {
+      Unknowns b = offset;
+      for (unsigned int p = 0; p < sides.size(); ++p)
+        for (unsigned int side = 0; side < 2; ++side)
+          if (const Side &s = sides[p][side]; s.body != rigid_ground)
+            for (unsigned int c = 0; c < 3; ++c)
+            {
+              const double x = (side == 0 ? -1. : 1.) * interface[s.body][bodies[s.body].position(s.node, c)];
+              for (unsigned int i = 0; i < 3; ++i)
+                b[3 * p + i] += structure.pairs[p].frame[i][c] * x;
+            }
+      if (parameters.write_problems && n_solved++ % parameters.write_interval == 0)
+        write_problem(b, start, force);
+      result = solver->solve(b, start, force, gap);
+      for (auto &f : interface)
+        std::fill(f.begin(), f.end(), 0.);
+      for (unsigned int p = 0; p < sides.size(); ++p)
+        for (unsigned int side = 0; side < 2; ++side)
+          if (const Side &s = sides[p][side]; s.body != rigid_ground)
+            for (unsigned int c = 0; c < 3; ++c)
+              for (unsigned int i = 0; i < 3; ++i)
+                interface[s.body][bodies[s.body].position(s.node, c)] +=
+                    (side == 0 ? -1. : 1.) * structure.pairs[p].frame[i][c] * force[3 * p + i];
+    }
+
+    const double after = now();
+#pragma omp parallel for schedule(dynamic)
+    for (int i = 0; i < n_bodies; ++i)
+    {
+      bodies[i].add_interface_forces(interface[i].data());
+      bodies[i].backward(u.data() + 3 * std::size_t(structure.bodies[i].first_node));
+    }
+    times.sweeps += middle - begin + now() - after;
+    times.joints += after - middle;
+    return result;
+  }
+
+  void JointSystem::write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &force) const
+  {
+    FrictionProblem problem;
+    problem.W = sparse_matrix(W);
+    problem.q = b;
+    for (std::size_t p = 0; p < laws.size(); ++p)
+    {
+      problem.mu.push_back(laws[p]->flat_friction());
+      for (unsigned int c = 1; c < 3; ++c)
+        problem.q[3 * p + c] -= start[3 * p + c];
+    }
+    Unknowns gap;
+    W.multiply(force, gap);
+    for (std::size_t k = 0; k < gap.size(); ++k)
+      gap[k] += problem.q[k];
+    char name[40];
+    std::snprintf(name, sizeof(name), "/problem-%06u.hdf5", n_solved);
+    problem.title = "joints of a dam, gap = W force + q [m, N]";
+    std::filesystem::remove(parameters.write_directory + name); // of a step that is done again
+    write_fclib(parameters.write_directory + name, problem, force, gap);
+  }
+
+  void JointSystem::solve_free(const Unknowns &load, Unknowns &u)
+  {
+    u.resize(load.size());
+    for (unsigned int i = 0; i < bodies.size(); ++i)
+    {
+      bodies[i].forward(load.data() + 3 * std::size_t(structure.bodies[i].first_node));
+      bodies[i].backward(u.data() + 3 * std::size_t(structure.bodies[i].first_node));
+    }
+  }
+
+  double JointSystem::memory() const
+  {
+    double bytes = W.memory();
+    for (const CondensedBody &body : bodies)
+      bytes += body.memory();
+    return bytes;
+  }
+} // namespace Voussoir

@@ -1,0 +1,247 @@
+#include <deal.II/base/parameter_handler.h>
+
+#include <voussoir/base/error.h>
+#include <voussoir/mesh/arch210.h>
+
+#include <cmath>
+
+namespace Voussoir
+{
+  namespace
+  {
+    constexpr double H = arch210_height;
+
+    /** Where @p f, negative at @p lower and positive at @p upper, is zero. Bisection, to the last digit. */
+    template <typename Function> double root(const Function &f, double lower, double upper)
+    {
+      for (unsigned int i = 0; i < 60; ++i)
+      {
+        const double middle = 0.5 * (lower + upper);
+        (f(middle) < 0 ? lower : upper) = middle;
+      }
+      return 0.5 * (lower + upper);
+    }
+
+    // The levels of the dam, in metres: t is the slope dx/dy of the centre line at y, w runs from -1
+    // (upstream face) to 1 (downstream face).
+    double crown_thickness(const double z)
+    {
+      const double zeta = (H - z) / H;
+      return 10 + zeta * (86 + zeta * (-66 + zeta * 22));
+    }
+    double abutment_thickness(const double z)
+    {
+      const double zeta = (H - z) / H;
+      return crown_thickness(z) * (1 + zeta * (0.60 - zeta * 0.42));
+    }
+    double crown_centre(const double z)
+    {
+      const double zeta = (H - z) / H;
+      return zeta * (-62.0 + zeta * (35.7 + zeta * 12.3)) + crown_thickness(z) / 2;
+    }
+    double radius(const double z)
+    {
+      return 115 + (250.760 - 115) * z / H;
+    }
+    double half_width(const double z)
+    {
+      return 50 + (267.032 - 50) * std::pow(z / H, 0.577);
+    }
+
+    double arc_length(const double y, const double z)
+    {
+      const double t = y / radius(z);
+      return radius(z) / 2 * (t * std::hypot(1, t) + std::asinh(t));
+    }
+
+    /** The point P(y,z,w). */
+    std::array<double, 3> point(const double y, const double z, const double w)
+    {
+      const double share = arc_length(y, z) / arc_length(half_width(z), z);
+      const double T = crown_thickness(z) + (abutment_thickness(z) - crown_thickness(z)) * share * share;
+      const double t = y / radius(z), q = std::hypot(1, t);
+      return {crown_centre(z) + y * y / (2 * radius(z)) + w * T / (2 * q), y - w * T * t / (2 * q), z};
+    }
+
+    /** A column of nodes: the vertical plane normal to the crest's centre line at its point y = @p crest_y >=
+     * 0. The right half of the dam mirrors the left one. */
+    class Column
+    {
+    public:
+      explicit Column(const double crest_y) : crest(point(crest_y, H, 0)), slope(crest_y / radius(H)) {}
+
+      /** Along the dam from the plane [m] (times the root of 1 + slope^2); grows with y. */
+      double distance(const std::array<double, 3> &p) const
+      {
+        return slope * (p[0] - crest[0]) + p[1] - crest[1];
+      }
+
+      /** The height z at which the plane meets the abutment, or 0 at the valley's floor. */
+      double foot(const double w) const
+      {
+        const auto inside = [&](const double z) { return distance(point(half_width(z), z, w)); };
+        return inside(0) >= 0 ? 0 : root(inside, 0, H);
+      }
+
+      /** The node at height z, from the foot up (where |y| <= half_width(z)). */
+      std::array<double, 3> node(const double z, const double w) const
+      {
+        return point(root([&](const double y) { return distance(point(y, z, w)); }, 0, half_width(z)), z, w);
+      }
+
+    private:
+      std::array<double, 3> crest;
+      double                slope;
+    };
+
+    double crest_y(const double s)
+    {
+      return root([&](const double y) { return arc_length(y, H) - s; }, 0, half_width(H));
+    }
+
+    double half_crest_length()
+    {
+      return arc_length(half_width(H), H);
+    }
+
+    /** Where on the crest, s > 0, the foot is @p wall below it. */
+    double end_of_crest(const double wall)
+    {
+      const auto end = point(half_width(H - wall), H - wall, 0);
+      return arc_length(root([&](const double y) { return -Column(y).distance(end); }, 0, half_width(H)), H);
+    }
+
+    /** The columns' places on the crest, s from the right bank to the left. */
+    std::vector<double> columns(const Arch210Parameters &parameters)
+    {
+      const unsigned int n_monoliths = parameters.n_joints + 1;
+      const unsigned int per_monolith = (parameters.elements_along + n_monoliths - 1) / n_monoliths;
+      const double       L = 2 * half_crest_length(), end = end_of_crest(parameters.end_wall_height);
+      const auto         joint = [&](const unsigned int j)
+      { return j == 0 ? -end : (j == n_monoliths ? end : -L / 2 + j * L / n_monoliths); };
+
+      std::vector<double> result = {joint(0)};
+      for (unsigned int m = 0; m < n_monoliths; ++m)
+        for (unsigned int i = 1; i <= per_monolith; ++i)
+          result.push_back(joint(m) + (joint(m + 1) - joint(m)) * i / per_monolith);
+      return result;
+    }
+  } // namespace
+
+  void Arch210Parameters::add_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Mesh");
+    prm.enter_subsection("Arch210");
+    prm.add_parameter(
+        "Joints", n_joints,
+        "Number of contraction joints, equally spaced along the crest; the dam has one monolith "
+        "more. The paper's computations use 5, 17 and 28.",
+        Integer(0, 60));
+    prm.add_parameter("Elements along", elements_along,
+                      "Number of elements along the crest, in all. Rounded up to a multiple of the number of "
+                      "monoliths.",
+                      Integer(1, 10000));
+    prm.add_parameter("Elements up", elements_up, "Number of elements from the foot to the crest.",
+                      Integer(1, 1000));
+    prm.add_parameter("Elements through", elements_through,
+                      "Number of elements from the upstream to the downstream face.", Integer(1, 100));
+    prm.add_parameter("End wall height", end_wall_height,
+                      "Height of the dam's two ends on the banks, at the centre line [m]. The dam's height "
+                      "would run out to zero there.",
+                      Double(0.01, 20));
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+  void Arch210Parameters::check() const
+  {
+    const std::string section = "Mesh/Arch210: ";
+    if (n_joints > 60)
+      throw InputError(section + "'Joints' is " + std::to_string(n_joints) + ". Choose 0 to 60.");
+    if (elements_along == 0 || elements_up == 0 || elements_through == 0)
+      throw InputError(section +
+                       "a number of elements is 0. Choose at least 1 along, up and through the dam.");
+    const double monolith = 2 * half_crest_length() / (n_joints + 1);
+    if (!(end_wall_height > 0 && end_wall_height < H / 2) ||
+        end_of_crest(end_wall_height) < half_crest_length() - monolith / 2)
+      throw InputError(section + "'End wall height' is " + std::to_string(end_wall_height) +
+                       " m. Choose a height above 0 that leaves at least half of the end monoliths' crest.");
+  }
+
+  HexMesh make_arch210(const Arch210Parameters &parameters)
+  {
+    parameters.check();
+    const std::vector<double> s = columns(parameters);
+    const unsigned int        n_along = s.size() - 1, n_up = parameters.elements_up,
+                       n_through = parameters.elements_through;
+    HexMesh mesh;
+
+    for (unsigned int i = 0; i <= n_along; ++i)
+    {
+      const double        bank = s[i] < 0 ? -1 : 1;
+      const Column        column(crest_y(std::abs(s[i])));
+      std::vector<double> foot;
+      for (unsigned int l = 0; l <= n_through; ++l)
+        foot.push_back(column.foot(2. * l / n_through - 1));
+      for (unsigned int k = 0; k <= n_up; ++k)
+        for (unsigned int l = 0; l <= n_through; ++l)
+        {
+          auto node = column.node(foot[l] + (H - foot[l]) * k / n_up, 2. * l / n_through - 1);
+          node[1] *= bank;
+          mesh.nodes.push_back(node);
+        }
+    }
+
+    const auto node = [&](const unsigned int i, const unsigned int k, const unsigned int l)
+    { return (i * (n_up + 1) + k) * (n_through + 1) + l; };
+    const unsigned int per_monolith = n_along / (parameters.n_joints + 1);
+    for (unsigned int i = 0; i < n_along; ++i)
+      for (unsigned int k = 0; k < n_up; ++k)
+        for (unsigned int l = 0; l < n_through; ++l)
+        {
+          const HexMesh::Cell cell{{node(i, k, l), node(i, k, l + 1), node(i + 1, k, l + 1),
+                                    node(i + 1, k, l), node(i, k + 1, l), node(i, k + 1, l + 1),
+                                    node(i + 1, k + 1, l + 1), node(i + 1, k + 1, l)},
+                                   static_cast<int>(i / per_monolith + 1)};
+          mesh.cells.push_back(cell);
+
+          // In the order of hex_faces: foot, crest, right bank, downstream, left bank, upstream.
+          const bool outside[6] = {k == 0,           k + 1 == n_up, i == 0, l + 1 == n_through,
+                                   i + 1 == n_along, l == 0};
+          const int  surface[6] = {PhysicalId::base,       PhysicalId::crest, PhysicalId::base,
+                                   PhysicalId::downstream, PhysicalId::base,  PhysicalId::upstream};
+          for (unsigned int f = 0; f < 6; ++f)
+            if (outside[f])
+            {
+              HexMesh::Face face{{}, surface[f]};
+              for (unsigned int v = 0; v < 4; ++v)
+                face.nodes[v] = cell.nodes[hex_faces[f][v]];
+              mesh.faces.push_back(face);
+            }
+        }
+
+    for (const auto &cell : mesh.cells)
+      mesh.names[{3, cell.volume}] = physical_name(3, cell.volume);
+    for (const auto &face : mesh.faces)
+      mesh.names[{2, face.surface}] = physical_name(2, face.surface);
+    return mesh;
+  }
+
+  std::vector<std::array<double, 2>> arch210_valley(const Arch210Parameters &parameters)
+  {
+    std::vector<std::array<double, 2>> valley;
+    for (const double s : columns(parameters))
+    {
+      const Column column(crest_y(std::abs(s)));
+      const auto   foot = column.node(column.foot(0), 0);
+      valley.push_back({s < 0 ? -foot[1] : foot[1], foot[2]});
+    }
+    return valley;
+  }
+
+  double arch210_half_width(const double z)
+  {
+    return half_width(z);
+  }
+} // namespace Voussoir

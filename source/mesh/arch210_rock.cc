@@ -1,0 +1,478 @@
+#include <deal.II/base/parameter_handler.h>
+
+#include <voussoir/base/error.h>
+#include <voussoir/mesh/arch210_rock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace Voussoir
+{
+  namespace
+  {
+    using Vector = std::array<double, 3>;
+
+    constexpr double growth = 1.35;        ///< largest ratio of the sizes of neighbours, where possible
+    constexpr double largest_size = 1.7;   ///< of the element size, where grid lines are long
+    constexpr double smallest_size = 0.35; ///< likewise, mean where they are short
+
+    /** 1 at x = 0, 0 at x = 1, level at both. */
+    double fade(const double x)
+    {
+      return 1 - x * x * (3 - 2 * x);
+    }
+
+    /** Where @p f, negative at @p lower and positive at @p upper or the other way round, is zero. */
+    double root(const std::function<double(double)> &f, double lower, double upper)
+    {
+      const bool rises = f(upper) > 0;
+      for (unsigned int i = 0; i < 60; ++i)
+      {
+        const double middle = 0.5 * (lower + upper);
+        ((f(middle) < 0) == rises ? lower : upper) = middle;
+      }
+      return 0.5 * (lower + upper);
+    }
+
+    /** The elements between a neighbour of size @p first and one of size @p last [m]: no smaller and no
+     * larger than a ratio of neighbouring sizes allows, and of size @p middle within that. */
+    std::vector<double> sizes(const unsigned int n, const double first, const double last,
+                              const double middle, const double ratio)
+    {
+      std::vector<double> up(n + 1, 1.), result(n);
+      for (unsigned int j = 1; j <= n; ++j)
+        up[j] = up[j - 1] * ratio;
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        const double a = up[j + 1], b = up[n - j];
+        const double smallest = std::max(first / (a * a), last / (b * b)),
+                     largest = std::min(first * a, last * b);
+        result[j] =
+            smallest < largest ? std::clamp(middle, smallest, largest) : std::sqrt(smallest * largest);
+      }
+      return result;
+    }
+
+    double sum(const std::vector<double> &values)
+    {
+      double result = 0;
+      for (const double value : values)
+        result += value;
+      return result;
+    }
+
+    /** The n + 1 ends of n elements on [0, length], between neighbours of sizes @p first and @p last [m].
+     *  Depends continuously on all three. */
+    std::vector<double> graded(const unsigned int n, const double length, const double first,
+                               const double last)
+    {
+      const auto excess = [&](const double middle, const double ratio)
+      { return sum(sizes(n, first, last, middle, ratio)) - length; };
+      const bool   too_long = excess(0, growth) > 0, too_short = excess(length, growth) < 0;
+      const double extreme = too_long ? 0 : length;
+      const auto   s =
+          too_long || too_short
+                ? sizes(n, first, last, extreme,
+                        root([&](const double ratio) { return excess(extreme, ratio); }, growth, 1e3))
+                : sizes(n, first, last,
+                        root([&](const double middle) { return excess(middle, growth); }, 0, length), growth);
+      std::vector<double> ends = {0};
+      for (const double size : s)
+        ends.push_back(ends.back() + size);
+      for (double &end : ends)
+        end *= length / ends.back();
+      ends.back() = length;
+      return ends;
+    }
+
+    /** How many elements of at most @p largest, growing no faster than they should, fill @p length [m]. */
+    unsigned int n_graded(const double length, const double first, const double last, const double largest)
+    {
+      unsigned int n = 2;
+      while (sum(sizes(n, first, last, 0, growth)) < length)
+      {
+        double filled = 0;
+        for (const double size : sizes(n, first, last, largest, growth))
+          filled += std::min(size, largest);
+        if (filled >= length)
+          break;
+        ++n;
+      }
+      return n;
+    }
+
+    class Builder
+    {
+    public:
+      Builder(const Arch210Parameters &dam, const Arch210RockParameters &rock, HexMesh &mesh)
+          : dam(dam), rock(rock), mesh(mesh), valley(arch210_valley(dam)), n_columns(valley.size() - 1),
+            n_dam_layers(dam.elements_through), n(rock.n_layers)
+      {
+      }
+
+      void build()
+      {
+        measure();
+        make_dam_columns();
+        make_sides(-1);
+        make_sides(1);
+        smooth();
+        number_nodes();
+        make_cells();
+        release_end_walls();
+      }
+
+    private:
+      unsigned int dam_node(const unsigned int column, const unsigned int layer) const
+      {
+        return column * (dam.elements_up + 1) * (n_dam_layers + 1) + layer;
+      }
+      const Vector &foot(const unsigned int column, const unsigned int layer) const
+      {
+        return mesh.nodes[dam_node(column, layer)];
+      }
+
+      /** What the dam's outermost layer at a column, cut by lines along x, measures along them [m]. */
+      double foot_size(const unsigned int column, const bool is_upstream) const
+      {
+        const Vector &a = foot(column, is_upstream ? 0 : n_dam_layers - 1);
+        const Vector &b = foot(column, is_upstream ? 1 : n_dam_layers);
+        const double  dx = b[0] - a[0], dy = b[1] - a[1];
+        return (dx * dx + dy * dy) / dx;
+      }
+
+      double layer_size(const double extent) const { return std::min(rock.element_size, extent / (n + 6)); }
+
+      /** The block's faces, the sizes of the elements at them and the numbers of elements. */
+      void measure()
+      {
+        double x_min = foot(0, 0)[0], x_max = x_min, y_max = 0;
+        for (unsigned int c = 0; c <= n_columns; ++c)
+          for (unsigned int l = 0; l <= n_dam_layers; ++l)
+          {
+            x_min = std::min(x_min, foot(c, l)[0]);
+            x_max = std::max(x_max, foot(c, l)[0]);
+            y_max = std::max(y_max, std::abs(foot(c, l)[1]));
+          }
+        h_upstream = layer_size(rock.upstream);
+        h_downstream = layer_size(rock.downstream);
+        h_side = layer_size(rock.sides);
+        h_bottom = layer_size(rock.depth);
+        x_upstream = x_min - rock.upstream;
+        x_downstream = x_max + rock.downstream;
+        y_side = y_max + rock.sides;
+        z_bottom = -rock.depth;
+        plateau = valley.back()[1];
+        valley.front()[1] = plateau;
+        y_end = valley.back()[0];
+        surface_size = 0.6 * rock.element_size;
+        const double largest = largest_size * rock.element_size;
+
+        const double smallest = smallest_size * rock.element_size;
+        const auto   count_lines = [&](const bool is_upstream)
+        {
+          unsigned int wanted = 0, limit = 1000000;
+          for (unsigned int c = 0; c <= n_columns; ++c)
+          {
+            const double length = is_upstream ? foot(c, 0)[0] - x_upstream - n * h_upstream
+                                              : x_downstream - n * h_downstream - foot(c, n_dam_layers)[0];
+            wanted = std::max(wanted, n_graded(length, foot_size(c, is_upstream),
+                                               is_upstream ? h_upstream : h_downstream, largest));
+            limit = std::min<unsigned int>(limit, std::ceil(length / smallest));
+          }
+          return std::clamp(limit, 2u, wanted);
+        };
+        n_upstream = count_lines(true);
+        n_downstream = count_lines(false);
+        column_size = y_end - valley[n_columns - 1][0];
+        n_side = n_graded(y_side - n * h_side - y_end, column_size, h_side, rock.element_size);
+        const double below_valley = -z_bottom - n * h_bottom;
+        n_down = std::clamp<unsigned int>(std::ceil(below_valley / smallest), 2,
+                                          n_graded(plateau + below_valley, surface_size, h_bottom, largest));
+
+        first_column = n + n_side;
+        first_layer = n + n_upstream;
+        n_i = n_columns + 2 * first_column;
+        n_j = first_layer + n_dam_layers + n_downstream + n;
+        n_k = n_down + n;
+        surface.assign((n_i + 1) * (n_j + 1), Vector{});
+      }
+
+      Vector &ground(const unsigned int i, const unsigned int j) { return surface[i * (n_j + 1) + j]; }
+
+      /** The ground of the dam's columns: lines along the valley, through the foot in the middle. */
+      void make_dam_columns()
+      {
+        for (unsigned int c = 0; c <= n_columns; ++c)
+        {
+          const unsigned int i = first_column + c;
+          for (unsigned int l = 0; l <= n_dam_layers; ++l)
+            ground(i, first_layer + l) = foot(c, l);
+          for (const bool is_upstream : {true, false})
+          {
+            const int          direction = is_upstream ? -1 : 1;
+            const unsigned int start = is_upstream ? first_layer : first_layer + n_dam_layers;
+            const unsigned int m = is_upstream ? n_upstream : n_downstream;
+            const double       face = is_upstream ? x_upstream : x_downstream;
+            const double       h = is_upstream ? h_upstream : h_downstream;
+            const Vector       from = ground(i, start);
+            const double       length = std::abs(face - direction * (n * h) - from[0]);
+            const auto         d = graded(m, length, foot_size(c, is_upstream), h);
+            for (unsigned int t = 1; t < m; ++t)
+            {
+              const double f = fade(d[t] / length);
+              ground(i, start + direction * t) = {from[0] + direction * d[t],
+                                                  valley[c][0] + f * (from[1] - valley[c][0]),
+                                                  valley[c][1] + f * (from[2] - valley[c][1])};
+            }
+            for (unsigned int t = 0; t <= n; ++t)
+              ground(i, start + direction * (m + n - t)) = {face - direction * (t * h), valley[c][0],
+                                                            valley[c][1]};
+          }
+        }
+      }
+
+      /** The places x of the layers on the side faces. */
+      std::vector<double> straight_layers(const double bend)
+      {
+        const double        upper = x_upstream + n * h_upstream, lower = x_downstream - n * h_downstream;
+        const double        h = std::max(foot_size(n_columns, true),
+                                         std::min(surface_size, 0.1 * (lower - upper) / n_dam_layers));
+        const double        middle = 0.5 * (foot(n_columns, 0)[0] + foot(n_columns, n_dam_layers)[0]) + bend;
+        const double        first = middle - 0.5 * n_dam_layers * h, last = middle + 0.5 * n_dam_layers * h;
+        std::vector<double> x(n_j + 1);
+        for (unsigned int t = 0; t <= n; ++t)
+        {
+          x[t] = x_upstream + t * h_upstream;
+          x[n_j - t] = x_downstream - t * h_downstream;
+        }
+        const auto before = graded(n_upstream, first - upper, h, h_upstream);
+        const auto after = graded(n_downstream, lower - last, h, h_downstream);
+        for (unsigned int t = 0; t < n_upstream; ++t)
+          x[first_layer - t] = first - before[t];
+        for (unsigned int t = 0; t < n_downstream; ++t)
+          x[first_layer + n_dam_layers + t] = last + after[t];
+        for (unsigned int l = 1; l < n_dam_layers; ++l)
+          x[first_layer + l] = first + l * h;
+        return x;
+      }
+
+      /** The ground beyond the dam's end on the left (@p bank = 1) or the right bank (-1). The layers leave
+       *  the dam in its direction and turn to that of y. */
+      void make_sides(const int bank)
+      {
+        const unsigned int end = bank > 0 ? first_column + n_columns : first_column;
+        const double       length = y_side - n * h_side - y_end;
+        const auto         d = graded(n_side, length, column_size, h_side);
+        const auto         slope = [&](const unsigned int j)
+        {
+          const Vector &inside = ground(end - bank, j);
+          return (ground(end, j)[0] - inside[0]) / std::abs(ground(end, j)[1] - inside[1]);
+        };
+        const double dam_slope = 0.5 * (slope(first_layer) + slope(first_layer + n_dam_layers));
+        const auto   x = straight_layers(0.2 * length * dam_slope);
+        for (unsigned int j = 0; j <= n_j; ++j)
+        {
+          const bool   is_straight = j <= n || j + n >= n_j;
+          const double leaving = dam_slope * fade(distance(j));
+          const Vector from = ground(end, j);
+          for (unsigned int t = 1; t < n_side; ++t)
+          {
+            const double eta = d[t] / length, f = fade(eta);
+            ground(end + bank * t, j) = {
+                is_straight ? x[j]
+                            : f * from[0] + (1 - f) * x[j] + leaving * length * eta * (1 - eta) * (1 - eta),
+                bank * (y_end + d[t]) + f * (from[1] - bank * y_end), plateau + f * (from[2] - plateau)};
+          }
+          for (unsigned int t = 0; t <= n; ++t)
+            ground(end + bank * (n_side + n - t), j) = {x[j], bank * (y_side - t * h_side), plateau};
+        }
+      }
+
+      /** How far layer j is from the dam: 0 at the dam, 1 at the layers along the boundary. */
+      double distance(const unsigned int j) const
+      {
+        if (j < first_layer)
+          return std::min(1., double(first_layer - j) / n_upstream);
+        const unsigned int last_layer = first_layer + n_dam_layers;
+        return j <= last_layer ? 0 : std::min(1., double(j - last_layer) / n_downstream);
+      }
+
+      /** How far column i is from the dam, likewise. */
+      double distance_of_column(const unsigned int i) const
+      {
+        const unsigned int last_column = first_column + n_columns;
+        const unsigned int steps = i < first_column  ? first_column - i
+                                   : i > last_column ? i - last_column
+                                                     : 0;
+        return std::min(1., double(steps) / n_side);
+      }
+
+      /** Evens out the lines across the valley over about 100 m, the more the farther they are from the dam.
+       *  Elements may lose a third of their length at most. */
+      void smooth()
+      {
+        const std::vector<Vector> unsmoothed = surface;
+        const auto                gap = [&](const unsigned int i, const unsigned int j)
+        {
+          const Vector *at = &unsmoothed[i * (n_j + 1) + j];
+          return at[1][0] - at[0][0];
+        };
+        const double       column = 2 * y_end / n_columns;
+        const unsigned int n_sweeps = std::min(1000., std::ceil(std::pow(100 / column, 2)));
+        for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
+          for (unsigned int j = n + 1; j + n < n_j; ++j)
+          {
+            Vector before = ground(n, j);
+            for (unsigned int i = n + 1; i + n < n_i; ++i)
+            {
+              const double share = 1 - fade(std::max(distance(j), distance_of_column(i)));
+              const Vector here = ground(i, j), &after = ground(i + 1, j);
+              const double middle =
+                  before[0] + (after[0] - before[0]) * (here[1] - before[1]) / (after[1] - before[1]);
+              const double lower = ground(i, j - 1)[0] + 2. / 3 * gap(i, j - 1),
+                           upper = ground(i, j + 1)[0] - 2. / 3 * gap(i, j);
+              if (lower < upper)
+                ground(i, j)[0] = std::clamp(here[0] + 0.5 * share * (middle - here[0]),
+                                             std::min(lower, here[0]), std::max(upper, here[0]));
+              before = here;
+            }
+          }
+      }
+
+      void number_nodes()
+      {
+        number.resize(surface.size() * (n_k + 1));
+        for (unsigned int i = 0; i <= n_i; ++i)
+          for (unsigned int j = 0; j <= n_j; ++j)
+          {
+            const Vector top = ground(i, j);
+            const auto   d = graded(n_down, top[2] - z_bottom - n * h_bottom, surface_size, h_bottom);
+            const bool   is_foot = i >= first_column && i <= first_column + n_columns && j >= first_layer &&
+                                 j <= first_layer + n_dam_layers;
+            for (unsigned int k = 0; k <= n_k; ++k)
+            {
+              unsigned int &node = number[(i * (n_j + 1) + j) * (n_k + 1) + k];
+              if (k == 0 && is_foot)
+              {
+                node = dam_node(i - first_column, j - first_layer);
+                continue;
+              }
+              node = mesh.nodes.size();
+              mesh.nodes.push_back(
+                  {top[0], top[1], k < n_down ? top[2] - d[k] : z_bottom + (n_k - k) * h_bottom});
+            }
+          }
+      }
+
+      void make_cells()
+      {
+        const auto node = [&](const unsigned int i, const unsigned int j, const unsigned int k)
+        { return number[(i * (n_j + 1) + j) * (n_k + 1) + k]; };
+        for (unsigned int i = 0; i < n_i; ++i)
+          for (unsigned int j = 0; j < n_j; ++j)
+            for (unsigned int k = 0; k < n_k; ++k)
+            {
+              const HexMesh::Cell cell{{node(i, j, k + 1), node(i, j + 1, k + 1), node(i + 1, j + 1, k + 1),
+                                        node(i + 1, j, k + 1), node(i, j, k), node(i, j + 1, k),
+                                        node(i + 1, j + 1, k), node(i + 1, j, k)},
+                                       PhysicalId::first_rock};
+              mesh.cells.push_back(cell);
+
+              // In the order of hex_faces: bottom, ground, right bank, downstream, left bank, upstream.
+              const bool is_foot = i >= first_column && i < first_column + n_columns && j >= first_layer &&
+                                   j < first_layer + n_dam_layers;
+              const bool outside[6] = {k + 1 == n_k, k == 0 && !is_foot, i == 0,
+                                       j + 1 == n_j, i + 1 == n_i,       j == 0};
+              for (unsigned int f = 0; f < 6; ++f)
+                if (outside[f])
+                {
+                  HexMesh::Face face{{}, f == 1 ? PhysicalId::free_surface : PhysicalId::artificial};
+                  for (unsigned int v = 0; v < 4; ++v)
+                    face.nodes[v] = cell.nodes[hex_faces[f][v]];
+                  mesh.faces.push_back(face);
+                }
+            }
+        mesh.names[{3, PhysicalId::first_rock}] = physical_name(3, PhysicalId::first_rock);
+        for (const int id : {PhysicalId::free_surface, PhysicalId::artificial})
+          mesh.names[{2, id}] = physical_name(2, id);
+      }
+
+      void release_end_walls()
+      {
+        const auto is_end_wall = [&](const HexMesh::Face &face)
+        {
+          return face.surface == PhysicalId::base &&
+                 std::any_of(face.nodes.begin(), face.nodes.end(),
+                             [&](const unsigned int node)
+                             { return node / (n_dam_layers + 1) % (dam.elements_up + 1) != 0; });
+        };
+        mesh.faces.erase(std::remove_if(mesh.faces.begin(), mesh.faces.end(), is_end_wall), mesh.faces.end());
+      }
+
+      const Arch210Parameters           &dam;
+      const Arch210RockParameters       &rock;
+      HexMesh                           &mesh;
+      std::vector<std::array<double, 2>> valley; // (y, z) of each of the dam's columns
+      const unsigned int                 n_columns, n_dam_layers, n;
+      double                    h_upstream, h_downstream, h_side, h_bottom; // [m], of the boundary's layers
+      double                    x_upstream, x_downstream, y_side, y_end, z_bottom, plateau; // [m]
+      double                    surface_size, column_size; // [m], below the ground and beside the dam
+      unsigned int              n_upstream, n_downstream, n_side, n_down; // elements between dam and layers
+      unsigned int              first_column, first_layer;                // of the dam
+      unsigned int              n_i, n_j, n_k; // elements across, along the stream, down
+      std::vector<Vector>       surface;       // ground and foot, by i and j
+      std::vector<unsigned int> number;        // of the node i, j, k
+    };
+  } // namespace
+
+  void Arch210RockParameters::add_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Mesh");
+    prm.enter_subsection("Arch210");
+    prm.enter_subsection("Rock");
+    prm.add_parameter("Enabled", enabled, "Mesh the rock around the dam, too. Otherwise the base is rigid.",
+                      Bool());
+    const std::string from = " [m], from the dam's outermost foot to the artificial boundary.";
+    prm.add_parameter("Upstream", upstream, "Length of the rock upstream" + from, Double(50, 1e5));
+    prm.add_parameter("Downstream", downstream, "Length of the rock downstream" + from, Double(50, 1e5));
+    prm.add_parameter("Sides", sides, "Length of the rock on either side" + from, Double(50, 1e5));
+    prm.add_parameter("Depth", depth, "Depth of the rock" + from, Double(50, 1e5));
+    prm.add_parameter(
+        "Element size", element_size,
+        "Size of the elements far from the dam [m]. Across the valley, the dam's columns decide "
+        "(Elements along); where the rock is thinnest, elements are smaller, and where it is "
+        "thickest, up to 1.7 times as large.",
+        Double(1, 1e4));
+    prm.add_parameter("Boundary layers", n_layers,
+                      "Number of layers of equal elements along the artificial boundary, which the "
+                      "transmitting boundary needs.",
+                      Integer(6, 100));
+    prm.leave_subsection();
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+  void Arch210RockParameters::check() const
+  {
+    const std::string section = "Mesh/Arch210/Rock: ";
+    for (const auto &length : {std::make_pair("Upstream", upstream), std::make_pair("Downstream", downstream),
+                               std::make_pair("Sides", sides), std::make_pair("Depth", depth)})
+      if (!(length.second >= 50))
+        throw InputError(section + "'" + length.first + "' is " + std::to_string(length.second) +
+                         " m. Choose at least 50 m; one height of the dam is usual.");
+    if (!(element_size >= 1))
+      throw InputError(section + "'Element size' is " + std::to_string(element_size) +
+                       " m. Choose at least 1 m.");
+    if (n_layers < 6)
+      throw InputError(section + "'Boundary layers' is " + std::to_string(n_layers) + ". Choose at least 6.");
+  }
+
+  void add_arch210_rock(const Arch210Parameters &dam, const Arch210RockParameters &rock, HexMesh &mesh)
+  {
+    rock.check();
+    Builder(dam, rock, mesh).build();
+  }
+} // namespace Voussoir

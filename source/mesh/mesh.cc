@@ -1,0 +1,277 @@
+#include <voussoir/mesh/mesh.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <sstream>
+#include <tuple>
+
+namespace Voussoir
+{
+  namespace
+  {
+    using Vector = std::array<double, 3>;
+    using Matrix = std::array<Vector, 3>;
+
+    double determinant(const Matrix &m)
+    {
+      return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+             m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+             m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    }
+
+    /** Corners of the unit cube in the order of a cell's nodes. */
+    constexpr double cube[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                   {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+
+    /** Determinant of the Jacobian of the trilinear map from the unit cube, at @p xi. */
+    double jacobian(const HexMesh &mesh, const HexMesh::Cell &cell, const Vector &xi)
+    {
+      Matrix jacobian{};
+      for (unsigned int v = 0; v < 8; ++v)
+        for (unsigned int a = 0; a < 3; ++a)
+        {
+          double derivative = 1;
+          for (unsigned int b = 0; b < 3; ++b)
+            derivative *= a == b ? 2 * cube[v][b] - 1 : (cube[v][b] == 1 ? xi[b] : 1 - xi[b]);
+          for (unsigned int c = 0; c < 3; ++c)
+            jacobian[c][a] += derivative * mesh.nodes[cell.nodes[v]][c];
+        }
+      return determinant(jacobian);
+    }
+
+    std::pair<double, double> jacobian_range(const HexMesh &mesh, const HexMesh::Cell &cell)
+    {
+      std::array<double, 9> values;
+      for (unsigned int v = 0; v < 8; ++v)
+        values[v] = jacobian(mesh, cell, {cube[v][0], cube[v][1], cube[v][2]});
+      values[8] = jacobian(mesh, cell, {0.5, 0.5, 0.5});
+      const auto extrema = std::minmax_element(values.begin(), values.end());
+      return {*extrema.first, *extrema.second};
+    }
+
+    bool is_mirrored(const HexMesh &mesh, const HexMesh::Cell &cell)
+    {
+      return jacobian_range(mesh, cell).second < 0;
+    }
+
+    void drop_unused_nodes(HexMesh &mesh)
+    {
+      const unsigned int        unused = -1;
+      std::vector<unsigned int> number(mesh.nodes.size(), unused);
+      for (const auto &cell : mesh.cells)
+        for (const unsigned int node : cell.nodes)
+          number[node] = 0;
+      // A face with a node of no cell is an error that check_mesh() reports: keep the node until then.
+      for (const auto &face : mesh.faces)
+        for (const unsigned int node : face.nodes)
+          number[node] = 0;
+
+      unsigned int n_used = 0;
+      for (unsigned int node = 0; node < number.size(); ++node)
+        if (number[node] != unused)
+        {
+          mesh.nodes[n_used] = mesh.nodes[node];
+          number[node] = n_used++;
+        }
+      mesh.nodes.resize(n_used);
+      for (auto &cell : mesh.cells)
+        for (unsigned int &node : cell.nodes)
+          node = number[node];
+      for (auto &face : mesh.faces)
+        for (unsigned int &node : face.nodes)
+          node = number[node];
+    }
+
+    /** "Joint3_minus" -> "joint 3 minus" */
+    std::vector<std::string> words(const std::string &name)
+    {
+      std::vector<std::string> result;
+      char                     last = ' ';
+      for (const char raw : name)
+      {
+        const unsigned char c = std::tolower(static_cast<unsigned char>(raw));
+        if (std::isalnum(c))
+        {
+          if (!std::isalnum(static_cast<unsigned char>(last)) ||
+              !std::isdigit(c) != !std::isdigit(static_cast<unsigned char>(last)))
+            result.emplace_back();
+          result.back() += c;
+        }
+        last = c;
+      }
+      return result;
+    }
+
+    /** The number from 1 to @p largest that a word is, else -1. */
+    int to_number(const std::string &word, const int largest)
+    {
+      if (word.empty() || word.size() > 4 || !std::isdigit(static_cast<unsigned char>(word[0])))
+        return -1;
+      const int number = std::stoi(word);
+      return number >= 1 && number <= largest ? number : -1;
+    }
+
+    const std::map<int, std::string> surface_names = {{PhysicalId::base, "base"},
+                                                      {PhysicalId::upstream, "upstream"},
+                                                      {PhysicalId::downstream, "downstream"},
+                                                      {PhysicalId::crest, "crest"},
+                                                      {PhysicalId::free_surface, "free surface"},
+                                                      {PhysicalId::artificial, "artificial boundary"}};
+  } // namespace
+
+  FaceTable::FaceTable(const HexMesh &mesh)
+  {
+    table.reserve(6 * mesh.cells.size());
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      for (unsigned int f = 0; f < 6; ++f)
+      {
+        Entry entry{{}, c, f};
+        for (unsigned int v = 0; v < 4; ++v)
+          entry.key[v] = mesh.cells[c].nodes[hex_faces[f][v]];
+        std::sort(entry.key.begin(), entry.key.end());
+        table.push_back(entry);
+      }
+    std::sort(table.begin(), table.end(),
+              [](const Entry &a, const Entry &b)
+              { return std::tie(a.key, a.cell) < std::tie(b.key, b.cell); });
+  }
+
+  std::pair<const FaceTable::Entry *, const FaceTable::Entry *>
+  FaceTable::owners(std::array<unsigned int, 4> nodes) const
+  {
+    std::sort(nodes.begin(), nodes.end());
+    const auto first = std::lower_bound(table.begin(), table.end(), nodes,
+                                        [](const Entry &entry, const auto &key) { return entry.key < key; });
+    if (first == table.end() || first->key != nodes)
+      return {nullptr, nullptr};
+    const auto second = first + 1;
+    return {&*first, second != table.end() && second->key == nodes ? &*second : nullptr};
+  }
+
+  std::string physical_name(const int dimension, const int id)
+  {
+    if (dimension == 3)
+      return (is_monolith(id) ? "monolith " : "rock ") + std::to_string(id);
+    const auto name = surface_names.find(id);
+    if (name != surface_names.end())
+      return name->second;
+    for (const int side : {1, 2})
+    {
+      const int joint = id - (side == 1 ? PhysicalId::joint_side_1 : PhysicalId::joint_side_2);
+      if (joint >= 1 && joint <= PhysicalId::max_joints)
+        return "joint " + std::to_string(joint) + " side " + std::to_string(side);
+    }
+    return "surface " + std::to_string(id);
+  }
+
+  int physical_id(const int dimension, const std::string &name)
+  {
+    const std::vector<std::string> word = words(name);
+    if (dimension == 3)
+    {
+      if (word.size() == 2 && word[0] == "monolith")
+        return to_number(word[1], PhysicalId::first_rock - 1);
+      return !word.empty() && word[0] == "rock" ? PhysicalId::first_rock : -1;
+    }
+    for (const auto &surface : surface_names)
+      if (word == words(surface.second))
+        return surface.first;
+    if (word.size() < 3 || word.size() > 4 || word[0] != "joint" || (word.size() == 4 && word[2] != "side"))
+      return -1;
+    const int joint = to_number(word[1], PhysicalId::max_joints);
+    if (joint == -1)
+      return -1;
+    if (word.back() == "1" || word.back() == "minus")
+      return PhysicalId::joint_side_1 + joint;
+    if (word.back() == "2" || word.back() == "plus")
+      return PhysicalId::joint_side_2 + joint;
+    return -1;
+  }
+
+  std::string place(const std::array<double, 3> &point)
+  {
+    std::ostringstream text;
+    text << "(" << point[0] << ", " << point[1] << ", " << point[2] << ") m";
+    return text.str();
+  }
+
+  void normalize(HexMesh &mesh)
+  {
+    drop_unused_nodes(mesh);
+    if (std::all_of(mesh.cells.begin(), mesh.cells.end(),
+                    [&](const HexMesh::Cell &cell) { return is_mirrored(mesh, cell); }))
+      for (auto &cell : mesh.cells)
+        std::swap_ranges(cell.nodes.begin(), cell.nodes.begin() + 4, cell.nodes.begin() + 4);
+  }
+
+  unsigned int n_monoliths(const HexMesh &mesh)
+  {
+    int largest = 0;
+    for (const auto &cell : mesh.cells)
+      if (is_monolith(cell.volume))
+        largest = std::max(largest, cell.volume);
+    return largest;
+  }
+
+  double min_jacobian(const HexMesh &mesh, const HexMesh::Cell &cell)
+  {
+    return jacobian_range(mesh, cell).first;
+  }
+
+  std::map<int, double> volumes(const HexMesh &mesh)
+  {
+    // The determinant is quadratic in each coordinate: two Gauss points each way are exact.
+    const double          gauss[2] = {0.5 - std::sqrt(1. / 12.), 0.5 + std::sqrt(1. / 12.)};
+    std::map<int, double> result;
+    for (const auto &cell : mesh.cells)
+      for (const double x : gauss)
+        for (const double y : gauss)
+          for (const double z : gauss)
+            result[cell.volume] += jacobian(mesh, cell, {x, y, z}) / 8;
+    return result;
+  }
+
+  double volume(const HexMesh &mesh)
+  {
+    double sum = 0;
+    for (const auto &part : volumes(mesh))
+      sum += part.second;
+    return sum;
+  }
+
+  std::pair<std::array<double, 3>, std::array<double, 3>> bounding_box(const HexMesh &mesh)
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Vector           lower = {infinity, infinity, infinity}, upper = {-infinity, -infinity, -infinity};
+    for (const auto &node : mesh.nodes)
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        lower[d] = std::min(lower[d], node[d]);
+        upper[d] = std::max(upper[d], node[d]);
+      }
+    return {lower, upper};
+  }
+
+  double crest_length(const HexMesh &mesh)
+  {
+    // By position, so that it does not matter whether the joints are open.
+    std::map<int, std::set<std::pair<Vector, Vector>>> edges;
+    for (const auto &face : mesh.faces)
+      if (face.surface == PhysicalId::crest || face.surface == PhysicalId::upstream ||
+          face.surface == PhysicalId::downstream)
+        for (unsigned int v = 0; v < 4; ++v)
+          edges[face.surface].insert(
+              std::minmax(mesh.nodes[face.nodes[v]], mesh.nodes[face.nodes[(v + 1) % 4]]));
+
+    double sum = 0;
+    for (const int surface : {PhysicalId::upstream, PhysicalId::downstream})
+      for (const auto &edge : edges[surface])
+        if (edges[PhysicalId::crest].count(edge) != 0)
+          sum += std::hypot(edge.first[0] - edge.second[0], edge.first[1] - edge.second[1],
+                            edge.first[2] - edge.second[2]);
+    return sum / 2;
+  }
+} // namespace Voussoir

@@ -1,0 +1,254 @@
+#include <voussoir/base/error.h>
+#include <voussoir/mesh/mesh_axes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Voussoir
+{
+  namespace
+  {
+    constexpr double pi = 3.14159265358979323846;
+
+    using Vector = std::array<double, 3>;
+
+    constexpr double lowest_dam = 5., highest_dam = 400.; ///< [m]
+
+    double norm(const Vector &v)
+    {
+      return std::hypot(v[0], v[1], v[2]);
+    }
+
+    Vector cross(const Vector &a, const Vector &b)
+    {
+      return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    }
+
+    /** Outward area vectors of the surfaces of the dam, summed. */
+    struct Normals
+    {
+      Vector sum{};
+      double area = 0.;
+    };
+
+    Normals normals_of(const HexMesh &mesh, const FaceTable &table, const int surface)
+    {
+      Normals result;
+      for (const auto &face : mesh.faces)
+      {
+        if (face.surface != surface)
+          continue;
+        const auto  owners = table.owners(face.nodes);
+        const auto *owner = owners.first; // of the dam: the base of a dam on rock has two
+        if (owner != nullptr && !is_monolith(mesh.cells[owner->cell].volume))
+          owner = owners.second;
+        if (owner == nullptr)
+          continue;
+        const auto &cell = mesh.cells[owner->cell].nodes;
+        const auto &corner = hex_faces[owner->cell_face];
+        Vector      diagonal[2];
+        for (unsigned int d = 0; d < 3; ++d)
+          for (unsigned int k = 0; k < 2; ++k)
+            diagonal[k][d] = mesh.nodes[cell[corner[2 + k]]][d] - mesh.nodes[cell[corner[k]]][d];
+        Vector area = cross(diagonal[0], diagonal[1]);
+        for (unsigned int d = 0; d < 3; ++d)
+          result.sum[d] += area[d] *= .5;
+        result.area += norm(area);
+      }
+      return result;
+    }
+
+    /** Is @p v within 63 degrees of the axis @p axis, in the sense @p sign? */
+    bool along(const Vector &v, const unsigned int axis, const double sign, const double cosine = .45)
+    {
+      return sign * v[axis] > cosine * norm(v);
+    }
+
+    /** The unit vector of the axis that is nearest to @p v. */
+    Vector nearest_axis(const Vector &v)
+    {
+      const auto largest =
+          std::max_element(v.begin(), v.end(),
+                           [](const double a, const double b) { return std::abs(a) < std::abs(b); }) -
+          v.begin();
+      Vector axis{};
+      axis[largest] = v[largest] < 0. ? -1. : 1.;
+      return axis;
+    }
+
+    class Check
+    {
+    public:
+      Check(const HexMesh &mesh, const MeshParameters &parameters, const std::string &source)
+          : mesh(mesh), parameters(parameters), source(source)
+      {
+        const FaceTable table(mesh);
+        crest = normals_of(mesh, table, PhysicalId::crest);
+        base = normals_of(mesh, table, PhysicalId::base);
+        const Normals upstream = normals_of(mesh, table, PhysicalId::upstream),
+                      downstream = normals_of(mesh, table, PhysicalId::downstream);
+        stream.area = upstream.area + downstream.area;
+        for (unsigned int d = 0; d < 3; ++d)
+          stream.sum[d] = downstream.sum[d] - upstream.sum[d];
+      }
+
+      void axes() const
+      {
+        constexpr double level = .97;           // crests are level, within some 14 degrees
+        constexpr double downstream_is_x = .77; // within 40 degrees: the sides of a valley differ
+        if (is_clear(crest) && !along(crest.sum, 2, 1., level))
+          fail("the crest does not look up (z), but along " + direction(crest.sum) + ". " + how_to_turn());
+        if (is_clear(stream))
+        {
+          Vector horizontal = stream.sum;
+          horizontal[2] = 0.;
+          if (norm(horizontal) < .45 * norm(stream.sum))
+            fail("the downstream face looks along " + direction(stream.sum) + ", not downstream (x). " +
+                 how_to_turn());
+          if (along(horizontal, 0, -1.))
+            fail("the surface 'downstream' looks upstream (-x), and 'upstream' downstream. Exchange the "
+                 "names of "
+                 "the two surfaces in the mesh; or, if its x axis points upstream, set \"Mesh/Axes\" = " +
+                 turned_axes() + " (now it is " + parameters.axes + ")." + hint_of_the_numbers());
+          if (along(horizontal, 0, 1.) && !along(horizontal, 0, 1., downstream_is_x))
+            fail(
+                "the downstream face looks " + degrees_off_x(horizontal) +
+                " degrees off x. Turn the mesh about z until x points downstream: the motion and the results "
+                "are along and across the valley.");
+          if (!along(horizontal, 0, 1.))
+            fail("the downstream face does not look downstream (x), but along " + direction(horizontal) +
+                 ". " + how_to_turn());
+        }
+        if (is_clear(base) && base.sum[2] > .45 * norm(base.sum))
+          fail("the base looks up: its faces are on top of the dam. Mend the names of the mesh's surfaces, "
+               "or, if z points down, \"Mesh/Axes\".");
+      }
+
+      void height() const
+      {
+        double bottom = 1e300, top = -1e300;
+        for (const auto &cell : mesh.cells)
+          if (is_monolith(cell.volume))
+            for (const unsigned int node : cell.nodes)
+            {
+              bottom = std::min(bottom, mesh.nodes[node][2]);
+              top = std::max(top, mesh.nodes[node][2]);
+            }
+        const double height = top - bottom;
+        if (height >= lowest_dam && height <= highest_dam)
+          return;
+        std::ostringstream text;
+        text << "the dam is " << height << " m high; dams are " << lowest_dam << " to " << highest_dam
+             << " m high. The entry \"Mesh/Length unit\" is " << parameters.length_unit;
+        std::string units;
+        for (const char *unit : {"m", "cm", "mm", "ft", "in", "km"})
+        {
+          const double h = height / metres(parameters.length_unit) * metres(unit);
+          if (h >= lowest_dam && h <= highest_dam)
+          {
+            std::ostringstream in_metres;
+            in_metres << h;
+            units += (units.empty() ? "" : " or ") + std::string(unit) + " (then it is " + in_metres.str() +
+                     " m high)";
+          }
+        }
+        text << (units.empty() ? ", and no other one makes a dam of it: scale the mesh."
+                               : ": the coordinates are probably in another unit. Set it to " + units + ".");
+        fail(text.str());
+      }
+
+    private:
+      /** Do the normals not cancel, as those of a ring do? */
+      static bool is_clear(const Normals &normals)
+      {
+        return normals.area > 0. && norm(normals.sum) > .1 * normals.area;
+      }
+
+      static std::string direction(const Vector &v)
+      {
+        const Vector axis = nearest_axis(v);
+        for (unsigned int d = 0; d < 3; ++d)
+          if (axis[d] != 0.)
+            return std::string(axis[d] < 0. ? "-" : "") + "xyz"[d];
+        return "";
+      }
+
+      static std::string degrees_off_x(const Vector &v)
+      {
+        return std::to_string(std::lround(std::abs(std::atan2(v[1], v[0])) * 180. / pi));
+      }
+
+      bool are_numbered_to_the_right() const
+      {
+        const int last = n_monoliths(mesh);
+        double    first_y = 0., last_y = 0.;
+        for (const auto &cell : mesh.cells)
+        {
+          if (cell.volume == 1)
+            first_y = centre(mesh, cell.nodes)[1];
+          if (cell.volume == last)
+            last_y = centre(mesh, cell.nodes)[1];
+        }
+        return first_y > last_y;
+      }
+
+      /** Whether the faces or the axes are the wrong ones: monoliths are numbered to the left bank (y). */
+      std::string hint_of_the_numbers() const
+      {
+        return n_monoliths(mesh) == 1 ? ""
+               : !are_numbered_to_the_right()
+                   ? " The monoliths are numbered from the right bank to the left, as they should: the names "
+                     "are wrong."
+                   : " The monoliths are numbered from the left bank to the right: the axes are wrong.";
+      }
+
+      /** The value of "Axes" that turns the dam as its faces say, empty if they do not agree. */
+      std::string turned_axes() const
+      {
+        const Vector up = is_clear(crest) ? nearest_axis(crest.sum) : Vector{0., 0., 1.};
+        Vector       s = stream.sum;
+        for (unsigned int d = 0; d < 3; ++d)
+          if (up[d] != 0.)
+            s[d] = 0.;
+        const Vector downstream = norm(s) > 0. ? nearest_axis(s) : Vector{up[2], up[0], up[1]};
+        const auto   file = file_axes(parameters.axes);
+        // The file's directions of our axes; right-handed there.
+        const auto in_file = [&](const Vector &v)
+        {
+          Vector result{};
+          for (unsigned int d = 0; d < 3; ++d)
+            result[file[d].coordinate] += v[d] * file[d].sign;
+          return result;
+        };
+        const Vector x = in_file(downstream), z = in_file(up);
+        return direction(x) + " " + direction(cross(z, x)) + " " + direction(z);
+      }
+
+      std::string how_to_turn() const
+      {
+        return "Set \"Mesh/Axes\" = " + turned_axes() + " (now it is " + parameters.axes +
+               "), or mend the names of the mesh's surfaces.";
+      }
+
+      [[noreturn]] void fail(const std::string &text) const
+      {
+        throw InputError("mesh " + source + ": " + text);
+      }
+
+      const HexMesh        &mesh;
+      const MeshParameters &parameters;
+      const std::string    &source;
+      Normals               crest, base, stream; ///< stream: downstream less upstream
+    };
+  } // namespace
+
+  void check_axes_and_units(const HexMesh &mesh, const MeshParameters &parameters, const std::string &source)
+  {
+    if (parameters.source != "file")
+      return;
+    const Check check(mesh, parameters, source);
+    check.axes();
+    check.height();
+  }
+} // namespace Voussoir

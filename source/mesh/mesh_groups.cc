@@ -1,0 +1,176 @@
+#include <voussoir/base/error.h>
+#include <voussoir/base/nearest_name.h>
+#include <voussoir/mesh/mesh_groups.h>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace Voussoir
+{
+  namespace
+  {
+    /** Names to suggest. */
+    std::vector<std::string> known_names(const int dimension)
+    {
+      std::vector<std::string> names;
+      if (dimension == 3)
+      {
+        for (int monolith = 1; monolith < PhysicalId::first_rock; ++monolith)
+          names.push_back(physical_name(3, monolith));
+        names.push_back("rock");
+        return names;
+      }
+      for (int surface = PhysicalId::base; surface <= PhysicalId::artificial; ++surface)
+        names.push_back(physical_name(2, surface));
+      for (int joint = 1; joint <= PhysicalId::max_joints; ++joint)
+        for (const int side : {PhysicalId::joint_side_1, PhysicalId::joint_side_2})
+          names.push_back(physical_name(2, side + joint));
+      return names;
+    }
+
+    /** Successive groups of one kind. */
+    struct Row
+    {
+      int         dimension, first_id, last_id;
+      bool        named;
+      std::string first_name, last_name;
+      std::size_t n = 0; ///< hexahedra or faces
+    };
+
+    bool continues(const Row &row, const int dimension, const int id, const bool named)
+    {
+      if (row.dimension != dimension || row.named != named || id != row.last_id + 1)
+        return false;
+      return dimension == 3 ? is_monolith(id) : is_joint_side(row.last_id);
+    }
+
+    std::string role(const Row &row)
+    {
+      const std::string first = physical_name(row.dimension, row.first_id);
+      if (row.dimension == 3 && !is_monolith(row.first_id))
+        return "rock";
+      return row.first_id == row.last_id ? first : first + " to " + physical_name(row.dimension, row.last_id);
+    }
+  } // namespace
+
+  std::string unknown_group(const int dimension, const int tag, const std::string &name)
+  {
+    const std::string kind = dimension == 3 ? "volume" : "surface";
+    return "the physical " + kind + " '" + name + "' (id " + std::to_string(tag) +
+           ") has an unknown name. Did you mean '" + nearest_name(known_names(dimension), name) + "'? " +
+           (dimension == 3 ? "Volumes are 'monolith 1', 'monolith 2', ... and 'rock' or 'rock ...'"
+                           : "Surfaces are 'base', 'upstream', 'downstream', 'crest', 'free surface', "
+                             "'artificial boundary', 'joint 1 side 1', 'joint 1 side 2' and so on") +
+           ". Rename or remove it: ids count for groups without names only.";
+  }
+
+  std::string group_table(const HexMesh &mesh)
+  {
+    std::map<std::pair<int, int>, std::size_t> count;
+    for (const auto &cell : mesh.cells)
+      ++count[{3, cell.volume}];
+    for (const auto &face : mesh.faces)
+      ++count[{2, face.surface}];
+    std::vector<Row> rows;
+    for (const int dimension : {3, 2})
+      for (const auto &group : count)
+      {
+        if (group.first.first != dimension)
+          continue;
+        const int         id = group.first.second;
+        const auto        found = mesh.names.find(group.first);
+        const bool        named = found != mesh.names.end();
+        const std::string name =
+            named ? found->second
+                  : (dimension == 3 ? "volume " : "surface ") + std::to_string(id) + " (no name)";
+        if (rows.empty() || !continues(rows.back(), dimension, id, named))
+          rows.push_back({dimension, id, id, named, name, name});
+        rows.back().last_id = id;
+        rows.back().last_name = name;
+        rows.back().n += group.second;
+      }
+    std::vector<std::string> groups;
+    std::size_t              width_1 = 5, width_2 = 4;
+    for (const Row &row : rows)
+    {
+      groups.push_back(row.first_name == row.last_name ? row.first_name
+                                                       : row.first_name + " ... " + row.last_name);
+      width_1 = std::max(width_1, groups.back().size());
+      width_2 = std::max(width_2, role(row).size());
+    }
+    std::ostringstream text;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      text << (i == 0 ? "" : "\n") << groups[i] << std::string(width_1 - groups[i].size(), ' ') << "  ->  "
+           << role(rows[i]) << std::string(width_2 - role(rows[i]).size(), ' ') << "  " << rows[i].n
+           << (rows[i].dimension == 3 ? " hexahedra" : " faces");
+    return text.str();
+  }
+
+  std::string faces_without_group(const HexMesh &mesh)
+  {
+    std::set<std::array<unsigned int, 4>> grouped;
+    for (const HexMesh::Face &face : mesh.faces)
+    {
+      std::array<unsigned int, 4> key = face.nodes;
+      std::sort(key.begin(), key.end());
+      grouped.insert(key);
+    }
+    const FaceTable    table(mesh);
+    const auto        &entries = table.entries();
+    std::size_t        n = 0;
+    std::ostringstream text;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+    {
+      const bool inside = (i > 0 && entries[i - 1].key == entries[i].key) ||
+                          (i + 1 < entries.size() && entries[i + 1].key == entries[i].key);
+      if (!inside && is_monolith(mesh.cells[entries[i].cell].volume) && grouped.count(entries[i].key) == 0 &&
+          n++ == 0)
+        text << " outer faces of the dam, the first at " << place(centre(mesh, entries[i].key))
+             << ", are in no physical surface: they are free, and get no water. Leave it if they are walls "
+                "of a "
+                "gallery or a free face; else put them into \"upstream\", \"downstream\", \"crest\" or "
+                "\"base\".";
+    }
+    return n == 0 ? "" : std::to_string(n) + text.str();
+  }
+
+  void check_physical_names(const std::string &file)
+  {
+    std::ifstream in(file, std::ios::binary);
+    std::string   line;
+    const auto    next = [&]
+    {
+      std::getline(in, line);
+      while (!line.empty() && (line.back() == '\r' || line.back() == ' '))
+        line.pop_back();
+      return bool(in);
+    };
+    while (next() && line != "$PhysicalNames")
+      if (line == "$Nodes" || line == "$Entities" || line == "$Elements")
+        return; // names come before them, and what follows may be binary
+    std::set<std::pair<int, std::string>> names;
+    std::size_t                           n = 0;
+    if (!in || !next())
+      return;
+    const std::string count = line;
+    for (; next() && line != "$EndPhysicalNames"; ++n)
+    {
+      static const std::regex form("\\s*([0-3])\\s+([0-9]+)\\s+\"([^\"]+)\"");
+      std::smatch             parts;
+      if (!std::regex_match(line, parts, form))
+        throw InputError(
+            "mesh " + file + ": the line '" + line.substr(0, 80) +
+            "' of $PhysicalNames is not DIMENSION ID \"NAME\", with a name in quotes. Mend it, or "
+            "remove it: the id counts for groups without a name.");
+      if (parts[3].str().compare(0, 4, "rock") != 0 && !names.emplace(std::stoi(parts[1]), parts[3]).second)
+        throw InputError("mesh " + file + ": two physical groups have the name '" + parts[3].str() +
+                         "'. Give each a name of its own.");
+    }
+    if (count != std::to_string(n))
+      throw InputError("mesh " + file + ": $PhysicalNames says that it has " + count.substr(0, 20) +
+                       " names, and has " + std::to_string(n) + ". Write the file again.");
+  }
+} // namespace Voussoir

@@ -1,0 +1,315 @@
+#include <voussoir/base/error.h>
+#include <voussoir/mesh/mesh_joints.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+namespace Voussoir
+{
+  namespace
+  {
+    using Vector = std::array<double, 3>;
+
+    constexpr double coincidence = 1e-4; ///< of the shortest edge of the joint's faces at the node
+
+    double distance(const Vector &a, const Vector &b)
+    {
+      return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    }
+
+    [[noreturn]] void fail(const int joint, const std::string &text)
+    {
+      throw InputError("mesh: joint " + std::to_string(joint) + ": " + text);
+    }
+
+    /** Nodes to be merged: each set of them is known by its smallest number. */
+    class UnionFind
+    {
+    public:
+      explicit UnionFind(const std::size_t size) : parent(size)
+      {
+        std::iota(parent.begin(), parent.end(), 0u);
+      }
+      unsigned int root(unsigned int i)
+      {
+        while (parent[i] != i)
+          i = parent[i] = parent[parent[i]];
+        return i;
+      }
+      void unite(const unsigned int i, const unsigned int j)
+      {
+        const unsigned int a = root(i), b = root(j);
+        parent[std::max(a, b)] = std::min(a, b);
+      }
+
+    private:
+      std::vector<unsigned int> parent;
+    };
+
+    /** Nodes of one side of a joint, and the shortest edge of the side's faces at each [m]. */
+    using Side = std::map<unsigned int, double>;
+
+    void add_face(const HexMesh &mesh, const HexMesh::Face &face, Side &side)
+    {
+      for (unsigned int v = 0; v < 4; ++v)
+      {
+        const unsigned int a = face.nodes[v], b = face.nodes[(v + 1) % 4];
+        const double       length = distance(mesh.nodes[a], mesh.nodes[b]);
+        for (const unsigned int node : {a, b})
+        {
+          double &shortest = side.emplace(node, length).first->second;
+          shortest = std::min(shortest, length);
+        }
+      }
+    }
+
+    /** Unites every node of @p side with those of @p other in the same place. */
+    void match(const HexMesh &mesh, const int joint, const int side_number, const Side &side,
+               const Side &other, UnionFind &merged)
+    {
+      // Sorted along a direction in which the nodes of regular meshes do not line up.
+      const auto along = [&](const unsigned int node)
+      { return 0.4123 * mesh.nodes[node][0] + 0.5651 * mesh.nodes[node][1] + 0.7146 * mesh.nodes[node][2]; };
+      std::vector<std::pair<double, unsigned int>> sorted;
+      for (const auto &candidate : other)
+        sorted.emplace_back(along(candidate.first), candidate.first);
+      std::sort(sorted.begin(), sorted.end());
+
+      for (const auto &node : side)
+      {
+        const Vector &point = mesh.nodes[node.first];
+        const double  tolerance = coincidence * node.second, position = along(node.first);
+        bool          found = false;
+        for (auto candidate =
+                 std::lower_bound(sorted.begin(), sorted.end(), std::make_pair(position - 2 * tolerance, 0u));
+             candidate != sorted.end() && candidate->first <= position + 2 * tolerance; ++candidate)
+          if (distance(point, mesh.nodes[candidate->second]) <= tolerance)
+          {
+            merged.unite(node.first, candidate->second);
+            found = true;
+          }
+        if (found)
+          continue;
+
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const auto &candidate : other)
+          nearest = std::min(nearest, distance(point, mesh.nodes[candidate.first]));
+        std::ostringstream text;
+        text << "the node of side " << side_number << " at " << place(point) << " has no partner on side "
+             << 3 - side_number << ", whose nearest node is " << nearest << " m away (" << tolerance
+             << " m are allowed). Mesh both sides alike, with their nodes in the same places.";
+        fail(joint, text.str());
+      }
+    }
+
+    /** The faces in joint surfaces that are not yet between two cells. */
+    std::vector<HexMesh::Face> doubled_faces(const HexMesh &mesh)
+    {
+      const FaceTable            table(mesh);
+      std::vector<HexMesh::Face> result;
+      for (const auto &face : mesh.faces)
+        if (is_joint_side(face.surface) && table.owners(face.nodes).second == nullptr)
+          result.push_back(face);
+      return result;
+    }
+
+    std::pair<int, int> joint_and_side(const int surface)
+    {
+      return surface > PhysicalId::joint_side_2 ? std::make_pair(surface - PhysicalId::joint_side_2, 2)
+                                                : std::make_pair(surface - PhysicalId::joint_side_1, 1);
+    }
+
+    UnionFind match_sides(const HexMesh &mesh, const std::vector<HexMesh::Face> &doubled)
+    {
+      std::map<int, std::array<Side, 2>> joints;
+      for (const auto &face : doubled)
+      {
+        const auto joint = joint_and_side(face.surface);
+        add_face(mesh, face, joints[joint.first][joint.second - 1]);
+      }
+      UnionFind merged(mesh.nodes.size());
+      for (const auto &joint : joints)
+      {
+        const auto &sides = joint.second;
+        for (const int s : {0, 1})
+          if (sides[s].empty())
+            fail(joint.first, "it has a side " + std::to_string(2 - s) + " but no side " +
+                                  std::to_string(s + 1) + ". Put the faces opposite into the surface '" +
+                                  physical_name(2, 100 * (s + 1) + joint.first) + "'.");
+        match(mesh, joint.first, 1, sides[0], sides[1], merged);
+        match(mesh, joint.first, 2, sides[1], sides[0], merged);
+      }
+      return merged;
+    }
+
+    /** The faces @p doubled (with merged nodes) must now lie between two monoliths. */
+    void check_closed(const HexMesh &mesh, const std::vector<HexMesh::Face> &doubled)
+    {
+      const FaceTable table(mesh);
+      for (const auto &face : doubled)
+      {
+        const auto        joint = joint_and_side(face.surface);
+        const auto        owners = table.owners(face.nodes);
+        const std::string where =
+            "the face of side " + std::to_string(joint.second) + " at " + place(centre(mesh, face.nodes));
+        if (owners.first == nullptr || owners.second == nullptr)
+          fail(joint.first, where + " has no face opposite on the other side. Mesh both sides alike.");
+        if (mesh.cells[owners.first->cell].volume == mesh.cells[owners.second->cell].volume)
+          fail(joint.first,
+               where + " has the same volume, '" + physical_name(3, mesh.cells[owners.first->cell].volume) +
+                   "', on its other side. Joints lie between two monoliths: make them two volumes.");
+      }
+    }
+
+    /** The contacts of monoliths in a conforming mesh, numbered. */
+    std::map<std::pair<int, int>, int> number_joints(const HexMesh &mesh, const FaceTable &table)
+    {
+      std::map<std::pair<int, int>, int> joints;
+      for (std::size_t i = 1; i < table.entries().size(); ++i)
+      {
+        const auto &entry = table.entries()[i], &previous = table.entries()[i - 1];
+        const auto  sides = std::minmax(mesh.cells[previous.cell].volume, mesh.cells[entry.cell].volume);
+        if (entry.key == previous.key && sides.first != sides.second && is_monolith(sides.second))
+          joints[sides] = 0;
+      }
+      int further = n_monoliths(mesh);
+      for (auto &joint : joints)
+      {
+        const auto &sides = joint.first;
+        joint.second = sides.second == sides.first + 1 ? sides.first : further++;
+        if (joint.second > PhysicalId::max_joints)
+          throw InputError("mesh: the contact of monoliths " + std::to_string(sides.first) + " and " +
+                           std::to_string(sides.second) + " would be joint " + std::to_string(joint.second) +
+                           ", but joints are numbered up to " + std::to_string(PhysicalId::max_joints) +
+                           " only. Unite monoliths, or number neighbours one after the other.");
+      }
+      return joints;
+    }
+
+    /** Gives each monolith its own copy of the nodes that it shares with others, but for those of the rock.
+     */
+    class Splitter
+    {
+    public:
+      explicit Splitter(HexMesh &mesh)
+          : mesh(mesh), keeper(mesh.nodes.size(), std::numeric_limits<int>::max())
+      {
+        for (const auto &cell : mesh.cells)
+          for (const unsigned int node : cell.nodes)
+            keeper[node] = !is_monolith(cell.volume) ? rock : std::min(keeper[node], cell.volume);
+      }
+
+      unsigned int node_of(const int volume, const unsigned int node)
+      {
+        if (keeper[node] == rock || keeper[node] == volume)
+          return node;
+        const auto copy = copies.emplace(std::make_pair(node, volume), mesh.nodes.size());
+        if (copy.second)
+          mesh.nodes.push_back(Vector(mesh.nodes[node]));
+        return copy.first->second;
+      }
+
+    private:
+      static constexpr int rock = 0; // less than every monolith
+
+      HexMesh                                             &mesh;
+      std::vector<int>                                     keeper; // the volume that keeps the node
+      std::map<std::pair<unsigned int, int>, unsigned int> copies;
+    };
+  } // namespace
+
+  HexMesh close_joints(const HexMesh &mesh)
+  {
+    auto    doubled = doubled_faces(mesh);
+    auto    merged = match_sides(mesh, doubled);
+    HexMesh closed = mesh;
+    for (auto &cell : closed.cells)
+      for (unsigned int &node : cell.nodes)
+        node = merged.root(node);
+    for (auto *faces : {&closed.faces, &doubled})
+      for (auto &face : *faces)
+        for (unsigned int &node : face.nodes)
+          node = merged.root(node);
+    check_closed(closed, doubled);
+
+    closed.faces.erase(std::remove_if(closed.faces.begin(), closed.faces.end(),
+                                      [](const auto &face) { return is_joint_side(face.surface); }),
+                       closed.faces.end());
+    closed.names.erase(closed.names.lower_bound({2, PhysicalId::joint_side_1}),
+                       closed.names.lower_bound({3, 0}));
+    normalize(closed);
+    return closed;
+  }
+
+  HexMesh open_joints(const HexMesh &mesh)
+  {
+    HexMesh         opened = close_joints(mesh);
+    const FaceTable table(opened);
+    const auto      joints = number_joints(opened, table);
+
+    Splitter splitter(opened);
+    for (auto &face : opened.faces)
+    {
+      const int volume = opened.cells[table.owners(face.nodes).first->cell].volume;
+      for (unsigned int &node : face.nodes)
+        node = splitter.node_of(volume, node);
+    }
+    for (auto &cell : opened.cells)
+      for (unsigned int &node : cell.nodes)
+        node = splitter.node_of(cell.volume, node);
+
+    for (std::size_t i = 1; i < table.entries().size(); ++i)
+    {
+      if (table.entries()[i].key != table.entries()[i - 1].key)
+        continue;
+      std::array<HexMesh::Face, 2> sides{};
+      std::array<int, 2>           owner;
+      for (const unsigned int s : {0, 1})
+      {
+        const auto &entry = table.entries()[i - s];
+        const auto &cell = opened.cells[entry.cell];
+        owner[s] = cell.volume;
+        for (unsigned int v = 0; v < 4; ++v)
+          sides[s].nodes[v] = cell.nodes[hex_faces[entry.cell_face][v]];
+      }
+      if (owner[0] > owner[1])
+      {
+        std::swap(owner[0], owner[1]);
+        std::swap(sides[0], sides[1]);
+      }
+      const auto joint = joints.find({owner[0], owner[1]});
+      if (joint == joints.end() ||
+          std::is_permutation(sides[0].nodes.begin(), sides[0].nodes.end(), sides[1].nodes.begin()))
+        continue; // inside a volume, at the rock, or with all corners tied by the rock
+      for (const unsigned int s : {0, 1})
+      {
+        sides[s].surface = (s == 0 ? PhysicalId::joint_side_1 : PhysicalId::joint_side_2) + joint->second;
+        opened.names[{2, sides[s].surface}] = physical_name(2, sides[s].surface);
+        opened.faces.push_back(sides[s]);
+      }
+    }
+    return opened;
+  }
+
+  std::vector<Joint> joints_of(const HexMesh &mesh)
+  {
+    const FaceTable      table(mesh);
+    std::map<int, Joint> joints;
+    for (const auto &face : mesh.faces)
+      if (is_joint_side(face.surface))
+      {
+        const auto joint = joint_and_side(face.surface);
+        Joint     &result = joints.emplace(joint.first, Joint{joint.first, 0, 0}).first->second;
+        (joint.second == 1 ? result.monolith_1 : result.monolith_2) =
+            mesh.cells[table.owners(face.nodes).first->cell].volume;
+      }
+    std::vector<Joint> result;
+    for (const auto &joint : joints)
+      result.push_back(joint.second);
+    return result;
+  }
+} // namespace Voussoir

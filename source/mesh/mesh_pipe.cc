@@ -1,0 +1,43 @@
+#include <voussoir/mesh/mesh_pipe.h>
+
+namespace Voussoir
+{
+  void send(const HexMesh &mesh, PipeWriter &pipe)
+  {
+    pipe.put(mesh.nodes);
+    pipe.put(mesh.cells);
+    pipe.put(mesh.faces);
+    pipe.put(mesh.names.size());
+    for (const auto &entry : mesh.names)
+    {
+      pipe.put(entry.first.first);
+      pipe.put(entry.first.second);
+      pipe.put(entry.second);
+    }
+  }
+
+  void receive(PipeReader &pipe, HexMesh &mesh)
+  {
+    std::size_t n_names = 0;
+    pipe.get(mesh.nodes);
+    pipe.get(mesh.cells);
+    pipe.get(mesh.faces);
+    pipe.get(n_names);
+    for (std::size_t i = 0; i < n_names; ++i)
+    {
+      int dimension = 0, id = 0;
+      pipe.get(dimension);
+      pipe.get(id);
+      pipe.get(mesh.names[{dimension, id}]);
+    }
+    const auto check = [&](const auto &elements)
+    {
+      for (const auto &element : elements)
+        for (const unsigned int node : element.nodes)
+          if (node >= mesh.nodes.size()) // a library gone wild
+            throw PipeReader::End();
+    };
+    check(mesh.cells);
+    check(mesh.faces);
+  }
+} // namespace Voussoir

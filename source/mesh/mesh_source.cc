@@ -1,0 +1,115 @@
+#include <deal.II/base/parameter_handler.h>
+
+#include <voussoir/base/error.h>
+#include <voussoir/mesh/gmsh_io.h>
+#include <voussoir/mesh/mesh_source.h>
+
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+namespace Voussoir
+{
+
+  std::array<FileAxis, 3> file_axes(const std::string &text)
+  {
+    std::array<FileAxis, 3> axes{};
+    std::array<bool, 3>     used{};
+    std::istringstream      stream(text);
+    std::string             word;
+    unsigned int            n = 0;
+    for (; stream >> word; ++n)
+    {
+      const bool        is_signed = word[0] == '-' || word[0] == '+';
+      const std::string letter = word.substr(is_signed ? 1 : 0);
+      const std::size_t coordinate = letter.size() == 1 ? std::string("xyz").find(letter) : std::string::npos;
+      if (n == 3 || coordinate == std::string::npos || used[coordinate])
+        throw InputError(
+            "Mesh: 'Axes' is '" + text + "'. Give the file's axes that point downstream, to the " +
+            "left bank and up: each of x, y and z once, with a minus sign if it points the other " +
+            "way, as in 'y -x z'.");
+      used[coordinate] = true;
+      axes[n] = {static_cast<unsigned int>(coordinate), word[0] == '-' ? -1. : 1.};
+    }
+    if (n != 3)
+      throw InputError("Mesh: 'Axes' is '" + text + "', but must name three axes, as in 'x y z'.");
+    return axes;
+  }
+
+  double metres(const std::string &unit)
+  {
+    const std::map<std::string, double> units = {{"m", 1.},   {"cm", 1e-2},   {"mm", 1e-3},
+                                                 {"km", 1e3}, {"ft", 0.3048}, {"in", 0.0254}};
+    return units.at(unit);
+  }
+
+  void MeshParameters::add_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Mesh");
+    prm.add_parameter("Source", source,
+                      "Where the mesh comes from: the built-in dam 'arch210', or a gmsh 'file'.",
+                      Selection("arch210|file"));
+    prm.add_parameter(
+        "File", file,
+        "The gmsh mesh (MSH 4.1 or 2.2, 8-node hexahedra), relative to the directory of this file. "
+        "Its physical volumes are 'monolith 1', 'monolith 2', ... and 'rock ...'; its physical "
+        "surfaces 'base', 'upstream', 'downstream', 'crest', and with rock 'free surface' and "
+        "'artificial boundary'. The joints may be conforming, or doubled with their sides in 'joint 1 "
+        "side 1', 'joint 1 side 2' and so on.",
+        Anything());
+    prm.add_parameter(
+        "Axes", axes,
+        "The axes of the mesh file that point downstream, to the left bank and up: each of x, y and z "
+        "once, with a minus sign if the file's axis points the other way. For example 'y -x z' for a "
+        "file with x to the right bank, y downstream and z up. A left-handed choice mirrors the dam.",
+        Anything());
+    prm.add_parameter("Length unit", length_unit, "Unit of the coordinates in the mesh file.",
+                      Selection("m|cm|mm|km|ft|in"));
+    prm.leave_subsection();
+    arch210.add_parameters(prm);
+    arch210_rock.add_parameters(prm);
+  }
+
+  void MeshParameters::check() const
+  {
+    file_axes(axes);
+    if (source == "arch210")
+    {
+      arch210.check();
+      arch210_rock.check();
+    }
+    else if (file.empty())
+      throw InputError(
+          "Mesh: 'Source' is 'file', but the entry 'File' is empty. Give the path of a gmsh mesh, "
+          "relative to the directory of the scene file.");
+  }
+
+  HexMesh make_mesh(const MeshParameters &parameters, const std::string &scene_directory)
+  {
+    parameters.check();
+    if (parameters.source == "arch210")
+    {
+      HexMesh mesh = make_arch210(parameters.arch210);
+      if (parameters.arch210_rock.enabled)
+        add_arch210_rock(parameters.arch210, parameters.arch210_rock, mesh);
+      check_mesh(mesh, "arch210");
+      return mesh;
+    }
+
+    // The operator / of a path leaves absolute files as they are.
+    const std::string file = (std::filesystem::path(scene_directory) / parameters.file).string();
+    HexMesh           mesh = read_gmsh(file);
+    const auto        axes = file_axes(parameters.axes);
+    const double      unit = metres(parameters.length_unit);
+    for (auto &node : mesh.nodes)
+    {
+      const auto from = node;
+      for (unsigned int d = 0; d < 3; ++d)
+        node[d] = axes[d].sign * unit * from[axes[d].coordinate];
+    }
+    normalize(mesh); // left-handed axes mirror the cells
+    check_mesh(mesh, file);
+    return mesh;
+  }
+} // namespace Voussoir

@@ -1,0 +1,49 @@
+#include <voussoir/base/output_file.h>
+#include <voussoir/motion/ground_motion.h>
+
+#include <algorithm>
+#include <iomanip>
+
+namespace Voussoir
+{
+  double GroundMotion::duration() const
+  {
+    return acceleration.empty() ? 0. : dt * (acceleration.size() - 1);
+  }
+
+  std::array<double, 3> GroundMotion::at(double t) const
+  {
+    std::array<double, 3> a = {{0., 0., 0.}};
+    // Times are often sums of time steps: rounding must not lose the last sample.
+    const double position = t / dt, last = double(acceleration.size()) - 1., rounding = 1e-9 * last;
+    if (!(position >= 0.) || position > last + rounding)
+      return a;
+    const std::size_t k = std::min<std::size_t>(position, acceleration.size() - 1);
+    const std::size_t next = std::min(k + 1, acceleration.size() - 1);
+    for (unsigned int d = 0; d < 3; ++d)
+      a[d] = acceleration[k][d] + (position - k) * (acceleration[next][d] - acceleration[k][d]);
+    return a;
+  }
+
+  std::vector<double> GroundMotion::component(unsigned int direction) const
+  {
+    std::vector<double> a;
+    for (const auto &sample : acceleration)
+      a.push_back(sample[direction]);
+    return a;
+  }
+
+  void write_motion(const GroundMotion &motion, const std::string &file)
+  {
+    OutputFile out(file);
+    out << "t,a_x,a_y,a_z\n" << std::setprecision(12);
+    for (std::size_t k = 0; k < motion.acceleration.size(); ++k)
+    {
+      out << k * motion.dt;
+      for (const double a : motion.acceleration[k])
+        out << ',' << a;
+      out << '\n';
+    }
+    out.check();
+  }
+} // namespace Voussoir

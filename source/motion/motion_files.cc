@@ -1,0 +1,112 @@
+#include <voussoir/base/error.h>
+#include <voussoir/motion/motion_files.h>
+#include <voussoir/motion/motion_record.h>
+#include <voussoir/motion/resample.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+namespace Voussoir
+{
+  namespace
+  {
+    struct Source
+    {
+      std::string  path;
+      unsigned int first; ///< component of the motion that the record's first one is
+      MotionRecord record;
+    };
+
+    std::vector<Source> read_sources(const MotionParameters &parameters, const std::string &scene_directory)
+    {
+      std::vector<Source> sources;
+      const auto          read = [&](const std::string &name, unsigned int first, unsigned int n_components)
+      {
+        const std::string path = (std::filesystem::path(scene_directory) / name).string();
+        sources.push_back({path, first, read_motion_record(path, n_components)});
+        const double start = sources.back().record.start, expected = sources.front().record.start;
+        if (std::abs(start - expected) > 1e-6)
+          throw InputError("The ground motion file '" + name + "' starts at " + std::to_string(start) +
+                           " s, the component before it at " + std::to_string(expected) +
+                           " s. Cut the records to the same first time.");
+      };
+      if (!parameters.file.empty())
+        read(parameters.file, 0, 3);
+      for (unsigned int d = 0; d < 3; ++d)
+        if (!parameters.component_files[d].empty())
+          read(parameters.component_files[d], d, 1);
+      return sources;
+    }
+
+    /** Whole steps of @p dt in the record, but for the rounding of its times. */
+    double steps_in(const MotionRecord &record, const double dt)
+    {
+      return std::floor((record.duration() + 0.01 * record.dt) / dt);
+    }
+
+    /** The number of time steps, and a note where it comes from the records. */
+    std::size_t find_n_steps(const MotionParameters &parameters, const std::vector<Source> &sources,
+                             std::vector<std::string> &notes)
+    {
+      const auto shorter = [](const Source &a, const Source &b)
+      { return a.record.duration() < b.record.duration(); };
+      const Source      &shortest = *std::min_element(sources.begin(), sources.end(), shorter);
+      std::ostringstream message;
+      if (!parameters.duration_is_automatic())
+      {
+        if (shortest.record.duration() >= parameters.duration - 0.01 * shortest.record.dt)
+          return parameters.n_steps();
+        message << "The ground motion file '" << shortest.path << "' lasts " << shortest.record.duration()
+                << " s, less than Motion/Duration, " << parameters.duration << " s. Set Duration to at most "
+                << shortest.record.duration()
+                << " s (a multiple of Time step), or to -1, which takes that of the shortest record, or give "
+                   "a longer record.";
+        throw InputError(message.str());
+      }
+      const double n = steps_in(shortest.record, parameters.time_step);
+      if (!(n >= 1. && n <= MotionParameters::most_steps))
+      {
+        message << "The ground motion file '" << shortest.path << "' lasts " << shortest.record.duration()
+                << " s, which is " << (n < 1. ? "less than one" : "more than ten million")
+                << " of Motion/Time step, " << parameters.time_step << " s. Correct the time step"
+                << (n < 1. ? ", or give a longer record." : ".");
+        throw InputError(message.str());
+      }
+      message << "duration " << n * parameters.time_step << " s, that of "
+              << (sources.size() > 1 ? "the shortest record, '" : "the record '") << shortest.path << "'";
+      notes.push_back(message.str());
+      return n;
+    }
+  } // namespace
+
+  GroundMotion read_motion(const MotionParameters &parameters, const std::string &scene_directory)
+  {
+    const std::vector<Source> sources = read_sources(parameters, scene_directory);
+    GroundMotion              motion;
+    motion.dt = parameters.time_step;
+    motion.acceleration.resize(find_n_steps(parameters, sources, motion.notes) + 1, {{0., 0., 0.}});
+    const double unit = parameters.unit == "g" ? standard_gravity : parameters.unit == "cm/s^2" ? 0.01 : 1.;
+    for (const Source &source : sources)
+    {
+      const MotionRecord &record = source.record;
+      const double        factor = parameters.factor * (record.in_g ? standard_gravity : unit);
+      for (std::size_t c = 0; c < record.components.size(); ++c)
+      {
+        const std::vector<double> a =
+            resample(record.components[c], record.dt, motion.dt, motion.acceleration.size());
+        for (std::size_t k = 0; k < a.size(); ++k)
+          motion.acceleration[k][source.first + c] = factor * a[k];
+      }
+      if (is_coarser(motion.dt, record.dt))
+      {
+        std::ostringstream note;
+        note << "'" << source.path << "' has steps of " << record.dt << " s: low-pass filtered at "
+             << 0.5 / motion.dt << " Hz, then sampled at " << motion.dt << " s";
+        motion.notes.push_back(note.str());
+      }
+    }
+    return motion;
+  }
+} // namespace Voussoir

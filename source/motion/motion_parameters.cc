@@ -1,0 +1,233 @@
+#include <deal.II/base/parameter_handler.h>
+
+#include <voussoir/base/error.h>
+#include <voussoir/motion/ground_motion.h>
+#include <voussoir/motion/motion_parameters.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Voussoir
+{
+  namespace
+  {
+    namespace Patterns = dealii::Patterns;
+
+    const char *const names[] = {"x", "y", "z"};
+  } // namespace
+
+  void MotionParameters::add_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Motion");
+    prm.add_parameter(
+        "Source", source,
+        "Where the acceleration of the base comes from: 'artificial' makes three components that "
+        "match a design spectrum, 'file' reads records, 'none' leaves the base at rest.",
+        Patterns::Selection("artificial|file|none"));
+    prm.add_parameter(
+        "Duration", duration,
+        "Length of the shaking [s]. Longer records are cut, shorter ones refused. -1: that of the "
+        "shortest record; 20.48 s of an artificial motion.");
+    prm.add_parameter(
+        "Time step", time_step,
+        "Sampling interval of the motion [s]; Duration is a multiple of it. Records with a longer "
+        "interval are interpolated linearly, those with a shorter one filtered first, so that nothing above "
+        "0.5/Time step remains; each component may have its own interval.");
+    prm.add_parameter("Factor", factor, "Factor [-] on all components, whatever their source.");
+    for (unsigned int d = 0; d < 3; ++d)
+      prm.add_parameter(std::string("Scale ") + names[d], scale[d],
+                        std::string("Factor [-] on the component in ") + names[d] +
+                            ", whatever its source; 0 switches it off.");
+    add_file_parameters(prm);
+    add_artificial_parameters(prm);
+    prm.leave_subsection();
+  }
+
+  void MotionParameters::add_file_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter(
+        "File", file,
+        "Source = file: a table with the columns t [s], a_x, a_y, a_z, separated by blanks or commas; "
+        "lines may end in # comments. The path is relative to the scene file. Leave it empty to "
+        "give File x, File y, File z.",
+        Patterns::Anything());
+    for (unsigned int d = 0; d < 3; ++d)
+      prm.add_parameter(
+          std::string("File ") + names[d], component_files[d],
+          std::string("Source = file: the component in ") + names[d] +
+              ", a table with the columns t [s], a or a PEER AT2 file. If empty, this component is zero.",
+          Patterns::Anything());
+    prm.add_parameter(
+        "Unit", unit,
+        "Source = file: unit of acceleration in tables, 'g' = 9.80665 m/s^2, 'm/s^2' or 'cm/s^2'. AT2 "
+        "files are always in g.",
+        Patterns::Selection("g|m/s^2|cm/s^2"));
+  }
+
+  void MotionParameters::add_artificial_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter(
+        "Spectrum", spectrum.code,
+        "Source = artificial: the standard design spectrum; beyond the characteristic period T_g "
+        "it descends with (T_g/T)^0.9 in DL5073-2000 and with (T_g/T)^0.6 in NB35047-2015.",
+        Patterns::Selection("DL5073-2000|NB35047-2015"));
+    prm.add_parameter(
+        "Characteristic period", spectrum.characteristic_period,
+        "Source = artificial: period T_g [s] of the site where the spectrum begins to descend; 0.2 "
+        "on rock.");
+    prm.add_parameter(
+        "Maximum beta", spectrum.maximum_beta,
+        "Source = artificial: largest spectral acceleration over peak acceleration [-]; 2.5 for arch "
+        "dams.");
+    prm.add_parameter("Peak acceleration", peak_acceleration, "Source = artificial: in x and in y [g].");
+    prm.add_parameter("Vertical ratio", vertical_ratio,
+                      "Source = artificial: peak and spectrum in z over those in x and y [-].");
+    prm.add_parameter("Damping", damping, "Source = artificial: damping ratio [-] of the spectrum.");
+    prm.add_parameter(
+        "Seed", seed,
+        "Source = artificial: number [-] that selects the random phases; equal seeds give equal "
+        "motions.",
+        Patterns::Integer(0));
+    prm.add_parameter(
+        "Rise end", rise_end,
+        "Source = artificial: the envelope rises as t^2 until this time [s]. -1: 2.5 s, or Duration/6 "
+        "where the usual envelope does not fit into the duration.");
+    prm.add_parameter(
+        "Decay begin", decay_begin,
+        "Source = artificial: the envelope is constant until this time [s]. -1: 11 s, or 11/15 of "
+        "Duration where that is longer than the motion.");
+    prm.add_parameter(
+        "Decay rate", decay_rate,
+        "Source = artificial: c [1/s] of the envelope's decay exp(-c (t - Decay begin)). -1: 0.25, "
+        "or 3.75/Duration where the usual envelope does not fit.");
+    prm.add_parameter(
+        "Matching iterations", matching_iterations,
+        "Source = artificial: largest number [-] of corrections in the time domain; they end earlier "
+        "when the spectrum matches.",
+        Patterns::Integer(0, 1000));
+  }
+
+  namespace
+  {
+    void require(bool condition, const std::string &entry, double value, const std::string &rule)
+    {
+      if (condition)
+        return;
+      std::ostringstream message;
+      message << "Motion/" << entry << " is " << value << "; " << rule << '.';
+      throw InputError(message.str());
+    }
+
+    /** Also false for a value that is not a number. */
+    void require_between(double low, double high, const std::string &entry, double value,
+                         const std::string &unit)
+    {
+      std::ostringstream rule;
+      rule << "it must lie between " << low << " and " << high << unit;
+      require(value >= low && value <= high, entry, value, rule.str());
+    }
+
+    void check_files(const MotionParameters &p)
+    {
+      const bool components_given =
+          !(p.component_files[0] + p.component_files[1] + p.component_files[2]).empty();
+      if (p.source == "file" && p.file.empty() && !components_given)
+        throw InputError(
+            "Motion/Source is file, but no file is given: set Motion/File (columns t, a_x, a_y, a_z) "
+            "or Motion/File x, File y, File z.");
+      if (p.source == "file" && !p.file.empty() && components_given)
+        throw InputError("Motion/File and Motion/File x, y, z are both given: keep either the file with all "
+                         "components or the files with one each.");
+      if (p.source == "artificial" && (!p.file.empty() || components_given))
+        throw InputError(
+            "A file is given in section Motion, but Motion/Source is artificial: set Source = file, "
+            "or remove the file.");
+    }
+
+    void check_artificial(const MotionParameters &p)
+    {
+      constexpr double most_steps = 2e5; // the matching keeps 230 vectors of that length
+      require(p.time_step <= 0.02, "Time step", p.time_step, "artificial motions need 0.02 s or less");
+      require(p.length() >= 0.2, "Duration", p.length(), "artificial motions need 0.2 s or more");
+      require(p.length() / p.time_step <= most_steps, "Duration", p.length(),
+              "artificial motions have at most 200,000 time steps: shorten it, or enlarge Time step");
+
+      using Parameters = MotionParameters;
+      for (const auto &entry : {std::make_pair("Rise end", p.rise_end), {"Decay begin", p.decay_begin}})
+        require(entry.second == Parameters::automatic || entry.second > 0., entry.first, entry.second,
+                "it must be positive, or -1: automatic");
+      require(p.decay_rate == Parameters::automatic || (p.decay_rate >= 0. && p.decay_rate <= 1e3),
+              "Decay rate", p.decay_rate, "it must lie between 0 and 1000 1/s, or be -1: automatic");
+      const MotionEnvelope envelope = p.envelope();
+      std::ostringstream   rise, decay;
+      rise << "it must be later than Rise end, " << envelope.rise_end << " s";
+      decay << "it must be longer than Decay begin, " << envelope.decay_begin << " s";
+      require(envelope.decay_begin > envelope.rise_end, "Decay begin", envelope.decay_begin, rise.str());
+      require(p.length() > envelope.decay_begin, "Duration", p.length(), decay.str());
+
+      require_between(1e-4, 0.99, "Damping", p.damping, "");
+      require_between(1e-6, 100., "Peak acceleration", p.peak_acceleration, " g");
+      require_between(1e-6, 100., "Vertical ratio", p.vertical_ratio,
+                      "; to switch the component off, set Scale z to 0");
+      require_between(0.1, 3., "Characteristic period", p.spectrum.characteristic_period, " s");
+      require_between(1., 100., "Maximum beta", p.spectrum.maximum_beta, "");
+    }
+  } // namespace
+
+  void MotionParameters::check() const
+  {
+    require(time_step > 0. && time_step <= 1e3, "Time step", time_step,
+            "it must be positive, at most 1000 s");
+    if (source != "none" && (!duration_is_automatic() || source != "file")) // else of the records
+    {
+      require(length() >= time_step, "Duration", length(),
+              "it must be at least one Time step, or -1: automatic");
+      require(length() / time_step <= most_steps, "Time step", time_step,
+              "more than ten million steps: enlarge it");
+      require(std::abs(length() / time_step - n_steps()) < 1e-6 * n_steps(), "Duration", length(),
+              "it must be a multiple of Time step");
+    }
+    require_between(-1e9, 1e9, "Factor", factor, "");
+    for (unsigned int d = 0; d < 3; ++d)
+      require_between(-1e9, 1e9, std::string("Scale ") + "xyz"[d], scale[d], "");
+    check_files(*this);
+    if (source == "artificial")
+      check_artificial(*this);
+  }
+
+  double MotionParameters::length() const
+  {
+    return duration_is_automatic() ? time_step * std::floor(20.48 / time_step + 1e-9) : duration;
+  }
+
+  MotionEnvelope MotionParameters::envelope() const
+  {
+    const auto choose = [](double given, double otherwise) { return given == automatic ? otherwise : given; };
+    const auto scaled = [&](double scale) -> MotionEnvelope
+    {
+      return {choose(rise_end, 2.5 * scale), choose(decay_begin, 11. * scale),
+              choose(decay_rate, 0.25 / scale)};
+    };
+    const auto fits = [&](const MotionEnvelope &e)
+    { return e.decay_begin > e.rise_end && length() > e.decay_begin; };
+    MotionEnvelope result = scaled(1.);
+    if (!fits(result))
+      result = scaled(std::min(1., length() / 15.));
+    if (!fits(result) && decay_begin == automatic) // after a late end of the rise
+      result.decay_begin = .5 * (result.rise_end + length());
+    return result;
+  }
+
+  unsigned int MotionParameters::n_steps() const
+  {
+    return std::lround(length() / time_step);
+  }
+
+  double MotionParameters::target(unsigned int direction, double period) const
+  {
+    const double peak = standard_gravity * peak_acceleration * (direction == 2 ? vertical_ratio : 1.);
+    const double beyond = std::max(period / MotionCriteria::last_period, 1.);
+    return peak * design_beta(spectrum, period) / (beyond * beyond);
+  }
+} // namespace Voussoir

@@ -1,0 +1,29 @@
+#include <voussoir/base/error.h>
+#include <voussoir/dam/scene.h>
+#include <voussoir/output/energy_check.h>
+
+#include <sstream>
+
+namespace Voussoir
+{
+  void check_energies(const Scene &scene, const double dam, const double rock, const std::string &directory)
+  {
+    constexpr double allowed = 1e-4;
+    const bool       of_rock = !(rock <= allowed);
+    if (!of_rock && dam <= allowed)
+      return;
+    std::ostringstream message;
+    message.precision(2);
+    message << "The energies of the " << (of_rock ? "rock" : "dam") << " do not balance: they are off by "
+            << (of_rock ? rock : dam) << " of the largest one, and should be by less than " << allowed
+            << ". The results are written, in " << directory << ", but are not to be trusted: column \""
+            << (of_rock ? "rock_balance" : "balance") << "\" of energy.csv there shows when it began. Take a "
+            << "smaller time step (\"Dynamics/Steps per sample\") or a smaller \"Contact/Tolerance\" (now "
+            << scene.contact.tolerance << ")";
+    if (of_rock)
+      message << ", or another \"Foundation/Boundary\"";
+    else if (scene.impact_rule != "mean-force")
+      message << ", or \"Dynamics/Impact\" = mean-force";
+    throw ComputationError(message.str() + ".");
+  }
+} // namespace Voussoir

@@ -1,0 +1,115 @@
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/lac/vector.h>
+#include <deal.II/numerics/data_out.h>
+
+#include <voussoir/base/error.h>
+#include <voussoir/output/recorders.h>
+
+#include <fstream>
+#include <map>
+
+namespace Voussoir
+{
+  using namespace dealii;
+
+  FieldWriter::FieldWriter(const SolidModel &model) : model(model) {}
+
+  void FieldWriter::write_vtu(const std::string &file, const Unknowns &u,
+                              const std::vector<NodalField> &fields) const
+  {
+    const FESystem<3>          system(model.fe, 3);
+    DoFHandler<3>              vector_handler(model.triangulation);
+    Vector<float>              displacement;
+    std::vector<Vector<float>> scalars;
+    DataOut<3>                 data_out; // last: it refers to the others
+    scalars.reserve(fields.size());
+    for (const NodalField &field : fields)
+    {
+      scalars.emplace_back(field.values.begin(), field.values.end());
+      data_out.add_data_vector(model.dof_handler, scalars.back(), field.name);
+    }
+    if (!u.empty())
+    {
+      vector_handler.distribute_dofs(system);
+      displacement.reinit(vector_handler.n_dofs());
+      std::vector<types::global_dof_index> dofs(system.n_dofs_per_cell()), nodes(model.fe.n_dofs_per_cell());
+      auto                                 cell = vector_handler.begin_active();
+      for (const auto &scalar_cell : model.dof_handler.active_cell_iterators())
+      {
+        cell->get_dof_indices(dofs);
+        scalar_cell->get_dof_indices(nodes);
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+        {
+          const auto         component = system.system_to_component_index(i);
+          const unsigned int e = model.equation[nodes[component.second]];
+          displacement[dofs[i]] = e == rigid_ground ? 0. : u[3 * e + component.first];
+        }
+        ++cell;
+      }
+      data_out.add_data_vector(vector_handler, displacement, std::vector<std::string>(3, "displacement"),
+                               std::vector<DataComponentInterpretation::DataComponentInterpretation>(
+                                   3, DataComponentInterpretation::component_is_part_of_vector));
+    }
+    data_out.build_patches(model.fe.degree);
+    OutputFile out(file);
+    try
+    {
+      data_out.write_vtu(out);
+    }
+    catch (const ExceptionBase &) // deal.II has noticed
+    {
+      throw WriteError::of(file);
+    }
+    out.check();
+  }
+
+  void FieldWriter::write_faces(const std::string &directory, const DamGeometry &geometry,
+                                const std::vector<float> &maximum, const std::vector<float> &minimum) const
+  {
+    OutputFile nodes(directory + "/faces.csv"), quads(directory + "/faces_cells.csv");
+    nodes.precision(8);
+    nodes << "face,monolith,x,y,z,s,max_principal,min_principal\n";
+    quads << "face,monolith,n0,n1,n2,n3\n";
+    unsigned int n_lines = 0;
+    // Nodes of a face in lexicographic order, and the quadrilaterals between them.
+    const unsigned int                   degree = model.fe.degree, per_side = degree + 1;
+    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+    for (const int surface : {PhysicalId::upstream, PhysicalId::downstream})
+    {
+      const std::string                    name = surface == PhysicalId::upstream ? "upstream" : "downstream";
+      std::map<unsigned int, unsigned int> line_of;
+      for (const auto &cell : model.dof_handler.active_cell_iterators())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() && static_cast<int>(cell->face(f)->boundary_id()) == surface)
+          {
+            cell->get_dof_indices(dofs);
+            // the face's nodes by their two tangential reference coordinates
+            const unsigned int        normal = f / 2, t0 = (normal + 1) % 3, t1 = (normal + 2) % 3;
+            std::vector<unsigned int> lattice(per_side * per_side);
+            for (unsigned int i = 0; i < dofs.size(); ++i)
+              if (model.fe.has_support_on_face(i, f))
+              {
+                const Point<3> &x = model.fe.unit_support_point(i);
+                lattice[static_cast<unsigned int>(x[t1] * degree + .5) * per_side +
+                        static_cast<unsigned int>(x[t0] * degree + .5)] = dofs[i];
+              }
+            for (const unsigned int i : lattice)
+              if (line_of.emplace(i, n_lines).second)
+              {
+                ++n_lines;
+                const Point<3> &p = model.points[i];
+                nodes << name << ',' << cell->material_id() << ',' << p[0] << ',' << p[1] << ',' << p[2]
+                      << ',' << geometry.arc_length(p) << ',' << maximum[i] << ',' << minimum[i] << '\n';
+              }
+            for (unsigned int j = 0; j < degree; ++j)
+              for (unsigned int i = 0; i < degree; ++i)
+                quads << name << ',' << cell->material_id() << ',' << line_of[lattice[j * per_side + i]]
+                      << ',' << line_of[lattice[j * per_side + i + 1]] << ','
+                      << line_of[lattice[(j + 1) * per_side + i + 1]] << ','
+                      << line_of[lattice[(j + 1) * per_side + i]] << '\n';
+          }
+    }
+    nodes.check();
+    quads.check();
+  }
+} // namespace Voussoir

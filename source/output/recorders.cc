@@ -1,0 +1,147 @@
+#include <voussoir/base/error.h>
+#include <voussoir/output/recorders.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace Voussoir
+{
+  namespace
+  {
+    void write_row(const std::vector<double> &row, std::ostream &out)
+    {
+      char number[40];
+      for (std::size_t i = 0; i < row.size(); ++i)
+      {
+        std::snprintf(number, sizeof(number), i == 0 ? "%.8g" : ",%.8g", row[i]);
+        out << number;
+      }
+      out << '\n';
+    }
+  } // namespace
+
+  void Table::write(const std::string &file) const
+  {
+    TableFile().open(file, *this);
+  }
+
+  void TableFile::open(const std::string &name, const Table &table)
+  {
+    file = std::make_unique<OutputFile>(name);
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+      *file << (i == 0 ? "" : ",") << table.columns[i];
+    *file << '\n';
+    n_written = 0;
+    append(table);
+  }
+
+  void TableFile::append(const Table &table)
+  {
+    for (; n_written < table.rows.size(); ++n_written)
+      write_row(table.rows[n_written], *file);
+    file->check();
+  }
+
+  JointRecorder::JointRecorder(const Structure &structure, const DamGeometry &geometry)
+      : structure(structure), geometry(geometry)
+  {
+    history.columns = {"time"};
+    for (std::size_t j = 0; j < geometry.joints.size(); ++j)
+      for (const char *quantity :
+           {"opening_upstream", "opening_downstream", "slip_upstream", "slip_downstream"})
+        history.columns.push_back(quantity + ("_" + std::to_string(j + 1)));
+  }
+
+  void JointRecorder::record(const Newmark &newmark)
+  {
+    const double time = newmark.state().time;
+    for (unsigned int p = 0; p < structure.pairs.size(); ++p)
+    {
+      const Vector3 d = newmark.opening_and_slip(p);
+      const double  s = std::hypot(d[1], d[2]);
+      reach.record(p, structure.pairs[p], d);
+      if (d[0] > opening.value)
+        opening = {d[0], time, structure.pairs[p].place};
+      if (s > slip.value)
+        slip = {s, time, structure.pairs[p].place};
+    }
+    std::vector<double> row = {time};
+    for (const auto &joint : geometry.joints)
+    {
+      const bool    empty = joint.upstream >= structure.pairs.size(); // no pairs, or a tied dam
+      const Vector3 up = empty ? Vector3{} : newmark.opening_and_slip(joint.upstream),
+                    down = empty ? Vector3{} : newmark.opening_and_slip(joint.downstream);
+      row.insert(row.end(), {up[0], down[0], std::hypot(up[1], up[2]), std::hypot(down[1], down[2])});
+    }
+    history.rows.push_back(row);
+  }
+
+  Table JointRecorder::maxima() const
+  {
+    Table table;
+    table.columns = {"joint",
+                     "s",
+                     "opening_upstream",
+                     "opening_downstream",
+                     "slip_upstream",
+                     "slip_downstream",
+                     "time_of_max_opening"};
+    for (std::size_t j = 0; j < geometry.joints.size(); ++j)
+    {
+      std::vector<double> row = {double(j + 1), geometry.joints[j].arc_length, 0., 0., 0., 0., 0.};
+      double              widest = -1.;
+      for (const auto &at : history.rows)
+      {
+        for (unsigned int k = 0; k < 4; ++k)
+          row[2 + k] = std::max(row[2 + k], at[1 + 4 * j + k]);
+        if (const double o = std::max(at[1 + 4 * j], at[2 + 4 * j]); o > widest)
+          widest = o, row[6] = at[0];
+      }
+      table.rows.push_back(row);
+    }
+    return table;
+  }
+
+  EnvelopeRecorder::EnvelopeRecorder(const StressRecovery &recovery, std::vector<Stress> initial)
+      : maximum(initial.size(), -1e30f), minimum(initial.size(), 1e30f), time_of_maximum(initial.size(), 0.f),
+        time_of_minimum(initial.size(), 0.f), recovery(recovery), initial(std::move(initial))
+  {
+  }
+
+  void EnvelopeRecorder::record(const double time, const Unknowns &u)
+  {
+    recovery.apply(u, stress);
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < static_cast<int>(stress.size()); ++i)
+    {
+      for (unsigned int c = 0; c < 6; ++c)
+        stress[i][c] += initial[i][c];
+      const auto p = principal_stresses(stress[i]);
+      if (p[0] > maximum[i])
+        maximum[i] = p[0], time_of_maximum[i] = static_cast<float>(time);
+      if (p[1] < minimum[i])
+        minimum[i] = p[1], time_of_minimum[i] = static_cast<float>(time);
+    }
+  }
+
+  Extreme EnvelopeRecorder::extreme(const SolidModel &model, const int surface, const bool largest) const
+  {
+    Extreme result{std::numeric_limits<double>::quiet_NaN()}; // no such nodes
+    bool    found = false;
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      if (surface == 0 || model.on_surface(i, surface))
+      {
+        const double x = largest ? maximum[i] : minimum[i];
+        if (!found || (largest ? x > result.value : x < result.value))
+        {
+          result = {x,
+                    largest ? time_of_maximum[i] : time_of_minimum[i],
+                    {{model.points[i][0], model.points[i][1], model.points[i][2]}}};
+          found = true;
+        }
+      }
+    return result;
+  }
+} // namespace Voussoir

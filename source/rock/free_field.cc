@@ -1,0 +1,230 @@
+#include <voussoir/base/error.h>
+#include <voussoir/rock/free_field.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace Voussoir
+{
+  struct FreeField::Section
+  {
+    RockModel                       model;
+    std::unique_ptr<ExplicitRegion> region;
+    unsigned int                    direction;
+    double                          plane, tolerance; ///< place along the direction [m]
+    /// (horizontal, vertical) place in units of the tolerance -> node
+    std::map<std::pair<long, long>, unsigned int> node_at;
+
+    std::pair<long, long> key(const std::array<double, 3> &p) const
+    {
+      return {std::lround(p[1 - direction] / tolerance), std::lround(p[2] / tolerance)};
+    }
+  };
+
+  namespace
+  {
+    bool same(const RockColumn &a, const RockColumn &b)
+    {
+      if (a.z.size() != b.z.size())
+        return false;
+      const double tolerance = 1e-9 * (a.z.back() - a.z.front());
+      for (std::size_t k = 0; k < a.z.size(); ++k)
+        if (std::abs(a.z[k] - b.z[k]) > tolerance)
+          return false;
+      for (std::size_t k = 0; k < a.material.size(); ++k)
+        if (a.material[k].young != b.material[k].young || a.material[k].poisson != b.material[k].poisson ||
+            a.material[k].density != b.material[k].density)
+          return false;
+      return true;
+    }
+  } // namespace
+
+  FreeField::FreeField(const RockModel &model, const RayleighDamping &damping, const double dt,
+                       const unsigned int n_steps, const IncidentWave &wave)
+  {
+    if (model.columns.empty())
+      throw InputError("the artificial boundary has no bottom through which the earthquake could enter");
+    const auto entrance = [](const RockColumn &column) { return 2. * column.z[0] - column.z[1]; };
+    double     lowest = std::numeric_limits<double>::max();
+    for (const RockColumn &column : model.columns)
+      lowest = std::min(lowest, entrance(column));
+
+    std::vector<unsigned int> different; // of the model's columns
+    for (unsigned int c = 0; c < model.columns.size(); ++c)
+    {
+      const RockColumn &column = model.columns[c];
+      unsigned int      k = 0;
+      while (k < different.size() && !same(column, model.columns[different[k]]))
+        ++k;
+      number.push_back(k);
+      if (k == different.size())
+      {
+        different.push_back(c);
+        Vector3 delay = wave_speeds(column.material.front());
+        for (double &d : delay)
+          d = (entrance(column) - lowest) / d;
+        columns.push_back(std::make_unique<FreeFieldColumn>(column, damping, dt, n_steps, wave, delay));
+        if (columns[k]->z().back() > columns[highest]->z().back())
+          highest = k;
+      }
+    }
+  }
+
+  FreeField::~FreeField() = default;
+
+  void FreeField::add_section(RockModel model, std::unique_ptr<ExplicitRegion> region,
+                              const unsigned int direction)
+  {
+    auto section = std::make_unique<Section>();
+    section->model = std::move(model);
+    section->region = std::move(region);
+    section->direction = direction;
+    const auto &points = section->model.points;
+    section->plane = points.front()[direction];
+    double size = 0.;
+    for (const auto &p : points)
+      size = std::max(size, std::abs(p[2] - points.front()[2]));
+    section->tolerance = 1e-6 * size;
+    for (unsigned int i = 0; i < points.size(); ++i)
+      section->node_at[section->key(points[i])] = i;
+    sections.push_back(std::move(section));
+  }
+
+  FreeField::Point FreeField::in_column(const unsigned int column, const double z) const
+  {
+    const FreeFieldColumn     &c = *columns[column];
+    const std::vector<double> &height = c.z();
+    const unsigned int         n = std::min<std::size_t>(4, height.size());
+    Point                      point{{}, {{1., 0., 0., 0.}}};
+    const unsigned int         above = std::lower_bound(height.begin(), height.end(), z) - height.begin();
+    for (unsigned int k = above == 0 ? 0 : above - 1; k <= above && k < height.size(); ++k)
+      if (std::abs(height[k] - z) < 1e-9 * (height.back() - height.front()))
+      {
+        for (unsigned int i = 0; i < 4; ++i)
+          point.value[i] = c.displacement(k);
+        return point;
+      }
+    // Cubic interpolation.
+    const unsigned int first = std::min<std::size_t>(above < 2 ? 0 : above - 2, height.size() - n);
+    for (unsigned int i = 0; i < 4; ++i)
+    {
+      point.value[i] = c.displacement(first + std::min(i, n - 1));
+      point.weight[i] = i < n ? 1. : 0.;
+      for (unsigned int j = 0; j < n; ++j)
+        if (i < n && j != i)
+          point.weight[i] *= (z - height[first + j]) / (height[first + i] - height[first + j]);
+    }
+    return point;
+  }
+
+  bool FreeField::in_section(const std::array<double, 3> &place, Point &point) const
+  {
+    const Section *nearest = nullptr;
+    unsigned int   node = no_node;
+    for (const auto &section : sections)
+    {
+      const auto distance = [&](const Section &s) { return std::abs(place[s.direction] - s.plane); };
+      if (nearest != nullptr && distance(*nearest) <= distance(*section))
+        continue;
+      const auto key = section->key(place);
+      for (long a = -1; a <= 1; ++a)
+        for (long b = -1; b <= 1; ++b)
+        {
+          const auto found = section->node_at.find({key.first + a, key.second + b});
+          if (found != section->node_at.end())
+          {
+            nearest = section.get();
+            node = found->second;
+          }
+        }
+    }
+    if (nearest == nullptr)
+      return false;
+    for (unsigned int i = 0; i < 4; ++i)
+      point.value[i] = nearest->region->displacement().data() + 3 * std::size_t(node);
+    point.weight = {{1., 0., 0., 0.}};
+    return true;
+  }
+
+  FreeField::Point FreeField::of_line(const RockModel &model, const unsigned int line,
+                                      const unsigned int k) const
+  {
+    const RockModel::Place place = model.place[line];
+    if (place.column == no_node)
+      return in_column(highest, model.points[model.lines[line].nodes[k]][2]);
+    const unsigned int column = number[place.column];
+    return in_column(column, columns[column]->z()[place.level]);
+  }
+
+  void FreeField::add_lines(const RockModel &model, const unsigned int n)
+  {
+    for (unsigned int line = 0; line < model.lines.size(); ++line)
+    {
+      std::vector<Point> found(n);
+      bool               all = true;
+      for (unsigned int k = 0; k < n && all; ++k)
+        all = in_section(model.points[model.lines[line].nodes[k]], found[k]);
+      for (unsigned int k = 0; k < n && !all; ++k)
+        found[k] = of_line(model, line, k);
+      points.insert(points.end(), found.begin(), found.end());
+    }
+  }
+
+  void FreeField::add_nodes(const RockModel &model, const std::vector<unsigned int> &nodes)
+  {
+    std::map<unsigned int, std::pair<unsigned int, unsigned int>> line_of;
+    for (unsigned int k = 0; k < 2; ++k)
+      for (unsigned int line = 0; line < model.lines.size(); ++line)
+        if (k < model.lines[line].nodes.size())
+          line_of.insert({model.lines[line].nodes[k], {line, k}});
+    for (const unsigned int node : nodes)
+    {
+      Point      point;
+      const auto found = line_of.find(node);
+      if (!in_section(model.points[node], point))
+        point = found == line_of.end() ? in_column(highest, model.points[node][2])
+                                       : of_line(model, found->second.first, found->second.second);
+      points.push_back(point);
+    }
+  }
+
+  void FreeField::advance()
+  {
+    const int n = columns.size();
+#pragma omp parallel for schedule(dynamic) if (n > 1)
+    for (int c = 0; c < n; ++c)
+      columns[c]->advance();
+    for (const auto &section : sections)
+      section->region->advance();
+  }
+
+  void FreeField::evaluate(Unknowns &u) const
+  {
+    u.resize(3 * points.size());
+    const int n = points.size();
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < n; ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const Point &p = points[i];
+        u[3 * i + c] = p.weight[0] * p.value[0][c];
+        for (unsigned int k = 1; k < 4; ++k)
+          if (p.weight[k] != 0.)
+            u[3 * i + c] += p.weight[k] * p.value[k][c];
+      }
+  }
+
+  std::vector<std::vector<double> *> FreeField::state()
+  {
+    std::vector<std::vector<double> *> arrays;
+    for (const auto &column : columns)
+      for (auto *array : column->state())
+        arrays.push_back(array);
+    for (const auto &section : sections)
+      for (auto *array : section->region->state())
+        arrays.push_back(array);
+    return arrays;
+  }
+} // namespace Voussoir

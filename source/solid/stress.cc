@@ -1,0 +1,95 @@
+#include <voussoir/solid/cell_elasticity.h>
+#include <voussoir/solid/solid_model.h>
+#include <voussoir/solid/stress.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Voussoir
+{
+  using namespace dealii;
+
+  std::array<float, 2> principal_stresses(const Stress &s)
+  {
+    // Trigonometric solution of the characteristic equation of the deviator.
+    const double mean = (s[0] + s[1] + s[2]) / 3., x = s[0] - mean, y = s[1] - mean, z = s[2] - mean;
+    const double shear = double(s[3]) * s[3] + double(s[4]) * s[4] + double(s[5]) * s[5];
+    const double p = std::sqrt((x * x + y * y + z * z + 2. * shear) / 6.);
+    if (p <= 1e-30)
+      return {{float(mean), float(mean)}};
+    const double det = x * (y * z - double(s[4]) * s[4]) - s[3] * (double(s[3]) * z - double(s[4]) * s[5]) +
+                       s[5] * (double(s[3]) * s[4] - y * s[5]);
+    const double angle = std::acos(std::clamp(det / (2. * p * p * p), -1., 1.)) / 3.;
+    return {{float(mean + 2. * p * std::cos(angle)),
+             float(mean + 2. * p * std::cos(angle + 2. * 3.14159265358979323846 / 3.))}};
+  }
+
+  StressRecovery::StressRecovery(const SolidModel &model, const std::vector<Material> &materials,
+                                 const bool incompatible_modes)
+  {
+    const unsigned int                     n = model.n_nodes();
+    std::vector<std::vector<unsigned int>> columns(n);
+    std::vector<unsigned int>              n_cells(n, 0);
+    std::vector<types::global_dof_index>   dofs(model.fe.n_dofs_per_cell());
+    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      for (const auto i : dofs)
+      {
+        ++n_cells[i];
+        for (const auto j : dofs)
+          if (model.equation[j] != rigid_ground)
+            columns[i].push_back(model.equation[j]);
+      }
+    }
+    start.push_back(0);
+    for (auto &row : columns)
+    {
+      std::sort(row.begin(), row.end());
+      row.erase(std::unique(row.begin(), row.end()), row.end());
+      column.insert(column.end(), row.begin(), row.end());
+      start.push_back(column.size());
+    }
+    blocks.assign(column.size(), std::array<float, 18>{});
+
+    CellElasticity                      elasticity(model.fe, incompatible_modes);
+    std::vector<std::array<double, 18>> cell_blocks;
+    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      elasticity.reinit(cell, materials[materials.size() == 1 ? 0 : model.body[dofs[0]]]);
+      elasticity.stress_operator(cell_blocks);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        for (unsigned int j = 0; j < dofs.size(); ++j)
+          if (model.equation[dofs[j]] != rigid_ground)
+          {
+            const auto begin = column.begin() + start[dofs[i]], end = column.begin() + start[dofs[i] + 1];
+            auto      &entry = blocks[std::lower_bound(begin, end, model.equation[dofs[j]]) - column.begin()];
+            for (unsigned int k = 0; k < 18; ++k)
+              entry[k] += static_cast<float>(cell_blocks[i * dofs.size() + j][k] / n_cells[dofs[i]]);
+          }
+    }
+  }
+
+  void StressRecovery::apply(const Unknowns &u, std::vector<Stress> &stress) const
+  {
+    stress.resize(start.size() - 1);
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < static_cast<int>(stress.size()); ++i)
+    {
+      // By displacement component: 18 independent sums are what a vector unit likes.
+      float sum[18] = {};
+      for (std::size_t k = start[i]; k < start[i + 1]; ++k)
+      {
+        const float  *b = blocks[k].data();
+        const double *x = u.data() + 3 * std::size_t(column[k]);
+        const float   v[3] = {float(x[0]), float(x[1]), float(x[2])};
+        for (unsigned int c = 0; c < 6; ++c)
+          for (unsigned int d = 0; d < 3; ++d)
+            sum[3 * c + d] += b[3 * c + d] * v[d];
+      }
+      for (unsigned int c = 0; c < 6; ++c)
+        stress[i][c] = sum[3 * c] + sum[3 * c + 1] + sum[3 * c + 2];
+    }
+  }
+} // namespace Voussoir

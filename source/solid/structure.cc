@@ -1,0 +1,52 @@
+#include <voussoir/solid/structure.h>
+
+namespace Voussoir
+{
+  void Structure::collect_interfaces()
+  {
+    std::vector<bool> in_pair(n_nodes(), false);
+    for (const Pair &pair : pairs)
+      for (const unsigned int node : {pair.node_1, pair.node_2})
+        if (node != rigid_ground)
+          in_pair[node] = true;
+    for (Body &body : bodies)
+    {
+      body.interface.clear();
+      for (unsigned int i = 0; i < body.n_nodes(); ++i)
+        if (in_pair[body.first_node + i])
+          body.interface.push_back(i);
+    }
+  }
+
+  void Structure::multiply_stiffness(const Unknowns &u, Unknowns &Ku) const
+  {
+    Ku.resize(u.size());
+    for (const Body &body : bodies)
+      body.stiffness.multiply(u.data() + 3 * std::size_t(body.first_node),
+                              Ku.data() + 3 * std::size_t(body.first_node));
+  }
+
+  Vector3 Structure::jump(const Pair &pair, const Unknowns &u) const
+  {
+    Vector3 d = {{0., 0., 0.}};
+    for (unsigned int c = 0; c < 3; ++c)
+      d[c] = (pair.node_2 == rigid_ground ? 0. : u[3 * pair.node_2 + c]) -
+             (pair.node_1 == rigid_ground ? 0. : u[3 * pair.node_1 + c]);
+    Vector3 result;
+    for (unsigned int i = 0; i < 3; ++i)
+      result[i] = pair.frame[i][0] * d[0] + pair.frame[i][1] * d[1] + pair.frame[i][2] * d[2];
+    return result;
+  }
+
+  void Structure::add_pair_force(const Pair &pair, const Vector3 &f, Unknowns &u) const
+  {
+    for (unsigned int c = 0; c < 3; ++c)
+    {
+      const double x = pair.frame[0][c] * f[0] + pair.frame[1][c] * f[1] + pair.frame[2][c] * f[2];
+      if (pair.node_2 != rigid_ground)
+        u[3 * pair.node_2 + c] += x;
+      if (pair.node_1 != rigid_ground)
+        u[3 * pair.node_1 + c] -= x;
+    }
+  }
+} // namespace Voussoir
