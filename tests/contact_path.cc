@@ -17,21 +17,21 @@ namespace
   class Limited : public JointLaw
   {
   public:
-    explicit Limited(const double limit) : limit(limit), law(make_joint_law("FJA", .5)) {}
+    explicit Limited(const double limit) : limit(limit), law(make_joint_law("FJA", LawParameters(.5))) {}
 
-    void evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, const double rho,
+    void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
                   PairEquations &e) const override
     {
-      law->evaluate(force, gap, start, rho, e);
-      if (length(gap[1] - start[1], gap[2] - start[2]) > limit)
+      law->evaluate(force, gap, past, rho, e);
+      if (length(gap[1] - past.start[1], gap[2] - past.start[2]) > limit)
       {
         e.residual[0] += rho * limit;
         e.state = PairState::slip;
       }
     }
-    Vector3 solve(const Matrix3 &H, const Vector3 &b, const Vector3 &start) const override
+    Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const override
     {
-      return law->solve(H, b, start);
+      return law->solve(H, b, past);
     }
     Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const unsigned char touching) const override
     {
@@ -157,7 +157,7 @@ namespace
     {
       column.structure.pairs.push_back(wall(column.node[0][0]));
       column.structure.collect_interfaces();
-      laws.of_pair.push_back(&law);
+      laws.add(&law, 1.);
       ContactParameters parameters;
       parameters.max_iterations = 30;
       newmark = std::make_unique<Newmark>(column.structure, laws, parameters, dt, ImpactRule::mean_force);

@@ -19,12 +19,12 @@ namespace Voussoir
 {
   template <class Archive> void serialize(Archive &archive, Energy &e, unsigned int)
   {
-    archive &e.kinetic &e.added_mass &e.strain &e.damping &e.friction &e.impact &e.input;
+    archive &e.kinetic &e.added_mass &e.strain &e.damping &e.friction &e.impact &e.input &e.bond;
   }
 
   template <class Archive> void serialize(Archive &archive, DynamicState &s, unsigned int)
   {
-    archive &s.time &s.u &s.v &s.force &s.load &s.Ku &s.base_velocity &s.energy;
+    archive &s.time &s.u &s.v &s.force &s.load &s.Ku &s.base_velocity &s.energy &s.memory;
   }
 
   namespace

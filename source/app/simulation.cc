@@ -203,7 +203,7 @@ namespace Voussoir
         for (std::size_t k = 0; k < load.size(); ++k)
           load[k] += motion.acceleration[0][d] * dam->inertia[d][k];
     newmark->start(statics.u, Unknowns(statics.u.size(), 0.), statics.force, load,
-                   Unknowns(3 * structure.pairs.size(), 0.));
+                   Unknowns(3 * structure.pairs.size(), 0.), statics.memory);
 
     stability = std::make_unique<StabilityWatch>(*dam, motion, *newmark);
     joints = std::make_unique<JointRecorder>(structure, *dam->geometry);
@@ -231,6 +231,8 @@ namespace Voussoir
     }
     energy.columns = {"time",     "kinetic", "strain", "added_mass", "damping",
                       "friction", "impact",  "input",  "balance"};
+    if (dam->laws.have_memory())
+      energy.columns.push_back("bond");
     if (dam->foundation && n_steps > 0)
       for (const char *name : {"rock_kinetic", "rock_strain", "rock_damping", "rock_feet", "transmitted",
                                "rock_balance", "interface"})
@@ -319,6 +321,8 @@ namespace Voussoir
     const Energy &e = state.energy, &e0 = newmark->initial_energy();
     row = {state.time, e.kinetic, e.strain - e0.strain, e.added_mass, e.damping, e.friction,
            e.impact,   e.input,   e.balance(e0)};
+    if (dam->laws.have_memory())
+      row.push_back(e.bond - e0.bond);
     if (dam->foundation && n_steps > 0)
     {
       const RegionEnergy &rock = dam->foundation->energy();

@@ -66,6 +66,7 @@ namespace Voussoir
     Unknowns gap(3 * n_pairs, 0.), start, offset(3 * n_pairs, 0.);
     statics.force.assign(3 * n_pairs, 0.);
     statics.u.assign(3 * structure.n_nodes(), 0.);
+    statics.memory = dam->laws.initial_memory();
     ContactResult total;
     total.converged = true;
     for (unsigned int i = 1; i <= scene.statics.water_increments; ++i)
@@ -77,7 +78,8 @@ namespace Voussoir
       if (dam->foundation)
         settle(system, springs, start, gap);
       else
-        statics.contact = system.solve(statics.load, offset, start, statics.force, gap, statics.u);
+        statics.contact =
+            system.solve(statics.load, offset, start, statics.memory, statics.force, gap, statics.u);
       total += statics.contact;
       if (!statics.contact.converged)
       {
@@ -88,6 +90,7 @@ namespace Voussoir
                 << " Newton steps. More increments may help (entry \"Statics/Water increments\").";
         throw ComputationError(message.str());
       }
+      system.commit(start, statics.force, gap, statics.memory);
     }
     statics.contact = total;
     statics.pairs = system.states();
@@ -112,7 +115,7 @@ namespace Voussoir
   {
     Foundation           &rock = *dam->foundation;
     const std::size_t     n = 3 * rock.feet().size();
-    const Unknowns        external = statics.load, offset(gap.size(), 0.);
+    const Unknowns        external = statics.load, offset(gap.size(), 0.), committed = statics.memory;
     Unknowns              base(n, 0.), r(external.size(), 0.), settled;
     std::vector<Unknowns> df, dx; // differences of residuals and of bases
     Unknowns              last_f, last_base;
@@ -128,7 +131,8 @@ namespace Voussoir
         for (const unsigned int node : rock.feet()[i].nodes)
           for (unsigned int c = 0; c < 3; ++c)
             load[3 * node + c] += springs[3 * node + c] * base[3 * i + c] - r[3 * node + c];
-      statics.contact = system.solve(load, offset, start, statics.force, gap, statics.u);
+      statics.memory = committed; // the events of rounds before the last are none
+      statics.contact = system.solve(load, offset, start, statics.memory, statics.force, gap, statics.u);
       total += statics.contact;
       if (!statics.contact.converged)
         break;

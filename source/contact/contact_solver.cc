@@ -23,6 +23,16 @@ namespace Voussoir
       return sum;
     }
 
+    /** Of the starts. */
+    double norm_square(const std::vector<PairPast> &past)
+    {
+      double sum = 0.;
+      for (const PairPast &pair : past)
+        for (const double y : pair.start)
+          sum += y * y;
+      return sum;
+    }
+
     bool is_finite(const Unknowns &x)
     {
       return std::all_of(x.begin(), x.end(), [](const double y) { return std::isfinite(y); });
@@ -103,7 +113,7 @@ namespace Voussoir
   void ContactSolver::evaluate(const Unknowns &force, const Unknowns &gap)
   {
     for (std::size_t i = 0; i < law.size(); ++i)
-      law[i]->evaluate(get(force, i), shifted_gap(i, force, gap), get(*start, i), rho[i], equations[i]);
+      law[i]->evaluate(get(force, i), shifted_gap(i, force, gap), (*past)[i], rho[i], equations[i]);
   }
 
   double ContactSolver::merit() const
@@ -119,8 +129,8 @@ namespace Voussoir
     double f = 0., p = 0., q = 0., u = 0.;
     for (std::size_t i = 0; i < law.size(); ++i)
     {
-      const Vector3 g = shifted_gap(i, force, gap), s = get(*start, i), r = get(force, i);
-      const Vector3 e = law[i]->error(r, g, s, mean_rho);
+      const Vector3 g = shifted_gap(i, force, gap), s = (*past)[i].start, r = get(force, i);
+      const Vector3 e = law[i]->error(r, g, (*past)[i], mean_rho);
       f += dot(e, e);
       p += dot(r, r);
       for (unsigned int c = 0; c < 3; ++c) // friction only knows the displacement of the step
@@ -132,7 +142,7 @@ namespace Voussoir
     }
     // Where slip is a small part of the gap, no better than the round-off of the gap can be asked.
     const double force_size = std::sqrt(p), load_size = mean_rho * std::sqrt(q),
-                 round_off = 1e-15 * mean_rho * std::sqrt(norm_square(*start));
+                 round_off = 1e-15 * mean_rho * std::sqrt(norm_square(*past));
     scale = std::max({force_size, load_size, mean_rho * std::sqrt(u), round_off / parameters.tolerance});
     // A singular step leaves forces without bound, which would make any error look small.
     if (!std::isfinite(f + scale) || force_size > 1e8 * (load_size + round_off))
@@ -174,7 +184,7 @@ namespace Voussoir
   void ContactSolver::sweep(const unsigned int count, Unknowns &force, Unknowns &gap)
   {
     const auto solve_pair = [this](const unsigned int pair, const Matrix3 &H, const Vector3 &free)
-    { return law[pair]->solve(H, free, get(*start, pair)); };
+    { return law[pair]->solve(H, free, (*past)[pair]); };
     for (unsigned int i = 0; i < count && !out_of_time(); ++i, ++result.sweeps)
       W.sweep(solve_pair, force, gap);
     drift += 1e-6;
@@ -304,11 +314,20 @@ namespace Voussoir
     return now <= parameters.tolerance;
   }
 
-  ContactResult ContactSolver::solve(const Unknowns &right_hand_side, const Unknowns &start_gap,
+  ContactResult ContactSolver::solve(const Unknowns &right_hand_side, const Unknowns &start, Unknowns &force,
+                                     Unknowns &gap)
+  {
+    std::vector<PairPast> pairs;
+    for (std::size_t i = 0; i < law.size(); ++i)
+      pairs.emplace_back(get(start, i));
+    return solve(right_hand_side, pairs, force, gap);
+  }
+
+  ContactResult ContactSolver::solve(const Unknowns &right_hand_side, const std::vector<PairPast> &pairs,
                                      Unknowns &force, Unknowns &gap)
   {
     b = &right_hand_side;
-    start = &start_gap;
+    past = &pairs;
     result = ContactResult();
     proximal.alpha = 0.;
     best = Best();
@@ -317,7 +336,7 @@ namespace Voussoir
     if (!is_finite(force))
       force.assign(force.size(), 0.);
     refresh_gap(force, gap);
-    const bool defined = is_finite(*b) && is_finite(*start);
+    const bool defined = is_finite(*b) && std::isfinite(norm_square(*past));
     if (defined)
     {
       best = {residual(force, gap), force};

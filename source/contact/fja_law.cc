@@ -14,17 +14,17 @@ namespace Voussoir
     public:
       explicit FJA(const double friction) : mu(friction) {}
 
-      void evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, const double rho,
+      void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
                     PairEquations &e) const override
       {
-        alart_curnier(force, gap[0], {{gap[1] - start[1], gap[2] - start[2]}}, mu, rho, e);
+        alart_curnier(force, gap[0], {{gap[1] - past.start[1], gap[2] - past.start[2]}}, mu, rho, e);
       }
 
       /** r - P(r - rho (u + mu |u_t| n)), P: projection on the cone of friction. */
-      Vector3 error(const Vector3 &force, const Vector3 &gap, const Vector3 &start,
+      Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &past,
                     const double rho) const override
       {
-        const double  s1 = gap[1] - start[1], s2 = gap[2] - start[2];
+        const double  s1 = gap[1] - past.start[1], s2 = gap[2] - past.start[2];
         const Vector3 x = {
             {force[0] - rho * (gap[0] + mu * length(s1, s2)), force[1] - rho * s1, force[2] - rho * s2}};
         const double t = length(x[1], x[2]);
@@ -36,9 +36,9 @@ namespace Voussoir
         return {{force[0] - n, force[1] - mu * n * x[1] / t, force[2] - mu * n * x[2] / t}};
       }
 
-      Vector3 solve(const Matrix3 &H, const Vector3 &b, const Vector3 &start) const override
+      Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const override
       {
-        return solve_coulomb(H, {{b[0], b[1] - start[1], b[2] - start[2]}}, mu);
+        return solve_coulomb(H, {{b[0], b[1] - past.start[1], b[2] - past.start[2]}}, mu);
       }
 
       Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const unsigned char touching) const override
@@ -70,12 +70,12 @@ namespace Voussoir
     public:
       using FJA::FJA;
 
-      void evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, const double rho,
+      void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
                     PairEquations &e) const override
       {
         e = {};
         const bool   closed = normal_condition(force[0], gap[0], rho, e);
-        const double g1 = gap[1] - start[1], g2 = gap[2] - start[2];
+        const double g1 = gap[1] - past.start[1], g2 = gap[2] - past.start[2];
         const double p = length(force[1], force[2]), c = p > 0. ? force[1] / p : 1.,
                      s = p > 0. ? force[2] / p : 0.;
         // d(c, s)/d(force_1, force_2)
@@ -147,10 +147,11 @@ namespace Voussoir
     public:
       using FJA::FJA;
 
-      void evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, const double rho,
+      void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
                     PairEquations &e) const override
       {
-        alart_curnier(force, gap[0], {{gap[1] - start[1], gap[2] - start[2]}}, mu, rho, e); // for the state
+        alart_curnier(force, gap[0], {{gap[1] - past.start[1], gap[2] - past.start[2]}}, mu, rho,
+                      e); // for the state
         const PairState state = e.state;
         e = {};
         if (mu == 0.)
@@ -164,7 +165,7 @@ namespace Voussoir
           e.state = state;
           return;
         }
-        const double  s1 = gap[1] - start[1], s2 = gap[2] - start[2], slip = length(s1, s2);
+        const double  s1 = gap[1] - past.start[1], s2 = gap[2] - past.start[2], slip = length(s1, s2);
         const Vector3 X = {{rho * (gap[0] + mu * slip), rho * mu * s1, rho * mu * s2}},
                       Y = {{mu * force[0], force[1], force[2]}};
         const double w0 = dot(X, X) + dot(Y, Y), w1 = 2. * (X[0] * X[1] + Y[0] * Y[1]),

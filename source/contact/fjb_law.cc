@@ -15,7 +15,7 @@ namespace Voussoir
     public:
       explicit FJB(const bool smooth) : smooth(smooth) {}
 
-      void evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &, const double rho,
+      void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &, const double rho,
                     PairEquations &e) const override
       {
         e = {};
@@ -26,12 +26,12 @@ namespace Voussoir
         no_slip(gap[1], gap[2], rho, e);
         e.state = e.touching ? PairState::stick : PairState::open;
       }
-      Vector3 error(const Vector3 &force, const Vector3 &gap, const Vector3 &,
+      Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &,
                     const double rho) const override
       {
         return {{std::min(force[0], rho * gap[0]), rho * gap[1], rho * gap[2]}};
       }
-      Vector3 solve(const Matrix3 &H, const Vector3 &b, const Vector3 &) const override
+      Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &) const override
       {
         const Vector3 f = tie_rows(H, b, all);
         return f[0] > 0. ? f : tie_rows(H, b, tangential);

@@ -4,11 +4,11 @@
 
 namespace Voussoir
 {
-  Vector3 JointLaw::error(const Vector3 &force, const Vector3 &gap, const Vector3 &start,
+  Vector3 JointLaw::error(const Vector3 &force, const Vector3 &gap, const PairPast &past,
                           const double rho) const
   {
     PairEquations e;
-    evaluate(force, gap, start, rho, e);
+    evaluate(force, gap, past, rho, e);
     return e.residual;
   }
 

@@ -57,10 +57,10 @@ namespace Voussoir
       bits.push_back(static_cast<unsigned char>(1u << k));
   }
 
-  void SurfacesLaw::evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &step_start,
-                             const double rho, PairEquations &e) const
+  void SurfacesLaw::evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
+                             PairEquations &e) const
   {
-    Vector3                     start = step_start;
+    Vector3                     start = past.start;
     std::vector<ContactSurface> list;
     std::vector<unsigned char>  bits;
     present(start, list, bits);
@@ -105,9 +105,9 @@ namespace Voussoir
     e.state = e.touching == 0 ? PairState::open : (sticks ? PairState::stick : PairState::slip);
   }
 
-  Vector3 SurfacesLaw::solve(const Matrix3 &H, const Vector3 &b, const Vector3 &step_start) const
+  Vector3 SurfacesLaw::solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const
   {
-    Vector3                     start = step_start;
+    Vector3                     start = past.start;
     std::vector<ContactSurface> list;
     std::vector<unsigned char>  bits;
     present(start, list, bits);

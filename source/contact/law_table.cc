@@ -17,10 +17,11 @@ namespace Voussoir
 
     /** All laws. The selection of the entry "Joints/Model", its text and the messages follow from these rows.
      */
-    const LawRow laws[] = {{"tied", "the monolithic dam", make_tied_law},
-                           {"FJA", "opens and slides with friction", make_fja_law},
-                           {"FJB", "opens, does not slide", make_fjb_law},
-                           {"KSM", "shear keys (Joints/Keys) on a face that opens and slides", make_key_law}};
+    const LawRow laws[] = {
+        {"tied", "the monolithic dam", make_tied_law},
+        {"FJA", "opens and slides with friction", make_fja_law},
+        {"FJB", "opens, does not slide", make_fjb_law},
+        {"KSM", "shear keys (Joints/Keys) on a face that opens and slides", make_key_law}};
   } // namespace
 
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters)

@@ -9,7 +9,7 @@ namespace Voussoir
     class Tied : public JointLaw
     {
     public:
-      void evaluate(const Vector3 &, const Vector3 &gap, const Vector3 &, const double rho,
+      void evaluate(const Vector3 &, const Vector3 &gap, const PairPast &, const double rho,
                     PairEquations &e) const override
       {
         e = {};
@@ -19,7 +19,7 @@ namespace Voussoir
         e.state = PairState::stick;
         e.touching = 1;
       }
-      Vector3 solve(const Matrix3 &H, const Vector3 &b, const Vector3 &) const override
+      Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &) const override
       {
         return tie_rows(H, b, {{true, true, true}});
       }

@@ -83,8 +83,7 @@ namespace Voussoir
     {
       const std::string &law = tie_all ? "tied" : scene.joints.model_of(j);
       tied = tied && law == "tied";
-      laws.of_joint.push_back(make_joint_law(law, scene.joints.friction,
-                                             equations_from_name(scene.joints.equations), scene.joints.keys));
+      laws.of_joint.push_back(make_joint_law(law, scene.joints.law()));
     }
     for (const auto &entry : scene.joints.overrides)
       if (entry.first > n_joints)
@@ -122,11 +121,14 @@ namespace Voussoir
     structure.stiffness_damping = scene.damping.stiffness_factor();
     structure.collect_interfaces();
     laws.assign(structure.pairs);
+    if (laws.have_memory() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)
+      throw InputError("The joint model cohesive needs \"Dynamics/Impact\" = mean-force, not " +
+                       scene.impact_rule + ".");
     std::set<unsigned int> base; // the feet of the joints are tied: the rock does not open there
     for (unsigned int i = 0; i < model->n_nodes(); ++i)
       if (on_rock && model->on_surface(i, PhysicalId::base))
         base.insert(model->equation[i]);
-    laws.of_joint.push_back(make_joint_law("tied", 0.));
+    laws.of_joint.push_back(make_joint_law("tied", LawParameters()));
     for (std::size_t p = 0; p < structure.pairs.size(); ++p)
       if (base.count(structure.pairs[p].node_1) > 0)
         laws.of_pair[p] = laws.of_joint.back().get();

@@ -59,11 +59,8 @@ namespace Voussoir
   void JointParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Joints");
-    prm.add_parameter(
-        "Model", model,
-        "What happens in the joints: tied (the monolithic dam), FJA (flat, opens, Coulomb friction), FJB "
-        "(flat, opens, does not slip), KSM (shear keys on a face that opens and slides: Keys).",
-        Patterns::Selection(joint_law_names()));
+    prm.add_parameter("Model", model, "What happens in the joints: " + joint_law_docs() + ".",
+                      Patterns::Selection(joint_law_names()));
     prm.add_parameter("Friction", friction, "Coefficient of friction [-].", Patterns::Double(0., 1e4));
     prm.add_parameter(
         "Overrides", overrides,
@@ -92,6 +89,12 @@ namespace Voussoir
                       Patterns::Double(-1.));
     prm.leave_subsection();
     prm.leave_subsection();
+  }
+
+  LawParameters JointParameters::law() const
+  {
+    LawParameters result(friction, equations_from_name(equations), keys);
+    return result;
   }
 
   void JointParameters::check() const

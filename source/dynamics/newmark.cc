@@ -11,32 +11,48 @@ namespace Voussoir
   double Energy::balance(const Energy &start) const
   {
     return (kinetic - start.kinetic) + (added_mass - start.added_mass) + (strain - start.strain) + damping +
-           friction + impact - input;
+           friction + impact + (bond - start.bond) - input;
   }
 
   Newmark::Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters,
                    const double dt, const ImpactRule rule)
       : structure(structure), laws(laws), parameters(parameters), dt(dt), rule(rule),
         system(structure, laws, parameters, 4. / (dt * dt) + 2. / dt * structure.mass_damping,
-               1. + 2. / dt * structure.stiffness_damping, 2. / dt),
+               1. + 2. / dt * structure.stiffness_damping, 2. / dt,
+               // of the rule mean-force: the sum of the forces at both ends
+               rule == ImpactRule::mean_force ? ForceMeaning{2., true} : ForceMeaning()),
         impact(structure, laws, rule)
   {
+    if (laws.have_memory() && rule != ImpactRule::mean_force)
+      throw InputError("Joint laws with a memory need the impact rule mean-force.");
   }
 
   void Newmark::start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
-                      const Unknowns &reference_jump)
+                      const Unknowns &reference_jump, const Unknowns &memory)
   {
     reference = reference_jump;
     impulse.assign(force.size(), 0.);
     now = DynamicState();
+    now.memory = memory.empty() ? laws.initial_memory() : memory;
     now.u = u;
     now.v = v;
     now.load = load;
     now.force = force;
     structure.multiply_stiffness(now.u, now.Ku);
     account_states();
+    now.energy.bond = bond_energy();
     first = now.energy;
     largest = 0.;
+  }
+
+  double Newmark::bond_energy() const
+  {
+    if (!laws.have_memory())
+      return 0.;
+    Unknowns jumps(reference.size());
+    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+      set(jumps, p, opening_and_slip(p));
+    return laws.bond_energy(jumps, now.memory);
   }
 
   void Newmark::resume(const DynamicState &state, const Energy &first_energy, const double largest_so_far,
@@ -162,7 +178,7 @@ namespace Voussoir
   bool Newmark::step(const Unknowns &load, const Vector3 &base_velocity, ContactResult &result)
   {
     const std::size_t n_pairs = structure.pairs.size();
-    Unknowns          offset(3 * n_pairs), start(3 * n_pairs), force = now.force, u_new;
+    Unknowns          offset(3 * n_pairs), start(3 * n_pairs), force = now.force, memory = now.memory, u_new;
     for (std::size_t p = 0; p < n_pairs; ++p)
     {
       set(start, p, opening_and_slip(p));
@@ -172,9 +188,11 @@ namespace Voussoir
     if (rule == ImpactRule::mean_force)
       for (double &f : force)
         f *= 2.;
-    result = system.solve(right_hand_side(load, base_velocity), offset, start, force, gap, u_new);
+    result = system.solve(right_hand_side(load, base_velocity), offset, start, memory, force, gap, u_new);
     if (!result.converged)
       return false;
+    system.commit(start, force, gap, memory);
+    now.memory.swap(memory);
 
     // The impulse of each pair, from the mean of its force over the step.
     const double half_dt = .5 * dt;
@@ -232,7 +250,9 @@ namespace Voussoir
     now.energy.input += input;
     now.energy.damping += damping;
     now.energy.friction += friction;
-    now.energy.impact += opening + kinetic_before - kinetic_energy_of_pairs();
+    const double bond = bond_energy();
+    now.energy.impact += opening - (bond - now.energy.bond) + kinetic_before - kinetic_energy_of_pairs();
+    now.energy.bond = bond;
     account_states();
     largest = std::max({largest, std::abs(now.energy.input), now.energy.kinetic + now.energy.added_mass,
                         first.kinetic, std::abs(now.energy.strain - first.strain), now.energy.damping});

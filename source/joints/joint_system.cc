@@ -2,7 +2,6 @@
 
 #include <voussoir/base/error.h>
 #include <voussoir/contact/fclib_io.h>
-#include <voussoir/contact/key_law.h>
 #include <voussoir/joints/pair_groups.h>
 
 #include <algorithm>
@@ -42,30 +41,14 @@ namespace Voussoir
     }
   } // namespace
 
-  void JointLaws::assign(const std::vector<Pair> &pairs)
-  {
-    for (const Pair &pair : pairs)
-    {
-      const JointLaw *law = of_joint[pair.joint].get();
-      if (const double friction = law->flat_friction(); friction >= 0. && !pair.planes.empty())
-      {
-        std::vector<ContactSurface> surfaces;
-        for (const Matrix3 &plane : pair.planes)
-          surfaces.push_back({plane, 0., friction, 0});
-        of_edges.push_back(std::make_unique<SurfacesLaw>(std::move(surfaces)));
-        law = of_edges.back().get();
-      }
-      of_pair.push_back(law);
-    }
-  }
-
-  JointSystem::JointSystem(const Structure &structure, const JointLaws &laws,
+  JointSystem::JointSystem(const Structure &structure, const PairLaws &laws,
                            const ContactParameters &parameters, const double mass_factor,
-                           const double stiffness_factor, const double dashpot_factor)
-      : structure(structure), parameters(parameters), laws(laws.of_pair), sides(structure.pairs.size()),
-        W(pairs_per_joint(structure)), n_solved(parameters.first_problem)
+                           const double stiffness_factor, const double dashpot_factor,
+                           const ForceMeaning meaning)
+      : structure(structure), parameters(parameters), laws(laws), meaning(meaning),
+        sides(structure.pairs.size()), W(pairs_per_joint(structure)), n_solved(parameters.first_problem)
   {
-    for (const JointLaw *law : this->laws)
+    for (const JointLaw *law : laws.of_pair)
       if (parameters.write_problems && law->flat_friction() < 0.)
         throw InputError(
             "Contact/Write problems: only problems with Coulomb friction on flat joints can be written; "
@@ -149,7 +132,7 @@ namespace Voussoir
   }
 
   ContactResult JointSystem::solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
-                                   Unknowns &force, Unknowns &gap, Unknowns &u)
+                                   Unknowns &memory, Unknowns &force, Unknowns &gap, Unknowns &u)
   {
     const double begin = now();
     const int    n_bodies = bodies.size();
@@ -178,7 +161,7 @@ namespace Voussoir
             }
       if (parameters.write_problems && n_solved++ % parameters.write_interval == 0)
         write_problem(b, start, force);
-      result = solver->solve(b, start, force, gap);
+      result = solve_pairs(b, start, memory, force, gap);
       for (auto &f : interface)
         std::fill(f.begin(), f.end(), 0.);
       for (unsigned int p = 0; p < sides.size(); ++p)
@@ -202,14 +185,31 @@ namespace Voussoir
     return result;
   }
 
+  /** The joints alone, again after each event. */
+  ContactResult JointSystem::solve_pairs(const Unknowns &b, const Unknowns &start, Unknowns &memory,
+                                         Unknowns &force, Unknowns &gap)
+  {
+    ContactResult total;
+    total.converged = true;
+    for (bool again = true; again;)
+    {
+      const ContactResult result = solver->solve(b, laws.pasts(start, meaning, memory), force, gap);
+      if (!laws.have_memory())
+        return result;
+      total += result;
+      again = result.converged && laws.revise(meaning, force, memory) > 0;
+    }
+    return total;
+  }
+
   void JointSystem::write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &force) const
   {
     FrictionProblem problem;
     problem.W = sparse_matrix(W);
     problem.q = b;
-    for (std::size_t p = 0; p < laws.size(); ++p)
+    for (std::size_t p = 0; p < laws.of_pair.size(); ++p)
     {
-      problem.mu.push_back(laws[p]->flat_friction());
+      problem.mu.push_back(laws.of_pair[p]->flat_friction());
       for (unsigned int c = 1; c < 3; ++c)
         problem.q[3 * p + c] -= start[3 * p + c];
     }

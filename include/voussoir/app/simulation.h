@@ -87,7 +87,7 @@ namespace Voussoir
 
     struct StaticState
     {
-      Unknowns               u, force, load;
+      Unknowns               u, force, load, memory;
       std::vector<PairState> pairs;
       ContactResult          contact;
       unsigned int           n_open = 0;

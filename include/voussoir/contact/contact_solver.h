@@ -26,8 +26,12 @@ namespace Voussoir
                   const ContactParameters &parameters);
     ~ContactSolver();
 
-    /** @p start: gap at the start of the step; @p force: the initial guess, then the solution; @p gap:
-     *  receives W force + b. All have three entries per pair. Not converged: the best found. */
+    /** @p past: one per pair; @p force: the initial guess, then the solution; @p gap: receives W force + b.
+     * All but
+     *  @p past have three entries per pair. Not converged: the best found. */
+    ContactResult solve(const Unknowns &b, const std::vector<PairPast> &past, Unknowns &force, Unknowns &gap);
+
+    /** The same for laws without memory. @p start: gap at the start of the step, three entries per pair. */
     ContactResult solve(const Unknowns &b, const Unknowns &start, Unknowns &force, Unknowns &gap);
 
     const std::vector<PairState>     &states() const { return state; }   ///< of the last solution
@@ -73,14 +77,15 @@ namespace Voussoir
     std::vector<PairState>              state;
     std::vector<unsigned char>          touch;
 
-    Unknowns        multiplied, product;           ///< product = W multiplied, of the last refresh
-    const Unknowns *b = nullptr, *start = nullptr; ///< of the present problem
-    double          scale = 0.;                    ///< of the last residual [N]
-    double          drift = 0.; ///< of gap from W force + b, by single precision; relative, as the residual
-    Proximal        proximal;
-    Best            best;
-    ContactResult   result;
-    double          deadline = 0.;
+    Unknowns                     multiplied, product; ///< product = W multiplied, of the last refresh
+    const Unknowns              *b = nullptr;         ///< of the present problem, as the next
+    const std::vector<PairPast> *past = nullptr;
+    double                       scale = 0.; ///< of the last residual [N]
+    double        drift = 0.; ///< of gap from W force + b, by single precision; relative, as the residual
+    Proximal      proximal;
+    Best          best;
+    ContactResult result;
+    double        deadline = 0.;
   };
 } // namespace Voussoir
 

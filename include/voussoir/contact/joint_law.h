@@ -24,11 +24,31 @@ namespace Voussoir
         touching; ///< surfaces of the law that touch, one bit each, if any carries force; bit 0: the face
   };
 
+  /** What a law knows of its pair besides force and gap. */
+  struct PairPast
+  {
+    PairPast(const Vector3 &start = {}) : start(start) {}
+
+    Vector3 start; ///< the gap at the start of the step [m]
+
+    /** What the force is to be divided by for a stress [m^2]: the tributary area; twice that where the force
+     * is twice the mean over the step (Newmark with the rule mean-force), whose stress is then the mean. */
+    double area = 1.;
+    bool   is_mean = false; ///< is the stress the mean over the step, or that at its end?
+
+    /** JointLaw::n_memory() values: those committed at the start of the step, with the events of this one. */
+    const double *memory = nullptr;
+  };
+
   /** The conditions between the two faces of a joint at one pair, in the frame (n,a,b).
    *
    *  force: of side 1 on side 2 [N]; force[0] > 0 is compression. gap: displacement of side 2 against side 1
    *  since the joint was closed [m]; gap[0]: opening, >= 0. start: the gap at the start of the step; friction
-   *  opposes gap - start: force_t = -mu force_n slip/|slip|. (The paper's P_tau has the opposite sign.) */
+   *  opposes gap - start: force_t = -mu force_n slip/|slip|. (The paper's P_tau has the opposite sign.)
+   *
+   *  A law is one object for all pairs of a joint and does not change. What it must remember of a pair lies
+   * in the pair's memory, n_memory() values in the state that the time integration carries (halved steps,
+   * checkpoints, statics); commit() brings it up to date when a step is accepted. */
   class JointLaw
   {
   public:
@@ -36,15 +56,15 @@ namespace Voussoir
 
     /** The non-smooth equations of the pair, in forces. @p rho [N/m] makes them independent of units; any
      *  positive value has the same solution. */
-    virtual void evaluate(const Vector3 &force, const Vector3 &gap, const Vector3 &start, double rho,
+    virtual void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, double rho,
                           PairEquations &equations) const = 0;
 
     /** What the pair misses, in forces: the measure of convergence, the same for all formulations of a law.
      *  For Coulomb's law the natural map of De Saxce (reference: contact, 3.1). */
-    virtual Vector3 error(const Vector3 &force, const Vector3 &gap, const Vector3 &start, double rho) const;
+    virtual Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &past, double rho) const;
 
     /** Exact solution for one pair alone: the force with gap = H force + b. */
-    virtual Vector3 solve(const Matrix3 &H, const Vector3 &b, const Vector3 &start) const = 0;
+    virtual Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const = 0;
 
     /** The impulse [N s] that the law allows when the velocity without it is @p v [m/s] and the surfaces
      *  @p touching touch; @p H: inverse mass [1/kg]. */
@@ -62,6 +82,22 @@ namespace Voussoir
 
     /** Are the tangential conditions those of a tie, whether the faces touch or not? */
     virtual bool is_tangentially_tied() const { return false; }
+
+    /** Values that the law remembers of a pair; zeros at first. */
+    virtual unsigned int n_memory() const { return 0; }
+
+    /** After each solution of a step, with its force: true if it is an event (a bond that breaks), after
+     * which the step is to be solved once more. Puts the event into @p memory, to which past.memory points.
+     */
+    virtual bool revise(const Vector3 &, const PairPast &, double *) const { return false; }
+
+    /** The step is accepted with this force and gap: bring @p memory up to date, to which past.memory points.
+     */
+    virtual void commit(const Vector3 &, const Vector3 &, const PairPast &, double *) const {}
+
+    /** Energy that the bond holds and has lost, at a gap and a committed memory [J]. @p area: tributary
+     * [m^2]. */
+    virtual double bond_energy(const Vector3 &, double, const double *) const { return 0.; }
 
     /** Coefficient of friction if the law is Coulomb's on one flat face, -1 otherwise. */
     virtual double flat_friction() const { return -1.; }

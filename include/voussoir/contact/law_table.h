@@ -9,8 +9,8 @@
 
 namespace Voussoir
 {
-  /** The law of that name: tied, FJA, FJB, KSM. Throws InputError for an unknown name, and for equations that
-   * the law does not have. */
+  /** The law of that name: tied, FJA, FJB, KSM. Throws InputError for an unknown name, and for
+   * equations that the law does not have. */
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters);
 
   /** The same, in words. */

@@ -39,6 +39,7 @@ namespace Voussoir
     std::map<unsigned int, std::string> overrides; ///< joint number -> model
     void                                add_parameters(dealii::ParameterHandler &prm);
     void                                check() const;
+    LawParameters                       law() const;
     const std::string                  &model_of(const unsigned int joint) const
     {
       const auto found = overrides.find(joint);

@@ -10,6 +10,7 @@ namespace Voussoir
   {
     double kinetic = 0., added_mass = 0., strain = 0.;           // of concrete; of water; of concrete
     double damping = 0., friction = 0., impact = 0., input = 0.; // input: work of all loads
+    double bond = 0.;                                            // of law cohesive: held now, and lost so far
 
     /** What the account misses: zero but for round-off in a correct run. */
     double balance(const Energy &start) const;
@@ -19,10 +20,11 @@ namespace Voussoir
   struct DynamicState
   {
     double   time = 0.;
-    Unknowns u, v;  ///< [m], [m/s], 3 per node
-    Unknowns force; ///< [N], 3 per pair, in the frame of the pair: mean over the last step, or at its end
-    Unknowns load;  ///< [N], that of this time
-    Unknowns Ku;    ///< stiffness times displacement [N]
+    Unknowns u, v;   ///< [m], [m/s], 3 per node
+    Unknowns force;  ///< [N], 3 per pair, in the frame of the pair: mean over the last step, or at its end
+    Unknowns load;   ///< [N], that of this time
+    Unknowns Ku;     ///< stiffness times displacement [N]
+    Unknowns memory; ///< of the joint laws: JointLaws::initial_memory() at first
     Vector3  base_velocity = {{0., 0., 0.}}; ///< see Newmark::advance() [m/s]
     Energy   energy;
   };
@@ -39,9 +41,9 @@ namespace Voussoir
 
     /** Start from displacement @p u and velocity @p v with the joint forces @p force of that state under @p
      * load; @p reference: jump of each pair, 3 per pair, at which it is closed and
-     * unslipped [m]. */
+     * unslipped [m]; @p memory: of the joint laws, nothing has happened yet if empty. */
     void start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
-               const Unknowns &reference);
+               const Unknowns &reference, const Unknowns &memory = {});
 
     /** Go on from a saved state, with the energies of the start and the largest one so far. */
     void resume(const DynamicState &state, const Energy &first, double largest_energy,
@@ -76,6 +78,7 @@ namespace Voussoir
     Unknowns      right_hand_side(const Unknowns &load, const Vector3 &base_velocity) const;
     Unknowns      force_without_joints() const;
     double        kinetic_energy_of_pairs() const;
+    double        bond_energy() const;
     void          account_states();
 
     const Structure         &structure;

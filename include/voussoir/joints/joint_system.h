@@ -4,21 +4,10 @@
 #include <voussoir/contact/contact_solver.h>
 #include <voussoir/joints/condensed_body.h>
 #include <voussoir/joints/interface_operator.h>
+#include <voussoir/joints/joint_laws.h>
 
 namespace Voussoir
 {
-  /** The joint laws of a structure, one per pair; owned once per joint, but for the pairs on edges. */
-  struct JointLaws
-  {
-    std::vector<std::unique_ptr<JointLaw>> of_joint;
-    std::vector<std::unique_ptr<JointLaw>> of_edges; ///< of single pairs
-    std::vector<const JointLaw *>          of_pair;
-
-    /** Gives every pair the law of its joint. A pair on an edge of a joint with Coulomb friction (FJA)
-     * touches on all its planes, with that friction; the other laws do not know edges. */
-    void assign(const std::vector<Pair> &pairs);
-  };
-
   /** Wall seconds spent in the stages of a linear solution with joints. */
   struct SystemTimes
   {
@@ -31,14 +20,31 @@ namespace Voussoir
   class JointSystem
   {
   public:
-    JointSystem(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters,
-                double mass_factor, double stiffness_factor, double dashpot_factor);
+    /** @p meaning: of the forces of this system, for the laws. */
+    JointSystem(const Structure &structure, const PairLaws &laws, const ContactParameters &parameters,
+                double mass_factor, double stiffness_factor, double dashpot_factor,
+                ForceMeaning meaning = ForceMeaning());
 
-    /** @p start: gap at the start of the step, 3 per pair [m]; @p force: guess, then solution, 3 per pair
-     * [N];
-     *  @p gap, 3 per pair [m]; @p u, 3 per node [m]. */
+    /** @p start: gap at the start of the step, 3 per pair [m]; @p memory: of the pairs, as committed before
+     * the step; receives the events of the step, after each of which it is solved once more; @p force: guess,
+     * then solution, 3 per pair [N]; @p gap, 3 per pair [m]; @p u, 3 per node [m]. */
+    ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &memory,
+                        Unknowns &force, Unknowns &gap, Unknowns &u);
+
+    /** The same for laws without memory. */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &force,
-                        Unknowns &gap, Unknowns &u);
+                        Unknowns &gap, Unknowns &u)
+    {
+      Unknowns none;
+      return solve(load, offset, start, none, force, gap, u);
+    }
+
+    /** The step from @p start with the solution @p force, @p gap is accepted: the laws bring the memory up to
+     * date. */
+    void commit(const Unknowns &start, const Unknowns &force, const Unknowns &gap, Unknowns &memory) const
+    {
+      laws.commit(start, meaning, force, gap, memory);
+    }
 
     /** The bodies without joint forces: A u = load. */
     void solve_free(const Unknowns &load, Unknowns &u);
@@ -55,18 +61,21 @@ namespace Voussoir
     {
       unsigned int body = rigid_ground, node = 0;
     };
-    void condense();
-    void write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &force) const;
+    void          condense();
+    ContactResult solve_pairs(const Unknowns &b, const Unknowns &start, Unknowns &memory, Unknowns &force,
+                              Unknowns &gap);
+    void          write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &force) const;
 
-    const Structure                    &structure;
-    const ContactParameters             parameters;
-    const std::vector<const JointLaw *> laws;
-    std::vector<CondensedBody>          bodies;
-    std::vector<std::array<Side, 2>>    sides; ///< per pair
-    InterfaceOperator                   W;
-    std::unique_ptr<ContactSolver>      solver;
-    std::vector<std::vector<double>>    interface; ///< work space per body
-    unsigned int                        n_solved;  ///< also before this object was made
+    const Structure                 &structure;
+    const ContactParameters          parameters;
+    const PairLaws                   laws;
+    const ForceMeaning               meaning;
+    std::vector<CondensedBody>       bodies;
+    std::vector<std::array<Side, 2>> sides; ///< per pair
+    InterfaceOperator                W;
+    std::unique_ptr<ContactSolver>   solver;
+    std::vector<std::vector<double>> interface; ///< work space per body
+    unsigned int                     n_solved;  ///< also before this object was made
   };
 } // namespace Voussoir
 

@@ -1,0 +1,76 @@
+#include <voussoir/contact/key_law.h>
+#include <voussoir/joints/joint_laws.h>
+
+namespace Voussoir
+{
+  void JointLaws::assign(const std::vector<Pair> &pairs)
+  {
+    for (const Pair &pair : pairs)
+    {
+      const JointLaw *law = of_joint[pair.joint].get();
+      if (const double friction = law->flat_friction(); friction >= 0. && !pair.planes.empty())
+      {
+        std::vector<ContactSurface> surfaces;
+        for (const Matrix3 &plane : pair.planes)
+          surfaces.push_back({plane, 0., friction, 0});
+        of_edges.push_back(std::make_unique<SurfacesLaw>(std::move(surfaces)));
+        law = of_edges.back().get();
+      }
+      add(law, pair.area);
+    }
+  }
+
+  void PairLaws::add(const JointLaw *law, const double tributary_area)
+  {
+    memory_end.push_back(n_memory() + law->n_memory());
+    of_pair.push_back(law);
+    area.push_back(tributary_area);
+  }
+
+  std::vector<PairPast> PairLaws::pasts(const Unknowns &start, const ForceMeaning &meaning,
+                                        const Unknowns &memory) const
+  {
+    std::vector<PairPast> list;
+    list.reserve(of_pair.size());
+    for (std::size_t p = 0; p < of_pair.size(); ++p)
+    {
+      list.emplace_back(get(start, p));
+      list.back().area = meaning.factor * area[p];
+      list.back().is_mean = meaning.is_mean;
+      list.back().memory = memory.data() + memory_begin(p);
+    }
+    return list;
+  }
+
+  unsigned int PairLaws::revise(const ForceMeaning &meaning, Unknowns &force, Unknowns &memory) const
+  {
+    unsigned int                count = 0;
+    const std::vector<PairPast> past = pasts(Unknowns(force.size(), 0.), meaning, memory);
+    for (std::size_t p = 0; p < of_pair.size(); ++p)
+      if (of_pair[p]->revise(get(force, p), past[p], memory.data() + memory_begin(p)))
+      {
+        set(force, p, {});
+        ++count;
+      }
+    return count;
+  }
+
+  void PairLaws::commit(const Unknowns &start, const ForceMeaning &meaning, const Unknowns &force,
+                        const Unknowns &gap, Unknowns &memory) const
+  {
+    if (!have_memory())
+      return;
+    const std::vector<PairPast> past = pasts(start, meaning, memory);
+    for (std::size_t p = 0; p < of_pair.size(); ++p)
+      of_pair[p]->commit(get(force, p), get(gap, p), past[p], memory.data() + memory_begin(p));
+  }
+
+  double PairLaws::bond_energy(const Unknowns &gap, const Unknowns &memory) const
+  {
+    double sum = 0.;
+    if (have_memory())
+      for (std::size_t p = 0; p < of_pair.size(); ++p)
+        sum += of_pair[p]->bond_energy(get(gap, p), area[p], memory.data() + memory_begin(p));
+    return sum;
+  }
+} // namespace Voussoir
