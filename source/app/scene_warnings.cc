@@ -28,7 +28,10 @@ namespace Voussoir
     }
     bool all_tied(const Scene &scene)
     {
-      return !any_joint(scene, {"FJA", "FJB", "KSM"});
+      const auto &others = scene.joints.overrides;
+      return scene.joints.model == "tied" &&
+             std::all_of(others.begin(), others.end(),
+                         [](const auto &entry) { return entry.second == "tied"; });
     }
     bool no_water(const Scene &scene)
     {
@@ -74,13 +77,17 @@ namespace Voussoir
          {"Joints/Model", "Joints/Overrides"}},
         {"no joint slides with friction: Joints/Model is FJB",
          [](const Scene &s) {
-           return !any_joint(s, {"FJA", "KSM"});
+           return !any_joint(s, {"FJA", "KSM", "cohesive"});
          },
          {"Joints/Friction"},
          {}},
         {"no joint has the model KSM (Joints/Model, Joints/Overrides)",
          [](const Scene &s) { return !any_joint(s, {"KSM"}); },
          {"Joints/Keys/"},
+         {}},
+        {"no joint has the model cohesive (Joints/Model, Joints/Overrides)",
+         [](const Scene &s) { return !any_joint(s, {"cohesive"}); },
+         {"Joints/Strength", "Joints/Fracture energy"},
          {}},
         {"Contact/Write problems is false",
          [](const Scene &s) { return !s.contact.write_problems; },
@@ -151,6 +158,8 @@ namespace Voussoir
                                        {"Joints/Keys/Height", .005, 2., true},
                                        {"Joints/Keys/Clearance", 0., .1},
                                        {"Joints/Keys/Friction", -1., 2.},
+                                       {"Joints/Strength", 1e5, 6e6, true},
+                                       {"Joints/Fracture energy", 10., 1000., true},
                                        {"Statics/Gravity", 9.7, 9.9, true},
                                        {"Motion/Duration", 0., 300.},
                                        {"Motion/Time step", 1e-4, .05},

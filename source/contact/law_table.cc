@@ -1,4 +1,5 @@
 #include <voussoir/base/error.h>
+#include <voussoir/contact/cohesive_law.h>
 #include <voussoir/contact/fja_law.h>
 #include <voussoir/contact/fjb_law.h>
 #include <voussoir/contact/key_law.h>
@@ -19,6 +20,7 @@ namespace Voussoir
      */
     const LawRow laws[] = {
         {"tied", "the monolithic dam", make_tied_law},
+        {"cohesive", "FJA with a bond of the strength Joints/Strength that breaks", make_cohesive_law},
         {"FJA", "opens and slides with friction", make_fja_law},
         {"FJB", "opens, does not slide", make_fjb_law},
         {"KSM", "shear keys (Joints/Keys) on a face that opens and slides", make_key_law}};

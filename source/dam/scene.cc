@@ -62,6 +62,12 @@ namespace Voussoir
     prm.add_parameter("Model", model, "What happens in the joints: " + joint_law_docs() + ".",
                       Patterns::Selection(joint_law_names()));
     prm.add_parameter("Friction", friction, "Coefficient of friction [-].", Patterns::Double(0., 1e4));
+    prm.add_parameter("Strength", strength, "Tensile strength of the bond [Pa] (Model = cohesive).",
+                      Patterns::Double(0.));
+    prm.add_parameter(
+        "Fracture energy", fracture_energy,
+        "Energy that the bond takes per area as it opens [N/m] (Model = cohesive); 0: it is lost at once.",
+        Patterns::Double(0.));
     prm.add_parameter(
         "Overrides", overrides,
         "Models of single joints, as \"number: model, number: model\"; joints are numbered from the right "
@@ -94,6 +100,8 @@ namespace Voussoir
   LawParameters JointParameters::law() const
   {
     LawParameters result(friction, equations_from_name(equations), keys);
+    result.strength = strength;
+    result.fracture_energy = fracture_energy;
     return result;
   }
 

@@ -38,6 +38,7 @@ namespace Voussoir
     double        friction; ///< of the flat face [-]
     Equations     equations;
     KeyParameters keys;
+    double        strength = 0., fracture_energy = 0.; ///< of the bond of law cohesive [Pa], [N/m]
   };
 } // namespace Voussoir
 

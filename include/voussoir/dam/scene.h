@@ -35,6 +35,7 @@ namespace Voussoir
     std::string                         model = "FJA";
     double                              friction = .8;
     std::string                         equations = "alart-curnier";
+    double                              strength = 0., fracture_energy = 0.; ///< of law cohesive [Pa], [N/m]
     KeyParameters                       keys;
     std::map<unsigned int, std::string> overrides; ///< joint number -> model
     void                                add_parameters(dealii::ParameterHandler &prm);

@@ -1,0 +1,219 @@
+#include <voussoir/base/error.h>
+#include <voussoir/contact/cohesive_law.h>
+#include <voussoir/contact/fja_law.h>
+#include <voussoir/contact/pair_conditions.h>
+#include <voussoir/contact/tied_law.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Voussoir
+{
+  namespace
+  {
+    /** Linear softening of a cracked bond: tension against opening. */
+    class Softening
+    {
+    public:
+      /** @p peak: strength [N]; @p end: opening at which it is lost [m]; @p largest: opening so far [m]. */
+      Softening(const double peak, const double end, const double largest)
+          : peak(peak), end(end), largest(largest)
+      {
+      }
+
+      /** [N]. Closed: that at the first opening. */
+      double tension(const double opening) const
+      {
+        const double w = std::max(opening, 0.);
+        return w >= end || largest >= end ? 0. : w >= largest ? peak * (1. - w / end) : stiffness() * w;
+      }
+
+      /** Of tension() where it grows or falls [N/m]. */
+      double slope(const double opening) const
+      {
+        return opening < 0. || opening >= end || largest >= end ? 0.
+               : opening >= largest                             ? -peak / end
+                                                                : stiffness();
+      }
+
+      /** Integral of the tension [J]; exact. */
+      double work(const double from, const double to) const
+      {
+        double       sum = 0., last = std::min(from, to);
+        const double high = std::max(from, to);
+        for (const double kink : {0., largest, end, high})
+          if (const double next = std::min(kink, high); next > last)
+          {
+            sum += (next - last) * tension(.5 * (last + next));
+            last = next;
+          }
+        return from < to ? sum : -sum;
+      }
+
+      /** Energy lost for ever [J]. */
+      double lost() const { return .5 * peak * std::min(largest, end); }
+
+    private:
+      double stiffness() const { return peak * (1. - largest / end) / largest; }
+
+      const double peak, end, largest;
+    };
+
+    class Cohesive : public JointLaw
+    {
+    public:
+      explicit Cohesive(const LawParameters &parameters)
+          : strength(parameters.strength),
+            end(strength > 0. ? 2. * parameters.fracture_energy / strength : 0.),
+            face(make_fja_law(parameters.friction)), tie(make_tied_law(parameters))
+      {
+      }
+
+      unsigned int n_memory() const override { return 2; }
+
+      void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
+                    PairEquations &e) const override
+      {
+        if (is_bonded(past.memory))
+        {
+          tie->evaluate(force, gap, past, rho, e);
+          e.touching = face_bit | bond_bit;
+          return;
+        }
+        double        slope;
+        const Vector3 contact = without_tension(force, gap[0], past, slope);
+        face->evaluate(contact, gap, past, rho, e);
+        for (unsigned int i = 0; i < 3; ++i)
+          e.d_gap[3 * i] += e.d_force[3 * i] * slope;
+      }
+
+      Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &past,
+                    const double rho) const override
+      {
+        if (is_bonded(past.memory))
+          return tie->error(force, gap, past, rho);
+        double slope;
+        return face->error(without_tension(force, gap[0], past, slope), gap, past, rho);
+      }
+
+      Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const override
+      {
+        if (is_bonded(past.memory))
+          return tie->solve(H, b, past);
+        double     slope;
+        const auto tension = [&](const double opening)
+        { return without_tension({}, opening, past, slope)[0]; };
+        const double at_contact = tension(0.); // mean tension of a step that ends closed
+        if (b[0] < H[0] * at_contact)
+        {
+          Vector3 force = face->solve(
+              H, {{b[0] - H[0] * at_contact, b[1] - H[3] * at_contact, b[2] - H[6] * at_contact}}, past);
+          force[0] -= at_contact;
+          return force;
+        }
+        double low = 0., high = b[0]; // opening = b - H tension lies between
+        for (unsigned int i = 0; i < 100 && high - low > 1e-15 * high; ++i)
+        {
+          const double middle = .5 * (low + high);
+          (middle + H[0] * tension(middle) < b[0] ? low : high) = middle;
+        }
+        return {{-tension(high), 0., 0.}};
+      }
+
+      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const unsigned char touching) const override
+      {
+        return touching & bond_bit ? tie->solve_impulse(H, v, touching) : face->solve_impulse(H, v, touching);
+      }
+
+      Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
+                          const unsigned char touching) const override
+      {
+        if (!(touching & bond_bit))
+          return face->stop_normal(H, v, spent, touching);
+        Vector3 held = spent;
+        add(held, tie->solve_impulse(H, v, touching));
+        return held;
+      }
+
+      bool revise(const Vector3 &force, const PairPast &past, double *memory) const override
+      {
+        if (!is_bonded(memory) || -force[0] <= strength * past.area)
+          return false;
+        memory[condition] = end > 0. ? cracked : lost;
+        return true;
+      }
+
+      void commit(const Vector3 &, const Vector3 &gap, const PairPast &, double *memory) const override
+      {
+        if (memory[condition] != cracked)
+          return;
+        memory[largest] = std::max(memory[largest], gap[0]);
+        if (memory[largest] >= end)
+          memory[condition] = lost;
+        else if (memory[largest] <= 0.) // it closed again before the crack was open
+          memory[condition] = bonded;
+      }
+
+      double bond_energy(const Vector3 &gap, const double area, const double *memory) const override
+      {
+        if (is_bonded(memory))
+          return 0.;
+        const Softening law(strength * area, end, memory[condition] == lost ? end : memory[largest]);
+        return law.lost() + law.work(0., std::max(gap[0], 0.));
+      }
+
+    private:
+      enum Memory
+      {
+        condition,
+        largest
+      };
+      static constexpr double        bonded = 0., cracked = 1., lost = 2.; ///< conditions
+      static constexpr unsigned char face_bit = 1, bond_bit = 2;           ///< of PairEquations::touching
+
+      bool is_bonded(const double *memory) const { return strength > 0. && memory[condition] == bonded; }
+
+      /** The force of contact: @p force without the tension of a step that ends at @p opening; and that
+       * tension's slope [N/m]. */
+      Vector3 without_tension(Vector3 force, const double opening, const PairPast &past, double &slope) const
+      {
+        slope = 0.;
+        if (strength == 0. || past.memory[condition] == lost)
+          return force;
+        const Softening law(strength * past.area, end, past.memory[largest]);
+        const double    before = std::max(past.start[0], 0.), moved = opening - before;
+        if (!past.is_mean)
+        {
+          force[0] += law.tension(opening);
+          slope = law.slope(opening);
+        }
+        else if (std::abs(moved) <= 1e-12 * end)
+        {
+          force[0] += law.tension(.5 * (before + opening));
+          slope = .5 * law.slope(.5 * (before + opening));
+        }
+        else
+        {
+          const double mean = law.work(before, opening) / moved;
+          force[0] += mean;
+          slope = (law.tension(opening) - mean) / moved;
+        }
+        return force;
+      }
+
+      const double                    strength, end; ///< [Pa], opening at which the bond is lost [m]
+      const std::unique_ptr<JointLaw> face, tie;
+    };
+  } // namespace
+
+  std::unique_ptr<JointLaw> make_cohesive_law(const LawParameters &parameters)
+  {
+    if (parameters.equations != Equations::alart_curnier)
+      throw InputError("Joints/Equations: the law cohesive has the equations \"alart-curnier\" only.");
+    if (!(parameters.strength >= 0.))
+      throw InputError("Joints/Strength must be at least 0 Pa.");
+    if (!(parameters.fracture_energy >= 0. && std::isfinite(parameters.fracture_energy)))
+      throw InputError("Joints/Fracture energy must be finite and at least 0 N/m.");
+    return std::make_unique<Cohesive>(parameters);
+  }
+} // namespace Voussoir

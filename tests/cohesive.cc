@@ -1,0 +1,248 @@
+// Law cohesive: one pair along its softening, its Jacobian, its exact solution; a block that is torn off;
+// what it does in the limits of no strength and of any strength.
+
+#include "column.h"
+
+using namespace Columns;
+
+namespace
+{
+  constexpr double strength = 2e6, fracture_energy = 150., friction = .7, area = 3.;
+  constexpr double end = 2. * fracture_energy / strength; // opening at which the bond is lost
+
+  LawParameters parameters(const double f_t = strength, const double G_f = fracture_energy)
+  {
+    LawParameters p(friction);
+    p.strength = f_t;
+    p.fracture_energy = G_f;
+    return p;
+  }
+
+  /** One pair: its law and its memory. */
+  struct Bond
+  {
+    std::unique_ptr<JointLaw> law;
+    double                    memory[2] = {0., 0.};
+
+    explicit Bond(const LawParameters &p = parameters()) : law(make_joint_law("cohesive", p)) {}
+
+    PairPast past(const Vector3 &start, const bool is_mean = false) const
+    {
+      PairPast result(start);
+      result.area = area;
+      result.is_mean = is_mean;
+      result.memory = memory;
+      return result;
+    }
+    double residual(const Vector3 &force, const Vector3 &gap, const PairPast &past) const
+    {
+      PairEquations e;
+      law->evaluate(force, gap, past, 1e9, e);
+      return norm(e.residual) + norm(law->error(force, gap, past, 1e9));
+    }
+    /** Opens to @p w under the tension @p stress, which the law must allow, and accepts it. */
+    void open(const std::string &what, const double from, const double w, const double stress)
+    {
+      const Vector3  force = {{-stress * area, 0., 0.}}, gap = {{w, 0., 0.}};
+      const PairPast before = past({{from, 0., 0.}});
+      below(what, residual(force, gap, before) / (strength * area), 1e-12);
+      above("  and no other stress", residual({{-1.01 * stress * area - 1., 0., 0.}}, gap, before), .5);
+      law->commit(force, gap, before, memory);
+    }
+  };
+
+  void softening()
+  {
+    Bond           bond;
+    const Vector3  pull = {{-.999 * strength * area, 5e6, -7e6}};
+    const PairPast at_rest = bond.past({});
+    below("bonded: tied below its strength, whatever the shear", bond.residual(pull, {}, at_rest), 1e-300);
+    above("  so it is against any movement", bond.residual(pull, {{0., 1e-6, 0.}}, at_rest), 100.);
+    report("  no event", 0., "-", !bond.law->revise(pull, at_rest, bond.memory));
+    const Vector3 tear = {{-1.001 * strength * area, 0., 0.}};
+    report("beyond it cracks, once", 0., "-",
+           bond.law->revise(tear, at_rest, bond.memory) && !bond.law->revise(tear, at_rest, bond.memory));
+    bond.open("stress at a third of the last opening", 0., end / 3., strength * 2. / 3.);
+    below("  energy: held and lost, over the law's integral",
+          bond.law->bond_energy({{end / 3., 0., 0.}}, area, bond.memory) /
+                  (fracture_energy * area * 5. / 9.) -
+              1.,
+          1e-14);
+    bond.open("back half the way: straight to the origin", end / 3., end / 6., strength / 3.);
+    below("  energy",
+          bond.law->bond_energy({{end / 6., 0., 0.}}, area, bond.memory) /
+                  (fracture_energy * area * 7. / 18.) -
+              1.,
+          1e-14);
+    const Vector3 press = {{4e5, .9 * friction * 4e5, 0.}}, slip = {{4e5, friction * 4e5, 0.}};
+    const auto    closed = bond.past({{end / 6., 0., 0.}});
+    below("closed again: friction holds", bond.residual(press, {}, closed), 1e-300);
+    below("  and slips", bond.residual(slip, {{0., -1e-3, 0.}}, closed), 1e-6);
+    bond.open("again to where it was", end / 6., end / 3., strength * 2. / 3.);
+    bond.open("and on", end / 3., .9 * end, .1 * strength);
+    const Vector3 far = {{2. * end, 0., 0.}};
+    bond.law->commit({}, far, bond.past({}), bond.memory);
+    below("lost: energy / (G_f area) - 1",
+          bond.law->bond_energy(far, area, bond.memory) / (fracture_energy * area) - 1., 1e-14);
+    below("  free when open", bond.residual({}, far, bond.past(far)), 1e-300);
+  }
+
+  /** States of a bond with points on both sides of each of its branches. */
+  std::vector<Bond> states()
+  {
+    std::vector<Bond> list(4);
+    for (unsigned int i = 1; i < 4; ++i)
+    {
+      list[i].memory[0] = i < 3 ? 1. : 2.;
+      list[i].memory[1] = i == 1 ? 0. : i == 2 ? .4 * end : end;
+    }
+    return list;
+  }
+
+  void jacobian()
+  {
+    double worst = 0.;
+    for (const Bond &bond : states())
+      for (const bool is_mean : {false, true})
+        for (unsigned int sample = 0; sample < 500; ++sample)
+        {
+          Vector3 force, gap;
+          for (unsigned int c = 0; c < 3; ++c)
+          {
+            force[c] = 2. * strength * area * random_number();
+            gap[c] = end * random_number();
+          }
+          const PairPast   past = bond.past({{.3 * end * std::abs(random_number()), .1 * end, 0.}}, is_mean);
+          constexpr double rho = 1e11, h = 1e-7;
+          PairEquations    e, low, high;
+          bond.law->evaluate(force, gap, past, rho, e);
+          for (unsigned int k = 0; k < 6; ++k)
+          {
+            Vector3      f = force, g = gap;
+            double      &x = k < 3 ? f[k] : g[k - 3];
+            const double size = k < 3 ? strength * area : end, x0 = x;
+            x = x0 - h * size;
+            bond.law->evaluate(f, g, past, rho, low);
+            x = x0 + h * size;
+            bond.law->evaluate(f, g, past, rho, high);
+            if (low.state != high.state)
+              continue; // a kink
+            for (unsigned int i = 0; i < 3; ++i)
+            {
+              const double d = (high.residual[i] - low.residual[i]) / (2. * h),
+                           exact = size * (k < 3 ? e.d_force[3 * i + k] : e.d_gap[3 * i + k - 3]);
+              worst = std::max(worst, std::abs(d - exact) / (strength * area + rho * end));
+            }
+          }
+        }
+    below("Jacobian - differences of the equations, over their size", worst, 1e-6);
+  }
+
+  void exact_solution()
+  {
+    double worst = 0.;
+    for (const Bond &bond : states())
+      for (const bool is_mean : {false, true})
+        for (unsigned int sample = 0; sample < 500; ++sample)
+        {
+          const double h = .3 * end / (strength * area); // softer than the softening would jump
+          Matrix3      H = {{h, .2 * h, .1 * h, .2 * h, h, 0., .1 * h, 0., .8 * h}};
+          Vector3      b;
+          for (double &x : b)
+            x = 1.5 * end * random_number();
+          const PairPast past = bond.past({{.2 * end, 0., 0.}}, is_mean);
+          const Vector3  force = bond.law->solve(H, b, past);
+          Vector3        gap = H * force;
+          add(gap, b);
+          worst = std::max(worst, norm(bond.law->error(force, gap, past, 1. / h)) / (strength * area));
+        }
+    below("exact solution of a pair: error / strength", worst, 1e-10);
+  }
+
+  void limits()
+  {
+    const auto FJA = make_joint_law("FJA", parameters()), tied = make_joint_law("tied", parameters());
+    const Bond none(parameters(0., 0.)), any(parameters(1e300, 0.));
+    double     weak = 0., strong = 0.;
+    for (unsigned int sample = 0; sample < 1000; ++sample)
+    {
+      Vector3 force, gap, start;
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        force[c] = 1e6 * random_number();
+        gap[c] = 1e-3 * random_number();
+        start[c] = 1e-3 * random_number();
+      }
+      PairEquations e, f;
+      const auto    difference = [&]
+      {
+        double sum = norm(e.residual - f.residual);
+        for (unsigned int k = 0; k < 9; ++k)
+          sum += std::abs(e.d_force[k] - f.d_force[k]) + std::abs(e.d_gap[k] - f.d_gap[k]);
+        return sum;
+      };
+      FJA->evaluate(force, gap, start, 1e9, e);
+      none.law->evaluate(force, gap, none.past(start), 1e9, f);
+      weak += difference();
+      tied->evaluate(force, gap, start, 1e9, e);
+      any.law->evaluate(force, gap, any.past(start), 1e9, f);
+      strong += difference();
+    }
+    report("no strength: FJA to the last digit", weak, "0", weak == 0.);
+    report("any strength: tied to the last digit", strong, "0", strong == 0.);
+  }
+
+  /** Of the block at t = 1.5 s. With s = t - 0.5 s since it cracked, its mass f_t times 1 s^2/m and k^2 =
+   * 1/w_c: w'' = 2 s + k^2 w until w = w_c, w'' = 1 + 2 s from then on. */
+  double exact_velocity(const double f_t, const double G_f)
+  {
+    const double w_c = 2. * G_f / f_t;
+    if (w_c == 0.)
+      return 2.;
+    const double k = 1. / std::sqrt(w_c);
+    double       low = 0., high = 1.;
+    for (unsigned int i = 0; i < 60; ++i)
+    {
+      const double s = .5 * (low + high);
+      (2. / (k * k) * (std::sinh(k * s) / k - s) < w_c ? low : high) = s;
+    }
+    const double s = low, v = 2. / (k * k) * (std::cosh(k * s) - 1.);
+    return v + (1. - s) + (1. - s * s);
+  }
+
+  /** A block of 1000 kg on a wall, drawn off by a force that grows: bonded until the strength is reached,
+   * free afterwards. What the bond took is the fracture energy. */
+  void torn_off(const double G_f, const double dt)
+  {
+    constexpr double f_t = 1e3; // on 1 m^2
+    Column           column = make_column({bar(0., 1., 1, 1e-9, 1000.)}, nullptr, true);
+    column.structure.pairs.push_back(wall(column.node[0][0]));
+    column.structure.collect_interfaces();
+    JointLaws laws;
+    laws.of_joint.push_back(make_joint_law("cohesive", parameters(f_t, G_f)));
+    laws.assign(column.structure.pairs);
+    Newmark newmark(column.structure, laws, tight(), dt, ImpactRule::mean_force);
+    newmark.start(column.zero(), column.zero(), {0., 0., 0.}, column.zero(), {0., 0., 0.});
+    double     held = 0.;
+    const auto load = [&](const double t, Unknowns &f) { f[0] = 2. * f_t * t; };
+    const auto see = [&]
+    {
+      const DynamicState &s = newmark.state();
+      if (s.u[0] <= 1e-12)
+        held = s.time;
+    };
+    run(newmark, dt, std::lround(1.5 / dt), load, column.zero(), see);
+    const std::string what = "block torn off, G_f " + text(G_f) + ", dt " + text(dt);
+    between(what + ": held until [s]", held, .5 - dt, .5 + dt);
+    const Energy &e = newmark.state().energy;
+    below("  energy that the bond took - G_f", e.bond - G_f, 1e-12 * f_t);
+    below("  energy account / kinetic", e.balance(newmark.initial_energy()) / e.kinetic, 1e-10);
+    below("  velocity / exact - 1", newmark.state().v[0] / exact_velocity(f_t, G_f) - 1., 20. * dt * dt);
+  }
+} // namespace
+
+int main()
+{
+  return run_all({softening, jacobian, exact_solution, limits, [] { torn_off(0., .01); },
+                  [] { torn_off(0., .001); }, [] { torn_off(5., .001); }, [] { torn_off(20., .0005); }});
+}

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""Tests of the program: law cohesive in a dam, between FJA and tied; energy, checkpoints, entries.
+
+    program_cohesive.py VOUSSOIR CASE...     cases: see the functions with that name below
+"""
+
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import run_program
+from run_program import run_cases, expect, refused, runs, same, summary, table, write_scene
+
+SHORT = [x for e in ("Motion/Duration=1", "Output/Envelope interval=0") for x in ("--set", e)]
+
+
+def cohesive(strength, energy):
+    return [x for e in ("Joints/Model=cohesive", f"Joints/Strength={strength}", f"Joints/Fracture energy={energy}")
+            for x in ("--set", e)]
+
+
+def limits():
+    """No strength is FJA, any strength is the monolithic dam."""
+    write_scene()
+    runs("scene.prm", "--output", "fja", *SHORT, "--set", "Joints/Model=FJA")
+    runs("scene.prm", "--output", "tied", *SHORT, "--set", "Joints/Model=tied")
+    runs("scene.prm", "--output", "none", *SHORT, *cohesive("0 Pa", "0"))
+    runs("scene.prm", "--output", "any", *SHORT, *cohesive("1e20 Pa", "100"))
+    same("none", "fja", 0.)
+    same("any", "tied", 1e-9, ("history",))
+    expect(summary("any")["extremes"]["max_opening"]["value"] < 1e-9, "a joint of any strength does not open")
+
+
+def energy():
+    """What the bonds take is in its own column, less than all of them could, and the balance closes."""
+    write_scene()
+    openings = []
+    for name, strength, fracture in (("brittle", "1 MPa", "0"), ("tough", "1 MPa", "300 J/m^2")):
+        runs("scene.prm", "--output", name, *SHORT, *cohesive(strength, fracture))
+        names, rows = table(f"{name}/energy.csv")
+        bond = [row[names.index("bond")] for row in rows]
+        print(f"    {name}: bonds took at most {max(bond):.6g} J; balance {summary(name)['energy_balance_error']:.1e}")
+        expect(summary(name)["energy_balance_error"] < 1e-9, f"energy balance of {name}")
+        expect((max(bond) == 0.) if fracture == "0" else (bond[-1] > 0. and min(bond) >= 0.), f"energy of the bonds of {name}")
+        openings.append(summary(name)["extremes"]["max_opening"]["value"])
+    runs("scene.prm", "--output", "fja", *SHORT, "--set", "Joints/Model=FJA")
+    names, _ = table("fja/energy.csv")
+    expect("bond" not in names, "no column of bonds without bonds")
+    expect(all(1e-4 < opening for opening in openings), f"the joints open: {openings}")
+
+
+def resume():
+    """Killed in the middle, it goes on with the bonds as they were."""
+    write_scene()
+    settings = [*SHORT, *cohesive("1 MPa", "300"), "--set", "Output/Checkpoint interval=20", "--set",
+                "Output/Progress interval=10"]
+    runs("scene.prm", "--output", "whole", *settings)
+    process = subprocess.Popen([run_program.VOUSSOIR, "scene.prm", "--output", "killed", *settings],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while not Path("killed/checkpoint.bin").exists() and process.poll() is None:
+        time.sleep(.01)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    expect(Path("killed/checkpoint.bin").exists(), "killed before its end")
+    runs("scene.prm", "--output", "killed", *settings, "--resume")
+    same("whole", "killed", 1e-12, ("history", "joint_history", "energy"))
+
+
+def entries():
+    write_scene()
+    refused(["scene.prm", "--output", "x", *SHORT, *cohesive("1 MPa", "0"), "--set",
+             "Dynamics/Impact=impulse-consistent", "--validate"], "cohesive", "Dynamics/Impact", "mean-force")
+    refused(["scene.prm", "--output", "x", *SHORT, *cohesive("1 MPa", "0"), "--set", "Joints/Equations=paper"],
+            "cohesive", "alart-curnier")
+    expect("Joints/Strength" in run_program.voussoir("scene.prm", "--validate", "--set", "Joints/Strength=1 MPa").stdout,
+           "a strength without effect is warned of")
+
+
+if __name__ == "__main__":
+    run_cases(limits, energy, resume, entries)
