@@ -125,7 +125,7 @@ namespace
       region = spring ? std::make_unique<ExplicitRegion>(model.stiffness, model.mass, p.damping, p.dt)
                       : make_region(model, p, f);
       if (spring)
-        region->set_boundary(viscous_boundary(model, p.rock.centre, 1., .5));
+        region->set_boundary(viscous_dashpots(model, p.rock.centre, 1., .5));
       region->keep_energy();
       region->force.assign(3 * model.points.size(), 0.);
     }

@@ -5,6 +5,9 @@
 
 #include "../tests/box.h"
 
+#include <voussoir/rock/sections.h>
+#include <voussoir/rock/viscous_boundary.h>
+
 #include <complex>
 #include <map>
 
@@ -198,7 +201,7 @@ namespace Benchmarks
     if (canyon.plane && canyon.boundary == "viscous-spring") // two-dimensional factors: 1 and 1/2
     {
       region = std::make_unique<ExplicitRegion>(model.stiffness, model.mass, p.damping, p.dt);
-      region->set_boundary(viscous_boundary(model, p.rock.centre, 1., .5));
+      region->set_boundary(viscous_dashpots(model, p.rock.centre, 1., .5));
     }
     else
       region = make_region(model, p, canyon.formula);

@@ -6,6 +6,7 @@
 #include "column.h"
 
 #include <voussoir/foundation/foundation_parameters.h>
+#include <voussoir/rock/sections.h>
 
 namespace
 {

@@ -1,5 +1,6 @@
 #include <voussoir/base/error.h>
 #include <voussoir/rock/rock_region.h>
+#include <voussoir/rock/sections.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,9 +31,9 @@ namespace Voussoir
     if (is_transmitting(parameters))
       region->set_boundary(TransmittingBoundary(formula_of(parameters, formula), model.lines, parameters.dt));
     else if (name == "viscous")
-      region->set_boundary(viscous_boundary(model, parameters.rock.centre, 0., 0.));
+      region->set_boundary(viscous_dashpots(model, parameters.rock.centre, 0., 0.));
     else if (name == "viscous-spring")
-      region->set_boundary(viscous_boundary(model, parameters.rock.centre, 4. / 3., 2. / 3.));
+      region->set_boundary(viscous_dashpots(model, parameters.rock.centre, 4. / 3., 2. / 3.));
     else
       throw InputError("there is no artificial boundary \"" + name +
                        "\"; use mtf1, mtf2, mtf3, mtf4, mtf2-plain, viscous-spring, viscous or fixed");

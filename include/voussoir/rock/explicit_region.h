@@ -3,6 +3,7 @@
 
 #include <voussoir/rock/incident_field.h>
 #include <voussoir/rock/transmitting_boundary.h>
+#include <voussoir/rock/viscous_boundary.h>
 #include <voussoir/solid/material.h>
 
 #include <memory>

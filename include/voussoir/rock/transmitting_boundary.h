@@ -1,22 +1,13 @@
 #ifndef voussoir_transmitting_boundary_h
 #define voussoir_transmitting_boundary_h
 
-#include <voussoir/solid/structure.h>
+#include <voussoir/rock/rock_model.h>
 
 #include <string>
 #include <vector>
 
 namespace Voussoir
 {
-  /** A grid line from the artificial boundary inward. The first node's motion follows from the others'. */
-  struct BoundaryLine
-  {
-    std::vector<unsigned int> nodes;              ///< of the region; nodes[0] lies on the boundary
-    std::vector<double>       position;           ///< of the nodes, distance from nodes[0] along the line [m]
-    double                    c_p = 0., c_s = 0.; ///< wave speeds of the rock at nodes[0] [m/s]
-    double                    distance = 0.;      ///< of nodes[0] from the source of the scattered waves [m]
-  };
-
   /** One factor ((1 + gamma) - B) of a transmitting formula. Its artificial speed is p c_p + s c_s; gamma,
    * the term of geometric spreading that keeps the boundary from drifting, is
    * (gamma_p c_p + gamma_s c_s) dt / r. */
@@ -99,13 +90,6 @@ namespace Voussoir
   void check_distance(const TransmittingBoundary &boundary, const std::vector<unsigned int> &prescribed,
                       unsigned int n_nodes);
 
-  /** Dashpot and spring between a boundary node and the free field. */
-  struct Dashpot
-  {
-    unsigned int node;
-    Matrix3      damping;   ///< [N s/m]
-    Matrix3      stiffness; ///< [N/m], zero for a viscous boundary
-  };
 } // namespace Voussoir
 
 #endif
