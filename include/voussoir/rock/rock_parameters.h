@@ -4,10 +4,15 @@
 #include <voussoir/solid/material.h>
 
 #include <array>
+#include <functional>
 #include <map>
+#include <memory>
+#include <string>
 
 namespace Voussoir
 {
+  class ArtificialBoundary;
+
   /** How the rock is discretised. */
   struct RockParameters
   {
@@ -21,6 +26,22 @@ namespace Voussoir
 
     std::array<double, 3> centre = {
         {0., 0., 0.}}; ///< where the scattered waves come from: base of the dam [m]
+  };
+
+  /** What a scene says of the rock. */
+  struct RockRegionParameters
+  {
+    RockParameters  rock;
+    RayleighDamping damping;
+    double          dt = .001;         ///< [s]
+    std::string     boundary = "mtf3"; ///< name of a row of boundary_table.cc
+
+    /** Makes the boundary instead of the row with that name, if given. */
+    std::function<std::unique_ptr<ArtificialBoundary>()> boundary_maker;
+
+    /** Motion without dam: "columns" (layers, with the ground's local height at the side faces), or
+     * "sections" (slices of the mesh where the upstream and downstream faces cut the valley). */
+    std::string free_field = "sections";
   };
 } // namespace Voussoir
 
