@@ -111,21 +111,16 @@ namespace
     std::unique_ptr<ExplicitRegion> region;
     int                             nx, nz;
 
-    Plane(const int nx, const int nz, RockRegionParameters p, const TransmittingFormula *f = nullptr)
-        : nx(nx), nz(nz)
+    Plane(const int nx, const int nz, RockRegionParameters p) : nx(nx), nz(nz)
     {
       mesh = box({unsigned(nx), 1, unsigned(nz)}, {"x-", "x+", "z-"},
                  [=](const double i, const double j, const double k) -> Vector3 {
                    return {{i - nx / 2, j, k - nz}};
                  });
       model = make_rock_model(mesh, p.rock, tie_layer(mesh, 1));
-      const bool spring = p.boundary == "viscous-spring"; // two-dimensional factors: 1 and 1/2
-      if (spring)
-        p.boundary = "fixed";
-      region = spring ? std::make_unique<ExplicitRegion>(model.stiffness, model.mass, p.damping, p.dt)
-                      : make_region(model, p, f);
-      if (spring)
-        region->set_boundary(viscous_boundary(model, p.rock.centre, 1., .5));
+      if (p.boundary == "viscous-spring")
+        p.boundary_maker = plane_viscous_spring;
+      region = make_region(model, p);
       region->keep_energy();
       region->force.assign(3 * model.points.size(), 0.);
     }
@@ -181,7 +176,10 @@ namespace
                           {"MTF3 (c_p, c_s, .92 c_s), gamma", "mtf", "", "0.6", formula({c_p, c_s, R}, m)},
                           {"mtf4", "mtf4", "", "0.2", {}}})
     {
-      Plane plane(nx, nz, parameters(row.boundary, dt), row.boundary == "mtf" ? &row.formula : nullptr);
+      auto p = parameters(row.boundary, dt);
+      if (row.boundary == "mtf")
+        p.boundary_maker = maker(row.formula);
+      Plane              plane(nx, nz, p);
       std::vector<float> values;
       double             square = 0., error = 0., largest = 0.;
       for (const auto &expected : reference)
@@ -222,22 +220,18 @@ namespace
     return std::abs(w);
   }
 
-  /** The region's formula by a name of the tables below; null if the region knows the name itself. */
-  const TransmittingFormula *formula_of(const std::string &name)
-  {
-    static const std::map<std::string, TransmittingFormula> formulas = {
-        {"MTF2 (c_p, c_s), gamma = 0", formula({c_p, c_s}, 0.)},
-        {"MTF2 (c_s, c_s), gamma = 0", formula({c_s, c_s}, 0.)}};
-    const auto found = formulas.find(name);
-    return found == formulas.end() ? nullptr : &found->second;
-  }
-
   Amplitudes plane_canyon(const double h, const double size, const unsigned int component,
                           const std::string &boundary)
   {
-    const TransmittingFormula *given = formula_of(boundary);
-    return amplitudes({h, size, true, component, given ? "mtf" : boundary, given},
-                      [](const Vector3 &x) { return x[0] < 2.01; });
+    static const std::map<std::string, TransmittingFormula> formulas = {
+        // the others have a name in scenes
+        {"MTF2 (c_p, c_s), gamma = 0", formula({c_p, c_s}, 0.)},
+        {"MTF2 (c_s, c_s), gamma = 0", formula({c_s, c_s}, 0.)}};
+    Canyon     canyon{h, size, true, component, boundary};
+    const auto given = formulas.find(boundary);
+    if (given != formulas.end())
+      canyon.maker = maker(given->second);
+    return amplitudes(canyon, [](const Vector3 &x) { return x[0] < 2.01; });
   }
 
   void print_row(const double h, const double size, const std::string &boundary, const double error[2],

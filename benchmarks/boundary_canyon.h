@@ -5,6 +5,10 @@
 
 #include "../tests/box.h"
 
+#include <voussoir/rock/sections.h>
+#include <voussoir/rock/transmitting_boundary.h>
+#include <voussoir/rock/viscous_boundary.h>
+
 #include <complex>
 #include <map>
 
@@ -33,6 +37,18 @@ namespace Benchmarks
     for (const double c : speeds)
       f.factors.push_back({0., c, 0., gamma_speed});
     return f;
+  }
+
+  /** Makes a transmitting boundary instead of one with a name. */
+  inline auto maker(const TransmittingFormula &formula)
+  {
+    return [formula] { return std::make_unique<TransmittingBoundary>(formula); };
+  }
+
+  /** Springs and dashpots with the factors of two dimensions, 1 and 1/2. */
+  inline std::unique_ptr<ArtificialBoundary> plane_viscous_spring()
+  {
+    return std::make_unique<ViscousBoundary>(1., .5);
   }
 
   /** A regular grid with the cells about a circular or spherical canyon bent to it. Built cell by cell. */
@@ -149,11 +165,11 @@ namespace Benchmarks
   /** A canyon of radius 1 and the wave that rises under it. */
   struct Canyon
   {
-    double                     h, size;   ///< of the cells; half-width and depth of the box
-    bool                       plane;     ///< semicircular in x and z, or hemispherical
-    unsigned int               component; ///< 2: P; else S
-    std::string                boundary;
-    const TransmittingFormula *formula = nullptr; ///< instead of the boundary's name
+    double       h, size;   ///< of the cells; half-width and depth of the box
+    bool         plane;     ///< semicircular in x and z, or hemispherical
+    unsigned int component; ///< 2: P; else S
+    std::string  boundary;
+    std::function<std::unique_ptr<ArtificialBoundary>()> maker = {}; ///< instead of the boundary's name
   };
 
   /** Amplitudes of the displacement of wall and ground over that of the incident wave. */
@@ -194,14 +210,10 @@ namespace Benchmarks
     const auto         n_steps = static_cast<unsigned int>((arrival + t0 + canyon_window) / p.dt);
     const auto         wave = [=](const double t) { return ricker(t, f0, t0); };
 
-    std::unique_ptr<ExplicitRegion> region;
-    if (canyon.plane && canyon.boundary == "viscous-spring") // two-dimensional factors: 1 and 1/2
-    {
-      region = std::make_unique<ExplicitRegion>(model.stiffness, model.mass, p.damping, p.dt);
-      region->set_boundary(viscous_boundary(model, p.rock.centre, 1., .5));
-    }
-    else
-      region = make_region(model, p, canyon.formula);
+    p.boundary_maker = canyon.maker;
+    if (canyon.plane && canyon.boundary == "viscous-spring")
+      p.boundary_maker = plane_viscous_spring;
+    const auto region = make_region(model, p);
     shake(
         *region, grid.mesh, model, p,
         [=](const double t)
@@ -210,7 +222,7 @@ namespace Benchmarks
           u[axis] = wave(t);
           return u;
         },
-        n_steps, canyon.formula);
+        n_steps);
 
     std::vector<unsigned int> fixed, nodes;
     Amplitudes                result;

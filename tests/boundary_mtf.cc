@@ -5,6 +5,8 @@
 #include "column.h"
 
 #include <voussoir/base/error.h>
+#include <voussoir/rock/boundary_table.h>
+#include <voussoir/rock/transmitting_boundary.h>
 
 #include <complex>
 
@@ -116,8 +118,8 @@ namespace
     RockModel model = make_rock_model(mesh, p.rock, master);
     for (BoundaryLine &line : model.lines)
       line.distance = 1.;
-    const auto f = formula(c, dt);
-    auto       region = make_region(model, p, &f);
+    p.boundary_maker = [f = formula(c, dt)] { return std::make_unique<TransmittingBoundary>(f); };
+    auto       region = make_region(model, p);
     const auto wave = [&](const double x, const double t)
     {
       const double place = (x - x0 + group * t) / width;
@@ -188,11 +190,13 @@ namespace
     line.distance = 10.;
     line.nodes = {0, 1, 2, 3, 4};
     line.position = uniform(5);
+    RockModel model;
+    model.lines = {line};
     const auto message = [&](const double step, const std::string &name) -> std::string
     {
       try
       {
-        TransmittingBoundary(transmitting_formula(name), {line}, step);
+        make_boundary(name)->attach(model, {}, step);
       }
       catch (const InputError &error)
       {
@@ -204,7 +208,9 @@ namespace
     check("S = 1 is allowed", message(1. / 1.8, "mtf2").empty());
     check("S > 1 is refused", message(.6, "mtf2").find("S = c dt/dx = 1.08") != std::string::npos);
     check("a line too short is refused", message(.1, "mtf3").find("needs 7 nodes") != std::string::npos);
-    check("an unknown name is refused", !message(.1, "mtf7").empty());
+    check("an unknown name is refused, and the known ones are listed",
+          message(.1, "mtf7").find("mtf7") != std::string::npos &&
+              message(.1, "mtf7").find(boundary_names(", ")) != std::string::npos);
   }
 } // namespace
 

@@ -6,6 +6,8 @@
 #include "column.h"
 
 #include <voussoir/foundation/foundation_parameters.h>
+#include <voussoir/rock/sections.h>
+#include <voussoir/rock/transmitting_boundary.h>
 
 namespace
 {
@@ -59,10 +61,9 @@ namespace
     return {{std::lround(2. * p[0]), std::lround(2. * p[1]), std::lround(2. * p[2])}};
   }
 
-  Result run(const RockRegionParameters &p, const RockModel &model, const unsigned int n_steps,
-             const TransmittingFormula *formula = nullptr)
+  Result run(const RockRegionParameters &p, const RockModel &model, const unsigned int n_steps)
   {
-    auto                      region = make_region(model, p, formula);
+    auto                      region = make_region(model, p);
     std::vector<unsigned int> fixed;
     unsigned int              source = 0;
     for (unsigned int i = 0; i < model.points.size(); ++i)
@@ -124,7 +125,7 @@ namespace
     p.damping.stiffness = .02 * p.dt;
     const Result damped = run(p, quarter(p), n_long);
     below("  with a stiffness damping of 0.02 dt: max |u| / peak", damped.end / damped.peak, 1e-6);
-    Columns::report("  no warning", 0., "-", stability_warning(p).empty());
+    Columns::report("  no warning", 0., "-", make_boundary(p)->warning(p).empty());
     // The default boundary with the little damping of a scene, 2e-5 s at steps of 2 ms.
     auto q = parameters(FoundationParameters().boundary);
     q.damping.stiffness = .01 * q.dt;
@@ -144,7 +145,7 @@ namespace
     const Result r = run(p, quarter(p), 5000);
     above("Gauss points at the boundary: steps until it blows up", r.steps, 100.);
     below("  steps", r.steps, 1500.);
-    Columns::report("  is warned of", 0., "-", !stability_warning(p).empty());
+    Columns::report("  is warned of", 0., "-", !make_boundary(p)->warning(p).empty());
     above("  is seen in noise: growth of energy in 1000 steps", noise_growth(quarter(p), p, 1000), 10.);
     const auto q = parameters("mtf2");
     below("  growth with nodal quadrature", noise_growth(quarter(q), q, 1000), 1.);
@@ -152,21 +153,26 @@ namespace
 
   void drift()
   {
-    TransmittingFormula without = transmitting_formula("mtf2");
-    for (auto &f : without.factors)
-      f.gamma_p = f.gamma_s = 0.;
-    const auto drifts = [](const RockRegionParameters &p, const TransmittingFormula *formula)
+    auto without = parameters("mtf2");
+    without.boundary_maker = []
     {
-      const Result first = run(p, quarter(p), 4000, formula), second = run(p, quarter(p), 8000, formula);
+      TransmittingFormula formula = mtf2();
+      for (auto &f : formula.factors)
+        f.gamma_p = f.gamma_s = 0.;
+      return std::make_unique<TransmittingBoundary>(formula);
+    };
+    const auto drifts = [](const RockRegionParameters &p)
+    {
+      const Result first = run(p, quarter(p), 4000), second = run(p, quarter(p), 8000);
       above("  max |u| after 4000 steps / peak of the first 1000", first.end / first.peak, 2.);
       Columns::between("  linearly: after 8000 / after 4000", second.end / first.end, 1.8, 2.3);
       Columns::report("  is warned of", 0., "-",
-                      stability_warning(p, formula).find("drift") != std::string::npos);
+                      make_boundary(p)->warning(p).find("drift") != std::string::npos);
     };
     Columns::report("gamma = 0 drifts: speeds c_p and c_s", 0., "-", true);
-    drifts(parameters("mtf2"), &without);
+    drifts(without);
     Columns::report("mtf2-plain", 0., "-", true);
-    drifts(parameters("mtf2-plain"), nullptr);
+    drifts(parameters("mtf2-plain"));
   }
 
   /** Lines of nodes on edges go inward at 45 degrees. */

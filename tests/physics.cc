@@ -12,6 +12,7 @@
 #include <voussoir/rock/explicit_region.h>
 #include <voussoir/rock/free_field.h>
 #include <voussoir/rock/rock_model.h>
+#include <voussoir/rock/viscous_boundary.h>
 #include <voussoir/solid/solid_model.h>
 #include <voussoir/solid/stress.h>
 
@@ -488,7 +489,7 @@ namespace
     m.density = 3.;
     const RockModel model = make_rock_model(mesh, parameters.rock);
     Matrix3         damping{};
-    for (const Dashpot &dashpot : viscous_boundary(model, {{0., 0., 100.}}, 1., 0.))
+    for (const Dashpot &dashpot : viscous_dashpots(model, {{0., 0., 100.}}, 1., 0.))
       for (unsigned int k = 0; k < 9; ++k)
         damping[k] += dashpot.damping[k];
     const double area = 4. * 9.;

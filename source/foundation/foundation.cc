@@ -4,6 +4,7 @@
 #include <voussoir/base/log.h>
 #include <voussoir/foundation/foundation.h>
 #include <voussoir/motion/ground_motion.h>
+#include <voussoir/rock/boundary_table.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,13 +31,8 @@ namespace Voussoir
         "Stiffness damping", stiffness_damping,
         "Rayleigh damping of the rock: factor of the stiffness [s]. It lowers the critical time step.",
         Double(0., 1.));
-    prm.add_parameter(
-        "Boundary", boundary,
-        "Artificial boundary: mtf1 to mtf4 (Multi-Transmitting Formula of that order), mtf2-plain (that of "
-        "order 2 "
-        "with one speed and without geometric spreading: drifts), viscous-spring, viscous, or fixed (moves "
-        "with the free field, and throws the dam's waves back).",
-        Selection("mtf1|mtf2|mtf3|mtf4|mtf2-plain|viscous-spring|viscous|fixed"));
+    prm.add_parameter("Boundary", boundary, "Artificial boundary: " + boundary_help() + ".",
+                      Selection(boundary_names("|")));
     prm.add_parameter(
         "Free field", free_field,
         "Motion without the dam at the artificial boundary: sections (slices of the mesh where it cuts "

@@ -1,11 +1,8 @@
-#include <deal.II/base/parameter_handler.h>
-
-#include <voussoir/base/error.h>
 #include <voussoir/mesh/arch210_rock.h>
+#include <voussoir/mesh/grading.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace Voussoir
 {
@@ -13,94 +10,8 @@ namespace Voussoir
   {
     using Vector = std::array<double, 3>;
 
-    constexpr double growth = 1.35;        ///< largest ratio of the sizes of neighbours, where possible
     constexpr double largest_size = 1.7;   ///< of the element size, where grid lines are long
     constexpr double smallest_size = 0.35; ///< likewise, mean where they are short
-
-    /** 1 at x = 0, 0 at x = 1, level at both. */
-    double fade(const double x)
-    {
-      return 1 - x * x * (3 - 2 * x);
-    }
-
-    /** Where @p f, negative at @p lower and positive at @p upper or the other way round, is zero. */
-    double root(const std::function<double(double)> &f, double lower, double upper)
-    {
-      const bool rises = f(upper) > 0;
-      for (unsigned int i = 0; i < 60; ++i)
-      {
-        const double middle = 0.5 * (lower + upper);
-        ((f(middle) < 0) == rises ? lower : upper) = middle;
-      }
-      return 0.5 * (lower + upper);
-    }
-
-    /** The elements between a neighbour of size @p first and one of size @p last [m]: no smaller and no
-     * larger than a ratio of neighbouring sizes allows, and of size @p middle within that. */
-    std::vector<double> sizes(const unsigned int n, const double first, const double last,
-                              const double middle, const double ratio)
-    {
-      std::vector<double> up(n + 1, 1.), result(n);
-      for (unsigned int j = 1; j <= n; ++j)
-        up[j] = up[j - 1] * ratio;
-      for (unsigned int j = 0; j < n; ++j)
-      {
-        const double a = up[j + 1], b = up[n - j];
-        const double smallest = std::max(first / (a * a), last / (b * b)),
-                     largest = std::min(first * a, last * b);
-        result[j] =
-            smallest < largest ? std::clamp(middle, smallest, largest) : std::sqrt(smallest * largest);
-      }
-      return result;
-    }
-
-    double sum(const std::vector<double> &values)
-    {
-      double result = 0;
-      for (const double value : values)
-        result += value;
-      return result;
-    }
-
-    /** The n + 1 ends of n elements on [0, length], between neighbours of sizes @p first and @p last [m].
-     *  Depends continuously on all three. */
-    std::vector<double> graded(const unsigned int n, const double length, const double first,
-                               const double last)
-    {
-      const auto excess = [&](const double middle, const double ratio)
-      { return sum(sizes(n, first, last, middle, ratio)) - length; };
-      const bool   too_long = excess(0, growth) > 0, too_short = excess(length, growth) < 0;
-      const double extreme = too_long ? 0 : length;
-      const auto   s =
-          too_long || too_short
-                ? sizes(n, first, last, extreme,
-                        root([&](const double ratio) { return excess(extreme, ratio); }, growth, 1e3))
-                : sizes(n, first, last,
-                        root([&](const double middle) { return excess(middle, growth); }, 0, length), growth);
-      std::vector<double> ends = {0};
-      for (const double size : s)
-        ends.push_back(ends.back() + size);
-      for (double &end : ends)
-        end *= length / ends.back();
-      ends.back() = length;
-      return ends;
-    }
-
-    /** How many elements of at most @p largest, growing no faster than they should, fill @p length [m]. */
-    unsigned int n_graded(const double length, const double first, const double last, const double largest)
-    {
-      unsigned int n = 2;
-      while (sum(sizes(n, first, last, 0, growth)) < length)
-      {
-        double filled = 0;
-        for (const double size : sizes(n, first, last, largest, growth))
-          filled += std::min(size, largest);
-        if (filled >= length)
-          break;
-        ++n;
-      }
-      return n;
-    }
 
     class Builder
     {
@@ -426,49 +337,6 @@ namespace Voussoir
       std::vector<unsigned int> number;        // of the node i, j, k
     };
   } // namespace
-
-  void Arch210RockParameters::add_parameters(dealii::ParameterHandler &prm)
-  {
-    using namespace dealii::Patterns;
-    prm.enter_subsection("Mesh");
-    prm.enter_subsection("Arch210");
-    prm.enter_subsection("Rock");
-    prm.add_parameter("Enabled", enabled, "Mesh the rock around the dam, too. Otherwise the base is rigid.",
-                      Bool());
-    const std::string from = " [m], from the dam's outermost foot to the artificial boundary.";
-    prm.add_parameter("Upstream", upstream, "Length of the rock upstream" + from, Double(50, 1e5));
-    prm.add_parameter("Downstream", downstream, "Length of the rock downstream" + from, Double(50, 1e5));
-    prm.add_parameter("Sides", sides, "Length of the rock on either side" + from, Double(50, 1e5));
-    prm.add_parameter("Depth", depth, "Depth of the rock" + from, Double(50, 1e5));
-    prm.add_parameter(
-        "Element size", element_size,
-        "Size of the elements far from the dam [m]. Across the valley, the dam's columns decide "
-        "(Elements along); where the rock is thinnest, elements are smaller, and where it is "
-        "thickest, up to 1.7 times as large.",
-        Double(1, 1e4));
-    prm.add_parameter("Boundary layers", n_layers,
-                      "Number of layers of equal elements along the artificial boundary, which the "
-                      "transmitting boundary needs.",
-                      Integer(6, 100));
-    prm.leave_subsection();
-    prm.leave_subsection();
-    prm.leave_subsection();
-  }
-
-  void Arch210RockParameters::check() const
-  {
-    const std::string section = "Mesh/Arch210/Rock: ";
-    for (const auto &length : {std::make_pair("Upstream", upstream), std::make_pair("Downstream", downstream),
-                               std::make_pair("Sides", sides), std::make_pair("Depth", depth)})
-      if (!(length.second >= 50))
-        throw InputError(section + "'" + length.first + "' is " + std::to_string(length.second) +
-                         " m. Choose at least 50 m; one height of the dam is usual.");
-    if (!(element_size >= 1))
-      throw InputError(section + "'Element size' is " + std::to_string(element_size) +
-                       " m. Choose at least 1 m.");
-    if (n_layers < 6)
-      throw InputError(section + "'Boundary layers' is " + std::to_string(n_layers) + ". Choose at least 6.");
-  }
 
   void add_arch210_rock(const Arch210Parameters &dam, const Arch210RockParameters &rock, HexMesh &mesh)
   {

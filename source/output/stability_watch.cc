@@ -1,6 +1,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/tensor3.h>
 #include <voussoir/output/stability_watch.h>
+#include <voussoir/rock/boundary_table.h>
 
 #include <algorithm>
 #include <cmath>
@@ -141,7 +142,7 @@ namespace Voussoir
     const double        coupling = rock.prescribed + dam.foundation->work_on_dam();
     std::ostringstream  text;
     text.precision(3);
-    if (dam.scene.foundation.boundary != "fixed" && !(-rock.transmitted <= energy))
+    if (dam.foundation->explicit_region().artificial_boundary()->absorbs() && !(-rock.transmitted <= energy))
       text << "the artificial boundary " << dam.scene.foundation.boundary << " has let " << -rock.transmitted
            << " J into the rock, more than " << energy << " J, " << energy_factor
            << " times what the earthquake and the static state hold: the boundary pumps.";
@@ -216,8 +217,7 @@ namespace Voussoir
     {
       const double dt = dam.foundation->explicit_region().time_step();
       text << "Results after that, and some time before, are worthless. Try \"Foundation/Boundary\" = ";
-      text << (p.boundary == "mtf2" || p.boundary == "viscous-spring" ? "viscous-spring or mtf3"
-                                                                      : "mtf2 or viscous-spring");
+      text << other_boundaries(p.boundary);
       if (p.stiffness_damping < .02 * dt)
         text << ", a \"Foundation/Stiffness damping\" of " << .02 * dt << " s (0.02 of the rock's step)";
       if (!p.nodal_everywhere)

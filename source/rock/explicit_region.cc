@@ -100,53 +100,14 @@ namespace Voussoir
     }
   } // namespace
 
-  void ExplicitRegion::set_boundary(TransmittingBoundary boundary)
+  void ExplicitRegion::set_boundary(std::unique_ptr<ArtificialBoundary> given)
   {
-    transmitting = std::make_unique<TransmittingBoundary>(std::move(boundary));
-    for (unsigned int line = 0; line < transmitting->n_lines(); ++line)
-    {
-      boundary_nodes.push_back(transmitting->boundary_node(line));
-      exclude(inverse_mass, boundary_nodes.back());
-    }
-    boundary_w.resize(3 * boundary_nodes.size());
-    check_prescribed();
-  }
-
-  void ExplicitRegion::check_prescribed() const
-  {
-    if (transmitting && !prescribed.empty())
-      check_distance(*transmitting, prescribed, n_nodes());
-  }
-
-  void ExplicitRegion::set_boundary(std::vector<Dashpot> list)
-  {
-    dashpots = std::move(list);
-    for (const Dashpot &dashpot : dashpots)
-    {
-      exclude(inverse_mass, dashpot.node);
-      Matrix3 effective;
-      for (unsigned int i = 0; i < 9; ++i)
-        effective[i] = .5 * dt * dashpot.damping[i] + (i % 4 == 0 ? mass[dashpot.node] : 0.);
-      dashpot_inverse.push_back(inverse(effective));
-      dashpot_neighbours.push_back(dashpot.node);
-      for (std::size_t k = stiffness.start[dashpot.node]; k < stiffness.start[dashpot.node + 1]; ++k)
-        dashpot_neighbours.push_back(stiffness.column[k]);
-    }
-    std::sort(dashpot_neighbours.begin(), dashpot_neighbours.end());
-    dashpot_neighbours.erase(std::unique(dashpot_neighbours.begin(), dashpot_neighbours.end()),
-                             dashpot_neighbours.end());
-    const auto number = [&](const unsigned int node) -> unsigned int
-    {
-      return std::lower_bound(dashpot_neighbours.begin(), dashpot_neighbours.end(), node) -
-             dashpot_neighbours.begin();
-    };
-    for (const Dashpot &dashpot : dashpots)
-    {
-      own_number.push_back(number(dashpot.node));
-      first_neighbour.push_back(neighbour_number.size());
-      for (std::size_t k = stiffness.start[dashpot.node]; k < stiffness.start[dashpot.node + 1]; ++k)
-        neighbour_number.push_back(number(stiffness.column[k]));
-    }
+    boundary = std::move(given);
+    for (const unsigned int node : boundary->nodes())
+      exclude(inverse_mass, node);
+    boundary_w.resize(3 * boundary->nodes().size());
+    if (!prescribed.empty())
+      boundary->check_prescribed(prescribed);
   }
 
   void ExplicitRegion::set_free_field(std::unique_ptr<IncidentField> motion)
@@ -161,7 +122,8 @@ namespace Voussoir
   void ExplicitRegion::set_prescribed(const std::vector<unsigned int> &nodes)
   {
     prescribed = nodes;
-    check_prescribed();
+    if (boundary)
+      boundary->check_prescribed(prescribed);
     for (const unsigned int node : nodes)
     {
       exclude(inverse_mass, node);
@@ -190,16 +152,13 @@ namespace Voussoir
 
   const Unknowns &ExplicitRegion::advance(const Unknowns &u_prescribed, const Unknowns &v_prescribed)
   {
-    if (clock[0] == 0.)
-      advance_boundary();
+    if (clock[0] == 0. && boundary)
+      boundary->start(step_of_boundary());
     if (!prescribed.empty())
       move_prescribed(u_prescribed, v_prescribed);
     const bool with_energy = !K_u.empty();
     if (with_energy)
-    {
-      work[gone_through_boundary] -= work_at(boundary_nodes, boundary_w);
-      work[done_by_prescribed] += work_at(prescribed, prescribed_w);
-    }
+      work[done_by_prescribed] += work_of_motion(step_of_region(), prescribed, prescribed_w);
     const int n = u.size();
 #pragma omp parallel for simd schedule(static)
     for (int i = 0; i < n; ++i)
@@ -224,8 +183,8 @@ namespace Voussoir
       step_explicit_nodes<true>();
     else
       step_explicit_nodes<false>();
-    step_dashpots();
-    advance_boundary();
+    if (boundary)
+      boundary->advance(step_of_boundary());
     return prescribed_force;
   }
 
@@ -266,118 +225,18 @@ namespace Voussoir
     }
   }
 
-  double ExplicitRegion::work_at(const std::vector<unsigned int> &nodes, const Unknowns &w_before)
+  RegionStep ExplicitRegion::step_of_region()
   {
-    double sum = 0.;
+    return {dt,    damping,    stiffness,    mass,  is_fixed,   u, K_x, K_u,
+            force, boundary_w, field_before, field, field_next, w, work};
+  }
+
+  RegionStep ExplicitRegion::step_of_boundary()
+  {
+    const std::vector<unsigned int> &nodes = boundary->nodes();
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        const std::size_t k = 3 * std::size_t(nodes[i]) + c;
-        const double      m = mass[nodes[i]], old = w_before[3 * i + c], f = force.empty() ? 0. : force[k];
-        const double      reaction = m * ((w[k] - old) / dt + damping.mass * old) + K_x[k] - f;
-        sum += .5 * dt * reaction * (old + w[k]);
-        work[lost_in_damping] += .5 * dt * (damping.mass * m * old + K_x[k] - K_u[k]) * w[k];
-        work[done_by_forces] += .5 * dt * f * w[k];
-      }
-    return sum;
-  }
-
-  void ExplicitRegion::advance_boundary()
-  {
-    if (!transmitting)
-      return;
-    const Unknowns &next = transmitting->advance(u, field, field_next);
-    for (std::size_t i = 0; i < boundary_nodes.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        const std::size_t k = 3 * std::size_t(boundary_nodes[i]) + c;
-        boundary_w[3 * i + c] = w[k];
-        w[k] = (next[3 * i + c] - u[k]) / dt;
-      }
-  }
-
-  /** Force of the free field on a dashpot's node: what keeps it moving as if there were no boundary. */
-  Vector3 ExplicitRegion::free_field_force(const unsigned int d) const
-  {
-    const Dashpot &dashpot = dashpots[d];
-    const auto     at = [&](const Unknowns &values, const std::size_t i) {
-      return Vector3{{values[3 * i], values[3 * i + 1], values[3 * i + 2]}};
-    };
-    Vector3    f{};
-    const auto add = [&](const Matrix3 &a, const Vector3 &b)
-    {
-      const Vector3 ab = a * b;
-      for (unsigned int c = 0; c < 3; ++c)
-        f[c] += ab[c];
-    };
-    std::size_t neighbour = first_neighbour[d];
-    for (std::size_t k = stiffness.start[dashpot.node]; k < stiffness.start[dashpot.node + 1]; ++k)
-    {
-      const unsigned int i = neighbour_number[neighbour++];
-      Vector3            stress = at(field, i), before = at(field_before, i);
-      for (unsigned int c = 0; c < 3; ++c)
-        stress[c] += damping.stiffness / dt * (stress[c] - before[c]);
-      add(stiffness.value[k], stress);
-    }
-    const std::size_t own = own_number[d];
-    const Vector3     before = at(field_before, own), now = at(field, own), next = at(field_next, own);
-    const double      m = mass[dashpot.node];
-    Vector3           v;
-    for (unsigned int c = 0; c < 3; ++c)
-    {
-      v[c] = (next[c] - before[c]) / (2. * dt);
-      f[c] +=
-          m * ((next[c] - 2. * now[c] + before[c]) / (dt * dt) + damping.mass * (now[c] - before[c]) / dt);
-    }
-    add(dashpot.damping, v);
-    add(dashpot.stiffness, now);
-    return f;
-  }
-
-  void ExplicitRegion::step_dashpots()
-  {
-    if (dashpots.empty())
-      return;
-    const int  n = dashpots.size();
-    const bool with_energy = !K_u.empty(), loaded = !force.empty();
-    double     transmitted = 0., lost = 0., external = 0.;
-#pragma omp parallel for schedule(static) reduction(+ : transmitted, lost, external)
-    for (int d = 0; d < n; ++d)
-    {
-      const Dashpot    &dashpot = dashpots[d];
-      const std::size_t first = 3 * std::size_t(dashpot.node);
-      const double      m = mass[dashpot.node];
-      const Vector3     old = {{w[first], w[first + 1], w[first + 2]}},
-                    now = {{u[first], u[first + 1], u[first + 2]}};
-      Vector3       boundary = free_field ? free_field_force(d) : Vector3{};
-      const Vector3 spring = dashpot.stiffness * now, drag = dashpot.damping * old;
-      Vector3       f;
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        boundary[c] -= spring[c];
-        f[c] = boundary[c] - drag[c] - K_x[first + c] - damping.mass * m * old[c] +
-               (loaded ? force[first + c] : 0.);
-      }
-      const Vector3 a = dashpot_inverse[d] * f;
-      Vector3       v;
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        if (!is_fixed[first + c])
-          w[first + c] += dt * a[c];
-        v[c] = .5 * (old[c] + w[first + c]);
-      }
-      const Vector3 dragged = dashpot.damping * v;
-      for (unsigned int c = 0; with_energy && c < 3; ++c)
-      {
-        const std::size_t k = first + c;
-        transmitted += dt * v[c] * (dragged[c] - boundary[c]);
-        lost += .5 * dt * (damping.mass * m * old[c] + K_x[k] - K_u[k]) * w[k];
-        external += loaded ? .5 * dt * force[k] * w[k] : 0.;
-      }
-    }
-    work[gone_through_boundary] += transmitted;
-    work[lost_in_damping] += lost;
-    work[done_by_forces] += external;
+      std::copy_n(w.begin() + 3 * std::size_t(nodes[i]), 3, boundary_w.begin() + 3 * i);
+    return step_of_region();
   }
 
   Unknowns ExplicitRegion::velocity() const
@@ -394,7 +253,7 @@ namespace Voussoir
       }
     for (std::size_t i = 0; i < boundary_w.size(); ++i)
     {
-      const std::size_t k = 3 * std::size_t(boundary_nodes[i / 3]) + i % 3;
+      const std::size_t k = 3 * std::size_t(boundary->nodes()[i / 3]) + i % 3;
       v[k] = .5 * (boundary_w[i] + w[k]);
     }
     return v;
@@ -422,8 +281,8 @@ namespace Voussoir
   {
     std::vector<std::vector<double> *> arrays = {
         &clock, &work, &u, &w, &K_x, &K_u, &field, &field_before, &field_next, &boundary_w, &prescribed_w};
-    if (transmitting)
-      for (auto *array : transmitting->state())
+    if (boundary)
+      for (auto *array : boundary->state())
         arrays.push_back(array);
     if (free_field)
       for (auto *array : free_field->state())

@@ -1,4 +1,5 @@
 #include <voussoir/base/error.h>
+#include <voussoir/mesh/coincident.h>
 #include <voussoir/rock/free_field.h>
 
 #include <algorithm>
@@ -13,13 +14,13 @@ namespace Voussoir
     RockModel                       model;
     std::unique_ptr<ExplicitRegion> region;
     unsigned int                    direction;
-    double                          plane, tolerance; ///< place along the direction [m]
-    /// (horizontal, vertical) place in units of the tolerance -> node
-    std::map<std::pair<long, long>, unsigned int> node_at;
+    double                          plane; ///< place along the direction [m]
+    std::unique_ptr<PointFinder>    nodes; ///< projected along it
 
-    std::pair<long, long> key(const std::array<double, 3> &p) const
+    std::array<double, 3> projected(std::array<double, 3> place) const
     {
-      return {std::lround(p[1 - direction] / tolerance), std::lround(p[2] / tolerance)};
+      place[direction] = 0.;
+      return place;
     }
   };
 
@@ -86,9 +87,10 @@ namespace Voussoir
     double size = 0.;
     for (const auto &p : points)
       size = std::max(size, std::abs(p[2] - points.front()[2]));
-    section->tolerance = 1e-6 * size;
-    for (unsigned int i = 0; i < points.size(); ++i)
-      section->node_at[section->key(points[i])] = i;
+    std::vector<std::array<double, 3>> places;
+    for (const auto &p : points)
+      places.push_back(section->projected(p));
+    section->nodes = std::make_unique<PointFinder>(places, 1e-6 * size);
     sections.push_back(std::move(section));
   }
 
@@ -128,17 +130,12 @@ namespace Voussoir
       const auto distance = [&](const Section &s) { return std::abs(place[s.direction] - s.plane); };
       if (nearest != nullptr && distance(*nearest) <= distance(*section))
         continue;
-      const auto key = section->key(place);
-      for (long a = -1; a <= 1; ++a)
-        for (long b = -1; b <= 1; ++b)
-        {
-          const auto found = section->node_at.find({key.first + a, key.second + b});
-          if (found != section->node_at.end())
-          {
-            nearest = section.get();
-            node = found->second;
-          }
-        }
+      const unsigned int found = section->nodes->find(section->projected(place));
+      if (found != PointFinder::none)
+      {
+        nearest = section.get();
+        node = found;
+      }
     }
     if (nearest == nullptr)
       return false;

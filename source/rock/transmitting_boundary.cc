@@ -2,7 +2,6 @@
 #include <voussoir/rock/transmitting_boundary.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -10,48 +9,6 @@ namespace Voussoir
 {
   namespace
   {
-    using Interpolation = TransmittingFormula::Interpolation;
-
-    /** Lagrange's weights of nodes first .. first + n - 1 at @p x. */
-    std::vector<double> lagrange(const std::vector<double> &position, const unsigned int first,
-                                 const unsigned int n, const double x)
-    {
-      std::vector<double> weight(n, 1.);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          if (i != j)
-            weight[i] *= (x - position[first + j]) / (position[first + i] - position[first + j]);
-      return weight;
-    }
-
-    /** The values interpolated at @p step inward of where the @p weights take them. */
-    std::vector<double> shifted(const std::vector<double> &weights, const std::vector<double> &position,
-                                const double step, const unsigned int n)
-    {
-      std::vector<double> result(position.size(), 0.);
-      for (unsigned int k = 0; k < position.size(); ++k)
-        if (weights[k] != 0.)
-        {
-          const unsigned int first = std::min<std::size_t>(k, position.size() - n);
-          const auto         w = lagrange(position, first, n, position[k] + step);
-          for (unsigned int i = 0; i < n; ++i)
-            result[first + i] += weights[k] * w[i];
-        }
-      return result;
-    }
-
-    /** Interpolation at the distance @p x from the boundary with the three nodes about it. */
-    std::vector<double> direct(const std::vector<double> &position, const double x)
-    {
-      unsigned int first = 0;
-      while (first + 3 < position.size() && x > position[first + 2])
-        ++first;
-      std::vector<double> result(position.size(), 0.);
-      const auto          w = lagrange(position, first, 3, x);
-      std::copy(w.begin(), w.end(), result.begin() + first);
-      return result;
-    }
-
     double smallest_spacing(const std::vector<double> &position)
     {
       double spacing = std::numeric_limits<double>::max();
@@ -60,8 +17,8 @@ namespace Voussoir
       return spacing;
     }
 
-    void check(const BoundaryLine &line, const TransmittingFormula &formula,
-               const std::vector<double> &courant)
+    void check_line(const BoundaryLine &line, const TransmittingFormula &formula,
+                    const std::vector<double> &courant)
     {
       char text[400];
       if (line.nodes.size() < formula.n_nodes() || line.position.size() < formula.n_nodes())
@@ -89,70 +46,96 @@ namespace Voussoir
         throw InputError(text);
       }
     }
+
+    std::string number(const double x)
+    {
+      char text[20];
+      std::snprintf(text, sizeof(text), "%.3g", x);
+      return text;
+    }
+
+    /** Gauss points at a transmitting boundary; tests/boundary_stability.cc shows how they explode. */
+    void check_quadrature(const RockRegionParameters &p, const unsigned int layers)
+    {
+      const double damping = .2 * p.dt;
+      if (!p.rock.nodal_everywhere && p.rock.nodal_layers < layers && p.damping.stiffness < .99 * damping)
+        throw InputError("Gauss points within " + std::to_string(layers) +
+                         " layers of the transmitting boundary " + p.boundary +
+                         " make it explode: set \"Foundation/Nodal layers\" to " + std::to_string(layers) +
+                         " (now " + std::to_string(p.rock.nodal_layers) +
+                         ") or more, \"Foundation/Nodal quadrature everywhere\" to true, or "
+                         "\"Foundation/Stiffness damping\" to 0.2 of the rock's time step, here " +
+                         number(damping) + " s.");
+    }
+
+    /** Orders from 2 on with a high Poisson's ratio near the critical time step, which without damping grow:
+     * see doc/boundary.md for where, and tests/boundary_stability.cc. */
+    void check_poisson(const RockRegionParameters &p, const double critical)
+    {
+      constexpr double highest = .33, very_high = .4;
+      double           poisson = 0.;
+      for (const auto &material : p.rock.materials)
+        poisson = std::max(poisson, material.second.poisson);
+      const double share = poisson > very_high ? .01 : .005, damping = share * p.dt;
+      if (poisson < highest || p.damping.stiffness >= .99 * damping)
+        return;
+      throw InputError("The transmitting boundary " + p.boundary +
+                       " grows without bound in undamped rock whose Poisson's ratio is " + number(highest) +
+                       " or more (\"Foundation/Poisson's ratio\" is " + number(poisson) +
+                       ", the time step of the rock " + number(p.dt / critical) +
+                       " of the critical one): set \"Foundation/Stiffness damping\" to " + number(share) +
+                       " of the rock's time step or more, here " + number(damping) +
+                       " s, or \"Foundation/Boundary\" to viscous-spring.");
+    }
   } // namespace
 
-  TransmittingFormula transmitting_formula(const std::string &name)
+  TransmittingBoundary::TransmittingBoundary(TransmittingFormula given)
+      : formula(std::move(given)), n_points(formula.n_nodes())
   {
-    constexpr double    surface = .92, middle = 1.35; // Rayleigh waves; between S and P
-    TransmittingFormula formula;
-    if (name == "fixed")
-      return formula;
-    if (name == "mtf1")
-      formula.factors = {{0., 1., 0., 1.}};
-    else if (name == "mtf2")
-      formula.factors = {{1., 0., 1., 0.}, {0., 1., 0., 1.6}};
-    else if (name == "mtf2-plain")
-      formula.factors = {{0., middle, 0., 0.}, {0., middle, 0., 0.}};
-    else if (name == "mtf3")
-      formula.factors = {{1., 0., 0., middle}, {0., 1., 0., middle}, {0., middle, 0., middle}};
-    else if (name == "mtf4")
-      formula.factors = {
-          {1., 0., 0., middle}, {0., 1., 0., middle}, {0., surface, 0., middle}, {0., middle, 0., middle}};
-    else
-      throw InputError("there is no transmitting boundary \"" + name +
-                       "\"; use mtf1, mtf2, mtf2-plain, mtf3 or mtf4");
-    formula.uniform_distance = formula.order() > 2;
-    return formula;
   }
 
-  std::vector<std::vector<double>> transmitting_weights(const std::vector<double> &courant,
-                                                        const std::vector<double> &gamma,
-                                                        const std::vector<double> &position,
-                                                        const Interpolation        rule)
+  unsigned int TransmittingBoundary::n_layers() const
   {
-    const unsigned int               order = courant.size(), n = position.size();
-    std::vector<std::vector<double>> weights(order, std::vector<double>(n, 0.));
-    for (unsigned int subset = 1; subset < (1u << order); ++subset) // the terms of the product
-    {
-      std::vector<double> term(n, 0.);
-      term[0] = 1.;
-      double       distance = 0., factor = -1.;
-      unsigned int steps = 0;
-      for (unsigned int j = 0; j < order; ++j)
-        if (subset & (1u << j))
-        {
-          if (rule != Interpolation::direct)
-            term = shifted(term, position, courant[j], rule == Interpolation::linear ? 2 : 3);
-          distance += courant[j];
-          factor *= -1. / (1. + gamma[j]);
-          ++steps;
-        }
-      if (rule == Interpolation::direct)
-        term = direct(position, distance);
-      for (unsigned int k = 0; k < n; ++k)
-        weights[steps - 1][k] += factor * term[k];
-    }
-    return weights;
+    constexpr unsigned int least = 6; // of nodal quadrature, for any order
+    return std::max(least, formula.n_nodes() - 1);
   }
 
-  TransmittingBoundary::TransmittingBoundary(const TransmittingFormula       &formula,
-                                             const std::vector<BoundaryLine> &lines, const double dt)
-      : n_points(formula.n_nodes())
+  void TransmittingBoundary::check(const RockRegionParameters &parameters,
+                                   const double                critical_time_step) const
+  {
+    check_quadrature(parameters, n_layers());
+    if (formula.order() > 1)
+      check_poisson(parameters, critical_time_step);
+  }
+
+  std::string TransmittingBoundary::warning(const RockRegionParameters &p) const
+  {
+    // Needed: 6 layers without damping; without layers a stiffness damping of 0.2 dt (boxes of 12 cells).
+    constexpr unsigned int enough_layers = 6;
+    constexpr double       enough_damping = .2;
+    std::string            text;
+    if (!p.rock.nodal_everywhere && p.rock.nodal_layers < enough_layers &&
+        p.damping.stiffness < enough_damping * p.dt)
+      text = "the transmitting boundary will be unstable: use nodal quadrature in 6 layers of rock at the "
+             "artificial boundary, or stiffness-proportional damping of at least 0.2 time steps";
+    if (text.empty() && formula.order() > 2 && !p.rock.nodal_everywhere)
+      text = "a transmitting boundary of order 3 or 4 becomes unstable in large boxes of rock with Gauss "
+             "points: "
+             "use nodal quadrature everywhere, or mtf2";
+    const auto rigid = [](const TransmittingFactor &factor)
+    { return factor.gamma_p <= 0. && factor.gamma_s <= 0.; };
+    if (formula.order() > 1 && std::all_of(formula.factors.begin(), formula.factors.end(), rigid))
+      text += std::string(text.empty() ? "" : "; ") +
+              "the transmitting boundary will drift without its term of geometric spreading (gamma)";
+    return text;
+  }
+
+  void TransmittingBoundary::attach(const RockModel &model, const Vector3 &, const double dt)
   {
     double nearest = std::numeric_limits<double>::max();
-    for (const BoundaryLine &line : lines)
+    for (const BoundaryLine &line : model.lines)
       nearest = std::min(nearest, line.distance);
-    for (const BoundaryLine &line : lines)
+    for (const BoundaryLine &line : model.lines)
     {
       const double        r = formula.uniform_distance ? nearest : line.distance;
       std::vector<double> courant, gamma;
@@ -162,23 +145,24 @@ namespace Voussoir
         const double spreading = (f.gamma_p * line.c_p + f.gamma_s * line.c_s) * dt;
         gamma.push_back(spreading > 0. ? spreading / r : 0.);
       }
-      check(line, formula, courant);
+      check_line(line, formula, courant);
+      boundary_node.push_back(line.nodes[0]);
       node.insert(node.end(), line.nodes.begin(), line.nodes.begin() + n_points);
       const std::vector<double> position(line.position.begin(), line.position.begin() + n_points);
       for (const auto &row : transmitting_weights(courant, gamma, position, formula.interpolation))
         weights.insert(weights.end(), row.begin(), row.end());
     }
     history.assign(formula.order(), Unknowns(3 * node.size(), 0.));
-    next.assign(3 * lines.size(), 0.);
+    next.assign(3 * model.lines.size(), 0.);
   }
 
-  const Unknowns &TransmittingBoundary::advance(const Unknowns &u, const Unknowns &free_field,
-                                                const Unknowns &next_free_field)
+  void TransmittingBoundary::find_next(const Unknowns &u, const Unknowns &free_field,
+                                       const Unknowns &next_free_field)
   {
     if (!history.empty())
       std::rotate(history.begin(), history.end() - 1, history.end());
     const bool incident = !free_field.empty();
-    const int  lines = n_lines();
+    const int  lines = static_cast<int>(boundary_node.size());
 #pragma omp parallel for schedule(static)
     for (int line = 0; line < lines; ++line)
     {
@@ -196,21 +180,24 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
         next[3 * line + c] = sum[c] + (incident ? next_free_field[3 * first + c] : 0.);
     }
-    return next;
   }
 
-  void check_distance(const TransmittingBoundary &boundary, const std::vector<unsigned int> &prescribed,
-                      const unsigned int n_nodes)
+  void TransmittingBoundary::advance(const RegionStep &step)
   {
-    std::vector<bool> is_prescribed(n_nodes, false);
-    for (const unsigned int node : prescribed)
-      is_prescribed[node] = true;
-    for (const unsigned int node : boundary.nodes())
-      if (is_prescribed[node])
-        throw InputError(
-            "the base of the dam is too near the artificial boundary of the rock: there must be " +
-            std::to_string(boundary.nodes_per_line()) +
-            " layers of rock cells between them for this transmitting boundary");
+    find_next(step.u, step.field, step.field_next);
+    for (std::size_t i = 0; i < boundary_node.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const std::size_t k = 3 * std::size_t(boundary_node[i]) + c;
+        step.w[k] = (next[3 * i + c] - step.u[k]) / step.dt;
+      }
+    if (!step.K_u.empty())
+      step.work[gone_through_boundary] -= work_of_motion(step, boundary_node, step.w_before);
+  }
+
+  void TransmittingBoundary::check_prescribed(const std::vector<unsigned int> &prescribed) const
+  {
+    check_apart(node, prescribed, n_points);
   }
 
   std::vector<std::vector<double> *> TransmittingBoundary::state()

@@ -26,11 +26,8 @@ namespace Voussoir
   RockRegionParameters region_parameters(const FoundationParameters &p, const std::array<double, 3> &centre,
                                          double dt);
 
-  /** Layers of equal, straight elements that an artificial boundary needs: mtfN 2 N, since each of its lines
-   * has 2 N + 1 nodes, and at least 6; the others none. */
-  unsigned int n_boundary_layers(const std::string &boundary);
-
-  /** InputError where the mesh has fewer of them. @p source names the mesh. */
+  /** InputError where the mesh has fewer layers of equal, straight elements than the artificial boundary
+   * needs. @p source names the mesh. */
   void check_boundary_layers(const FoundationParameters &parameters, const HexMesh &mesh,
                              const std::string &source);
 

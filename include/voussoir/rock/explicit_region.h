@@ -1,9 +1,8 @@
 #ifndef voussoir_explicit_region_h
 #define voussoir_explicit_region_h
 
+#include <voussoir/rock/artificial_boundary.h>
 #include <voussoir/rock/incident_field.h>
-#include <voussoir/rock/transmitting_boundary.h>
-#include <voussoir/solid/material.h>
 
 #include <memory>
 
@@ -26,8 +25,7 @@ namespace Voussoir
    *
    *  Between the steps it keeps u at t and the predicted velocity of the next step, (u(t + dt) - u(t)) / dt:
    *  one product with the stiffness per step. Nodes are explicit but for
-   *  - those of the transmitting boundary, whose motion follows from their lines;
-   *  - those with dashpots, explicit with the dashpot's force taken at the time itself;
+   *  - those of the artificial boundary, which moves them as it will;
    *  - prescribed ones (the dam's base), whose predicted motion is handed in: there the region gives the
    * force of its elements, the element partition of Hughes and Liu. */
   class ExplicitRegion
@@ -37,21 +35,21 @@ namespace Voussoir
     ExplicitRegion(BlockSparseMatrix stiffness, std::vector<double> mass, const RayleighDamping &damping,
                    double dt);
 
-    void set_boundary(TransmittingBoundary boundary);
-    void set_boundary(std::vector<Dashpot> dashpots);
+    /** @p boundary: attached to the region's model. */
+    void set_boundary(std::unique_ptr<ArtificialBoundary> boundary);
 
-    /** Motion without dam; its points are to be boundary.nodes(), or free_field_nodes() with dashpots. */
+    /** Null if there is none. */
+    const ArtificialBoundary *artificial_boundary() const { return boundary.get(); }
+
+    /** Motion without dam; its points are to be the boundary's free_field_nodes(). */
     void set_free_field(std::unique_ptr<IncidentField> field);
-
-    /** Dashpots need the free field at these nodes: their own and their neighbours'. */
-    const std::vector<unsigned int> &free_field_nodes() const { return dashpot_neighbours; }
 
     /** Components that do not move: 3 node + component. */
     void fix(const std::vector<unsigned int> &components);
     void fix_nodes(const std::vector<unsigned int> &nodes);
 
-    /** Nodes whose motion is handed in. Their masses do not count here. InputError if they lie on lines of
-     * the transmitting boundary. */
+    /** Nodes whose motion is handed in. Their masses do not count here. InputError if the
+     * boundary finds them too near. */
     void set_prescribed(const std::vector<unsigned int> &nodes);
 
     /** External forces, three per node [N], kept until changed. Empty at first: none. */
@@ -88,11 +86,8 @@ namespace Voussoir
   private:
     void                             move_prescribed(const Unknowns &u_new, const Unknowns &v_new);
     template <bool with_energy> void step_explicit_nodes();
-    void                             step_dashpots();
-    Vector3                          free_field_force(unsigned int dashpot) const;
-    void                             advance_boundary();
-    void                             check_prescribed() const;
-    double work_at(const std::vector<unsigned int> &nodes, const Unknowns &w_before);
+    RegionStep                       step_of_region();
+    RegionStep                       step_of_boundary(); ///< the motion of its nodes kept
 
     BlockSparseMatrix   stiffness;
     std::vector<double> mass, inverse_mass; ///< of nodes; of components, zero where not explicit
@@ -109,27 +104,12 @@ namespace Voussoir
     std::vector<double>       prescribed_mass;
     Unknowns                  prescribed_w, prescribed_force;
 
-    std::unique_ptr<TransmittingBoundary> transmitting;
-    std::vector<unsigned int>             boundary_nodes;
-    Unknowns                              boundary_w; ///< w of these nodes a step before
-
-    std::vector<Dashpot>      dashpots;
-    std::vector<Matrix3>      dashpot_inverse;    ///< of M + dt/2 C
-    std::vector<unsigned int> dashpot_neighbours; ///< their own nodes included, ascending
-    std::vector<unsigned int> own_number;         ///< of the dashpots' nodes among them
-    std::vector<unsigned int> neighbour_number;   ///< of the entries of the dashpots' rows among them,
-    std::vector<std::size_t>  first_neighbour;    ///< beginning here
+    std::unique_ptr<ArtificialBoundary> boundary;
+    Unknowns                            boundary_w; ///< w of its nodes a step before
 
     std::unique_ptr<IncidentField> free_field;
-    Unknowns field_before, field, field_next; ///< at its points: last, this and next time
-    enum Work                                 ///< what has been done up to now [J]
-    {
-      lost_in_damping,
-      done_by_forces,
-      gone_through_boundary,
-      done_by_prescribed
-    };
-    std::vector<double> work = {0., 0., 0., 0.};
+    Unknowns            field_before, field, field_next; ///< at its points: last, this and next time
+    std::vector<double> work = {0., 0., 0., 0.};         ///< by RegionWork
     RegionEnergy        account;
   };
 

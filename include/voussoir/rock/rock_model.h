@@ -2,31 +2,20 @@
 #define voussoir_rock_model_h
 
 #include <voussoir/mesh/mesh.h>
-#include <voussoir/rock/transmitting_boundary.h>
-#include <voussoir/solid/material.h>
-
-#include <map>
+#include <voussoir/rock/rock_grid.h>
+#include <voussoir/rock/rock_parameters.h>
+#include <voussoir/solid/structure.h>
 
 namespace Voussoir
 {
-  /** How the rock is discretised. */
-  struct RockParameters
+  /** A grid line from the artificial boundary inward. The first node's motion follows from the others'. */
+  struct BoundaryLine
   {
-    std::map<int, Material> materials; ///< by volume id; cells of other volumes do not belong to the region
-
-    /** Nodal (Gauss-Lobatto) quadrature of the stiffness in all cells, or in that many layers at the
-     * artificial boundary, and 2x2x2 Gauss points elsewhere. Gauss points at a transmitting boundary are
-     * unstable (Zhang, Liao and Xie 2015, Chin. J. Geophys. 58(10)). */
-    bool         nodal_everywhere = false;
-    unsigned int nodal_layers = 6;
-
-    std::array<double, 3> centre = {
-        {0., 0., 0.}}; ///< where the scattered waves come from: base of the dam [m]
+    std::vector<unsigned int> nodes;              ///< of the region; nodes[0] lies on the boundary
+    std::vector<double>       position;           ///< of the nodes, distance from nodes[0] along the line [m]
+    double                    c_p = 0., c_s = 0.; ///< wave speeds of the rock at nodes[0] [m/s]
+    double                    distance = 0.;      ///< of nodes[0] from the source of the scattered waves [m]
   };
-
-  /** Wave speeds [m/s]. */
-  double p_wave_speed(const Material &material);
-  double s_wave_speed(const Material &material);
 
   /** A face of the artificial boundary. */
   struct BoundaryFace
@@ -44,8 +33,6 @@ namespace Voussoir
     std::vector<double>       z;        ///< of the nodes, ascending [m]
     std::vector<Material>     material; ///< between the nodes
   };
-
-  constexpr unsigned int no_node = static_cast<unsigned int>(-1);
 
   /** The finite element model of the rock. Node numbers are the region's own unless said otherwise. */
   struct RockModel
@@ -75,20 +62,6 @@ namespace Voussoir
    * has the line that is normal to the first of its faces. InputError if the grid has no lines. */
   RockModel make_rock_model(const HexMesh &mesh, const RockParameters &parameters,
                             const std::vector<unsigned int> &master = {});
-
-  /** For a mesh of one layer of cells: each node tied to the one at the same place but for @p direction. */
-  std::vector<unsigned int> tie_layer(const HexMesh &mesh, unsigned int direction);
-
-  /** One layer of cells behind the part of the artificial boundary of @p mesh that faces @p sense times
-   * @p direction (0 = x, 1 = y): the section through the rock there, with artificial boundary where the other
-   * artificial faces meet it. Empty if there is no such part. */
-  HexMesh extruded_section(const HexMesh &mesh, const RockParameters &parameters, unsigned int direction,
-                           int sense);
-
-  /** Lysmer's dashpots (rho c A) on the artificial boundary, with springs factor G/r A unless the factors
-   * are zero (Liu, Du and Yan 2006: 4/3 normal, 2/3 tangential in three dimensions). */
-  std::vector<Dashpot> viscous_boundary(const RockModel &model, const std::array<double, 3> &centre,
-                                        double normal_spring, double tangential_spring);
 } // namespace Voussoir
 
 #endif

@@ -1,0 +1,31 @@
+#ifndef voussoir_fixed_boundary_h
+#define voussoir_fixed_boundary_h
+
+#include <voussoir/rock/artificial_boundary.h>
+
+namespace Voussoir
+{
+  /** The boundary moves with the free field, or not at all without one: it throws all waves of the dam back.
+   */
+  class FixedBoundary : public ArtificialBoundary
+  {
+  public:
+    bool absorbs() const override { return false; }
+
+    void attach(const RockModel &model, const Vector3 &centre, double dt) override;
+
+    const std::vector<unsigned int> &nodes() const override { return node; }
+    const std::vector<unsigned int> &free_field_nodes() const override { return node; }
+    unsigned int                     nodes_per_line() const override { return 1; }
+
+    void check_prescribed(const std::vector<unsigned int> &prescribed) const override;
+
+    void start(const RegionStep &step) override { advance(step); }
+    void advance(const RegionStep &step) override;
+
+  private:
+    std::vector<unsigned int> node;
+  };
+} // namespace Voussoir
+
+#endif

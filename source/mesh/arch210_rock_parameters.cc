@@ -1,0 +1,50 @@
+#include <deal.II/base/parameter_handler.h>
+
+#include <voussoir/base/error.h>
+#include <voussoir/mesh/arch210_rock.h>
+
+namespace Voussoir
+{
+  void Arch210RockParameters::add_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Mesh");
+    prm.enter_subsection("Arch210");
+    prm.enter_subsection("Rock");
+    prm.add_parameter("Enabled", enabled, "Mesh the rock around the dam, too. Otherwise the base is rigid.",
+                      Bool());
+    const std::string from = " [m], from the dam's outermost foot to the artificial boundary.";
+    prm.add_parameter("Upstream", upstream, "Length of the rock upstream" + from, Double(50, 1e5));
+    prm.add_parameter("Downstream", downstream, "Length of the rock downstream" + from, Double(50, 1e5));
+    prm.add_parameter("Sides", sides, "Length of the rock on either side" + from, Double(50, 1e5));
+    prm.add_parameter("Depth", depth, "Depth of the rock" + from, Double(50, 1e5));
+    prm.add_parameter(
+        "Element size", element_size,
+        "Size of the elements far from the dam [m]. Across the valley, the dam's columns decide "
+        "(Elements along); where the rock is thinnest, elements are smaller, and where it is "
+        "thickest, up to 1.7 times as large.",
+        Double(1, 1e4));
+    prm.add_parameter("Boundary layers", n_layers,
+                      "Number of layers of equal elements along the artificial boundary, which the "
+                      "transmitting boundary needs.",
+                      Integer(6, 100));
+    prm.leave_subsection();
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+  void Arch210RockParameters::check() const
+  {
+    const std::string section = "Mesh/Arch210/Rock: ";
+    for (const auto &length : {std::make_pair("Upstream", upstream), std::make_pair("Downstream", downstream),
+                               std::make_pair("Sides", sides), std::make_pair("Depth", depth)})
+      if (!(length.second >= 50))
+        throw InputError(section + "'" + length.first + "' is " + std::to_string(length.second) +
+                         " m. Choose at least 50 m; one height of the dam is usual.");
+    if (!(element_size >= 1))
+      throw InputError(section + "'Element size' is " + std::to_string(element_size) +
+                       " m. Choose at least 1 m.");
+    if (n_layers < 6)
+      throw InputError(section + "'Boundary layers' is " + std::to_string(n_layers) + ". Choose at least 6.");
+  }
+} // namespace Voussoir

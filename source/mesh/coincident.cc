@@ -1,0 +1,35 @@
+#include <deal.II/numerics/rtree.h>
+
+#include <voussoir/mesh/coincident.h>
+
+#include <iterator>
+
+namespace Voussoir
+{
+  using dealii::Point;
+
+  struct PointFinder::Tree
+  {
+    using Entry = std::pair<Point<3>, unsigned int>;
+    dealii::RTree<Entry> entries;
+  };
+
+  PointFinder::PointFinder(const std::vector<std::array<double, 3>> &points, const double tolerance)
+      : tree(std::make_unique<Tree>()), tolerance(tolerance)
+  {
+    std::vector<Tree::Entry> entries;
+    for (unsigned int i = 0; i < points.size(); ++i)
+      entries.emplace_back(Point<3>(points[i][0], points[i][1], points[i][2]), i);
+    tree->entries = dealii::pack_rtree(entries);
+  }
+
+  PointFinder::~PointFinder() = default;
+
+  unsigned int PointFinder::find(const std::array<double, 3> &place) const
+  {
+    const Point<3>           wanted(place[0], place[1], place[2]);
+    std::vector<Tree::Entry> nearest;
+    tree->entries.query(boost::geometry::index::nearest(wanted, 1), std::back_inserter(nearest));
+    return nearest.empty() || nearest[0].first.distance(wanted) > tolerance ? none : nearest[0].second;
+  }
+} // namespace Voussoir

@@ -1,0 +1,82 @@
+#include <voussoir/base/error.h>
+#include <voussoir/rock/boundary_table.h>
+#include <voussoir/rock/fixed_boundary.h>
+#include <voussoir/rock/transmitting_boundary.h>
+#include <voussoir/rock/viscous_boundary.h>
+
+namespace Voussoir
+{
+  namespace
+  {
+    using Boundary = std::unique_ptr<ArtificialBoundary>;
+
+    template <TransmittingFormula (*formula)()> Boundary transmitting()
+    {
+      return std::make_unique<TransmittingBoundary>(formula());
+    }
+
+    Boundary viscous_spring()
+    {
+      return std::make_unique<ViscousBoundary>(4. / 3., 2. / 3.);
+    }
+
+    Boundary viscous()
+    {
+      return std::make_unique<ViscousBoundary>(0., 0.);
+    }
+
+    Boundary fixed()
+    {
+      return std::make_unique<FixedBoundary>();
+    }
+  } // namespace
+
+  const std::vector<BoundaryRow> &boundary_table()
+  {
+    static const std::vector<BoundaryRow> table = {
+        {"mtf1", "Multi-Transmitting Formula of order 1", transmitting<mtf1>},
+        {"mtf2", "that of order 2", transmitting<mtf2>},
+        {"mtf3", "of order 3", transmitting<mtf3>},
+        {"mtf4", "of order 4", transmitting<mtf4>},
+        {"mtf2-plain", "of order 2 with one speed and without geometric spreading: drifts",
+         transmitting<mtf2_plain>},
+        {"viscous-spring", "dashpots and springs", viscous_spring},
+        {"viscous", "Lysmer's dashpots", viscous},
+        {"fixed", "moves with the free field, and throws the dam's waves back", fixed}};
+    return table;
+  }
+
+  std::string boundary_names(const std::string &between)
+  {
+    std::string text;
+    for (const BoundaryRow &row : boundary_table())
+      text += (text.empty() ? "" : between) + row.name;
+    return text;
+  }
+
+  std::string boundary_help()
+  {
+    std::string text;
+    for (const BoundaryRow &row : boundary_table())
+      text += (text.empty() ? "" : ", ") + row.name + " (" + row.doc + ")";
+    return text;
+  }
+
+  std::unique_ptr<ArtificialBoundary> make_boundary(const std::string &name)
+  {
+    for (const BoundaryRow &row : boundary_table())
+      if (row.name == name)
+        return row.make();
+    throw InputError("there is no artificial boundary \"" + name + "\"; use one of " + boundary_names(", "));
+  }
+
+  std::string other_boundaries(const std::string &name)
+  {
+    std::string  text;
+    unsigned int n = 0;
+    for (const std::string well_tried : {"mtf2", "viscous-spring", "mtf3"})
+      if (well_tried != name && n++ < 2)
+        text += (text.empty() ? "" : " or ") + well_tried;
+    return text;
+  }
+} // namespace Voussoir

@@ -1,0 +1,28 @@
+#include <voussoir/rock/fixed_boundary.h>
+
+namespace Voussoir
+{
+  void FixedBoundary::attach(const RockModel &model, const Vector3 &, double)
+  {
+    for (const BoundaryLine &line : model.lines)
+      node.push_back(line.nodes[0]);
+  }
+
+  void FixedBoundary::check_prescribed(const std::vector<unsigned int> &prescribed) const
+  {
+    check_apart(node, prescribed, 1);
+  }
+
+  void FixedBoundary::advance(const RegionStep &step)
+  {
+    for (std::size_t i = 0; i < node.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const std::size_t k = 3 * std::size_t(node[i]) + c;
+        const double      next = step.field_next.empty() ? 0. : step.field_next[3 * i + c];
+        step.w[k] = (next - step.u[k]) / step.dt;
+      }
+    if (!step.K_u.empty())
+      step.work[gone_through_boundary] -= work_of_motion(step, node, step.w_before);
+  }
+} // namespace Voussoir
