@@ -103,8 +103,9 @@ def mutate(text, mutant, number):
 
 def make_tree(mutants, tree):
     """Copies what git has, and puts the mutants in. Files that do not change keep their time."""
-    listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-co", "--exclude-standard", "--", "CMakeLists.txt",
-                             "source", "include", "tests", "scripts", "prm", "meshes", "benchmarks"],
+    needed = ["CMakeLists.txt", "CITATION.cff", "LICENSE", "README.md", "benchmarks", "cmake", "doc/Doxyfile.in", "include",
+              "meshes", "prm", "scripts", "source", "tests"]
+    listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-co", "--exclude-standard", "--", *needed],
                             capture_output=True, check=True).stdout.decode().split("\n")
     texts = {file: (ROOT / file).read_bytes() for file in listed if file and (ROOT / file).is_file()}
     names = ", ".join(f'"{m["name"]}"' for m in mutants)

@@ -7,7 +7,7 @@ required=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev libfclib
           ninja-build cmake g++ git python3-matplotlib)
 optional=()
 if [[ "${1:-}" != --program ]]; then
-  required+=(gmsh numdiff ccache clang-format shellcheck)
+  required+=(gmsh numdiff ccache clang-format shellcheck doxygen)
   optional=(calculix-ccx python3-siconos python3-h5py) # only benchmarks/calculix.py and contact.py use them
 fi
 

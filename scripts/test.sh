@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Sets up, checks the form of sources and scripts, builds everything with warnings as errors, and runs the tests; then the quick
-# ones again with the assertions of deal.II and of the C++ library (build-debug). What was skipped is listed at the end.
+# Sets up, checks the form of sources and scripts, builds the sources' documentation (doc) and everything else with warnings as
+# errors, and runs the tests; then the quick ones again with the assertions of deal.II and of the C++ library (build-debug). What was skipped is listed at the end.
 # Usage: scripts/test.sh [arguments for ctest, such as -R waves, or -L with exact, mesh, motion or program: then these tests only]
 set -euo pipefail
 # shellcheck source=environment.sh
@@ -41,6 +41,7 @@ skipped() # DIRECTORY...
 
 "$root/scripts/setup.sh"
 form
+"$root/scripts/build.sh" --target doc -DCMAKE_COMPILE_WARNING_AS_ERROR=ON # a warning of Doxygen is an error
 "$root/scripts/build.sh" -DCMAKE_COMPILE_WARNING_AS_ERROR=ON
 if (($#)); then
   run_tests "$root/build" "$@"

@@ -1,7 +1,10 @@
-// Columns of hexahedra with a cross-section of 1 m x 1 m along x, and the checks of the exact-solution tests.
+// Columns of hexahedra with a cross-section of 1 m x 1 m along x, their runs and energies.
 
 #ifndef voussoir_tests_column_h
 #define voussoir_tests_column_h
+
+#include "grids.h"
+#include "testing.h"
 
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dynamics/newmark.h>
@@ -9,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <map>
 #include <random>
@@ -24,55 +26,7 @@ namespace Columns
 {
   using namespace Voussoir;
 
-  constexpr double pi = 3.14159265358979323846;
-
-  inline bool &failed()
-  {
-    static bool any = false;
-    return any;
-  }
-
-  inline void report(const std::string &what, const double value, const std::string &limit, const bool good)
-  {
-    std::printf("%-66s %12.4e  %-22s %s\n", what.c_str(), value, limit.c_str(), good ? "OK" : "FAILED");
-    std::fflush(stdout);
-    failed() = failed() || !good;
-  }
-
-  inline std::string text(const double x)
-  {
-    char s[32];
-    std::snprintf(s, sizeof(s), "%.6g", x);
-    return s;
-  }
-
-  /** |value| < limit; false for NaN. */
-  inline void below(const std::string &what, const double value, const double limit)
-  {
-    report(what, value, "< " + text(limit), std::abs(value) < limit);
-  }
-
-  inline void above(const std::string &what, const double value, const double limit)
-  {
-    report(what, value, "> " + text(limit), value > limit);
-  }
-
-  inline void between(const std::string &what, const double value, const double low, const double high)
-  {
-    report(what, value, "[" + text(low) + ", " + text(high) + "]", value >= low && value <= high);
-  }
-
-  /** A value that is known to miss its limit: both are shown, and the run goes on. */
-  inline void missed(const std::string &what, const double value, const double limit)
-  {
-    report(what, value, "< " + text(limit) + (std::abs(value) < limit ? "" : " MISSED (known)"), true);
-  }
-
-  /** A value without limit. */
-  inline void note(const std::string &what, const double value)
-  {
-    report(what, value, "-", true);
-  }
+  using namespace Testing;
 
   /** Random numbers in [-1, 1], the same on every machine. */
   inline double random_number()
@@ -98,17 +52,10 @@ namespace Columns
 #ifdef _OPENMP
     omp_set_num_threads(1); // the bodies are tiny
 #endif
+    std::vector<Test> unnamed;
     for (const auto &test : tests)
-      try
-      {
-        test();
-      }
-      catch (const std::exception &error)
-      {
-        std::printf("FAILED: %s\n", error.what());
-        failed() = true;
-      }
-    return failed() ? 1 : 0;
+      unnamed.push_back({"", test});
+    return run(unnamed);
   }
 
   struct Bar
@@ -188,26 +135,15 @@ namespace Columns
   inline Column make_column(const std::vector<Bar>            &bars,
                             const std::function<bool(double)> &is_fixed = nullptr, const bool rigid = false)
   {
-    HexMesh               mesh;
-    std::vector<Material> materials;
+    std::vector<std::vector<double>> layers(bars.size());
+    std::vector<Material>            materials;
     for (unsigned int b = 0; b < bars.size(); ++b)
     {
       materials.push_back(material(bars[b]));
       for (unsigned int i = 0; i <= bars[b].n; ++i)
-      {
-        const double       x = bars[b].layer(i);
-        const unsigned int k = mesh.nodes.size();
-        for (const auto &p : {std::array<double, 2>{0, 0}, {1, 0}, {1, 1}, {0, 1}})
-          mesh.nodes.push_back({x, p[0], p[1]});
-        if (i < bars[b].n)
-          mesh.cells.push_back({{k, k + 1, k + 2, k + 3, k + 4, k + 5, k + 6, k + 7}, int(b + 1)});
-        if (i == bars[b].n && b + 1 < bars.size())
-          mesh.faces.push_back({{k, k + 1, k + 2, k + 3}, int(PhysicalId::joint_side_1 + b + 1)});
-        if (i == 0 && b > 0)
-          mesh.faces.push_back({{k, k + 1, k + 2, k + 3}, int(PhysicalId::joint_side_2 + b)});
-      }
+        layers[b].push_back(bars[b].layer(i));
     }
-    SolidModel                model(mesh, 1);
+    SolidModel                model(Grids::columns(layers), 1);
     std::vector<unsigned int> master(model.n_nodes());
     std::vector<bool>         fixed(model.n_nodes());
     const auto                layer = [&](const unsigned int i)

@@ -1,15 +1,15 @@
 // Work in a child process: what it sends arrives; whatever happens to it becomes a message.
 
-#include "blocks.h"
+#include "testing.h"
 
-#include <voussoir/base/error.h>
 #include <voussoir/base/guarded.h>
 
 #include <csignal>
 #include <numeric>
 #include <unistd.h>
 
-using namespace Columns;
+using namespace Voussoir;
+using namespace Testing;
 
 namespace
 {
@@ -58,23 +58,9 @@ namespace
   void thrown(const std::string &name, const std::function<void()> &work, const std::string &part,
               const GuardLimits &limits = ::limits)
   {
-    std::string message = "nothing was thrown";
-    bool        good = false;
-    try
-    {
-      run_guarded("The file X cannot be read", limits, work, nothing_sent, nothing_received);
-    }
-    catch (const Error &error)
-    {
-      message = error.what();
-      good = message.find(part) != std::string::npos;
-    }
-    catch (const std::exception &error)
-    {
-      message = std::string("another exception: ") + error.what();
-    }
-    report(name, 0., "\"" + part + "\"", good);
-    std::printf("    %s\n", message.c_str());
+    throws<Error>(
+        name, [&] { run_guarded("The file X cannot be read", limits, work, nothing_sent, nothing_received); },
+        {part});
   }
 
   void test_deaths()
@@ -111,31 +97,28 @@ namespace
   {
     for (const bool dies : {true, false})
     {
-      bool             refused = false;
       std::vector<int> numbers;
-      try
-      {
-        run_guarded(
-            "test", limits, [] {},
-            [&](PipeWriter &pipe)
-            {
-              pipe.put(std::size_t(1) << 60); // not to be believed
-              pipe.put(1);
-              if (dies)
-                raise(SIGSEGV);
-            },
-            [&](PipeReader &pipe) { pipe.get(numbers); });
-      }
-      catch (const InputError &)
-      {
-        refused = true;
-      }
-      report(dies ? "dies while it sends" : "sends too little", 0., "", refused);
+      throws(dies ? "dies while it sends" : "sends too little",
+             [&]
+             {
+               run_guarded(
+                   "test", limits, [] {},
+                   [&](PipeWriter &pipe)
+                   {
+                     pipe.put(std::size_t(1) << 60); // not to be believed
+                     pipe.put(1);
+                     if (dies)
+                       raise(SIGSEGV);
+                   },
+                   [&](PipeReader &pipe) { pipe.get(numbers); });
+             },
+             {});
     }
   }
 } // namespace
 
-int main()
+int main(int argc, char **argv)
 {
-  return run_all({test_results, test_deaths, test_broken_results});
+  return run({{"results", test_results}, {"deaths", test_deaths}, {"broken results", test_broken_results}},
+             argc, argv);
 }

@@ -17,11 +17,6 @@ using namespace MeshTesting;
 
 namespace
 {
-  void write_text(const std::string &file, const std::string &text)
-  {
-    std::ofstream(file) << text;
-  }
-
   void test_names()
   {
     const std::pair<std::string, int> surfaces[] = {

@@ -3,17 +3,17 @@
 #ifndef voussoir_tests_mesh_testing_h
 #define voussoir_tests_mesh_testing_h
 
-#include <voussoir/base/error.h>
+#include "grids.h"
+#include "testing.h"
+
 #include <voussoir/mesh/mesh.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <iostream>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -21,37 +21,8 @@ namespace MeshTesting
 {
   using namespace Voussoir;
 
-  inline void expect(const bool condition, const std::string &what)
-  {
-    if (!condition)
-      throw std::runtime_error(what);
-  }
-
-  inline void expect_close(const double value, const double expected, const double relative,
-                           const std::string &what)
-  {
-    std::ostringstream text;
-    text << what << " is " << value << ", expected " << expected;
-    expect(std::abs(value - expected) <= relative * std::abs(expected), text.str());
-  }
-
-  /** @p action must throw an InputError whose text holds all of @p parts. */
-  template <class Error = InputError>
-  void expect_error(const std::function<void()> &action, const std::vector<std::string> &parts)
-  {
-    try
-    {
-      action();
-    }
-    catch (const Error &error)
-    {
-      for (const std::string &part : parts)
-        expect(std::string(error.what()).find(part) != std::string::npos,
-               "the message lacks '" + part + "': " + error.what());
-      return;
-    }
-    throw std::runtime_error("no error; expected one with '" + parts[0] + "'");
-  }
+  using namespace Testing;
+  using Grids::bar;
 
   inline double smallest_jacobian(const HexMesh &mesh)
   {
@@ -59,22 +30,6 @@ namespace MeshTesting
     for (const auto &cell : mesh.cells)
       result = std::min(result, min_jacobian(mesh, cell));
     return result;
-  }
-
-  /** A bar of unit cubes along y, one monolith each, fixed at the first one's bottom. */
-  inline HexMesh bar(const unsigned int n)
-  {
-    HexMesh mesh;
-    for (unsigned int j = 0; j <= n; ++j)
-      for (const auto &p : {std::array<double, 2>{0, 0}, {1, 0}, {0, 1}, {1, 1}})
-        mesh.nodes.push_back({p[0], double(j), p[1]});
-    for (unsigned int j = 0; j < n; ++j)
-    {
-      const unsigned int a = 4 * j, b = a + 4;
-      mesh.cells.push_back({{a, a + 1, b + 1, b, a + 2, a + 3, b + 3, b + 2}, int(j + 1)});
-      mesh.faces.push_back({{a, a + 1, b + 1, b}, PhysicalId::base});
-    }
-    return mesh;
   }
 
   using Point = std::array<long, 3>; // rounded to about a micrometre
@@ -105,24 +60,6 @@ namespace MeshTesting
     };
     expect(sorted(a) == sorted(b), "different faces");
     expect(a.names == b.names, "different names");
-  }
-
-  /** Runs the tests, prints "name: OK" or what failed; returns main's status. */
-  inline int run(const std::vector<std::pair<std::string, std::function<void()>>> &tests)
-  {
-    bool failed = false;
-    for (const auto &test : tests)
-      try
-      {
-        test.second();
-        std::cout << test.first << ": OK" << std::endl;
-      }
-      catch (const std::exception &error)
-      {
-        std::cout << test.first << ": FAILED: " << error.what() << std::endl;
-        failed = true;
-      }
-    return failed ? 1 : 0;
   }
 } // namespace MeshTesting
 

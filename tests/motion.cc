@@ -1,5 +1,7 @@
 // Ground motions: design spectra, response spectra, artificial records, readers, bad input.
 
+#include "testing.h"
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <voussoir/base/error.h>
@@ -12,50 +14,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <functional>
-#include <iostream>
-#include <sstream>
 
 using namespace Voussoir;
+using namespace Testing;
 
 namespace
 {
-  void require(bool condition, const std::string &message)
-  {
-    if (!condition)
-      throw std::runtime_error(message);
-  }
-
-  void require_close(double value, double expected, double tolerance, const std::string &what)
-  {
-    std::ostringstream message;
-    message << what << " is " << value << ", expected " << expected << " +- " << tolerance;
-    require(std::abs(value - expected) <= tolerance, message.str());
-  }
-
-  void write(const std::string &file, const std::string &text)
-  {
-    std::ofstream(file) << text;
-  }
-
-  /** The call must throw an InputError whose message has all these parts. */
-  template <class Error = InputError>
-  void require_error(const std::function<void()> &call, const std::vector<std::string> &parts)
-  {
-    std::string message;
-    try
-    {
-      call();
-    }
-    catch (const Error &error)
-    {
-      message = error.what();
-    }
-    require(!message.empty(), "no error, expected one with '" + parts[0] + "'");
-    for (const std::string &part : parts)
-      require(message.find(part) != std::string::npos, "'" + part + "' is missing in: " + message);
-  }
-
   // The numbers are those of the codes' formula with T_g = 0.2 s, to the digits of a published table.
   void design_spectra()
   {
@@ -67,12 +31,12 @@ namespace
                                {1.20, 0.5000, 0.8532}, {2.00, 0.5000, 0.6280}, {3.00, 0.5000, 0.5000}};
     for (const auto &row : table)
     {
-      require_close(design_beta(dl, row[0]), row[1], 5e-5, "DL 5073-2000");
-      require_close(design_beta(nb, row[0]), row[2], 5e-5, "NB 35047-2015");
+      expect_within(design_beta(dl, row[0]), row[1], 5e-5, "DL 5073-2000");
+      expect_within(design_beta(nb, row[0]), row[2], 5e-5, "NB 35047-2015");
     }
     // A worked example of the code's users: site II at long period, T_g = 0.35 s.
-    require_close(design_beta({"DL5073-2000", 0.35, 2.5}, 1.5), 0.675, 5e-4, "worked example");
-    require_error([] { design_beta({"GB50011", 0.2, 2.5}, 1.); }, {"GB50011", "DL5073-2000"});
+    expect_within(design_beta({"DL5073-2000", 0.35, 2.5}, 1.5), 0.675, 5e-4, "worked example");
+    expect_error([] { design_beta({"GB50011", 0.2, 2.5}, 1.); }, {"GB50011", "DL5073-2000"});
   }
 
   void response_spectra()
@@ -82,8 +46,8 @@ namespace
     const std::vector<double> step(2001, a), periods = {0.04, 0.1, 0.5, 3.};
     const double              exact = a * (1. + std::exp(-M_PI * zeta / std::sqrt(1. - zeta * zeta)));
     for (const double value : pseudo_acceleration_spectrum(step, 0.01, periods, zeta))
-      require_close(value, exact, 0.013 * exact, "peak under a step");
-    require_close(pseudo_acceleration_spectrum(step, 0.0005, {0.2}, zeta)[0], exact, 1e-4 * exact,
+      expect_within(value, exact, 0.013 * exact, "peak under a step");
+    expect_within(pseudo_acceleration_spectrum(step, 0.0005, {0.2}, zeta)[0], exact, 1e-4 * exact,
                   "step, fine");
 
     // A ramp of acceleration q t without damping: w^2 u = -q (t - sin(w t) / w), exact at every sample.
@@ -93,17 +57,17 @@ namespace
       ramp.push_back(q * 0.01 * k);
     const Oscillator oscillator(period, 0., 0.01);
     const auto       peak = oscillator.peak(ramp);
-    require_close(peak.value, -q * (1. - std::sin(w) / w), 1e-12, "response to a ramp");
+    expect_within(peak.value, -q * (1. - std::sin(w) / w), 1e-12, "response to a ramp");
 
     // The sensitivity reproduces the response.
     const std::vector<double> derivative = oscillator.sensitivity(peak.substep, ramp.size());
     double                    response = 0.;
     for (std::size_t k = 0; k < ramp.size(); ++k)
       response += derivative[k] * ramp[k];
-    require_close(response, peak.value, 1e-12, "response from the sensitivity");
+    expect_within(response, peak.value, 1e-12, "response from the sensitivity");
 
     const auto hundred = logarithmic_periods(0.04, 3., 100);
-    require(hundred.size() == 189 && std::abs(hundred.back() - 3.) < 1e-12, "periods");
+    expect(hundred.size() == 189 && std::abs(hundred.back() - 3.) < 1e-12, "periods");
   }
 
   void artificial_motions()
@@ -120,33 +84,33 @@ namespace
           parameters.time_step = dt;
           parameters.scale = {{1., -1., 1.}};
           const GroundMotion motion = make_motion(parameters, "");
-          require(motion.acceleration.size() == parameters.n_steps() + 1, "wrong number of samples");
-          require_close(motion.duration(), 20.48, 1e-9, "duration");
+          expect(motion.acceleration.size() == parameters.n_steps() + 1, "wrong number of samples");
+          expect_within(motion.duration(), 20.48, 1e-9, "duration");
 
           const MotionReport report = report_motion(motion, parameters);
           for (unsigned int d = 0; d < 3; ++d)
           {
             const auto  &c = report.components[d];
             const double peak = 0.5575 * standard_gravity * (d == 2 ? 0.666667 : 1.);
-            require_close(c.peak_acceleration, peak, 1e-9 * peak, "peak acceleration");
-            require(c.maximum_error <= 0.10 && c.mean_error <= 0.05, code + ": spectrum not matched");
-            require(std::abs(c.end_velocity) < 1e-9 && std::abs(c.end_displacement) < 1e-9, "drift");
-            require(c.peak_displacement < 2., "displacement out of proportion");
-            require(c.significant_duration > 7. && c.significant_duration < 15., "D5-95");
-            require(std::abs(report.correlations[d]) <= 0.3, "correlation");
-            require(motion.acceleration.front()[d] == 0. && std::abs(motion.acceleration.back()[d]) < 1e-12,
-                    "does not begin and end at zero");
+            expect_within(c.peak_acceleration, peak, 1e-9 * peak, "peak acceleration");
+            expect(c.maximum_error <= 0.10 && c.mean_error <= 0.05, code + ": spectrum not matched");
+            expect(std::abs(c.end_velocity) < 1e-9 && std::abs(c.end_displacement) < 1e-9, "drift");
+            expect(c.peak_displacement < 2., "displacement out of proportion");
+            expect(c.significant_duration > 7. && c.significant_duration < 15., "D5-95");
+            expect(std::abs(report.correlations[d]) <= 0.3, "correlation");
+            expect(motion.acceleration.front()[d] == 0. && std::abs(motion.acceleration.back()[d]) < 1e-12,
+                   "does not begin and end at zero");
 
             // What a program sees that looks at the samples alone.
             for (const double period : logarithmic_periods(0.04, 3., 100))
             {
               const double sampled = Oscillator(period, 0.05, dt).peak(motion.component(d)).sampled;
-              require_close(sampled / parameters.target(d, period), 1., 0.10, "spectrum at the samples");
+              expect_within(sampled / parameters.target(d, period), 1., 0.10, "spectrum at the samples");
             }
           }
           std::ostringstream table;
           print_report(report, table);
-          require(table.str().find("warning") == std::string::npos, table.str());
+          expect(table.str().find("warning") == std::string::npos, table.str());
         }
   }
 
@@ -154,9 +118,9 @@ namespace
   {
     MotionParameters parameters;
     const auto       first = make_artificial_component(parameters, 0, 0);
-    require(first == make_artificial_component(parameters, 0, 0), "the same seed gives another motion");
+    expect(first == make_artificial_component(parameters, 0, 0), "the same seed gives another motion");
     parameters.seed = 2;
-    require(first != make_artificial_component(parameters, 0, 0), "another seed gives the same motion");
+    expect(first != make_artificial_component(parameters, 0, 0), "another seed gives the same motion");
   }
 
   void warnings()
@@ -167,8 +131,8 @@ namespace
     report.correlations[2] = -0.4;
     std::ostringstream table;
     print_report(report, table);
-    require(table.str().find("spectrum of y is off by up to 12.0 %") != std::string::npos, table.str());
-    require(table.str().find("correlation of y-z is -0.400") != std::string::npos, table.str());
+    expect(table.str().find("spectrum of y is off by up to 12.0 %") != std::string::npos, table.str());
+    expect(table.str().find("correlation of y-z is -0.400") != std::string::npos, table.str());
   }
 
   MotionParameters file_parameters()
@@ -183,26 +147,26 @@ namespace
   void readers()
   {
     // Four columns: comments, headings, commas, a later start, half the time step.
-    write("motion_table.csv",
-          "\xEF\xBB\xBF# a record\r\nt, ax, ay, az\r\n5.000,1,10,-100\n5.005,2,20,-200 # "
-          "remark\n\n5.010,3,30,-300\n"
-          "5.015,4,40,-400\n5.020,5,50,-500\n5.025,6,60,-600\n5.030,7,70,-700\n5.035,8,80,-800\n");
+    write_text("motion_table.csv",
+               "\xEF\xBB\xBF# a record\r\nt, ax, ay, az\r\n5.000,1,10,-100\n5.005,2,20,-200 # "
+               "remark\n\n5.010,3,30,-300\n"
+               "5.015,4,40,-400\n5.020,5,50,-500\n5.025,6,60,-600\n5.030,7,70,-700\n5.035,8,80,-800\n");
     MotionParameters parameters = file_parameters();
     parameters.file = "motion_table.csv";
     parameters.unit = "cm/s^2";
     parameters.factor = 2.;
     parameters.scale = {{1., 0., -1.}};
     GroundMotion motion = make_motion(parameters, ".");
-    require(motion.acceleration.size() == 4, "table: samples");
+    expect(motion.acceleration.size() == 4, "table: samples");
     for (unsigned int k = 0; k < 4; ++k)
     {
-      require_close(motion.acceleration[k][0], 0.02 * (1 + 2 * k), 1e-12, "table: x");
-      require_close(motion.acceleration[k][1], 0., 0., "table: y is switched off");
-      require_close(motion.acceleration[k][2], 2. * (1 + 2 * k), 1e-12, "table: z");
+      expect_within(motion.acceleration[k][0], 0.02 * (1 + 2 * k), 1e-12, "table: x");
+      expect_within(motion.acceleration[k][1], 0., 0., "table: y is switched off");
+      expect_within(motion.acceleration[k][2], 2. * (1 + 2 * k), 1e-12, "table: z");
     }
 
     // Two columns, finer than the file: interpolated. PEER's three headers, with a short last line.
-    write("motion_two.txt", "0 0.0\n0.02\t+1.0D0\n0.04 0.5\n");
+    write_text("motion_two.txt", "0 0.0\n0.02\t+1.0D0\n0.04 0.5\n");
     const std::string              title = "PEER STRONG MOTION DATABASE RECORD\nAN EVENT, STATION 5\n"
                                            "ACCELERATION TIME HISTORY IN UNITS OF G\n";
     const std::string              data = "  -.64E-02   .50E-02   0.1   -1.E-03   0.2\n   .25\n";
@@ -210,7 +174,7 @@ namespace
                                               "NPTS=      6, DT=   .0100 SEC,\n"};
     for (const std::string &header : headers)
     {
-      write("motion_peer.AT2", title + header + data);
+      write_text("motion_peer.AT2", title + header + data);
       parameters = file_parameters();
       parameters.component_files[0] = "motion_two.txt";
       parameters.component_files[2] = "motion_peer.AT2";
@@ -219,17 +183,18 @@ namespace
       const double two[] = {0., 0.5, 1., 0.75}, peer[] = {-0.0064, 0.005, 0.1, -0.001};
       for (unsigned int k = 0; k < 4; ++k)
       {
-        require_close(motion.acceleration[k][0], two[k], 1e-12, "two columns");
-        require_close(motion.acceleration[k][1], 0., 0., "absent component");
-        require_close(motion.acceleration[k][2], peer[k] * standard_gravity, 1e-12, "AT2 " + header);
+        expect_within(motion.acceleration[k][0], two[k], 1e-12, "two columns");
+        expect_within(motion.acceleration[k][1], 0., 0., "absent component");
+        expect_within(motion.acceleration[k][2], peer[k] * standard_gravity, 1e-12, "AT2 " + header);
       }
     }
     parameters.unit = "g";
-    require_close(make_motion(parameters, "").acceleration[2][0], standard_gravity, 1e-12, "unit g");
-    write("motion_gal.AT2", "AN EVENT\nACCELERATION TIME SERIES IN UNITS OF CM/S/S\n" + headers[1] + data);
+    expect_within(make_motion(parameters, "").acceleration[2][0], standard_gravity, 1e-12, "unit g");
+    write_text("motion_gal.AT2",
+               "AN EVENT\nACCELERATION TIME SERIES IN UNITS OF CM/S/S\n" + headers[1] + data);
     parameters.component_files[2] = "motion_gal.AT2";
-    require_error([&] { make_motion(parameters, ""); },
-                  {"motion_gal.AT2", "line 2", "UNITS OF CM/S/S", "Motion/Unit"});
+    expect_error([&] { make_motion(parameters, ""); },
+                 {"motion_gal.AT2", "line 2", "UNITS OF CM/S/S", "Motion/Unit"});
 
     // What is written can be read again.
     write_motion(motion, "motion_written.csv");
@@ -238,55 +203,54 @@ namespace
     const GroundMotion same = make_motion(parameters, "");
     for (unsigned int k = 0; k < 4; ++k)
       for (unsigned int d = 0; d < 3; ++d)
-        require_close(same.acceleration[k][d], motion.acceleration[k][d], 1e-10, "written and read");
+        expect_within(same.acceleration[k][d], motion.acceleration[k][d], 1e-10, "written and read");
 
     // Interpolation of the motion, and outside of it.
-    require_close(motion.at(0.005)[0], 0.25, 1e-12, "at");
-    require_close(motion.at(0.03)[0], 0.75, 1e-12, "at the end");
-    require(motion.at(-0.001)[0] == 0. && motion.at(0.031)[0] == 0., "not zero outside");
+    expect_within(motion.at(0.005)[0], 0.25, 1e-12, "at");
+    expect_within(motion.at(0.03)[0], 0.75, 1e-12, "at the end");
+    expect(motion.at(-0.001)[0] == 0. && motion.at(0.031)[0] == 0., "not zero outside");
 
     parameters = file_parameters();
     parameters.source = "none";
     motion = make_motion(parameters, "");
-    require(motion.acceleration.size() == 4 && motion.at(0.02)[0] == 0., "Source = none");
+    expect(motion.acceleration.size() == 4 && motion.at(0.02)[0] == 0., "Source = none");
   }
 
   void bad_files()
   {
     const auto table = [](const std::string &text)
     {
-      write("motion_bad.txt", text);
+      write_text("motion_bad.txt", text);
       MotionParameters parameters = file_parameters();
       parameters.component_files[1] = "motion_bad.txt";
       return [parameters] { make_motion(parameters, ""); };
     };
-    require_error(table("0 1\n.01 2\n.02 3\n"), {"motion_bad.txt", "0.02 s", "Motion/Duration", "0.03"});
-    require_error(table("t a\n0 1\n.01 nan\n.02 3\n"), {"motion_bad.txt", "line 3", "nan"});
-    require_error(table("0 1\n.01 1e999\n.02 3\n"), {"line 2", "1e999"});
-    require_error(table("0 1\n\n.01 1,5x\n"), {"line 3", "columns"});
-    require_error(table("0 1\n.01 5x\n"), {"line 2", "5x"});
-    require_error(table("# t a\n0 1\n.01 2\n.005 3\n"), {"line 4", "increase"});
-    require_error(table("0 1\n.01 2\n.02 3\n.04 4\n.05 3\n"), {"line 4", "equal steps"});
-    require_error(table("0 1 2 3\n"), {"line 1", "4 columns", "Motion/File"});
-    require_error(table("t a\n"), {"motion_bad.txt", "two"});
-    require_error(table("X\nY\nZ\n6 .01 NPTS, DT\n1 2 3\n4 5\n"), {"line 4", "NPTS is 6", "5 values"});
-    require_error(table("X\nY\nZ\nNPTS= 2, DT= -.01 SEC\n1 2\n"), {"line 4", "positive"});
-    require_error(table("X\nY\nZ\nNPTS= 2, DT= .01 SEC\n1 2*\n"), {"line 5", "2*"});
-    require_error(table("X\nY\nVELOCITY IN CM/S\nNPTS= 2, DT= .01 SEC\n1 2\n"), {"line 3", "acceleration"});
+    expect_error(table("0 1\n.01 2\n.02 3\n"), {"motion_bad.txt", "0.02 s", "Motion/Duration", "0.03"});
+    expect_error(table("t a\n0 1\n.01 nan\n.02 3\n"), {"motion_bad.txt", "line 3", "nan"});
+    expect_error(table("0 1\n.01 1e999\n.02 3\n"), {"line 2", "1e999"});
+    expect_error(table("0 1\n\n.01 1,5x\n"), {"line 3", "columns"});
+    expect_error(table("0 1\n.01 5x\n"), {"line 2", "5x"});
+    expect_error(table("# t a\n0 1\n.01 2\n.005 3\n"), {"line 4", "increase"});
+    expect_error(table("0 1\n.01 2\n.02 3\n.04 4\n.05 3\n"), {"line 4", "equal steps"});
+    expect_error(table("0 1 2 3\n"), {"line 1", "4 columns", "Motion/File"});
+    expect_error(table("t a\n"), {"motion_bad.txt", "two"});
+    expect_error(table("X\nY\nZ\n6 .01 NPTS, DT\n1 2 3\n4 5\n"), {"line 4", "NPTS is 6", "5 values"});
+    expect_error(table("X\nY\nZ\nNPTS= 2, DT= -.01 SEC\n1 2\n"), {"line 4", "positive"});
+    expect_error(table("X\nY\nZ\nNPTS= 2, DT= .01 SEC\n1 2*\n"), {"line 5", "2*"});
+    expect_error(table("X\nY\nVELOCITY IN CM/S\nNPTS= 2, DT= .01 SEC\n1 2\n"), {"line 3", "acceleration"});
 
     MotionParameters parameters = file_parameters();
-    require_error([&] { make_motion(parameters, ""); }, {"Motion/File"});
+    expect_error([&] { make_motion(parameters, ""); }, {"Motion/File"});
     parameters.file = "no such file.csv";
-    require_error([&] { make_motion(parameters, "scenes"); },
-                  {"scenes/no such file.csv", "cannot be opened"});
+    expect_error([&] { make_motion(parameters, "scenes"); }, {"scenes/no such file.csv", "cannot be opened"});
     parameters.component_files[0] = "motion_two.txt";
-    require_error([&] { make_motion(parameters, ""); }, {"both"});
+    expect_error([&] { make_motion(parameters, ""); }, {"both"});
     parameters.file = "";
     parameters.component_files[2] = "motion_late.txt";
-    write("motion_late.txt", "1 0\n1.02 1\n1.04 0\n");
-    require_error([&] { make_motion(parameters, ""); }, {"motion_late.txt", "first time"});
-    require_error<WriteError>([] { write_motion({}, "no such directory/motion.csv"); },
-                              {"no such directory/motion.csv"});
+    write_text("motion_late.txt", "1 0\n1.02 1\n1.04 0\n");
+    expect_error([&] { make_motion(parameters, ""); }, {"motion_late.txt", "first time"});
+    expect_error<WriteError>([] { write_motion({}, "no such directory/motion.csv"); },
+                             {"no such directory/motion.csv"});
   }
 
   void entries()
@@ -294,21 +258,21 @@ namespace
     MotionParameters         parameters;
     dealii::ParameterHandler prm;
     parameters.add_parameters(prm);
-    require(parameters.vertical_ratio == 0.666667 && parameters.peak_acceleration == 0.5575,
-            "defaults change");
+    expect(parameters.vertical_ratio == 0.666667 && parameters.peak_acceleration == 0.5575,
+           "defaults change");
     parameters.check();
     prm.parse_input_from_string(
         "subsection Motion\n set Spectrum = NB35047-2015\n set Seed = 7\n set Scale z = 0\n"
         " set Damping = 0.03\n set File x = a b.AT2\nend\n");
-    require(parameters.spectrum.code == "NB35047-2015" && parameters.seed == 7 && parameters.scale[2] == 0. &&
-                parameters.damping == 0.03 && parameters.component_files[0] == "a b.AT2",
-            "entries are not read");
+    expect(parameters.spectrum.code == "NB35047-2015" && parameters.seed == 7 && parameters.scale[2] == 0. &&
+               parameters.damping == 0.03 && parameters.component_files[0] == "a b.AT2",
+           "entries are not read");
 
     const auto wrong = [](const std::function<void(MotionParameters &)> &change, const std::string &entry)
     {
       MotionParameters parameters;
       change(parameters);
-      require_error([&] { parameters.check(); }, {"Motion/" + entry});
+      expect_error([&] { parameters.check(); }, {"Motion/" + entry});
     };
     wrong([](MotionParameters &p) { p.time_step = 0.; }, "Time step");
     wrong([](MotionParameters &p) { p.time_step = NAN; }, "Time step");
@@ -322,26 +286,15 @@ namespace
   }
 } // namespace
 
-int main()
+int main(int argc, char **argv)
 {
-  const std::pair<const char *, void (*)()> tests[] = {{"design_spectra", design_spectra},
-                                                       {"response_spectra", response_spectra},
-                                                       {"artificial_motions", artificial_motions},
-                                                       {"seeds", seeds},
-                                                       {"warnings", warnings},
-                                                       {"readers", readers},
-                                                       {"bad_files", bad_files},
-                                                       {"entries", entries}};
-  for (const auto &test : tests)
-    try
-    {
-      test.second();
-      std::cout << test.first << ": OK" << std::endl;
-    }
-    catch (const std::exception &error)
-    {
-      std::cout << test.first << ": " << error.what() << std::endl;
-      return 1;
-    }
-  return 0;
+  return run({{"design_spectra", design_spectra},
+              {"response_spectra", response_spectra},
+              {"artificial_motions", artificial_motions},
+              {"seeds", seeds},
+              {"warnings", warnings},
+              {"readers", readers},
+              {"bad_files", bad_files},
+              {"entries", entries}},
+             argc, argv);
 }

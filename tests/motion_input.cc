@@ -1,6 +1,8 @@
 // What goes into a motion: resampling of records, records of unequal length and step, scaling, envelopes of
 // short motions, what is left at the end, and input that must be refused.
 
+#include "testing.h"
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <voussoir/base/error.h>
@@ -11,51 +13,13 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
-#include <iostream>
-#include <sstream>
-#include <stdexcept>
 #include <sys/stat.h>
 
 using namespace Voussoir;
+using namespace Testing;
 
 namespace
 {
-  void require(bool condition, const std::string &message)
-  {
-    if (!condition)
-      throw std::runtime_error(message);
-  }
-
-  void require_close(double value, double expected, double tolerance, const std::string &what)
-  {
-    std::ostringstream message;
-    message << what << " is " << value << ", expected " << expected << " +- " << tolerance;
-    require(std::abs(value - expected) <= tolerance, message.str());
-  }
-
-  void write(const std::string &file, const std::string &text)
-  {
-    std::ofstream(file, std::ios::binary) << text;
-  }
-
-  /** The call must throw an InputError whose message has all these parts. */
-  void require_error(const std::function<void()> &call, const std::vector<std::string> &parts)
-  {
-    std::string message;
-    try
-    {
-      call();
-    }
-    catch (const InputError &error)
-    {
-      message = error.what();
-    }
-    require(!message.empty(), "no error, expected one with '" + parts[0] + "'");
-    for (const std::string &part : parts)
-      require(message.find(part) != std::string::npos, "'" + part + "' is missing in: " + message);
-  }
-
   std::vector<double> sine(double frequency, double phase, double dt, std::size_t n)
   {
     std::vector<double> a;
@@ -67,7 +31,7 @@ namespace
   /** Largest difference of two records, but for @p margin samples at each end. */
   double difference(const std::vector<double> &a, const std::vector<double> &b, std::size_t margin)
   {
-    require(a.size() == b.size() && a.size() > 2 * margin, "lengths");
+    expect(a.size() == b.size() && a.size() > 2 * margin, "lengths");
     double largest = 0.;
     for (std::size_t k = margin; k + margin < a.size(); ++k)
       largest = std::max(largest, std::abs(a[k] - b[k]));
@@ -84,15 +48,15 @@ namespace
       for (const double f : {0.5, 3., 12.5, 25., 39.})
       {
         const auto a = resample(sine(f, 0.7, dt, n_old), dt, new_dt, n);
-        require_close(difference(a, sine(f, 0.7, new_dt, n), 30), 0., 3e-4, "a sine of the pass band");
+        expect_within(difference(a, sine(f, 0.7, new_dt, n), 30), 0., 3e-4, "a sine of the pass band");
         const auto from_rest = resample(sine(f, 0., dt, n_old), dt, new_dt, n); // whole periods: to its ends
-        require_close(difference(from_rest, sine(f, 0., new_dt, n), 0), 0., 1e-3, "its ends");
+        expect_within(difference(from_rest, sine(f, 0., new_dt, n), 0), 0., 1e-3, "its ends");
       }
       for (const double f : {50.5, 60., 70., 87.5, 99.5})
       {
         const std::vector<double> none(n, 0.);
         const auto                a = resample(sine(f, 0.7, dt, n_old), dt, new_dt, n);
-        require_close(difference(a, none, 30), 0., 3e-4, "a sine above the new Nyquist frequency");
+        expect_within(difference(a, none, 30), 0., 3e-4, "a sine above the new Nyquist frequency");
       }
       // Straight lines stay, to the ends.
       std::vector<double> line, expected;
@@ -100,15 +64,15 @@ namespace
         line.push_back(2. - 0.3 * k * dt);
       for (std::size_t k = 0; k < n; ++k)
         expected.push_back(2. - 0.3 * k * new_dt);
-      require_close(difference(resample(line, dt, new_dt, n), expected, 0), 0., 1e-6, "a straight line");
+      expect_within(difference(resample(line, dt, new_dt, n), expected, 0), 0., 1e-6, "a straight line");
     }
     // To a finer step: linear, and the same step is untouched, even with a rounded interval.
     const auto                finer = resample({1., 3., 2.}, 0.02, 0.005, 9);
     const std::vector<double> exact = {1., 1.5, 2., 2.5, 3., 2.75, 2.5, 2.25, 2.};
-    require_close(difference(finer, exact, 0), 0., 1e-14, "linear interpolation");
+    expect_within(difference(finer, exact, 0), 0., 1e-14, "linear interpolation");
     const auto wild = sine(49., 1., 0.01, 500);
-    require_close(difference(resample(wild, 0.01, 0.01, 500), wild, 0), 0., 1e-12, "the same step");
-    require_close(difference(resample(wild, 0.00999999, 0.01, 499), sine(49., 1., 0.01, 499), 0), 0., 1e-2,
+    expect_within(difference(resample(wild, 0.01, 0.01, 500), wild, 0), 0., 1e-12, "the same step");
+    expect_within(difference(resample(wild, 0.00999999, 0.01, 499), sine(49., 1., 0.01, 499), 0), 0., 1e-2,
                   "a rounded step");
   }
 
@@ -132,31 +96,31 @@ namespace
   // Three records with steps of 5, 10 and 20 ms, which last 4, 5 and 3.5 s.
   void unequal_records()
   {
-    write("input_x.txt", table(sine(2., 0., 0.005, 801), 0.005));
-    write("input_y.txt", table(sine(2., 0., 0.01, 501), 0.01));
-    write("input_z.txt", table(sine(2., 0., 0.02, 176), 0.02));
+    write_text("input_x.txt", table(sine(2., 0., 0.005, 801), 0.005));
+    write_text("input_y.txt", table(sine(2., 0., 0.01, 501), 0.01));
+    write_text("input_z.txt", table(sine(2., 0., 0.02, 176), 0.02));
     MotionParameters p = file_parameters();
     p.component_files = {{"input_x.txt", "input_y.txt", "input_z.txt"}};
     const GroundMotion motion = make_motion(p, "");
-    require(motion.acceleration.size() == 351, "not as long as the shortest record");
+    expect(motion.acceleration.size() == 351, "not as long as the shortest record");
     const auto expected = sine(2., 0., 0.01, 351);
-    require_close(difference(motion.component(0), expected, 0), 0., 3e-4, "filtered");
-    require_close(difference(motion.component(1), expected, 0), 0., 1e-13, "as it is");
-    require_close(difference(motion.component(2), expected, 0), 0., 0.5 * std::pow(2. * M_PI * 2. * 0.01, 2),
+    expect_within(difference(motion.component(0), expected, 0), 0., 3e-4, "filtered");
+    expect_within(difference(motion.component(1), expected, 0), 0., 1e-13, "as it is");
+    expect_within(difference(motion.component(2), expected, 0), 0., 0.5 * std::pow(2. * M_PI * 2. * 0.01, 2),
                   "interpolated");
-    require(motion.notes.size() == 2 && motion.notes[0].find("3.5 s") != std::string::npos &&
-                motion.notes[0].find("input_z.txt") != std::string::npos &&
-                motion.notes[1].find("50 Hz") != std::string::npos,
-            "notes");
+    expect(motion.notes.size() == 2 && motion.notes[0].find("3.5 s") != std::string::npos &&
+               motion.notes[0].find("input_z.txt") != std::string::npos &&
+               motion.notes[1].find("50 Hz") != std::string::npos,
+           "notes");
     p.duration = 3.;
-    require(make_motion(p, "").acceleration.size() == 301, "Duration that is set");
+    expect(make_motion(p, "").acceleration.size() == 301, "Duration that is set");
     p.duration = 4.;
-    require_error([&] { make_motion(p, ""); }, {"input_z.txt", "3.5 s", "Motion/Duration", "4 s"});
+    expect_error([&] { make_motion(p, ""); }, {"input_z.txt", "3.5 s", "Motion/Duration", "4 s"});
     p.duration = -1.;
     p.time_step = 4.;
-    require_error([&] { make_motion(p, ""); }, {"input_z.txt", "less than one", "Time step"});
+    expect_error([&] { make_motion(p, ""); }, {"input_z.txt", "less than one", "Time step"});
     p.time_step = 1e-9;
-    require_error([&] { make_motion(p, ""); }, {"ten million", "Time step"});
+    expect_error([&] { make_motion(p, ""); }, {"ten million", "Time step"});
   }
 
   void factors()
@@ -166,13 +130,13 @@ namespace
     p.factor = -0.5;
     p.scale = {{1., 2., 1.}};
     const GroundMotion half = make_motion(p, "");
-    require(one.acceleration.size() == 2049 && half.acceleration.size() == 2049, "default duration");
+    expect(one.acceleration.size() == 2049 && half.acceleration.size() == 2049, "default duration");
     for (std::size_t k = 0; k < one.acceleration.size(); ++k)
     {
-      require_close(half.acceleration[k][0], -0.5 * one.acceleration[k][0], 1e-14, "Factor, artificial, x");
-      require_close(half.acceleration[k][1], -one.acceleration[k][1], 1e-14, "Factor, artificial, y");
+      expect_within(half.acceleration[k][0], -0.5 * one.acceleration[k][0], 1e-14, "Factor, artificial, x");
+      expect_within(half.acceleration[k][1], -one.acceleration[k][1], 1e-14, "Factor, artificial, y");
     }
-    require(motion_warnings(report_motion(half, p)).empty(), "the spectrum to match is scaled, too");
+    expect(motion_warnings(report_motion(half, p)).empty(), "the spectrum to match is scaled, too");
   }
 
   // An artificial motion is as good as the default one when it is shorter, without entries for the envelope.
@@ -183,7 +147,7 @@ namespace
     {
       p.duration = duration;
       const MotionEnvelope e = p.envelope();
-      require(e.rise_end == 2.5 && e.decay_begin == 11. && e.decay_rate == 0.25, "envelope of long motions");
+      expect(e.rise_end == 2.5 && e.decay_begin == 11. && e.decay_rate == 0.25, "envelope of long motions");
     }
     for (const double duration : {0.2, 0.5, 1., 2.5, 5., 10., 12.})
     {
@@ -192,28 +156,28 @@ namespace
       const MotionReport report = report_motion(make_motion(p, ""), p);
       for (const auto &c : report.components)
       {
-        require(std::isfinite(c.maximum_error), "not finite");
-        require(std::abs(c.end_velocity) < 1e-9 && std::abs(c.end_displacement) < 1e-9, "drift");
+        expect(std::isfinite(c.maximum_error), "not finite");
+        expect(std::abs(c.end_velocity) < 1e-9 && std::abs(c.end_displacement) < 1e-9, "drift");
         if (duration >= 5.)
-          require(c.maximum_error <= 0.10, "a motion of " + std::to_string(duration) + " s does not match");
+          expect(c.maximum_error <= 0.10, "a motion of " + std::to_string(duration) + " s does not match");
       }
-      require_close(report.components[0].peak_acceleration, 0.5575 * standard_gravity, 1e-6, "peak");
+      expect_within(report.components[0].peak_acceleration, 0.5575 * standard_gravity, 1e-6, "peak");
     }
     p.duration = 5.;
     p.decay_begin = 3.; // with the usual rise
-    require(p.envelope().decay_begin == 3. && p.envelope().rise_end == 2.5 && p.envelope().decay_rate == 0.25,
-            "one entry that is set");
+    expect(p.envelope().decay_begin == 3. && p.envelope().rise_end == 2.5 && p.envelope().decay_rate == 0.25,
+           "one entry that is set");
     p.decay_begin = 2.; // too early for it
-    require(p.envelope().decay_begin == 2. && std::abs(p.envelope().rise_end - 2.5 / 3.) < 1e-12,
-            "one entry that is set, early");
+    expect(p.envelope().decay_begin == 2. && std::abs(p.envelope().rise_end - 2.5 / 3.) < 1e-12,
+           "one entry that is set, early");
     p.decay_begin = 6.;
-    require_error([&] { p.check(); }, {"Motion/Duration is 5", "Decay begin, 6 s"});
+    expect_error([&] { p.check(); }, {"Motion/Duration is 5", "Decay begin, 6 s"});
     p.decay_begin = -1.;
     p.rise_end = 4.;
-    require(p.envelope().decay_begin == 4.5, "a decay that begins after the rise that is set");
+    expect(p.envelope().decay_begin == 4.5, "a decay that begins after the rise that is set");
     p.check();
     p.rise_end = 5.5;
-    require_error([&] { p.check(); }, {"Motion/Decay begin", "Rise end, 5.5 s"});
+    expect_error([&] { p.check(); }, {"Motion/Decay begin", "Rise end, 5.5 s"});
   }
 
   void ends()
@@ -224,9 +188,9 @@ namespace
       motion.acceleration.push_back({{a, 0., 0.}});
     MotionParameters p = file_parameters();
     auto             warnings = motion_warnings(report_motion(motion, p));
-    require(warnings.size() == 1 && warnings[0].find("in x") != std::string::npos &&
-                warnings[0].find("100 %") != std::string::npos,
-            "drift is not warned of");
+    expect(warnings.size() == 1 && warnings[0].find("in x") != std::string::npos &&
+               warnings[0].find("100 %") != std::string::npos,
+           "drift is not warned of");
     // Back and forth, to rest at its place: the displacement (1 - cos wt)^2.
     for (std::size_t k = 0; k < motion.acceleration.size(); ++k)
     {
@@ -234,10 +198,10 @@ namespace
       motion.acceleration[k][0] = 2. * w * w * (s * s + c * (1. - c));
     }
     warnings = motion_warnings(report_motion(motion, p));
-    require(warnings.empty(),
-            "a motion that ends at rest is warned of: " + (warnings.empty() ? "" : warnings[0]));
+    expect(warnings.empty(),
+           "a motion that ends at rest is warned of: " + (warnings.empty() ? "" : warnings[0]));
     motion.acceleration.resize(751); // cut in its middle
-    require(motion_warnings(report_motion(motion, p)).size() == 1, "a cut motion is not warned of");
+    expect(motion_warnings(report_motion(motion, p)).size() == 1, "a cut motion is not warned of");
   }
 
   void wrong_entries()
@@ -246,7 +210,7 @@ namespace
     {
       MotionParameters p;
       change(p);
-      require_error([&] { p.check(); }, {"Motion/" + entry});
+      expect_error([&] { p.check(); }, {"Motion/" + entry});
     };
     const double inf = HUGE_VAL;
     for (const double value : {1e308, inf, -inf, double(NAN), 0.})
@@ -272,7 +236,7 @@ namespace
     wrong([](MotionParameters &p) { p.duration = 3000.; }, "Duration");
     MotionParameters p;
     p.factor = 1e4;
-    require_error([&] { make_motion(p, ""); }, {"1000 g", "Factor"});
+    expect_error([&] { make_motion(p, ""); }, {"1000 g", "Factor"});
 
     MotionParameters         declared;
     dealii::ParameterHandler prm;
@@ -288,7 +252,7 @@ namespace
       {
         refused = true;
       }
-      require(refused, entry + " is not refused");
+      expect(refused, entry + " is not refused");
     }
   }
 
@@ -297,7 +261,7 @@ namespace
     MotionParameters p = file_parameters();
     const auto       read = [&](const std::string &text, bool three = false)
     {
-      write("input_bad.txt", text);
+      write_text("input_bad.txt", text);
       p.file = three ? "input_bad.txt" : "";
       p.component_files[0] = three ? "" : "input_bad.txt";
       return [=] { make_motion(p, ""); };
@@ -307,28 +271,28 @@ namespace
     read("t;a\r\n0;0\r\n.01;1e-400\r\n.02;0\r\n")();
     read("t a\r0 0\r.01 1\r.02 0\r")();
     read("0 0 0 0\n.01 1 1 1\n", true)();
-    require_error(read("t a\r\n0 0\r\n.01 x\r\n"), {"line 3", "'x'"});
-    require_error(read(good.substr(0, 4)), {"input_bad.txt", "fewer than two"});
-    require_error(read(""), {"input_bad.txt", "fewer than two"});
-    require_error(read("O.00 1\n.01 1\n.02 0\n"), {"line 1", "O.00"}); // a letter: not headings
-    require_error(read("a record\ns m/s2\n" + good), {"line 2", "'s'"});
-    require_error(read("a record\nof a place\n" + good), {"line 2", "headings"});
-    require_error(read("0,0;1,5\n0,01;2,5\n"), {"line 1", "4 columns"}); // decimal commas
-    require_error(read(good + "\n.03 0 0\n"), {"line 5", "3 columns"});
-    require_error(read(good + ".02 0\n"), {"line 4", "increase"});
-    require_error(read("0 0\n1e308 1\n2e308 1\n"), {"line 3", "2e308"});
-    require_error(read("0 0\n.01 1e308\n.02 0\n"), {"1000 g"});
-    require_error(read("0 0\n.01 -inf\n.02 0\n"), {"line 2", "-inf"});
-    require_error(read("0 0\n.01 1\0\n.02 0\n" + std::string(1, '\0')), {"plain text"});
+    expect_error(read("t a\r\n0 0\r\n.01 x\r\n"), {"line 3", "'x'"});
+    expect_error(read(good.substr(0, 4)), {"input_bad.txt", "fewer than two"});
+    expect_error(read(""), {"input_bad.txt", "fewer than two"});
+    expect_error(read("O.00 1\n.01 1\n.02 0\n"), {"line 1", "O.00"}); // a letter: not headings
+    expect_error(read("a record\ns m/s2\n" + good), {"line 2", "'s'"});
+    expect_error(read("a record\nof a place\n" + good), {"line 2", "headings"});
+    expect_error(read("0,0;1,5\n0,01;2,5\n"), {"line 1", "4 columns"}); // decimal commas
+    expect_error(read(good + "\n.03 0 0\n"), {"line 5", "3 columns"});
+    expect_error(read(good + ".02 0\n"), {"line 4", "increase"});
+    expect_error(read("0 0\n1e308 1\n2e308 1\n"), {"line 3", "2e308"});
+    expect_error(read("0 0\n.01 1e308\n.02 0\n"), {"1000 g"});
+    expect_error(read("0 0\n.01 -inf\n.02 0\n"), {"line 2", "-inf"});
+    expect_error(read("0 0\n.01 1\0\n.02 0\n" + std::string(1, '\0')), {"plain text"});
     std::string
         drifts; // each step within 5 % of the usual one, but 2 % more on the average of the second half
     for (unsigned int k = 0; k <= 200; ++k)
       drifts += std::to_string(k * .01 + (k > 100 ? (k - 100) * .0004 : 0.)) + " 0\n";
-    require_error(read(drifts), {"line", "equal steps"});
-    require_error(read("0 0\n" + std::string(1100000, '1')), {"line 2", "million characters"});
-    require_error(read("A\nB\nC\nNPTS= 3, DT= .01 SEC\n0 1\n"), {"line 4", "NPTS is 3", "2 values"});
-    require_error(read("A\nB\nC\nNPTS= 3, DT= .01 SEC\n0 1 2 3\n"), {"line 4", "NPTS is 3", "4 values"});
-    require_error(read("A\nB\nC\nNPTS= 3, DT= nan SEC\n0 1 2\n"), {"line 4", "positive"});
+    expect_error(read(drifts), {"line", "equal steps"});
+    expect_error(read("0 0\n" + std::string(1100000, '1')), {"line 2", "million characters"});
+    expect_error(read("A\nB\nC\nNPTS= 3, DT= .01 SEC\n0 1\n"), {"line 4", "NPTS is 3", "2 values"});
+    expect_error(read("A\nB\nC\nNPTS= 3, DT= .01 SEC\n0 1 2 3\n"), {"line 4", "NPTS is 3", "4 values"});
+    expect_error(read("A\nB\nC\nNPTS= 3, DT= nan SEC\n0 1 2\n"), {"line 4", "positive"});
 
     p = file_parameters();
     const auto from = [&](const std::string &name)
@@ -339,38 +303,26 @@ namespace
     std::filesystem::create_directories("input_directory");
     ::mkfifo("input_pipe", 0600);
     {
-      write("input_huge.txt", "");
+      write_text("input_huge.txt", "");
       std::filesystem::resize_file("input_huge.txt", 200000000); // sparse
     }
-    require_error(from("input_directory"), {"input_directory", "directory"});
-    require_error(from("input_pipe"), {"input_pipe", "pipe"});
-    require_error(from("/dev/zero"), {"/dev/zero", "device"});
-    require_error(from("input_huge.txt"), {"input_huge.txt", "100 MB"});
+    expect_error(from("input_directory"), {"input_directory", "directory"});
+    expect_error(from("input_pipe"), {"input_pipe", "pipe"});
+    expect_error(from("/dev/zero"), {"/dev/zero", "device"});
+    expect_error(from("input_huge.txt"), {"input_huge.txt", "100 MB"});
     std::filesystem::remove("input_huge.txt");
     std::filesystem::remove("input_pipe");
   }
 } // namespace
 
-int main()
+int main(int argc, char **argv)
 {
-  const std::pair<const char *, void (*)()> tests[] = {{"resampling", resampling},
-                                                       {"unequal_records", unequal_records},
-                                                       {"factors", factors},
-                                                       {"short_motions", short_motions},
-                                                       {"ends", ends},
-                                                       {"wrong_entries", wrong_entries},
-                                                       {"wrong_files", wrong_files}};
-  bool                                      failed = false;
-  for (const auto &test : tests)
-    try
-    {
-      test.second();
-      std::cout << test.first << ": OK" << std::endl;
-    }
-    catch (const std::exception &error)
-    {
-      std::cout << test.first << ": " << error.what() << std::endl;
-      failed = true;
-    }
-  return failed ? 1 : 0;
+  return run({{"resampling", resampling},
+              {"unequal_records", unequal_records},
+              {"factors", factors},
+              {"short_motions", short_motions},
+              {"ends", ends},
+              {"wrong_entries", wrong_entries},
+              {"wrong_files", wrong_files}},
+             argc, argv);
 }

@@ -24,49 +24,12 @@ using namespace MeshTesting;
 
 namespace
 {
-  constexpr double pi = 3.14159265358979323846, thick = 10., wide = 20., tall = 30.;
+  constexpr double thick = 10., wide = 20., tall = 30.;
 
-  /** A wall thick x wide x tall: x = 0 is upstream, z = 0 the base; monolith 2 begins at the place y of node
-   *  @p split. @p place moves the nodes. */
   HexMesh wall(const unsigned int nx, const unsigned int ny, const unsigned int nz, const unsigned int split,
                const std::function<Vector3(const Vector3 &)> &place = nullptr)
   {
-    HexMesh    mesh;
-    const auto id = [&](const unsigned int i, const unsigned int j, const unsigned int k)
-    { return (k * (ny + 1) + j) * (nx + 1) + i; };
-    for (unsigned int k = 0; k <= nz; ++k)
-      for (unsigned int j = 0; j <= ny; ++j)
-        for (unsigned int i = 0; i <= nx; ++i)
-        {
-          const Vector3 x = {{thick * i / nx, wide * j / ny, tall * k / nz}};
-          mesh.nodes.push_back(place ? place(x) : x);
-        }
-    for (unsigned int k = 0; k < nz; ++k)
-      for (unsigned int j = 0; j < ny; ++j)
-        for (unsigned int i = 0; i < nx; ++i)
-        {
-          HexMesh::Cell cell;
-          for (unsigned int v = 0; v < 2; ++v)
-          {
-            cell.nodes[4 * v] = id(i, j, k + v);
-            cell.nodes[4 * v + 1] = id(i + 1, j, k + v);
-            cell.nodes[4 * v + 2] = id(i + 1, j + 1, k + v);
-            cell.nodes[4 * v + 3] = id(i, j + 1, k + v);
-          }
-          cell.volume = j < split ? 1 : 2;
-          mesh.cells.push_back(cell);
-        }
-    for (unsigned int j = 0; j < ny; ++j)
-      for (unsigned int k = 0; k < nz; ++k)
-        for (const unsigned int i : {0u, nx})
-          mesh.faces.push_back({{id(i, j, k), id(i, j + 1, k), id(i, j + 1, k + 1), id(i, j, k + 1)},
-                                i == 0 ? PhysicalId::upstream : PhysicalId::downstream});
-    for (unsigned int j = 0; j < ny; ++j)
-      for (unsigned int i = 0; i < nx; ++i)
-        for (const unsigned int k : {0u, nz})
-          mesh.faces.push_back({{id(i, j, k), id(i + 1, j, k), id(i + 1, j + 1, k), id(i, j + 1, k)},
-                                k == 0 ? PhysicalId::base : PhysicalId::crest});
-    return mesh;
+    return Grids::wall({{thick, wide, tall}}, {{nx, ny, nz}}, split, place);
   }
 
   Vector3 sum(const Unknowns &f)

@@ -1,6 +1,6 @@
 // What users write into scenes: units, patterns in words, entries without effect, implausible values.
 
-#include "mesh_testing.h"
+#include "testing.h"
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -10,7 +10,8 @@
 
 #include <fstream>
 
-using namespace MeshTesting;
+using namespace Voussoir;
+using namespace Testing;
 
 namespace
 {
