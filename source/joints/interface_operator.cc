@@ -1,3 +1,4 @@
+#include <voussoir/base/parallel.h>
 #include <voussoir/joints/interface_operator.h>
 
 #include <algorithm>
@@ -54,18 +55,18 @@ namespace Voussoir
     for (const auto &b : blocks)
       list.push_back(&b);
     std::vector<std::array<std::vector<double>, 2>> products(list.size());
-#pragma omp parallel for schedule(dynamic)
-    for (int i = 0; i < static_cast<int>(list.size()); ++i)
-    {
-      const unsigned int j = list[i]->first.first, k = list[i]->first.second;
-      products[i][0].assign(size(j), 0.);
-      add_coupling(j, k, 1., x.data() + offset[k], products[i][0].data());
-      if (j != k)
-      {
-        products[i][1].assign(size(k), 0.);
-        add_coupling(k, j, 1., x.data() + offset[j], products[i][1].data());
-      }
-    }
+    for_each_parallel(list.size(),
+                      [&](const int i)
+                      {
+                        const unsigned int j = list[i]->first.first, k = list[i]->first.second;
+                        products[i][0].assign(size(j), 0.);
+                        add_coupling(j, k, 1., x.data() + offset[k], products[i][0].data());
+                        if (j != k)
+                        {
+                          products[i][1].assign(size(k), 0.);
+                          add_coupling(k, j, 1., x.data() + offset[j], products[i][1].data());
+                        }
+                      });
     y.assign(n(), 0.);
     for (std::size_t i = 0; i < list.size(); ++i)
       for (unsigned int side = 0; side < 2; ++side)
@@ -115,24 +116,23 @@ namespace Voussoir
     std::vector<float> change(n());
     for (const auto &groups : colours())
     {
-#pragma omp parallel for schedule(dynamic)
-      for (int index = 0; index < static_cast<int>(groups.size()); ++index)
-        sweep_group(groups[index], solve_pair, force, gap, change);
-        // What the change does to the other groups; each of them is the work of one thread.
-#pragma omp parallel for schedule(dynamic)
-      for (int k = 0; k < static_cast<int>(n_groups()); ++k)
-      {
-        std::vector<float> sum(size(k), 0.f);
-        bool               any = false;
-        for (const unsigned int j : coupled[k])
-          if (std::binary_search(groups.begin(), groups.end(), j))
-          {
-            add_single(k, j, change.data() + begin(j), sum.data());
-            any = true;
-          }
-        for (unsigned int i = 0; any && i < size(k); ++i)
-          gap[begin(k) + i] += sum[i];
-      }
+      for_each_parallel(groups.size(),
+                        [&](const int index) { sweep_group(groups[index], solve_pair, force, gap, change); });
+      // What the change does to the other groups; each of them is the work of one thread.
+      for_each_parallel(n_groups(),
+                        [&](const int k)
+                        {
+                          std::vector<float> sum(size(k), 0.f);
+                          bool               any = false;
+                          for (const unsigned int j : coupled[k])
+                            if (std::binary_search(groups.begin(), groups.end(), j))
+                            {
+                              add_single(k, j, change.data() + begin(j), sum.data());
+                              any = true;
+                            }
+                          for (unsigned int i = 0; any && i < size(k); ++i)
+                            gap[begin(k) + i] += sum[i];
+                        });
     }
   }
 

@@ -1,7 +1,9 @@
+#include <voussoir/base/parallel.h>
 #include <voussoir/joints/joint_jacobian.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 extern "C" float sdot_(const int *, const float *, const int *, const float *, const int *);
 
@@ -68,23 +70,26 @@ namespace Voussoir
       chain->factorise(new_equations);
       return W.n_groups();
     }
-    unsigned int count = 0;
-#pragma omp parallel for schedule(dynamic) reduction(+ : count)
-    for (int g = 0; g < static_cast<int>(W.n_groups()); ++g)
-      if (W.size(g) > 0)
-      {
-        if (needs_factor(g))
-        {
-          factors[g].assemble(W, g, present(g));
-          factors[g].factorise();
-          ++count;
-        }
-        Factor &factor = factors[g];
-        factor.exact = std::equal(factor.equations.begin(), factor.equations.end(), present(g),
-                                  [](const PairEquations &a, const PairEquations &b)
-                                  { return a.d_force == b.d_force && a.d_gap == b.d_gap; });
-      }
-    return count;
+    std::vector<unsigned int> made(W.n_groups(), 0);
+    for_each_parallel(W.n_groups(),
+                      [&](const int g)
+                      {
+                        if (W.size(g) > 0)
+                        {
+                          if (needs_factor(g))
+                          {
+                            factors[g].assemble(W, g, present(g));
+                            factors[g].factorise();
+                            made[g] = 1;
+                          }
+                          Factor &factor = factors[g];
+                          factor.exact =
+                              std::equal(factor.equations.begin(), factor.equations.end(), present(g),
+                                         [](const PairEquations &a, const PairEquations &b)
+                                         { return a.d_force == b.d_force && a.d_gap == b.d_gap; });
+                        }
+                      });
+    return std::accumulate(made.begin(), made.end(), 0u);
   }
 
   void JointJacobian::apply_factor(const unsigned int group, float *x) const
@@ -115,18 +120,18 @@ namespace Voussoir
   void JointJacobian::multiply_W(const Floats &x, Floats &y) const
   {
     std::vector<std::array<Floats, 2>> products(keys.size());
-#pragma omp parallel for schedule(dynamic)
-    for (int i = 0; i < static_cast<int>(keys.size()); ++i)
-    {
-      const unsigned int j = keys[i].first, k = keys[i].second;
-      products[i][0].assign(W.size(j), 0.f);
-      W.add_single(j, k, x.data() + W.begin(k), products[i][0].data());
-      if (j != k)
-      {
-        products[i][1].assign(W.size(k), 0.f);
-        W.add_single(k, j, x.data() + W.begin(j), products[i][1].data());
-      }
-    }
+    for_each_parallel(keys.size(),
+                      [&](const int i)
+                      {
+                        const unsigned int j = keys[i].first, k = keys[i].second;
+                        products[i][0].assign(W.size(j), 0.f);
+                        W.add_single(j, k, x.data() + W.begin(k), products[i][0].data());
+                        if (j != k)
+                        {
+                          products[i][1].assign(W.size(k), 0.f);
+                          W.add_single(k, j, x.data() + W.begin(j), products[i][1].data());
+                        }
+                      });
     y.assign(W.n(), 0.f);
     for (std::size_t i = 0; i < keys.size(); ++i)
       for (unsigned int side = 0; side < 2; ++side)
@@ -186,32 +191,35 @@ namespace Voussoir
           action(k);
     };
     for (const auto &groups : groups_of_colour)
-#pragma omp parallel for schedule(dynamic)
-      for (int i = 0; i < static_cast<int>(groups.size()); ++i)
-      {
-        const unsigned int g = groups[i];
-        float             *z_g = z.data() + W.begin(g);
-        Floats             sum(W.size(g), 0.f);
-        for_earlier(g, [&](const unsigned int k) { W.add_single(g, k, z.data() + W.begin(k), sum.data()); });
-        multiply_by_d_gap(g, -1.f, sum.data(), z_g);
-        apply_factor(g, z_g);
-        for_earlier(g,
-                    [&](const unsigned int k)
-                    {
-                      back[g].emplace_back(W.size(k), 0.f);
-                      W.add_single(k, g, z_g, back[g].back().data());
-                    });
-      }
+      for_each_parallel(groups.size(),
+                        [&](const int i)
+                        {
+                          const unsigned int g = groups[i];
+                          float             *z_g = z.data() + W.begin(g);
+                          Floats             sum(W.size(g), 0.f);
+                          for_earlier(g, [&](const unsigned int k)
+                                      { W.add_single(g, k, z.data() + W.begin(k), sum.data()); });
+                          multiply_by_d_gap(g, -1.f, sum.data(), z_g);
+                          apply_factor(g, z_g);
+                          for_earlier(g,
+                                      [&](const unsigned int k)
+                                      {
+                                        back[g].emplace_back(W.size(k), 0.f);
+                                        W.add_single(k, g, z_g, back[g].back().data());
+                                      });
+                        });
     for (unsigned int g = 0; g < W.n_groups(); ++g)
     {
       auto product = back[g].begin();
       for_earlier(g, [&](const unsigned int k)
                   { multiply_by_d_gap(k, 1.f, (product++)->data(), w.data() + W.begin(k)); });
     }
-#pragma omp parallel for schedule(dynamic)
-    for (int g = 0; g < static_cast<int>(W.n_groups()); ++g)
-      if (!factors[g].exact && W.size(g) > 0)
-        correct_stale(g, z, w);
+    for_each_parallel(W.n_groups(),
+                      [&](const int g)
+                      {
+                        if (!factors[g].exact && W.size(g) > 0)
+                          correct_stale(g, z, w);
+                      });
   }
 
   /** w = J z. */

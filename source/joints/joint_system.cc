@@ -1,3 +1,4 @@
+#include <voussoir/base/parallel.h>
 #include <voussoir/joints/joint_system.h>
 
 #include <voussoir/base/error.h>
@@ -6,7 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <filesystem>
 #include <optional>
 
@@ -55,20 +55,11 @@ namespace Voussoir
             "use the joint model FJA.");
     const int                                 n_bodies = structure.bodies.size();
     std::vector<std::optional<CondensedBody>> condensed(n_bodies);
-    std::exception_ptr                        failure;
-#pragma omp parallel for schedule(dynamic)
-    for (int i = 0; i < n_bodies; ++i)
-      try
-      {
-        condensed[i].emplace(structure, structure.bodies[i], mass_factor, stiffness_factor, dashpot_factor);
-      }
-      catch (...)
-      {
-#pragma omp critical
-        failure = std::current_exception();
-      }
-    if (failure)
-      std::rethrow_exception(failure);
+    for_each_parallel(n_bodies,
+                      [&](const int i) {
+                        condensed[i].emplace(structure, structure.bodies[i], mass_factor, stiffness_factor,
+                                             dashpot_factor);
+                      });
     for (auto &body : condensed)
     {
       interface.emplace_back(body->n_interface());
@@ -137,12 +128,12 @@ namespace Voussoir
     const double begin = now();
     const int    n_bodies = bodies.size();
     u.resize(load.size());
-#pragma omp parallel for schedule(dynamic)
-    for (int i = 0; i < n_bodies; ++i)
-    {
-      bodies[i].forward(load.data() + 3 * std::size_t(structure.bodies[i].first_node));
-      bodies[i].interface_displacement(interface[i].data());
-    }
+    for_each_parallel(n_bodies,
+                      [&](const int i)
+                      {
+                        bodies[i].forward(load.data() + 3 * std::size_t(structure.bodies[i].first_node));
+                        bodies[i].interface_displacement(interface[i].data());
+                      });
 
     const double  middle = now();
     ContactResult result;
@@ -174,12 +165,12 @@ namespace Voussoir
     }
 
     const double after = now();
-#pragma omp parallel for schedule(dynamic)
-    for (int i = 0; i < n_bodies; ++i)
-    {
-      bodies[i].add_interface_forces(interface[i].data());
-      bodies[i].backward(u.data() + 3 * std::size_t(structure.bodies[i].first_node));
-    }
+    for_each_parallel(n_bodies,
+                      [&](const int i)
+                      {
+                        bodies[i].add_interface_forces(interface[i].data());
+                        bodies[i].backward(u.data() + 3 * std::size_t(structure.bodies[i].first_node));
+                      });
     times.sweeps += middle - begin + now() - after;
     times.joints += after - middle;
     return result;

@@ -1,4 +1,5 @@
 #include <voussoir/base/error.h>
+#include <voussoir/base/parallel.h>
 #include <voussoir/mesh/coincident.h>
 #include <voussoir/rock/free_field.h>
 
@@ -190,9 +191,7 @@ namespace Voussoir
   void FreeField::advance()
   {
     const int n = columns.size();
-#pragma omp parallel for schedule(dynamic) if (n > 1)
-    for (int c = 0; c < n; ++c)
-      columns[c]->advance();
+    for_each_parallel(n, [&](const int c) { columns[c]->advance(); });
     for (const auto &section : sections)
       section->region->advance();
   }

@@ -1,18 +1,22 @@
 // The weights of the transmitting formulas on an even and on an uneven line.
 
-#include <voussoir/rock/transmitting_boundary.h>
+#include <voussoir/rock/transmitting_formula.h>
 
 #include <cstdio>
+#include <utility>
 
 int main()
 {
   using namespace Voussoir;
   const double c_p = 3200., c_s = 1900., dt = .002, r = 400.;
   for (const double growth : {1., 1.1})
-    for (const char *name : {"mtf1", "mtf2-plain", "mtf2", "mtf3", "mtf4"})
+    for (const auto &[name, formula] : {std::pair<const char *, TransmittingFormula>{"mtf1", mtf1()},
+                                        {"mtf2-plain", mtf2_plain()},
+                                        {"mtf2", mtf2()},
+                                        {"mtf3", mtf3()},
+                                        {"mtf4", mtf4()}})
     {
-      const TransmittingFormula formula = transmitting_formula(name);
-      std::vector<double>       position = {0.}, courant, gamma;
+      std::vector<double> position = {0.}, courant, gamma;
       for (double h = 10.; position.size() < formula.n_nodes(); h *= growth)
         position.push_back(position.back() + h);
       for (const TransmittingFactor &factor : formula.factors)
