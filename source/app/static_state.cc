@@ -141,7 +141,7 @@ namespace Voussoir
             r[3 * node + c] += springs[3 * node + c] * difference;
             slack = std::max(slack, std::abs(difference));
           }
-      rock.settle(r, settled);
+      rock.settle(r, std::max(1e-11, 1e-2 * error), settled, log);
       Unknowns f = settled;
       for (std::size_t k = 0; k < n; ++k)
       {

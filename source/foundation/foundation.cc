@@ -63,68 +63,6 @@ namespace Voussoir
     {
       return {{std::llround(1e4 * p[0]), std::llround(1e4 * p[1]), std::llround(1e4 * p[2])}};
     }
-
-    /** Conjugate gradients with the inverse diagonal blocks, the marked nodes fixed. */
-    void conjugate_gradients(const BlockSparseMatrix &K, const std::vector<bool> &fixed, const Unknowns &b,
-                             Unknowns &x, const double tolerance)
-    {
-      const int            n_nodes = static_cast<int>(K.n_rows());
-      std::vector<Matrix3> diagonal(n_nodes);
-      for (int i = 0; i < n_nodes; ++i)
-        for (std::size_t k = K.start[i]; k < K.start[i + 1]; ++k)
-          if (static_cast<int>(K.column[k]) == i)
-            diagonal[i] = inverse(K.value[k]);
-      const auto free_part = [&](Unknowns &y)
-      {
-        for (int i = 0; i < n_nodes; ++i)
-          if (fixed[i])
-            y[3 * i] = y[3 * i + 1] = y[3 * i + 2] = 0.;
-      };
-      const auto product = [](const Unknowns &y, const Unknowns &z)
-      {
-        double    sum = 0.;
-        const int n = static_cast<int>(y.size());
-#pragma omp parallel for simd reduction(+ : sum)
-        for (int i = 0; i < n; ++i)
-          sum += y[i] * z[i];
-        return sum;
-      };
-      const int n = 3 * n_nodes;
-      Unknowns  r(n), z(n), p(n), Kp(n);
-      K.multiply(x.data(), Kp.data());
-      for (int i = 0; i < n; ++i)
-        r[i] = b[i] - Kp[i];
-      free_part(r);
-      double                 rz = 0.;
-      const double           target = tolerance * std::sqrt(product(b, b));
-      constexpr unsigned int most = 5000;
-      for (unsigned int k = 0; std::sqrt(product(r, r)) > target; ++k)
-      {
-        if (k == most)
-          throw ComputationError("The static state of the rock did not converge in " + std::to_string(most) +
-                                 " steps: its elements may be badly shaped (see voussoir mesh).");
-#pragma omp parallel for
-        for (int i = 0; i < n_nodes; ++i)
-        {
-          const Vector3 y = diagonal[i] * Vector3{{r[3 * i], r[3 * i + 1], r[3 * i + 2]}};
-          std::copy(y.begin(), y.end(), z.begin() + 3 * i);
-        }
-        const double rz_new = product(r, z), beta = k == 0 ? 0. : rz_new / rz;
-        rz = rz_new;
-#pragma omp parallel for simd
-        for (int i = 0; i < n; ++i)
-          p[i] = z[i] + beta * p[i];
-        K.multiply(p.data(), Kp.data());
-        free_part(Kp);
-        const double alpha = rz / product(p, Kp);
-#pragma omp parallel for simd
-        for (int i = 0; i < n; ++i)
-        {
-          x[i] += alpha * p[i];
-          r[i] -= alpha * Kp[i];
-        }
-      }
-    }
   } // namespace
 
   RockRegionParameters region_parameters(const FoundationParameters &p, const std::array<double, 3> &centre,
@@ -220,23 +158,30 @@ namespace Voussoir
     return springs;
   }
 
-  void Foundation::settle(const Unknowns &r, Unknowns &u_base)
+  void Foundation::settle(const Unknowns &r, const double tolerance, Unknowns &u_base, Log &log)
   {
-    std::vector<bool> fixed(n_nodes(), false);
-    for (const BoundaryFace &face : model.faces)
-      for (const unsigned int node : face.nodes)
-        fixed[node] = true;
-    Unknowns b(3 * std::size_t(n_nodes()), 0.);
+    if (!statics)
+    {
+      std::vector<bool> held(n_nodes(), false);
+      for (const BoundaryFace &face : model.faces)
+        for (const unsigned int node : face.nodes)
+          held[node] = true;
+      statics = std::make_unique<RockStatics>(model.stiffness, model.points, held);
+      log.line("Rock      static state of %u unknowns; multigrid set up in %.1f s", statics->n_unknowns(),
+               statics->seconds_setup());
+    }
+    Unknowns b(3 * std::size_t(n_nodes()), 0.), u;
     for (const Foot &f : foot)
       for (const unsigned int node : f.nodes)
         for (unsigned int c = 0; c < 3; ++c)
           b[3 * f.rock + c] += r[3 * node + c];
-    rock_static.resize(b.size(), 0.);
-    conjugate_gradients(model.stiffness, fixed, b, rock_static, 1e-11);
+    const Stopwatch    watch;
+    const unsigned int iterations = statics->solve(b, u, log, tolerance);
+    log.line("          load %u: %u iterations, %.1f s", ++n_settled, iterations, watch.seconds());
     u_base.resize(3 * foot.size());
     for (std::size_t i = 0; i < foot.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        u_base[3 * i + c] = rock_static[3 * foot[i].rock + c];
+        u_base[3 * i + c] = u[3 * foot[i].rock + c];
   }
 
   double Foundation::add_interface_mass(Structure &structure, const double time_step) const

@@ -3,6 +3,7 @@
 
 #include <voussoir/dynamics/newmark.h>
 #include <voussoir/foundation/foundation_parameters.h>
+#include <voussoir/foundation/rock_statics.h>
 #include <voussoir/rock/rock_region.h>
 #include <voussoir/solid/solid_model.h>
 
@@ -64,8 +65,9 @@ namespace Voussoir
     Unknowns static_springs(const Structure &structure) const;
 
     /** Displacements of the rock, fixed at its artificial boundary, under the forces @p r of the dam on it, 3
-     *  per node of the dam [N]; only at the base, 3 per foot [m]. */
-    void settle(const Unknowns &r, Unknowns &u_base);
+     * per node of the dam [N], with a residual of @p tolerance times their size; only at the base, 3 per foot
+     * [m]. Sets up the solver when first called, and says in @p log what it does. */
+    void settle(const Unknowns &r, double tolerance, Unknowns &u_base, Log &log);
 
     /** InputError for what would become unstable at the dam's step @p dt [s]: an artificial boundary with
      * lines too short, waves too fast, Gauss points, or too near the base; a high Poisson's ratio, or more
@@ -111,13 +113,14 @@ namespace Voussoir
     RockModel                       model;
     std::vector<Foot>               foot;
     std::unique_ptr<ExplicitRegion> region;
+    std::unique_ptr<RockStatics>    statics; ///< while the static state is looked for
+    unsigned int                    n_settled = 0;
     double                          dt = 0., dt_critical = 0.; ///< of the dam, for the rock [s]
-    Unknowns            rock_static;         ///< displacement of the whole rock in the static state: guess
-    Unknowns            rest;                ///< of the feet [m]
-    Unknowns            u_feet, v, a;        ///< of the feet
-    Unknowns            force, force_before; ///< of the rock's elements on them [N]
-    std::vector<double> work = {0.};         ///< on the dam [J]
-    Unknowns            u_predicted, v_predicted; ///< for the end of the step
+    Unknowns                        rest;                      ///< of the feet [m]
+    Unknowns                        u_feet, v, a;              ///< of the feet
+    Unknowns                        force, force_before;       ///< of the rock's elements on them [N]
+    std::vector<double>             work = {0.};               ///< on the dam [J]
+    Unknowns                        u_predicted, v_predicted;  ///< for the end of the step
   };
 } // namespace Voussoir
 
