@@ -1,13 +1,7 @@
 #include <deal.II/base/parameter_handler.h>
 
-#include <voussoir/base/error.h>
-#include <voussoir/base/log.h>
 #include <voussoir/foundation/foundation.h>
-#include <voussoir/motion/ground_motion.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
+#include <voussoir/foundation/foundation_names.h>
 
 namespace Voussoir
 {
@@ -15,12 +9,8 @@ namespace Voussoir
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Foundation");
-    prm.add_parameter("Model", model,
-                      "rigid (the base moves as the ground motion says), rock (the rock of the mesh, "
-                      "explicit, the earthquake "
-                      "from below) or massless (its stiffness only, on a rigid ground that moves as the "
-                      "ground motion says).",
-                      Selection("rigid|rock|massless"));
+    prm.add_parameter("Model", model, "What the dam stands on. " + foundation_docs() + ".",
+                      Selection(foundation_names()));
     prm.add_parameter("Young's modulus", rock.young, "Modulus of elasticity of the rock [Pa].", Double(1.));
     prm.add_parameter("Poisson's ratio", rock.poisson, "Poisson's ratio of the rock [-].", Double(0., .45));
     prm.add_parameter("Density", rock.density, "Density of the rock [kg/m^3].", Double(1e-3));
@@ -55,256 +45,14 @@ namespace Voussoir
     prm.leave_subsection();
   }
 
-  namespace
+  std::string Foundation::about_steps() const
   {
-    using Key = std::array<long long, 3>;
-
-    template <class Point> Key key_of(const Point &p)
-    {
-      return {{std::llround(1e4 * p[0]), std::llround(1e4 * p[1]), std::llround(1e4 * p[2])}};
-    }
-  } // namespace
-
-  RockRegionParameters region_parameters(const FoundationParameters &p, const std::array<double, 3> &centre,
-                                         const double dt)
-  {
-    RockRegionParameters result;
-    result.rock.materials[PhysicalId::first_rock] = p.rock;
-    result.rock.nodal_everywhere = p.nodal_everywhere;
-    result.rock.nodal_layers = p.nodal_layers;
-    result.rock.centre = centre;
-    result.damping.mass = p.mass_damping;
-    result.damping.stiffness = p.stiffness_damping;
-    result.dt = dt;
-    result.boundary = p.boundary;
-    result.free_field = p.free_field;
-    return result;
+    return "; the scheme is implicit: there is no critical time step";
   }
 
-  std::vector<Foot> find_feet(const SolidModel &dam, const std::vector<std::array<double, 3>> &points,
-                              const std::string &source)
+  ContactResult Foundation::settle(const DamSolve &solve, const Unknowns &, const Unknowns &, Unknowns &load,
+                                   Log &)
   {
-    std::map<Key, std::vector<unsigned int>> base;
-    for (unsigned int i = 0; i < dam.n_nodes(); ++i)
-      if (dam.on_surface(i, PhysicalId::base))
-        base[key_of(dam.points[i])].push_back(dam.equation[i]);
-    std::vector<Foot> feet;
-    for (unsigned int i = 0; i < points.size(); ++i)
-      if (const auto found = base.find(key_of(points[i])); found != base.end())
-      {
-        std::vector<unsigned int> &nodes = found->second;
-        std::sort(nodes.begin(), nodes.end());
-        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-        feet.push_back({i, nodes});
-      }
-    if (feet.size() != base.size())
-      throw InputError(source + ": the dam's base and the rock must share their nodes; " +
-                       std::to_string(base.size() - feet.size()) + " nodes of the base are not in the rock.");
-    return feet;
-  }
-
-  Foundation::Foundation(const FoundationParameters &parameters, const HexMesh &mesh, const SolidModel &dam,
-                         const std::string &source)
-      : parameters(parameters), mesh(mesh)
-  {
-    for (HexMesh::Cell &cell : this->mesh.cells) // one material
-      if (!is_monolith(cell.volume))
-        cell.volume = PhysicalId::first_rock;
-    check_boundary_layers(parameters, this->mesh, source);
-    unsigned int count = 0;
-    for (unsigned int i = 0; i < dam.n_nodes(); ++i)
-      if (dam.on_surface(i, PhysicalId::base))
-      {
-        for (unsigned int c = 0; c < 3; ++c)
-          centre[c] += dam.points[i][c];
-        ++count;
-      }
-    for (double &c : centre)
-      c /= count;
-    model = make_rock_model(this->mesh, region_parameters(parameters, centre, 0.).rock);
-    foot = find_feet(dam, model.points, source);
-    RayleighDamping damping;
-    damping.mass = parameters.mass_damping;
-    damping.stiffness = parameters.stiffness_damping;
-    dt_critical = Voussoir::critical_time_step(largest_frequency(model.stiffness, model.mass), damping);
-  }
-
-  void Foundation::add_mass(Structure &structure) const
-  {
-    for (const Foot &f : foot)
-      for (const unsigned int node : f.nodes)
-        for (unsigned int c = 0; c < 3; ++c)
-          structure.mass[node][4 * c] += model.mass[f.rock] / f.nodes.size();
-  }
-
-  Unknowns Foundation::static_springs(const Structure &structure) const
-  {
-    Unknowns springs(3 * structure.n_nodes(), 0.);
-    double   largest = 0.;
-    for (const Body &body : structure.bodies)
-      for (const Foot &f : foot)
-        for (const unsigned int node : f.nodes)
-          if (node >= body.first_node && node < body.first_node + body.n_nodes())
-          {
-            const unsigned int i = node - body.first_node;
-            for (std::size_t k = body.stiffness.start[i]; k < body.stiffness.start[i + 1]; ++k)
-              if (body.stiffness.column[k] == i)
-                largest = std::max(largest, body.stiffness.value[k][0]);
-          }
-    for (const Foot &f : foot)
-      for (const unsigned int node : f.nodes)
-        for (unsigned int c = 0; c < 3; ++c)
-          springs[3 * node + c] = 10. * largest;
-    return springs;
-  }
-
-  void Foundation::settle(const Unknowns &r, const double tolerance, Unknowns &u_base, Log &log)
-  {
-    if (!statics)
-    {
-      std::vector<bool> held(n_nodes(), false);
-      for (const BoundaryFace &face : model.faces)
-        for (const unsigned int node : face.nodes)
-          held[node] = true;
-      statics = std::make_unique<RockStatics>(model.stiffness, model.points, held);
-      log.line("Rock      static state of %u unknowns; multigrid set up in %.1f s", statics->n_unknowns(),
-               statics->seconds_setup());
-    }
-    Unknowns b(3 * std::size_t(n_nodes()), 0.), u;
-    for (const Foot &f : foot)
-      for (const unsigned int node : f.nodes)
-        for (unsigned int c = 0; c < 3; ++c)
-          b[3 * f.rock + c] += r[3 * node + c];
-    const Stopwatch    watch;
-    const unsigned int iterations = statics->solve(b, u, log, tolerance);
-    log.line("          load %u: %u iterations, %.1f s", ++n_settled, iterations, watch.seconds());
-    u_base.resize(3 * foot.size());
-    for (std::size_t i = 0; i < foot.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-        u_base[3 * i + c] = u[3 * foot[i].rock + c];
-  }
-
-  double Foundation::add_interface_mass(Structure &structure, const double time_step) const
-  {
-    if (parameters.substeps == 1)
-      return 0.;
-    std::vector<bool> is_foot(n_nodes(), false);
-    for (const Foot &f : foot)
-      is_foot[f.rock] = true;
-    const BlockSparseMatrix &K = model.stiffness;
-    double                   sum = 0.;
-    for (const Foot &f : foot)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        double bound = 0.; // Gershgorin's
-        for (std::size_t k = K.start[f.rock]; k < K.start[f.rock + 1]; ++k)
-          for (unsigned int d = 0; is_foot[K.column[k]] && d < 3; ++d)
-            bound += std::abs(K.value[k][3 * c + d]);
-        const double added = .5 * time_step * time_step * bound;
-        for (const unsigned int node : f.nodes)
-          structure.mass[node][4 * c] += added / f.nodes.size();
-        sum += added / 3.;
-      }
-    return sum;
-  }
-
-  void Foundation::start(const GroundMotion &outcrop, const double time_step, const unsigned int n_steps,
-                         const Unknowns &u)
-  {
-    dt = time_step;
-    const unsigned int         m = parameters.substeps;
-    const RockRegionParameters p = region_parameters(parameters, centre, dt / m);
-    region = make_region(model, p);
-    if (n_steps > 0) // else without an earthquake
-      shake(*region, mesh, model, p, incident_wave(outcrop), m * n_steps + 2);
-    std::vector<unsigned int> nodes;
-    for (const Foot &f : foot)
-      nodes.push_back(f.rock);
-    region->set_prescribed(nodes);
-    region->keep_energy();
-    const std::size_t n = 3 * foot.size();
-    rest.assign(n, 0.);
-    for (std::size_t i = 0; i < foot.size(); ++i)
-      for (const unsigned int node : foot[i].nodes)
-        for (unsigned int c = 0; c < 3; ++c)
-          rest[3 * i + c] += u[3 * node + c] / foot[i].nodes.size();
-    v.assign(n, 0.);
-    a = u_feet = u_predicted = v_predicted = force = force_before = v;
-  }
-
-  void Foundation::advance(Unknowns &load)
-  {
-    const Stopwatch    watch;
-    const unsigned int m = parameters.substeps;
-    const std::size_t  n = 3 * foot.size();
-    const Unknowns     u_before = u_predicted, v_before = v_predicted;
-    for (std::size_t i = 0; i < foot.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        const std::size_t k = 3 * i + c;
-        u_predicted[k] = u_feet[k] + dt * v[k] + .25 * dt * dt * a[k];
-        v_predicted[k] = v[k] + .5 * dt * a[k];
-      }
-    Unknowns        u(n), v_now(n);
-    const Unknowns *taken = nullptr;
-    for (unsigned int j = 1; j <= m; ++j)
-    {
-      const double part = double(j) / m;
-      for (std::size_t k = 0; k < n; ++k)
-      {
-        u[k] = u_before[k] + part * (u_predicted[k] - u_before[k]);
-        v_now[k] = v_before[k] + part * (v_predicted[k] - v_before[k]);
-      }
-      taken = &region->advance(u, v_now);
-    }
-    force_before.swap(force);
-    for (std::size_t i = 0; i < foot.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        // The damping of the rock's mass at the base is the dam's.
-        const std::size_t k = 3 * i + c;
-        force[k] = parameters.mass_damping * model.mass[foot[i].rock] * v_predicted[k] - (*taken)[k];
-        for (const unsigned int node : foot[i].nodes)
-          load[3 * node + c] += force[k] / foot[i].nodes.size();
-      }
-    seconds += watch.seconds();
-  }
-
-  void Foundation::follow(const DynamicState &state)
-  {
-    for (std::size_t i = 0; i < foot.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        const std::size_t k = 3 * i + c;
-        const double      part = 1. / foot[i].nodes.size();
-        double            u_new = 0., v_new = 0.;
-        for (const unsigned int node : foot[i].nodes)
-        {
-          u_new += part * state.u[3 * node + c];
-          v_new += part * state.v[3 * node + c];
-        }
-        u_new -= rest[k];
-        work[0] += .5 * (force_before[k] + force[k]) * (u_new - u_feet[k]);
-        u_feet[k] = u_new;
-        a[k] = 2. / dt * (v_new - v[k]) - a[k];
-        v[k] = v_new;
-      }
-  }
-
-  Vector3 Foundation::base_velocity() const
-  {
-    Vector3 result{};
-    for (std::size_t i = 0; i < foot.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-        result[c] += v_predicted[3 * i + c] / foot.size();
-    return result;
-  }
-
-  std::vector<std::vector<double> *> Foundation::state()
-  {
-    std::vector<std::vector<double> *> arrays = region->state();
-    for (Unknowns *array : {&rest, &u_feet, &v, &a, &u_predicted, &v_predicted, &force, &work})
-      arrays.push_back(array);
-    return arrays;
+    return solve(load);
   }
 } // namespace Voussoir
