@@ -4,7 +4,7 @@
 
 #include "column.h"
 
-#include <voussoir/foundation/foundation.h>
+#include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/motion/motion.h>
 
@@ -222,7 +222,9 @@ namespace
     p.stiffness_damping = c.stiffness_damping;
     p.boundary = c.boundary;
     p.substeps = c.substeps;
-    Foundation foundation(p, make_mesh(ground, true, cut), dam.model, "test");
+    const HexMesh both = make_mesh(ground, true, cut);
+    ExplicitRock  foundation({p, both, "test"});
+    foundation.add_stiffness(dam.model, dam.structure);
     foundation.add_mass(dam.structure);
     foundation.add_interface_mass(dam.structure, c.dt);
     Newmark newmark(dam.structure, dam.laws, Columns::tight(), c.dt, ImpactRule::mean_force);

@@ -3,6 +3,7 @@
 #include "column.h"
 
 #include <voussoir/base/error.h>
+#include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/output/energy_check.h>
 #include <voussoir/output/stability_watch.h>
@@ -115,7 +116,7 @@ namespace
     const Dam dam(scene);
 
     GroundMotion motion;
-    motion.dt = .9 * dam.foundation->critical_time_step();
+    motion.dt = .9 * dynamic_cast<const ExplicitRock &>(*dam.foundation).critical_time_step();
     const unsigned int n = 3000;
     for (unsigned int k = 0; k <= n; ++k)
     {

@@ -55,9 +55,8 @@ namespace Voussoir
         pairs.push_back(static_cast<int>(state));
       archive << provenance << step << pairs << n_steps << motion.dt << samples << wall << cpu << state
               << first << largest << count << history << energy << *joints << *envelope << solutions;
-      if (dam->foundation && n_steps > 0)
-        for (const std::vector<double> *array : dam->foundation->state())
-          archive << *array;
+      for (const std::vector<double> *array : dam->foundation->state())
+        archive << *array;
     }
     write_checkpoint_file(checkpoint_name(), out.str());
     OutputFile note(directory + "/checkpoint.txt");
@@ -152,7 +151,7 @@ namespace Voussoir
       throw InputError("The checkpoint " + checkpoint_name() + " was written after step " +
                        std::to_string(step) + ", but the motion now ends after " + std::to_string(n_steps) +
                        ". Raise \"Motion/Duration\", or run without --resume.");
-    if (dam->foundation && n_steps < n_steps_then)
+    if (dam->foundation->resumes_longer_only() && n_steps < n_steps_then)
       throw InputError(
           "The checkpoint " + checkpoint_name() +
           " is of a longer motion: on rock, whose free field is made for its length, a run can be "
@@ -164,16 +163,15 @@ namespace Voussoir
           "from the beginning. Set \"Motion/Duration\" as it was, or run without --resume.");
     archive >> clock_before >> cpu_before >> state >> first >> largest >> count >> history >> energy >>
         *joints >> *envelope >> solutions;
-    if (dam->foundation && n_steps > 0)
-      for (std::vector<double> *array : dam->foundation->state())
-      {
-        std::vector<double> saved;
-        archive >> saved;
-        // Of a longer motion the free field's endless columns are longer, and still at rest there.
-        AssertThrow(saved.size() == array->size() || (n_steps > n_steps_then && saved.size() < array->size()),
-                    dealii::ExcInternalError());
-        std::fill(std::copy(saved.begin(), saved.end(), array->begin()), array->end(), 0.);
-      }
+    for (std::vector<double> *array : dam->foundation->state())
+    {
+      std::vector<double> saved;
+      archive >> saved;
+      // Of a longer motion the free field's endless columns are longer, and still at rest there.
+      AssertThrow(saved.size() == array->size() || (n_steps > n_steps_then && saved.size() < array->size()),
+                  dealii::ExcInternalError());
+      std::fill(std::copy(saved.begin(), saved.end(), array->begin()), array->end(), 0.);
+    }
     for (std::size_t p = 0; p < pairs.size() && p < pairs_at_start.size(); ++p)
       pairs_at_start[p] = static_cast<PairState>(pairs[p]);
     newmark->resume(state, first, largest, Unknowns(state.force.size(), 0.));

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 
 namespace Voussoir
 {
@@ -87,22 +86,8 @@ namespace Voussoir
     motion = refined(make_motion(scene.motion, scene.directory), scene.steps_per_sample);
     n_steps = scene.motion.source == "none" ? 0 : motion.acceleration.size() - 1;
     dam = std::make_unique<Dam>(scene);
-    if (dam->foundation && n_steps > 0)
-    {
-      const double critical = dam->foundation->critical_time_step(),
-                   rock_dt = motion.dt / scene.foundation.substeps;
-      if (!(rock_dt <= critical)) // or not a number
-      {
-        std::ostringstream message;
-        message << "The time step " << rock_dt << " s is too large for the rock: its critical time step is "
-                << critical << " s. Raise \"Dynamics/Steps per sample\" to "
-                << std::ceil(scene.steps_per_sample * rock_dt / critical) << " or \"Foundation/Substeps\" to "
-                << std::ceil(motion.dt / critical)
-                << ", take larger rock elements, or less \"Foundation/Stiffness damping\".";
-        throw InputError(message.str());
-      }
-      dam->foundation->check(motion.dt);
-    }
+    if (n_steps > 0)
+      dam->foundation->check(motion.dt, scene.steps_per_sample);
     count.seconds_setup = clock.seconds();
   }
 
@@ -183,7 +168,7 @@ namespace Voussoir
   {
     const Stopwatch  watch;
     const Structure &structure = dam->structure;
-    if (dam->foundation && n_steps > 0)
+    if (n_steps > 0)
     {
       dam->foundation->start(motion, motion.dt, n_steps, statics.u);
       if (const double added = dam->foundation->add_interface_mass(dam->structure, motion.dt); added > 0.)
@@ -198,7 +183,7 @@ namespace Voussoir
     newmark = std::make_unique<Newmark>(structure, dam->laws, contact_parameters("shaking"), motion.dt,
                                         impact_rule(scene.impact_rule));
     Unknowns load = statics.load;
-    if (n_steps > 0)
+    if (n_steps > 0 && dam->foundation->moves_base())
       for (unsigned int d = 0; d < 3; ++d)
         for (std::size_t k = 0; k < load.size(); ++k)
           load[k] += motion.acceleration[0][d] * dam->inertia[d][k];
@@ -233,10 +218,8 @@ namespace Voussoir
                       "friction", "impact",  "input",  "balance"};
     if (dam->laws.have_memory())
       energy.columns.push_back("bond");
-    if (dam->foundation && n_steps > 0)
-      for (const char *name : {"rock_kinetic", "rock_strain", "rock_damping", "rock_feet", "transmitted",
-                               "rock_balance", "interface"})
-        energy.columns.push_back(name);
+    for (const std::string &name : dam->foundation->columns())
+      energy.columns.push_back(name);
     count.seconds_static += watch.seconds();
     if (n_steps > 0)
     {
@@ -249,27 +232,19 @@ namespace Voussoir
   void Simulation::advance()
   {
     const Stopwatch watch;
-    const double    rock_before = dam->foundation ? dam->foundation->seconds : 0.;
+    const double    rock_before = dam->foundation->seconds();
     Unknowns        load = statics.load;
     const auto     &a = motion.acceleration[step + 1];
-    for (std::size_t k = 0; k < load.size(); ++k)
+    for (std::size_t k = 0; dam->foundation->moves_base() && k < load.size(); ++k)
       load[k] += a[0] * dam->inertia[0][k] + a[1] * dam->inertia[1][k] + a[2] * dam->inertia[2][k];
-    if (dam->foundation)
-      dam->foundation->advance(load);
+    dam->foundation->advance(load);
     const SystemTimes   before = newmark->joint_system().times;
-    const Vector3       base_velocity = dam->foundation ? dam->foundation->base_velocity() : Vector3{};
+    const Vector3       base_velocity = dam->foundation->base_velocity();
     const ContactResult result = newmark->advance(load, base_velocity);
-    if (dam->foundation)
-    {
-      dam->foundation->follow(newmark->state());
-      const RegionEnergy &rock = dam->foundation->energy();
-      count.rock_energy = std::max({count.rock_energy, rock.kinetic + rock.strain, rock.damping,
-                                    std::abs(rock.prescribed), std::abs(rock.transmitted)});
-      count.rock_imbalance = std::max(count.rock_imbalance, std::abs(rock.balance()));
-    }
+    dam->foundation->follow(newmark->state());
     ++count.path[static_cast<unsigned int>(result.path)];
     ++step;
-    const double rock_seconds = dam->foundation ? dam->foundation->seconds - rock_before : 0.;
+    const double rock_seconds = dam->foundation->seconds() - rock_before;
     count.seconds_rock += rock_seconds;
     const SystemTimes &after = newmark->joint_system().times;
     count.seconds_sweeps += after.sweeps - before.sweeps;
@@ -323,13 +298,8 @@ namespace Voussoir
            e.impact,   e.input,   e.balance(e0)};
     if (dam->laws.have_memory())
       row.push_back(e.bond - e0.bond);
-    if (dam->foundation && n_steps > 0)
-    {
-      const RegionEnergy &rock = dam->foundation->energy();
-      for (const double value : {rock.kinetic, rock.strain, rock.damping, rock.prescribed, rock.transmitted,
-                                 rock.balance(), rock.prescribed + dam->foundation->work_on_dam()})
-        row.push_back(value);
-    }
+    const std::vector<double> of_foundation = dam->foundation->row();
+    row.insert(row.end(), of_foundation.begin(), of_foundation.end());
     energy.rows.push_back(row);
     history_file.append(history);
     energy_file.append(energy);

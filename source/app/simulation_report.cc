@@ -24,20 +24,7 @@ namespace Voussoir
       log.line("Joints    %u joints, %zu pairs, law %s (friction %g)", dam->n_joints,
                dam->structure.pairs.size(), laws.c_str(), scene.joints.friction);
     }
-    if (scene.foundation.model != "rigid")
-    {
-      const FoundationParameters &p = scene.foundation;
-      log.line("Rock      %s: %.4g GPa, Poisson's ratio %g, %g kg/m3, one material",
-               p.model == "rock" ? "explicit" : "massless", 1e-9 * p.rock.young, p.rock.poisson,
-               p.rock.density);
-      if (dam->foundation)
-      {
-        log.line("          %u nodes; boundary %s, free field by %s", dam->foundation->n_nodes(),
-                 p.boundary.c_str(), p.free_field.c_str());
-        if (const std::string warning = dam->foundation->warning(motion.dt / p.substeps); !warning.empty())
-          log.line("warning: %s", warning.c_str());
-      }
-    }
+    dam->foundation->report(log, motion.dt);
     log.line("Damping   Rayleigh, C = %.4g 1/s M + %.4g s K: %.3g %% at %g Hz and %g Hz",
              scene.damping.mass_factor(), scene.damping.stiffness_factor(), 100. * scene.damping.ratio,
              scene.damping.frequency_1, scene.damping.frequency_2);
@@ -61,12 +48,7 @@ namespace Voussoir
       for (const Body &body : dam->structure.bodies)
         entries += 9. * body.stiffness.value.size();
       log.line("Unknowns  %u of the bodies, %zu of the joints", 3 * n_nodes, 3 * dam->structure.pairs.size());
-      if (dam->foundation)
-        log.line("Steps     %u of %g s, in each %u of the rock; critical time step of the rock %.4g s",
-                 n_steps, motion.dt, scene.foundation.substeps, dam->foundation->critical_time_step());
-      else
-        log.line("Steps     %u of %g s; the scheme is implicit: there is no critical time step", n_steps,
-                 motion.dt);
+      log.line("Steps     %u of %g s%s", n_steps, motion.dt, dam->foundation->about_steps().c_str());
       log.line("Memory    about %.1f GiB",
                (8. * (entries * 5. + pairs * 3.) + 1e3 * 27 * n_nodes) / std::pow(2., 30));
     }
@@ -115,8 +97,7 @@ namespace Voussoir
             "times and the unit of the record (Motion/Unit), and Motion/Time step.",
             most.peak_velocity, most.peak_displacement, fastest, farthest);
     }
-    if (scene.mesh.source == "arch210" && scene.mesh.arch210_rock.enabled &&
-        scene.foundation.model == "rigid")
+    if (scene.mesh.source == "arch210" && scene.mesh.arch210_rock.enabled && !dam->foundation->uses_rock())
       log.line("warning: the rock of Mesh/Arch210/Rock is left out: Foundation/Model is rigid.");
     if (scene.reservoir.density > 0. && !dam->has_water)
       log.line("warning: the water does not reach the dam: Reservoir/Water level is %g m, below the upstream "

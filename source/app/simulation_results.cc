@@ -104,8 +104,7 @@ namespace Voussoir
                1e3 * count.seconds_stepping / n_steps, 1e3 * count.seconds_stresses / n_steps,
                1e3 * count.seconds_output / n_steps);
     log.line("Energy    balance closes to %.1e of the largest energy", balance_error());
-    if (dam->foundation && n_steps > 0)
-      log.line("          that of the rock to %.1e", rock_balance_error());
+    dam->foundation->report_balance(log);
     std::error_code ignored;
     for (const char *ending : {"", ".before", ".new"})
       std::filesystem::remove(checkpoint_name() + ending, ignored); // the run is complete: nothing to resume
@@ -126,15 +125,10 @@ namespace Voussoir
     return count.imbalance / std::max(largest_energy(), 1e-300);
   }
 
-  double Simulation::rock_balance_error() const
-  {
-    return count.rock_imbalance / std::max(count.rock_energy, 1e-300);
-  }
-
   void Simulation::check_balance() const
   {
     if (n_steps > 0)
-      check_energies(scene, balance_error(), dam->foundation ? rock_balance_error() : 0., directory);
+      check_energies(scene, balance_error(), dam->foundation->balance_error(), directory);
   }
 
   void Simulation::draw_figures()

@@ -89,19 +89,7 @@ namespace Voussoir
         .add("static", statics_json)
         .add("extremes", extremes)
         .add_texts("warnings", log.warnings());
-    if (const Foundation *rock = dam->foundation.get())
-    {
-      Json json;
-      json.add("nodes", rock->n_nodes())
-          .add("dofs", 3. * rock->n_nodes())
-          .add("boundary", scene.foundation.boundary)
-          .add("time_step", motion.dt / scene.foundation.substeps)
-          .add("critical_time_step", rock->critical_time_step());
-      if (step > 0)
-        json.add("transmitted_energy", rock->energy().transmitted)
-            .add("energy_balance_error", rock_balance_error());
-      summary.add("rock", json);
-    }
+    dam->foundation->add_to_summary(summary, motion.dt);
     OutputFile out(directory + "/summary.json");
     out << summary.text() << "\n";
     out.check();

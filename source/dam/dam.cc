@@ -1,7 +1,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/dam.h>
-#include <voussoir/foundation/massless_rock.h>
+#include <voussoir/foundation/foundation_table.h>
 #include <voussoir/mesh/mesh_axes.h>
 #include <voussoir/mesh/mesh_groups.h>
 #include <voussoir/mesh/mesh_joints.h>
@@ -48,24 +48,29 @@ namespace Voussoir
 
   Dam::Dam(const Scene &scene, const bool tie_all) : scene(scene)
   {
-    const HexMesh mesh = make_mesh(scene.mesh, scene.directory);
-    const HexMesh concrete = monoliths_only(mesh);
-    const bool    has_rock = concrete.cells.size() < mesh.cells.size(),
-               on_rock = scene.foundation.model == "rock", massless = scene.foundation.model == "massless";
+    const HexMesh     mesh = make_mesh(scene.mesh, scene.directory);
     const std::string source = scene.mesh.source == "file" ? scene.mesh.file : "arch210";
     check_axes_and_units(mesh, scene.mesh, source);
     groups = group_table(mesh);
     ungrouped = faces_without_group(mesh);
-    if ((on_rock || massless) && !has_rock)
-      throw InputError("Foundation/Model is " + scene.foundation.model +
-                       ", but the mesh has no rock (volumes from id 1000 on). Set "
-                       "Mesh/Arch210/Rock/Enabled = true, or give a mesh with rock.");
-    if (has_rock && !on_rock && !massless && scene.mesh.source == "file")
-      throw InputError(
-          "The mesh has rock (volumes from id 1000 on), but Foundation/Model is rigid: set it to rock or "
-          "massless, or leave the rock out of the mesh.");
-    if (on_rock && scene.elements.degree != 1)
-      throw InputError("Foundation/Model = rock needs Elements/Degree = 1: dam and rock share their nodes.");
+    foundation = make_foundation(
+        {scene.foundation, mesh, source, scene.elements.degree, scene.elements.incompatible_modes});
+    const HexMesh opened = open_monoliths(mesh, source);
+    choose_laws(tie_all);
+    assemble(opened);
+    tie_feet();
+    add_loads();
+    foundation->add_mass(structure);
+    for (const auto &probe : scene.output.probe_places())
+      probe_node(*model, probe.first, {probe.second[0], probe.second[1], probe.second[2]});
+    find_lowest_base();
+    check_water_level();
+  }
+
+  /** The monoliths with open joints; measures and counts on the way. */
+  HexMesh Dam::open_monoliths(const HexMesh &mesh, const std::string &source)
+  {
+    const HexMesh concrete = monoliths_only(mesh);
     volume = Voussoir::volume(concrete);
     crest_length = Voussoir::crest_length(concrete);
     const auto box = bounding_box(concrete);
@@ -73,11 +78,15 @@ namespace Voussoir
         std::hypot(box.second[0] - box.first[0], box.second[1] - box.first[1], box.second[2] - box.first[2]);
     n_cells = concrete.cells.size();
     n_monoliths = Voussoir::n_monoliths(concrete);
-    const HexMesh opened = open_joints(concrete);
+    HexMesh opened = open_joints(concrete);
     for (const Joint &joint : joints_of(opened))
       n_joints = std::max<unsigned int>(n_joints, joint.number);
     check_joint_numbers(opened, n_joints, source);
+    return opened;
+  }
 
+  void Dam::choose_laws(const bool tie_all)
+  {
     tied = true;
     for (unsigned int j = 1; j <= n_joints; ++j)
     {
@@ -89,7 +98,11 @@ namespace Voussoir
       if (entry.first > n_joints)
         throw InputError("Entry \"Joints/Overrides\" names joint " + std::to_string(entry.first) +
                          ", but the dam has " + std::to_string(n_joints) + " joints.");
+  }
 
+  /** Model and structure, on the foundation. */
+  void Dam::assemble(const HexMesh &opened)
+  {
     model = std::make_unique<SolidModel>(opened, scene.elements.degree);
     const bool        incompatible_modes = scene.elements.incompatible_modes;
     std::vector<Pair> pairs = find_pairs(*model, n_joints);
@@ -98,11 +111,11 @@ namespace Voussoir
     initial_stress.assign(model->n_nodes(), Stress{});
     if (scene.statics.self_weight == "staged")
       stage_self_weight(); // on a rigid base: displacements count from there
-    if (on_rock || massless)
+    if (foundation->base() != Foundation::Base::held)
     {
       model->free_base();
-      if (massless)
-        model->tie_joints(n_joints, true); // the rock joins all monoliths
+      if (foundation->base() == Foundation::Base::shared)
+        model->tie_joints(n_joints, true); // the foundation joins all monoliths
       structure = assemble_structure(*model, {scene.concrete}, incompatible_modes);
       pairs = find_pairs(*model, n_joints);
       geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
@@ -114,25 +127,32 @@ namespace Voussoir
     }
     else
       structure.pairs = std::move(pairs);
-    if (massless)
-      add_massless_rock(scene.foundation, mesh, *model, incompatible_modes, source, structure);
+    foundation->add_stiffness(*model, structure);
     structure.n_joints = tied ? 0 : n_joints;
     structure.mass_damping = scene.damping.mass_factor();
     structure.stiffness_damping = scene.damping.stiffness_factor();
     structure.collect_interfaces();
+  }
+
+  /** The laws of the pairs; the feet of the joints are tied where the foundation does not open there. */
+  void Dam::tie_feet()
+  {
     laws.assign(structure.pairs);
     if (laws.have_memory() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)
       throw InputError("The joint model cohesive needs \"Dynamics/Impact\" = mean-force, not " +
                        scene.impact_rule + ".");
-    std::set<unsigned int> base; // the feet of the joints are tied: the rock does not open there
+    std::set<unsigned int> base;
     for (unsigned int i = 0; i < model->n_nodes(); ++i)
-      if (on_rock && model->on_surface(i, PhysicalId::base))
+      if (foundation->base() == Foundation::Base::tied && model->on_surface(i, PhysicalId::base))
         base.insert(model->equation[i]);
     laws.of_joint.push_back(make_joint_law("tied", LawParameters()));
     for (std::size_t p = 0; p < structure.pairs.size(); ++p)
       if (base.count(structure.pairs[p].node_1) > 0)
         laws.of_pair[p] = laws.of_joint.back().get();
+  }
 
+  void Dam::add_loads()
+  {
     const std::size_t n = 3 * structure.n_nodes();
     weight.assign(n, 0.);
     water.assign(n, 0.);
@@ -144,17 +164,10 @@ namespace Voussoir
         added_mass = add_westergaard_mass(*model, scene.reservoir, structure);
     }
     inertia = inertial_loads(structure);
-    if (on_rock)
-    {
-      foundation = std::make_unique<Foundation>(scene.foundation, mesh, *model, source);
-      foundation->add_mass(structure);
-      for (Unknowns &load : inertia) // the earthquake comes through the rock, and displacements are absolute
-        std::fill(load.begin(), load.end(), 0.);
-    }
+  }
 
-    for (const auto &probe : scene.output.probe_places())
-      probe_node(*model, probe.first, {probe.second[0], probe.second[1], probe.second[2]});
-    find_lowest_base();
+  void Dam::check_water_level()
+  {
     double top = -1e300, bottom = 1e300;
     for (unsigned int i = 0; i < model->n_nodes(); ++i)
       if (model->on_surface(i, PhysicalId::upstream))

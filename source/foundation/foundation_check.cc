@@ -1,11 +1,14 @@
 // What would make the rock unstable, refused before the run: see doc/boundary.md
 
 #include <voussoir/base/error.h>
-#include <voussoir/foundation/foundation.h>
+#include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/mesh/boundary_lines.h>
 #include <voussoir/rock/boundary_table.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <sstream>
 
 namespace Voussoir
 {
@@ -58,12 +61,23 @@ namespace Voussoir
     }
   }
 
-  std::string Foundation::warning(const double time_step) const
+  void ExplicitRock::check(const double time_step, const unsigned int steps_per_sample) const
   {
-    return make_boundary(parameters.boundary)->warning(region_parameters(parameters, {}, time_step));
+    const double rock_dt = time_step / parameters.substeps;
+    if (!(rock_dt <= dt_critical)) // or not a number
+    {
+      std::ostringstream message;
+      message << "The time step " << rock_dt << " s is too large for the rock: its critical time step is "
+              << dt_critical << " s. Raise \"Dynamics/Steps per sample\" to "
+              << std::ceil(steps_per_sample * rock_dt / dt_critical) << " or \"Foundation/Substeps\" to "
+              << std::ceil(time_step / dt_critical)
+              << ", take larger rock elements, or less \"Foundation/Stiffness damping\".";
+      throw InputError(message.str());
+    }
+    check_stability(time_step);
   }
 
-  void Foundation::check(const double time_step) const
+  void ExplicitRock::check_stability(const double time_step) const
   {
     const double rock_dt = time_step / parameters.substeps;
     check_substeps(parameters, rock_dt);

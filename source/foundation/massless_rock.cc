@@ -1,8 +1,7 @@
 #include <voussoir/base/error.h>
-#include <voussoir/foundation/foundation.h>
+#include <voussoir/foundation/feet.h>
 #include <voussoir/foundation/massless_rock.h>
 #include <voussoir/joints/condensed_body.h>
-#include <voussoir/rock/rock_region.h>
 
 #include <algorithm>
 
@@ -111,5 +110,43 @@ namespace Voussoir
     BlockSparseMatrix &K = structure.bodies[0].stiffness;
     K = with_dense_block(K, nodes, condensed.stiffness(), position);
     K.symmetrise();
+  }
+
+  namespace
+  {
+    class MasslessRock : public Foundation
+    {
+    public:
+      explicit MasslessRock(const FoundationSite &site)
+          : parameters(site.parameters), mesh(site.mesh), source(site.source),
+            incompatible_modes(site.incompatible_modes)
+      {
+      }
+
+      Base base() const override { return Base::shared; }
+      bool uses_rock() const override { return true; }
+
+      void add_stiffness(const SolidModel &dam, Structure &structure) override
+      {
+        add_massless_rock(parameters, mesh, dam, incompatible_modes, source, structure);
+      }
+
+      void report(Log &log, double) const override
+      {
+        log.line("Rock      massless: %.4g GPa, Poisson's ratio %g, %g kg/m3, one material",
+                 1e-9 * parameters.rock.young, parameters.rock.poisson, parameters.rock.density);
+      }
+
+    private:
+      const FoundationParameters parameters;
+      const HexMesh              mesh;
+      const std::string          source;
+      const bool                 incompatible_modes;
+    };
+  } // namespace
+
+  std::unique_ptr<Foundation> make_massless_rock(const FoundationSite &site)
+  {
+    return std::make_unique<MasslessRock>(site);
   }
 } // namespace Voussoir

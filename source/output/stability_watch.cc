@@ -1,7 +1,6 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/tensor3.h>
 #include <voussoir/output/stability_watch.h>
-#include <voussoir/rock/boundary_table.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,30 +10,9 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double amplification = 10.; ///< of a node, see StabilityWatch
-    constexpr double energy_factor = 3.;
+    constexpr double amplification = 10.;       ///< of a node, see StabilityWatch
     constexpr double long_period = 1.;          ///< of dam and rock, longer than any arch dam's [s]
     constexpr double largest_joint_share = .02; ///< movement of a joint, of the dam's size
-
-    /** Energy of the rising wave through the bottom of the rock [J]: incident velocity is half the outcrop's.
-     */
-    double incident_energy(const RockModel &rock, const GroundMotion &motion)
-    {
-      double  energy = 0.;
-      Vector3 v{};
-      for (std::size_t k = 1; k < motion.acceleration.size(); ++k)
-        for (unsigned int c = 0; c < 3; ++c)
-        {
-          v[c] += .5 * motion.dt * (motion.acceleration[k - 1][c] + motion.acceleration[k][c]);
-          double impedance = 0.; // times area
-          for (const BoundaryFace &face : rock.faces)
-            if (face.normal[2] < -.5)
-              impedance += face.material.density * face.area *
-                           (c == 2 ? p_wave_speed(face.material) : s_wave_speed(face.material));
-          energy += impedance * .25 * v[c] * v[c] * motion.dt;
-        }
-      return energy;
-    }
 
     /** Speed that the strain energy of the static state could give to the dam [m/s]. */
     double static_speed(const Structure &structure, const double strain)
@@ -68,36 +46,17 @@ namespace Voussoir
     return result;
   }
 
-  std::size_t find_excess(const Unknowns &x, const double bound)
-  {
-    const long n = x.size();
-    long       count = 0;
-#pragma omp parallel for simd schedule(static) reduction(+ : count)
-    for (long i = 0; i < n; ++i)
-      count += !(std::abs(x[i]) <= bound); // also what is not a number
-    if (count == 0)
-      return n;
-    std::size_t largest = 0;
-    for (std::size_t i = 0; i < x.size(); ++i)
-      if (!std::isfinite(x[i]))
-        return i;
-      else if (std::abs(x[i]) > std::abs(x[largest]))
-        largest = i;
-    return largest;
-  }
-
   StabilityWatch::StabilityWatch(const Dam &dam, const GroundMotion &motion, const Newmark &newmark)
       : dam(dam), u_static(newmark.state().u)
   {
     const MotionBounds bounds = bounds_of(motion, dam.structure.mass_damping);
     const double       strain = newmark.state().energy.strain, v_0 = static_speed(dam.structure, strain);
     velocity_dam = amplification * (bounds.oscillator + v_0);
-    velocity_rock = amplification * (bounds.velocity + v_0);
+    const double velocity_rock = amplification * (bounds.velocity + v_0);
     const double time = .5 * long_period / M_PI;
     displacement_dam = amplification * bounds.displacement + time * velocity_dam;
-    displacement_rock = amplification * bounds.displacement + time * velocity_rock;
-    if (dam.foundation)
-      energy = energy_factor * (incident_energy(dam.foundation->rock(), motion) + std::max(0., strain));
+    const double displacement_rock = amplification * bounds.displacement + time * velocity_rock;
+    dam.foundation->watch(motion, {velocity_rock, displacement_rock, strain});
   }
 
   std::string StabilityWatch::trouble(const Newmark &newmark, const JointRecorder &joints,
@@ -106,11 +65,10 @@ namespace Voussoir
     constexpr unsigned int interval = 10;
     if (step == 0)
       return "";
-    std::string what = dam.foundation ? of_energy() : std::string();
+    std::string what = dam.foundation->trouble_of_energy();
     if (what.empty() && (step % interval == 0 || last))
     {
-      if (dam.foundation) // where an instability of its boundary begins
-        what = of_rock();
+      what = dam.foundation->trouble_of_motion(); // where an instability of its boundary begins
       if (what.empty())
         what = of_dam(newmark.state());
     }
@@ -133,50 +91,6 @@ namespace Voussoir
     text << "the joints have moved by " << moved.value << " m at " << place(moved.place) << ", more than "
          << largest_joint_share
          << " of the dam's size (or do they really slide? Look at \"Joints/Friction\").";
-    return text.str();
-  }
-
-  std::string StabilityWatch::of_energy() const
-  {
-    const RegionEnergy &rock = dam.foundation->energy();
-    const double        coupling = rock.prescribed + dam.foundation->work_on_dam();
-    std::ostringstream  text;
-    text.precision(3);
-    if (dam.foundation->explicit_region().artificial_boundary()->absorbs() && !(-rock.transmitted <= energy))
-      text << "the artificial boundary " << dam.scene.foundation.boundary << " has let " << -rock.transmitted
-           << " J into the rock, more than " << energy << " J, " << energy_factor
-           << " times what the earthquake and the static state hold: the boundary pumps.";
-    else if (!(std::abs(coupling) <= energy))
-      text << "the coupling of dam and rock has made " << coupling << " J, more than " << energy << " J, "
-           << energy_factor << " times what the earthquake and the static state hold.";
-    return text.str();
-  }
-
-  std::string StabilityWatch::of_rock() const
-  {
-    const ExplicitRegion &region = dam.foundation->explicit_region();
-    const Unknowns       &u = region.displacement(), &w = region.half_step_velocity();
-    std::ostringstream    text;
-    std::size_t           i = find_excess(w, velocity_rock);
-    if (i < w.size())
-      text << "the rock moves at " << w[i] << " m/s, more than " << velocity_rock << " m/s,";
-    else if (i = find_excess(u, displacement_rock); i < u.size())
-      text << "the rock has moved by " << u[i] << " m, more than " << displacement_rock << " m,";
-    else
-      return "";
-    const RockModel &rock = dam.foundation->rock();
-    const auto      &p = rock.points[i / 3];
-    double           distance = 1e300;
-    for (const BoundaryFace &face : rock.faces)
-      for (const unsigned int node : face.nodes)
-      {
-        const auto &q = rock.points[node];
-        distance = std::min(distance, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
-      }
-    text << " in "
-         << "xyz"[i % 3] << " at its node " << place({{p[0], p[1], p[2]}}) << ", " << distance
-         << " m from the artificial boundary " << dam.scene.foundation.boundary
-         << ": more than an earthquake of this size can do.";
     return text.str();
   }
 
@@ -210,23 +124,10 @@ namespace Voussoir
 
   std::string StabilityWatch::remedies() const
   {
-    const FoundationParameters &p = dam.scene.foundation;
-    std::ostringstream          text;
+    if (const std::string own = dam.foundation->remedies(); !own.empty())
+      return own;
+    std::ostringstream text;
     text.precision(3);
-    if (dam.foundation)
-    {
-      const double dt = dam.foundation->explicit_region().time_step();
-      text << "Results after that, and some time before, are worthless. Try \"Foundation/Boundary\" = ";
-      text << other_boundaries(p.boundary);
-      if (p.stiffness_damping < .02 * dt)
-        text << ", a \"Foundation/Stiffness damping\" of " << .02 * dt << " s (0.02 of the rock's step)";
-      if (!p.nodal_everywhere)
-        text << ", \"Foundation/Nodal quadrature everywhere\" = true";
-      if (p.substeps > 1)
-        text << ", fewer \"Foundation/Substeps\"";
-      text << ", or a smaller time step (\"Dynamics/Steps per sample\"); see doc/boundary.md.";
-      return text.str();
-    }
     text << "Results after that are worthless. Use ";
     if (!dam.tied && dam.scene.impact_rule != "mean-force")
       text << "\"Dynamics/Impact\" = mean-force, or ";
@@ -262,9 +163,7 @@ namespace Voussoir
         ", before any earthquake. Check \"Concrete/Young's modulus\" [Pa] and \"Concrete/Density\" "
         "[kg/m3], \"Mesh/Length unit\", \"Reservoir/Water level\" [m] and \"Reservoir/Density\", "
         "and \"Statics/Gravity\"" +
-        std::string(dam.foundation || dam.scene.foundation.model == "massless"
-                        ? ", and \"Foundation/Young's modulus\" [Pa]"
-                        : "") +
+        std::string(dam.foundation->uses_rock() ? ", and \"Foundation/Young's modulus\" [Pa]" : "") +
         "; voussoir SCENE.prm --validate shows what the scene holds.");
   }
 } // namespace Voussoir

@@ -4,6 +4,7 @@
 #include <voussoir/base/interrupt.h>
 #include <voussoir/base/log.h>
 #include <voussoir/dam/dam.h>
+#include <voussoir/motion/ground_motion.h>
 #include <voussoir/output/checkpoint_file.h>
 #include <voussoir/output/recorders.h>
 #include <voussoir/output/run_directory.h>
@@ -32,13 +33,12 @@ namespace Voussoir
     void run();
 
   private:
-    void    read_input();
-    void    report_setup();
-    void    report_motion_notes();
-    void    report_motion_and_warnings();
-    void    find_static_state();
-    void    settle(JointSystem &system, const Unknowns &springs, const Unknowns &start, Unknowns &gap);
-    Vector3 relative_to_base(unsigned int node) const;
+    void              read_input();
+    void              report_setup();
+    void              report_motion_notes();
+    void              report_motion_and_warnings();
+    void              find_static_state();
+    Vector3           relative_to_base(unsigned int node) const;
     ContactParameters contact_parameters(const std::string &stage) const;
     void              start_shaking();
     void              shake();
@@ -54,8 +54,7 @@ namespace Voussoir
     void              write_summary();
     double            largest_energy() const; ///< of the dam, that has gone through [J]
     double            balance_error() const;  ///< largest |balance| of its energies, over largest_energy()
-    double            rock_balance_error() const;
-    void              check_balance() const; ///< ComputationError where an account does not close
+    void              check_balance() const;  ///< ComputationError where an account does not close
     void              draw_figures();
     void              stop_if_asked() const;
     void              keep_and_stop();
@@ -96,7 +95,7 @@ namespace Voussoir
 
     struct Counters
     {
-      double                      seconds_rock = 0., rock_energy = 0., rock_imbalance = 0.; // largest [J]
+      double                      seconds_rock = 0.;
       std::array<unsigned int, 4> path{}; ///< steps by ContactPath
       double newton = 0., newton_max = 0., krylov = 0., factorisations = 0., sweeps = 0., residual = 0.,
              imbalance = 0.; // largest |balance| of the energies of the dam [J]
@@ -104,7 +103,7 @@ namespace Voussoir
              seconds_stepping = 0., seconds_stresses = 0., seconds_output = 0., seconds_shaking = 0.;
       template <class Archive> void serialize(Archive &archive, unsigned int)
       {
-        archive &seconds_rock &rock_energy &rock_imbalance;
+        archive &seconds_rock;
         for (unsigned int &n : path)
           archive &n;
         archive &newton &newton_max &krylov &factorisations &sweeps &residual &imbalance;

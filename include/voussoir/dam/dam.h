@@ -38,7 +38,7 @@ namespace Voussoir
     Structure                    structure;
     JointLaws                    laws;
     std::unique_ptr<DamGeometry> geometry;
-    std::unique_ptr<Foundation>  foundation;      ///< if the dam stands on rock
+    std::unique_ptr<Foundation>  foundation;
     Unknowns                     weight, water;   ///< [N]
     std::array<Unknowns, 3>      inertia;         ///< load per unit base acceleration
     double                       added_mass = 0.; ///< for motion along x [kg]
@@ -48,8 +48,14 @@ namespace Voussoir
     bool                         tied = false;      ///< all joints: there are no pairs
 
   private:
-    void stage_self_weight();
-    void find_lowest_base();
+    HexMesh open_monoliths(const HexMesh &mesh, const std::string &source);
+    void    choose_laws(bool tie_all);
+    void    assemble(const HexMesh &opened);
+    void    tie_feet();
+    void    add_loads();
+    void    check_water_level();
+    void    stage_self_weight();
+    void    find_lowest_base();
 
     std::vector<unsigned int> lowest_base; ///< free nodes there
   };

@@ -1,120 +1,114 @@
 #ifndef voussoir_foundation_h
 #define voussoir_foundation_h
 
+#include <voussoir/base/log.h>
+#include <voussoir/contact/contact_result.h>
 #include <voussoir/dynamics/newmark.h>
 #include <voussoir/foundation/foundation_parameters.h>
-#include <voussoir/rock/rock_region.h>
+#include <voussoir/mesh/mesh.h>
 #include <voussoir/solid/solid_model.h>
+
+#include <functional>
 
 namespace Voussoir
 {
   struct GroundMotion;
 
-  /** One foot of the dam: a node of the rock and the free nodes of the dam that stand on it. */
-  struct Foot
+  /** Where a foundation is made. */
+  struct FoundationSite
   {
-    unsigned int              rock;
-    std::vector<unsigned int> nodes; ///< equations of the dam
+    const FoundationParameters &parameters;
+    const HexMesh              &mesh;   ///< of dam and rock
+    std::string                 source; ///< of the mesh: arch210, or its file
+    unsigned int                degree = 1;
+    bool                        incompatible_modes = true;
   };
 
-  /** The feet of the dam on the rock nodes at @p points; @p source names the mesh. Throws InputError where a
-   * node of the dam's base has no rock. */
-  std::vector<Foot> find_feet(const SolidModel &dam, const std::vector<std::array<double, 3>> &points,
-                              const std::string &source);
+  /** What no earthquake does to the ground, see StabilityWatch. */
+  struct WatchBounds
+  {
+    double velocity = 0., displacement = 0.; ///< [m/s], [m]
+    double strain = 0.;                      ///< energy of the dam's static state [J]
+  };
 
-  /** What the scene says of the rock; @p centre: of the dam's base [m], @p dt: of the rock [s]. */
-  RockRegionParameters region_parameters(const FoundationParameters &p, const std::array<double, 3> &centre,
-                                         double dt);
+  /** The static state of the dam under a load [N]. */
+  using DamSolve = std::function<ContactResult(const Unknowns &load)>;
 
-  /** InputError where the mesh has fewer layers of equal, straight elements than the artificial boundary
-   * needs. @p source names the mesh. */
-  void check_boundary_layers(const FoundationParameters &parameters, const HexMesh &mesh,
-                             const std::string &source);
-
-  /** The rock under and around the dam: explicit, in the element partition of Hughes and Liu (1978): the
-   * nodes of the dam's base are the dam's, with the rock's mass lumped to them; the rock's elements act on
-   * them with the forces of their predicted motion, u + dt v + dt^2/4 a. Displacements of the rock are those
-   * of the earthquake; the static state is superposed.
-   *
-   *  With m substeps the rock makes m steps in one of the dam: the feet go evenly from one prediction to the
-   * next (Belytschko, Yen and Mullen 1979), and the dam feels the force at the end. Predictions over so long
-   * a step make feet unstable that are lighter than the rock's stiffness there asks; so for m > 1 each foot
-   * carries in addition the mass k dt^2/2, k bounding the rock's stiffness between the feet: an error in the
-   * order of dt^2, whose size is in doc/rock.md. For m > 2 slow growth is left, which stiffness-proportional
-   * damping of 0.15 steps of the rock suppresses; check() asks for it. */
+  /** What the dam stands on. This class itself is the rigid ground, which moves as the ground motion says:
+   * displacements of the dam are relative to it. Others override what they do in another way; who runs the
+   * dam does not ask which one it has. */
   class Foundation
   {
   public:
-    /** @p mesh: dam and rock; @p dam: the dam's own nodes, those of its base free. Throws InputError for a
-     * mesh that the boundary or the program cannot use. */
-    Foundation(const FoundationParameters &parameters, const HexMesh &mesh, const SolidModel &dam,
-               const std::string &source);
+    virtual ~Foundation() = default;
 
-    /** The rock's mass at the base, half of it each where two monoliths stand on a node. */
-    void add_mass(Structure &structure) const;
+    /** What becomes of the nodes of the dam's base: held, without unknowns; shared by the monoliths that meet
+     * there; or free, with the pairs of joints there tied. */
+    enum class Base
+    {
+      held,
+      shared,
+      tied
+    };
+    virtual Base base() const { return Base::held; }
+    virtual bool uses_rock() const { return false; } ///< does it need the rock of the mesh?
+    virtual bool moves_base() const
+    {
+      return true;
+    } ///< else displacements are absolute, the dam has no inertia load
+    virtual bool resumes_longer_only() const { return false; } ///< what a checkpoint's motion may become
 
-    unsigned int n_nodes() const { return static_cast<unsigned int>(model.points.size()); }
-    double       critical_time_step() const { return dt_critical; } ///< of the rock [s]
-    std::string  warning(double dt) const;                          ///< why it may be unstable, or empty
+    /** Before anything else; @p dam: its final nodes, the base as base() says. */
+    virtual void add_stiffness(const SolidModel &, Structure &) {}
+    virtual void add_mass(Structure &) const {} ///< the rock's at the base; after the inertia loads
 
-    /** Springs between dam and rock for the static iteration, per component of the dam [N/m]. */
-    Unknowns static_springs(const Structure &structure) const;
+    virtual void        report(Log &, double /*dt of the dam*/) const {} ///< what it is, and warnings
+    virtual std::string about_steps() const; ///< what follows "Steps N of DT s" in the log
+    virtual void        add_to_summary(Json &, double /*dt of the dam*/) const {}
 
-    /** Displacements of the rock, fixed at its artificial boundary, under the forces @p r of the dam on it, 3
-     *  per node of the dam [N]; only at the base, 3 per foot [m]. */
-    void settle(const Unknowns &r, Unknowns &u_base);
+    /** InputError for what would become unstable at the dam's step [s], of which there are that many in a
+     * sample of the motion. */
+    virtual void check(double /*dt*/, unsigned int /*steps_per_sample*/) const {}
 
-    /** InputError for what would become unstable at the dam's step @p dt [s]: an artificial boundary with
-     * lines too short, waves too fast, Gauss points, or too near the base; a high Poisson's ratio, or more
-     * than two substeps, without enough damping. */
-    void check(double dt) const;
+    /** Springs between dam and foundation for the static iteration, per component of the dam [N/m], or empty.
+     */
+    virtual Unknowns static_springs(const Structure &) const { return {}; }
 
-    /** Add the mass to the feet that substeps need, if there are more than one in a step @p dt of the dam; to
-     * be done before its Newmark is made. Returns that mass [kg]. */
-    double add_interface_mass(Structure &structure, double dt) const;
+    /** The static state: calls @p solve, which leaves the dam's displacement in @p u, on the @p springs,
+     * until the foundation follows; adds the foundation's forces to @p load [N]. */
+    virtual ContactResult settle(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
+                                 Unknowns &load, Log &log);
+
+    /** Add the mass to the feet that substeps need; to be done before the dam's Newmark is made. Returns that
+     * mass [kg]. */
+    virtual double add_interface_mass(Structure &, double /*dt*/) const { return 0.; }
 
     /** Make ready for @p n_steps of the dam of size @p dt [s] from its static displacement @p u, at rest. */
-    void start(const GroundMotion &outcrop, double dt, unsigned int n_steps, const Unknowns &u);
+    virtual void start(const GroundMotion &, double /*dt*/, unsigned int /*n_steps*/, const Unknowns &) {}
 
-    /** The rock's part of the next step of the dam; adds its forces to @p load [N]. */
-    void advance(Unknowns &load);
+    virtual void advance(Unknowns &) {} ///< its part of the next step; adds its forces to the load [N]
+    virtual void follow(const DynamicState &) {} ///< the dam has made its step
 
-    /** The dam has made its step. */
-    void follow(const DynamicState &state);
+    /** Mean velocity of the feet as predicted for the end of the step, after advance() [m/s]. */
+    virtual Vector3 base_velocity() const { return {}; }
+    virtual double  seconds() const { return 0.; } ///< of wall time in advance()
 
-    /** Mean velocity of the feet as predicted for the end of the step, v + dt/2 a, after advance(); off by
-     * dt/2 times the change of acceleration [m/s]. */
-    Vector3 base_velocity() const;
+    virtual std::vector<std::string> columns() const
+    {
+      return {};
+    }                                                      ///< of the table of energies, after start()
+    virtual std::vector<double> row() const { return {}; } ///< the same now
+    virtual double              balance_error() const { return 0.; } ///< of its energies, over the largest
+    virtual void                report_balance(Log &) const {}
 
-    /** Energies of the rock, half a step of its own before the dam's time [J]. */
-    const RegionEnergy &energy() const { return region->energy(); }
+    virtual std::vector<std::vector<double> *> state() { return {}; } ///< for checkpoints, after start()
 
-    /** Work of the rock's elements on the feet so far, as the dam counts it [J]. With that of the feet on the
-     * rock (energy().prescribed) it adds up to what the coupling made. */
-    double work_on_dam() const { return work[0]; }
-
-    double seconds = 0.; ///< of wall time in advance()
-
-    const std::vector<Foot> &feet() const { return foot; }
-    const RockModel         &rock() const { return model; }
-    const ExplicitRegion    &explicit_region() const { return *region; } ///< after start()
-
-    std::vector<std::vector<double> *> state(); ///< for checkpoints, after start()
-
-  private:
-    const FoundationParameters      parameters;
-    HexMesh                         mesh;
-    std::array<double, 3>           centre{}; ///< of the dam's base: scattered waves come from there [m]
-    RockModel                       model;
-    std::vector<Foot>               foot;
-    std::unique_ptr<ExplicitRegion> region;
-    double                          dt = 0., dt_critical = 0.; ///< of the dam, for the rock [s]
-    Unknowns            rock_static;         ///< displacement of the whole rock in the static state: guess
-    Unknowns            rest;                ///< of the feet [m]
-    Unknowns            u_feet, v, a;        ///< of the feet
-    Unknowns            force, force_before; ///< of the rock's elements on them [N]
-    std::vector<double> work = {0.};         ///< on the dam [J]
-    Unknowns            u_predicted, v_predicted; ///< for the end of the step
+    /** For StabilityWatch: bounds, what is wrong now (or empty), and what may help (empty: nothing of its
+     * own). */
+    virtual void        watch(const GroundMotion &, const WatchBounds &) {}
+    virtual std::string trouble_of_energy() const { return {}; }
+    virtual std::string trouble_of_motion() const { return {}; }
+    virtual std::string remedies() const { return {}; }
   };
 } // namespace Voussoir
 

@@ -1,8 +1,9 @@
 #ifndef voussoir_massless_rock_h
 #define voussoir_massless_rock_h
 
-#include <voussoir/foundation/foundation_parameters.h>
-#include <voussoir/solid/solid_model.h>
+#include <voussoir/foundation/foundation.h>
+
+#include <memory>
 
 namespace Voussoir
 {
@@ -15,6 +16,9 @@ namespace Voussoir
    * ComputationError where nothing holds the rock. */
   void add_massless_rock(const FoundationParameters &parameters, const HexMesh &mesh, const SolidModel &dam,
                          bool incompatible_modes, const std::string &source, Structure &structure);
+
+  /** That as a foundation. */
+  std::unique_ptr<Foundation> make_massless_rock(const FoundationSite &site);
 } // namespace Voussoir
 
 #endif

@@ -1,7 +1,9 @@
 #ifndef voussoir_stability_watch_h
 #define voussoir_stability_watch_h
 
+#include <voussoir/base/excess.h>
 #include <voussoir/dam/dam.h>
+#include <voussoir/motion/ground_motion.h>
 #include <voussoir/output/recorders.h>
 
 namespace Voussoir
@@ -18,10 +20,6 @@ namespace Voussoir
   /** @p mass_damping: alpha [1/s]. Velocity and displacement are the integrals of the piecewise linear
    * acceleration from rest. */
   MotionBounds bounds_of(const GroundMotion &motion, double mass_damping);
-
-  /** Index of the component of @p x of largest size if that exceeds @p bound, of the first that is not a
-   * number before all others; else x.size(). */
-  std::size_t find_excess(const Unknowns &x, double bound);
 
   /** Looks at every node of dam and rock, and at the energy that the rock takes in, for what no earthquake
    * can do. The bounds scale with the motion and with the static state:
@@ -51,15 +49,12 @@ namespace Voussoir
 
   private:
     std::string of_joints(const JointRecorder &joints) const;
-    std::string of_energy() const;
-    std::string of_rock() const;
     std::string of_dam(const DynamicState &state) const;
     std::string remedies() const;
 
     const Dam     &dam;
     const Unknowns u_static;
-    double         velocity_dam, velocity_rock, displacement_dam, displacement_rock; ///< bounds
-    double         energy = 0.; ///< that the rock may take in [J]
+    double         velocity_dam, displacement_dam; ///< bounds
   };
 
   /** InputError for a static state of metres, from which no sound run can start: the crest has moved by more

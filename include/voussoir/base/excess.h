@@ -1,0 +1,15 @@
+#ifndef voussoir_excess_h
+#define voussoir_excess_h
+
+#include <voussoir/base/tensor3.h>
+
+#include <cstddef>
+
+namespace Voussoir
+{
+  /** Index of the component of @p x of largest size if that exceeds @p bound, of the first that is not a
+   * number before all others; else x.size(). */
+  std::size_t find_excess(const Unknowns &x, double bound);
+} // namespace Voussoir
+
+#endif

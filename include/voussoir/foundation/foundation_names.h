@@ -1,0 +1,13 @@
+#ifndef voussoir_foundation_names_h
+#define voussoir_foundation_names_h
+
+#include <string>
+
+namespace Voussoir
+{
+  // From the rows of foundation_table.cc.
+  std::string foundation_names(); ///< as a ParameterHandler selection: "rigid|rock|massless"
+  std::string foundation_docs();  ///< a clause each, for the entry that selects one
+} // namespace Voussoir
+
+#endif

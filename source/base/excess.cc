@@ -1,0 +1,24 @@
+#include <voussoir/base/excess.h>
+
+#include <cmath>
+
+namespace Voussoir
+{
+  std::size_t find_excess(const Unknowns &x, const double bound)
+  {
+    const long n = x.size();
+    long       count = 0;
+#pragma omp parallel for simd schedule(static) reduction(+ : count)
+    for (long i = 0; i < n; ++i)
+      count += !(std::abs(x[i]) <= bound); // also what is not a number
+    if (count == 0)
+      return n;
+    std::size_t largest = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (!std::isfinite(x[i]))
+        return i;
+      else if (std::abs(x[i]) > std::abs(x[largest]))
+        largest = i;
+    return largest;
+  }
+} // namespace Voussoir

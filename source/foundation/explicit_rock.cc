@@ -1,0 +1,200 @@
+#include <voussoir/base/error.h>
+#include <voussoir/foundation/explicit_rock.h>
+#include <voussoir/motion/ground_motion.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Voussoir
+{
+  RockRegionParameters region_parameters(const FoundationParameters &p, const std::array<double, 3> &centre,
+                                         const double dt)
+  {
+    RockRegionParameters result;
+    result.rock.materials[PhysicalId::first_rock] = p.rock;
+    result.rock.nodal_everywhere = p.nodal_everywhere;
+    result.rock.nodal_layers = p.nodal_layers;
+    result.rock.centre = centre;
+    result.damping.mass = p.mass_damping;
+    result.damping.stiffness = p.stiffness_damping;
+    result.dt = dt;
+    result.boundary = p.boundary;
+    result.free_field = p.free_field;
+    return result;
+  }
+
+  std::unique_ptr<Foundation> make_explicit_rock(const FoundationSite &site)
+  {
+    return std::make_unique<ExplicitRock>(site);
+  }
+
+  ExplicitRock::ExplicitRock(const FoundationSite &site)
+      : parameters(site.parameters), mesh(site.mesh), source(site.source)
+  {
+    if (site.degree != 1)
+      throw InputError("Foundation/Model = rock needs Elements/Degree = 1: dam and rock share their nodes.");
+    for (HexMesh::Cell &cell : mesh.cells) // one material
+      if (!is_monolith(cell.volume))
+        cell.volume = PhysicalId::first_rock;
+  }
+
+  void ExplicitRock::add_stiffness(const SolidModel &dam, Structure &)
+  {
+    check_boundary_layers(parameters, mesh, source);
+    unsigned int count = 0;
+    for (unsigned int i = 0; i < dam.n_nodes(); ++i)
+      if (dam.on_surface(i, PhysicalId::base))
+      {
+        for (unsigned int c = 0; c < 3; ++c)
+          centre[c] += dam.points[i][c];
+        ++count;
+      }
+    for (double &c : centre)
+      c /= count;
+    model = make_rock_model(mesh, region_parameters(parameters, centre, 0.).rock);
+    foot = find_feet(dam, model.points, source);
+    RayleighDamping damping;
+    damping.mass = parameters.mass_damping;
+    damping.stiffness = parameters.stiffness_damping;
+    dt_critical = Voussoir::critical_time_step(largest_frequency(model.stiffness, model.mass), damping);
+  }
+
+  void ExplicitRock::add_mass(Structure &structure) const
+  {
+    for (const Foot &f : foot)
+      for (const unsigned int node : f.nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+          structure.mass[node][4 * c] += model.mass[f.rock] / f.nodes.size();
+  }
+
+  double ExplicitRock::add_interface_mass(Structure &structure, const double time_step) const
+  {
+    if (parameters.substeps == 1)
+      return 0.;
+    std::vector<bool> is_foot(n_nodes(), false);
+    for (const Foot &f : foot)
+      is_foot[f.rock] = true;
+    const BlockSparseMatrix &K = model.stiffness;
+    double                   sum = 0.;
+    for (const Foot &f : foot)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        double bound = 0.; // Gershgorin's
+        for (std::size_t k = K.start[f.rock]; k < K.start[f.rock + 1]; ++k)
+          for (unsigned int d = 0; is_foot[K.column[k]] && d < 3; ++d)
+            bound += std::abs(K.value[k][3 * c + d]);
+        const double added = .5 * time_step * time_step * bound;
+        for (const unsigned int node : f.nodes)
+          structure.mass[node][4 * c] += added / f.nodes.size();
+        sum += added / 3.;
+      }
+    return sum;
+  }
+
+  void ExplicitRock::start(const GroundMotion &outcrop, const double time_step, const unsigned int n_steps,
+                           const Unknowns &u)
+  {
+    statics.reset(); // its memory
+    dt = time_step;
+    const unsigned int         m = parameters.substeps;
+    const RockRegionParameters p = region_parameters(parameters, centre, dt / m);
+    region = make_region(model, p);
+    if (n_steps > 0) // else without an earthquake
+      shake(*region, mesh, model, p, incident_wave(outcrop), m * n_steps + 2);
+    std::vector<unsigned int> nodes;
+    for (const Foot &f : foot)
+      nodes.push_back(f.rock);
+    region->set_prescribed(nodes);
+    region->keep_energy();
+    const std::size_t n = 3 * foot.size();
+    rest.assign(n, 0.);
+    for (std::size_t i = 0; i < foot.size(); ++i)
+      for (const unsigned int node : foot[i].nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+          rest[3 * i + c] += u[3 * node + c] / foot[i].nodes.size();
+    v.assign(n, 0.);
+    a = u_feet = u_predicted = v_predicted = force = force_before = v;
+  }
+
+  void ExplicitRock::advance(Unknowns &load)
+  {
+    const Stopwatch    watch;
+    const unsigned int m = parameters.substeps;
+    const std::size_t  n = 3 * foot.size();
+    const Unknowns     u_before = u_predicted, v_before = v_predicted;
+    for (std::size_t i = 0; i < foot.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const std::size_t k = 3 * i + c;
+        u_predicted[k] = u_feet[k] + dt * v[k] + .25 * dt * dt * a[k];
+        v_predicted[k] = v[k] + .5 * dt * a[k];
+      }
+    Unknowns        u(n), v_now(n);
+    const Unknowns *taken = nullptr;
+    for (unsigned int j = 1; j <= m; ++j)
+    {
+      const double part = double(j) / m;
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        u[k] = u_before[k] + part * (u_predicted[k] - u_before[k]);
+        v_now[k] = v_before[k] + part * (v_predicted[k] - v_before[k]);
+      }
+      taken = &region->advance(u, v_now);
+    }
+    force_before.swap(force);
+    for (std::size_t i = 0; i < foot.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        // The damping of the rock's mass at the base is the dam's.
+        const std::size_t k = 3 * i + c;
+        force[k] = parameters.mass_damping * model.mass[foot[i].rock] * v_predicted[k] - (*taken)[k];
+        for (const unsigned int node : foot[i].nodes)
+          load[3 * node + c] += force[k] / foot[i].nodes.size();
+      }
+    seconds_advancing += watch.seconds();
+  }
+
+  void ExplicitRock::follow(const DynamicState &state)
+  {
+    for (std::size_t i = 0; i < foot.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const std::size_t k = 3 * i + c;
+        const double      part = 1. / foot[i].nodes.size();
+        double            u_new = 0., v_new = 0.;
+        for (const unsigned int node : foot[i].nodes)
+        {
+          u_new += part * state.u[3 * node + c];
+          v_new += part * state.v[3 * node + c];
+        }
+        u_new -= rest[k];
+        account[0] += .5 * (force_before[k] + force[k]) * (u_new - u_feet[k]);
+        u_feet[k] = u_new;
+        a[k] = 2. / dt * (v_new - v[k]) - a[k];
+        v[k] = v_new;
+      }
+    const RegionEnergy &e = energy();
+    account[1] = std::max(
+        {account[1], e.kinetic + e.strain, e.damping, std::abs(e.prescribed), std::abs(e.transmitted)});
+    account[2] = std::max(account[2], std::abs(e.balance()));
+  }
+
+  Vector3 ExplicitRock::base_velocity() const
+  {
+    Vector3 result{};
+    for (std::size_t i = 0; i < foot.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+        result[c] += v_predicted[3 * i + c] / foot.size();
+    return result;
+  }
+
+  std::vector<std::vector<double> *> ExplicitRock::state()
+  {
+    if (!region)
+      return {};
+    std::vector<std::vector<double> *> arrays = region->state();
+    for (Unknowns *array : {&rest, &u_feet, &v, &a, &u_predicted, &v_predicted, &force, &account})
+      arrays.push_back(array);
+    return arrays;
+  }
+} // namespace Voussoir

@@ -1,0 +1,78 @@
+// What the log, the summary and the table of energies say of the rock.
+
+#include <voussoir/foundation/explicit_rock.h>
+#include <voussoir/rock/boundary_table.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace Voussoir
+{
+  void ExplicitRock::report(Log &log, const double time_step) const
+  {
+    log.line("Rock      explicit: %.4g GPa, Poisson's ratio %g, %g kg/m3, one material",
+             1e-9 * parameters.rock.young, parameters.rock.poisson, parameters.rock.density);
+    log.line("          %u nodes; boundary %s, free field by %s", n_nodes(), parameters.boundary.c_str(),
+             parameters.free_field.c_str());
+    const std::string warning =
+        make_boundary(parameters.boundary)
+            ->warning(region_parameters(parameters, {}, time_step / parameters.substeps));
+    if (!warning.empty())
+      log.line("warning: %s", warning.c_str());
+  }
+
+  std::string ExplicitRock::about_steps() const
+  {
+    std::ostringstream text;
+    text.precision(4);
+    text << ", in each " << parameters.substeps << " of the rock; critical time step of the rock "
+         << dt_critical << " s";
+    return text.str();
+  }
+
+  void ExplicitRock::add_to_summary(Json &summary, const double time_step) const
+  {
+    Json json;
+    json.add("nodes", n_nodes())
+        .add("dofs", 3. * n_nodes())
+        .add("boundary", parameters.boundary)
+        .add("time_step", time_step / parameters.substeps)
+        .add("critical_time_step", dt_critical);
+    if (region)
+      json.add("transmitted_energy", energy().transmitted).add("energy_balance_error", balance_error());
+    summary.add("rock", json);
+  }
+
+  std::vector<std::string> ExplicitRock::columns() const
+  {
+    if (!region)
+      return {};
+    return {"rock_kinetic", "rock_strain",  "rock_damping", "rock_feet",
+            "transmitted",  "rock_balance", "interface"};
+  }
+
+  std::vector<double> ExplicitRock::row() const
+  {
+    if (!region)
+      return {};
+    const RegionEnergy &e = energy();
+    return {e.kinetic,
+            e.strain,
+            e.damping,
+            e.prescribed,
+            e.transmitted,
+            e.balance(),
+            e.prescribed + work_on_dam()};
+  }
+
+  double ExplicitRock::balance_error() const
+  {
+    return account[2] / std::max(account[1], 1e-300);
+  }
+
+  void ExplicitRock::report_balance(Log &log) const
+  {
+    if (region)
+      log.line("          that of the rock to %.1e", balance_error());
+  }
+} // namespace Voussoir

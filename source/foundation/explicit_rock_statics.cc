@@ -1,0 +1,201 @@
+// The static state of dam and rock.
+
+#include <voussoir/base/error.h>
+#include <voussoir/foundation/explicit_rock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Voussoir
+{
+  namespace
+  {
+    /** x += f - sum of g (dx + df), the coefficients g those that make f - sum of g df smallest. */
+    void accelerate(std::vector<Unknowns> df, std::vector<Unknowns> dx, Unknowns f, Unknowns &x)
+    {
+      const auto dot_product = [](const Unknowns &a, const Unknowns &b)
+      {
+        double sum = 0.;
+        for (std::size_t k = 0; k < a.size(); ++k)
+          sum += a[k] * b[k];
+        return sum;
+      };
+      for (std::size_t j = df.size(); j-- > 0;) // the newest first: Gram-Schmidt
+      {
+        const double before = dot_product(df[j], df[j]);
+        for (std::size_t i = df.size(); i-- > j + 1;)
+          if (const double square = dot_product(df[i], df[i]); square > 0.)
+          {
+            const double factor = dot_product(df[i], df[j]) / square;
+            for (std::size_t k = 0; k < x.size(); ++k)
+            {
+              df[j][k] -= factor * df[i][k];
+              dx[j][k] -= factor * dx[i][k];
+            }
+          }
+        const double square = dot_product(df[j], df[j]);
+        if (square <= 1e-20 * before)
+        {
+          std::fill(df[j].begin(), df[j].end(), 0.);
+          continue;
+        }
+        const double factor = dot_product(df[j], f) / square;
+        for (std::size_t k = 0; k < x.size(); ++k)
+        {
+          f[k] -= factor * df[j][k];
+          x[k] -= factor * dx[j][k];
+        }
+      }
+      for (std::size_t k = 0; k < x.size(); ++k)
+        x[k] += f[k];
+    }
+
+    /** The newest differences of residuals @p f and bases @p x, for accelerate(). */
+    struct Differences
+    {
+      std::vector<Unknowns> df, dx;
+      Unknowns              last_f, last_x;
+
+      void add(const Unknowns &f, const Unknowns &x)
+      {
+        constexpr std::size_t most = 25;
+        if (!last_f.empty())
+        {
+          df.push_back(f);
+          dx.push_back(x);
+          for (std::size_t k = 0; k < f.size(); ++k)
+          {
+            df.back()[k] -= last_f[k];
+            dx.back()[k] -= last_x[k];
+          }
+          if (df.size() > most)
+          {
+            df.erase(df.begin());
+            dx.erase(dx.begin());
+          }
+        }
+        last_f = f;
+        last_x = x;
+      }
+    };
+  } // namespace
+
+  Unknowns ExplicitRock::static_springs(const Structure &structure) const
+  {
+    Unknowns springs(3 * structure.n_nodes(), 0.);
+    double   largest = 0.;
+    for (const Body &body : structure.bodies)
+      for (const Foot &f : foot)
+        for (const unsigned int node : f.nodes)
+          if (node >= body.first_node && node < body.first_node + body.n_nodes())
+          {
+            const unsigned int i = node - body.first_node;
+            for (std::size_t k = body.stiffness.start[i]; k < body.stiffness.start[i + 1]; ++k)
+              if (body.stiffness.column[k] == i)
+                largest = std::max(largest, body.stiffness.value[k][0]);
+          }
+    for (const Foot &f : foot)
+      for (const unsigned int node : f.nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+          springs[3 * node + c] = 10. * largest;
+    return springs;
+  }
+
+  void ExplicitRock::solve_rock(const Unknowns &r, const double tolerance, Unknowns &u_base, Log &log)
+  {
+    if (!statics)
+    {
+      std::vector<bool> held(n_nodes(), false);
+      for (const BoundaryFace &face : model.faces)
+        for (const unsigned int node : face.nodes)
+          held[node] = true;
+      statics = std::make_unique<RockStatics>(model.stiffness, model.points, held);
+      log.line("Rock      static state of %u unknowns; multigrid set up in %.1f s", statics->n_unknowns(),
+               statics->seconds_setup());
+    }
+    Unknowns b(3 * std::size_t(n_nodes()), 0.), u;
+    for (const Foot &f : foot)
+      for (const unsigned int node : f.nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+          b[3 * f.rock + c] += r[3 * node + c];
+    const Stopwatch    watch;
+    const unsigned int iterations = statics->solve(b, u, log, tolerance);
+    log.line("          load %u: %u iterations, %.1f s", ++n_settled, iterations, watch.seconds());
+    u_base.resize(3 * foot.size());
+    for (std::size_t i = 0; i < foot.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+        u_base[3 * i + c] = u[3 * foot[i].rock + c];
+  }
+
+  Unknowns ExplicitRock::with_springs(const Unknowns &external, const Unknowns &springs, const Unknowns &base,
+                                      const Unknowns &r) const
+  {
+    Unknowns load = external;
+    for (std::size_t i = 0; i < foot.size(); ++i)
+      for (const unsigned int node : foot[i].nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+          load[3 * node + c] += springs[3 * node + c] * base[3 * i + c] - r[3 * node + c];
+    return load;
+  }
+
+  double ExplicitRock::add_slack(const Unknowns &springs, const Unknowns &u, const Unknowns &base,
+                                 Unknowns &r) const
+  {
+    double slack = 0.;
+    for (std::size_t i = 0; i < foot.size(); ++i)
+      for (const unsigned int node : foot[i].nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          const double difference = u[3 * node + c] - base[3 * i + c];
+          r[3 * node + c] += springs[3 * node + c] * difference;
+          slack = std::max(slack, std::abs(difference));
+        }
+    return slack;
+  }
+
+  /** The rock gives way under the forces of the dam, the dam follows through stiff springs with the force
+   * that they carried before, so that they are without force in the end. Anderson's acceleration of the
+   * displacements of the base (Walker and Ni 2011). */
+  ContactResult ExplicitRock::settle(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
+                                     Unknowns &load, Log &log)
+  {
+    const std::size_t n = 3 * foot.size();
+    Unknowns          base(n, 0.), r(load.size(), 0.), settled;
+    Differences       differences;
+    double            error = 1.;
+    ContactResult     total;
+    unsigned int      round = 0;
+    total.converged = true;
+    for (; round < 60 && error > 1e-9; ++round)
+    {
+      const ContactResult contact = solve(with_springs(load, springs, base, r));
+      total += contact;
+      if (!contact.converged)
+        break;
+      double slack = add_slack(springs, u, base, r), size = 1e-300;
+      solve_rock(r, std::max(1e-11, 1e-2 * error), settled, log);
+      Unknowns f = settled;
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        f[k] -= base[k];
+        slack = std::max(slack, std::abs(f[k]));
+        size = std::max(size, std::abs(settled[k]));
+      }
+      error = slack / size;
+      differences.add(f, base);
+      accelerate(differences.df, differences.dx, f, base);
+    }
+    if (total.converged && error > 1e-9)
+    {
+      std::ostringstream message;
+      message << "The static state of dam and rock did not converge: relative error " << error << " after "
+              << round << " rounds.";
+      throw ComputationError(message.str());
+    }
+    for (std::size_t k = 0; k < r.size(); ++k)
+      load[k] -= r[k];
+    log.line("Rock      static state of dam and rock after %u rounds", round);
+    return total;
+  }
+} // namespace Voussoir

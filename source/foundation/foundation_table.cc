@@ -1,0 +1,75 @@
+#include <voussoir/base/error.h>
+#include <voussoir/foundation/explicit_rock.h>
+#include <voussoir/foundation/foundation_table.h>
+#include <voussoir/foundation/massless_rock.h>
+
+#include <algorithm>
+
+namespace Voussoir
+{
+  namespace
+  {
+    struct FoundationRow
+    {
+      const char *name, *doc;
+      std::unique_ptr<Foundation> (*make)(const FoundationSite &);
+    };
+
+    std::unique_ptr<Foundation> make_rigid_ground(const FoundationSite &)
+    {
+      return std::make_unique<Foundation>();
+    }
+
+    /** All foundations. The selection of the entry "Foundation/Model", its text and the messages follow from
+     * these rows. */
+    const FoundationRow rows[] = {
+        {"rigid", "the base moves as the ground motion says", make_rigid_ground},
+        {"rock", "the rock of the mesh, explicit, the earthquake from below", make_explicit_rock},
+        {"massless", "its stiffness only, on a rigid ground that moves as the ground motion says",
+         make_massless_rock}};
+
+    void check_mesh(const FoundationSite &site, const Foundation &foundation)
+    {
+      const auto &cells = site.mesh.cells;
+      const bool  has_rock = std::any_of(cells.begin(), cells.end(),
+                                         [](const HexMesh::Cell &cell) { return !is_monolith(cell.volume); });
+      if (foundation.uses_rock() && !has_rock)
+        throw InputError("Foundation/Model is " + site.parameters.model +
+                         ", but the mesh has no rock (volumes from id 1000 on). Set "
+                         "Mesh/Arch210/Rock/Enabled = true, or give a mesh with rock.");
+      if (has_rock && !foundation.uses_rock() && site.source != "arch210")
+        throw InputError(
+            "The mesh has rock (volumes from id 1000 on), but Foundation/Model is rigid: set it to rock or "
+            "massless, or leave the rock out of the mesh.");
+    }
+  } // namespace
+
+  std::unique_ptr<Foundation> make_foundation(const FoundationSite &site)
+  {
+    for (const FoundationRow &row : rows)
+      if (site.parameters.model == row.name)
+      {
+        std::unique_ptr<Foundation> foundation = row.make(site);
+        check_mesh(site, *foundation);
+        return foundation;
+      }
+    throw InputError("There is no foundation \"" + site.parameters.model +
+                     "\". They are: " + foundation_names() + ".");
+  }
+
+  std::string foundation_names()
+  {
+    std::string names;
+    for (const FoundationRow &row : rows)
+      names += (names.empty() ? "" : "|") + std::string(row.name);
+    return names;
+  }
+
+  std::string foundation_docs()
+  {
+    std::string text;
+    for (const FoundationRow &row : rows)
+      text += (text.empty() ? "" : "; ") + std::string(row.name) + ": " + row.doc;
+    return text;
+  }
+} // namespace Voussoir

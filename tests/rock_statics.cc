@@ -1,0 +1,97 @@
+// The static solver of the rock: it solves what it is given, and halving the mesh hardly adds iterations.
+
+#include <voussoir/foundation/rock_statics.h>
+#include <voussoir/rock/rock_model.h>
+
+#include "box.h"
+#include "mesh_testing.h"
+
+#include <cmath>
+#include <iostream>
+
+namespace
+{
+  using namespace Voussoir;
+  using namespace MeshTesting;
+
+  struct Solved
+  {
+    unsigned int iterations = 0, again = 0;
+    double       residual = 0., held = 0., middle = 0.;
+  };
+
+  /** Rock of 600 m x 600 m x 300 m of flat elements, n of them along its length, held but for its ground,
+   * whose middle is pushed. */
+  Solved push(const unsigned int n)
+  {
+    const double   h = 600. / n;
+    const HexMesh  mesh = Boxes::box({n, n, n}, {"x-", "x+", "y-", "y+", "z-"},
+                                     [&](const double i, const double j, const double k) {
+                                      return Vector3{{h * i, h * j, .5 * h * k}};
+                                    });
+    RockParameters parameters;
+    parameters.nodal_everywhere = true;
+    parameters.materials[Boxes::rock] = Material{15e9, .25, 2700.};
+    const RockModel   model = make_rock_model(mesh, parameters);
+    const std::size_t n_nodes = model.points.size();
+    std::vector<bool> held(n_nodes, false);
+    for (const BoundaryFace &face : model.faces)
+      for (const unsigned int node : face.nodes)
+        held[node] = true;
+    Unknowns     b(3 * n_nodes, 0.), x, Kx(3 * n_nodes);
+    unsigned int top = 0;
+    for (unsigned int i = 0; i < n_nodes; ++i)
+      if (const auto &p = model.points[i]; !held[i] && p[2] > 299.9)
+      {
+        const double weight = h * h * std::exp(-(std::pow(p[0] - 300., 2) + std::pow(p[1] - 300., 2)) / 1e4);
+        b[3 * i] = 1e6 * weight;
+        b[3 * i + 2] = -2e6 * weight;
+        if (std::hypot(p[0] - 300., p[1] - 300.) < 1e-3)
+          top = i;
+      }
+    Solved      result;
+    RockStatics statics(model.stiffness, model.points, held);
+    Log         log(true);
+    result.iterations = statics.solve(b, x, log);
+    model.stiffness.multiply(x.data(), Kx.data());
+    double load = 0.;
+    for (std::size_t k = 0; k < b.size(); ++k)
+    {
+      load += b[k] * b[k];
+      if (held[k / 3])
+        result.held = std::max(result.held, std::abs(x[k]));
+      else
+        result.residual += std::pow(b[k] - Kx[k], 2);
+    }
+    result.residual = std::sqrt(result.residual / load);
+    result.middle = x[3 * top + 2];
+    for (double &force : b)
+      force *= -3.;
+    result.again = statics.solve(b, x, log, 1e-9); // known
+    return result;
+  }
+
+  void halving()
+  {
+    const Solved coarse = push(12), fine = push(24);
+    for (const Solved &solved : {coarse, fine})
+    {
+      expect(solved.residual < 2e-11, "equilibrium");
+      expect(solved.held == 0., "held nodes");
+      expect(solved.again == 0, "a load that is a multiple of the one before");
+    }
+    expect(coarse.middle < -1e-4, "the ground gives way");
+    expect_close(fine.middle, coarse.middle, .03, "displacement of the ground");
+    expect(fine.iterations < 1.5 * coarse.iterations,
+           "iterations when the mesh is halved: " + std::to_string(coarse.iterations) + ", " +
+               std::to_string(fine.iterations));
+    expect(fine.iterations < 50, "iterations");
+    std::cout << "iterations: " << coarse.iterations << " on 12^3 elements, " << fine.iterations
+              << " on 24^3\n";
+  }
+} // namespace
+
+int main()
+{
+  return run({{"halving the mesh", halving}});
+}
