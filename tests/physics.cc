@@ -3,6 +3,7 @@
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/dam_geometry.h>
 #include <voussoir/dam/dam_loads.h>
+#include <voussoir/dam/reservoir.h>
 #include <voussoir/dynamics/newmark.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/mesh_joints.h>

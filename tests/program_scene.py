@@ -101,7 +101,7 @@ def values():
                            "Joints/Friction=0,8": ("a number from 0 to 10000",),
                            "Concrete/Poisson's ratio=0.6": ("a number from -0.99 to 0.499",),
                            "Mesh/Arch210/Joints=2.5": ("an integer from 0 to 60",),
-                           "Joints/Model=FJC": ("one of: tied, FJA, FJB, KSM",),
+                           "Joints/Model=FJC": ("one of: tied, FJA, FJB, KSM, cohesive",),
                            "Output/Figures=maybe": ("true or false",),
                            "Joints/Overrides=a: FJA": ("key: value", "an integer of at least 1"),
                            "Joints/Overrides=1: FJA, 1: FJB": ('"1" twice',),

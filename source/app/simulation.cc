@@ -196,30 +196,7 @@ namespace Voussoir
     stress = std::make_unique<StressRecovery>(*dam->model, std::vector<Material>{scene.concrete},
                                               scene.elements.incompatible_modes);
     envelope = std::make_unique<EnvelopeRecorder>(*stress, dam->initial_stress);
-    history.columns = {"time",
-                       "crest_x",
-                       "crest_y",
-                       "crest_z",
-                       "base_acceleration_x",
-                       "base_acceleration_y",
-                       "base_acceleration_z"};
-    if (!dam->base_is_held())
-      for (const char *name : {"base_x", "base_y", "base_z"})
-        history.columns.push_back(name);
-    probes = {dam->geometry->crown};
-    for (const auto &probe : scene.output.probe_places())
-    {
-      const Vector3 &p = probe.second;
-      probes.push_back(probe_node(*dam->model, probe.first, dealii::Point<3>(p[0], p[1], p[2])));
-      for (const char *c : {"_x", "_y", "_z"})
-        history.columns.push_back(probe.first + c);
-    }
-    energy.columns = {"time",     "kinetic", "strain", "added_mass", "damping",
-                      "friction", "impact",  "input",  "balance"};
-    if (dam->laws.have_memory())
-      energy.columns.push_back("bond");
-    for (const std::string &name : dam->foundation->columns())
-      energy.columns.push_back(name);
+    declare_tables();
     count.seconds_static += watch.seconds();
     if (n_steps > 0)
     {
@@ -279,28 +256,8 @@ namespace Voussoir
       write_tables();
       throw ComputationError(trouble + " The tables in " + directory + " end before it.");
     }
-    std::vector<double> row = {state.time};
-    for (std::size_t i = 0; i < probes.size(); ++i)
-    {
-      const Vector3 u = relative_to_base(probes[i]);
-      row.insert(row.end(), u.begin(), u.end());
-      if (i == 0)
-        row.insert(row.end(), motion.acceleration[step].begin(), motion.acceleration[step].end());
-      if (i == 0 && !dam->base_is_held())
-      {
-        const Vector3 base = dam->base_motion(state.u);
-        row.insert(row.end(), base.begin(), base.end());
-      }
-    }
-    history.rows.push_back(row);
-    const Energy &e = state.energy, &e0 = newmark->initial_energy();
-    row = {state.time, e.kinetic, e.strain - e0.strain, e.added_mass, e.damping, e.friction,
-           e.impact,   e.input,   e.balance(e0)};
-    if (dam->laws.have_memory())
-      row.push_back(e.bond - e0.bond);
-    const std::vector<double> of_foundation = dam->foundation->row();
-    row.insert(row.end(), of_foundation.begin(), of_foundation.end());
-    energy.rows.push_back(row);
+    history_columns->record();
+    energy_columns->record();
     history_file.append(history);
     energy_file.append(energy);
     joint_file.append(joints->history);
@@ -309,14 +266,4 @@ namespace Voussoir
     count.seconds_output += watch.seconds();
   }
 
-  /** Displacement of a node against the base (on rock: against its lowest part), the static one included. */
-  Vector3 Simulation::relative_to_base(const unsigned int node) const
-  {
-    const Unknowns    &u = newmark->state().u;
-    const unsigned int e = dam->model->equation[node];
-    Vector3            result{};
-    if (e != rigid_ground)
-      result = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};
-    return result - dam->base_motion(u);
-  }
 } // namespace Voussoir

@@ -20,10 +20,10 @@ namespace Voussoir
      */
     const LawRow laws[] = {
         {"tied", "the monolithic dam", make_tied_law},
-        {"cohesive", "FJA with a bond of the strength Joints/Strength that breaks", make_cohesive_law},
         {"FJA", "opens and slides with friction", make_fja_law},
         {"FJB", "opens, does not slide", make_fjb_law},
-        {"KSM", "shear keys (Joints/Keys) on a face that opens and slides", make_key_law}};
+        {"KSM", "shear keys (Joints/Keys) on a face that opens and slides", make_key_law},
+        {"cohesive", "FJA with a bond of the strength Joints/Strength that breaks", make_cohesive_law}};
   } // namespace
 
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters)

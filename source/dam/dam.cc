@@ -1,6 +1,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/dam.h>
+#include <voussoir/dam/dam_loads.h>
 #include <voussoir/foundation/foundation_table.h>
 #include <voussoir/mesh/mesh_axes.h>
 #include <voussoir/mesh/mesh_groups.h>
@@ -153,16 +154,9 @@ namespace Voussoir
 
   void Dam::add_loads()
   {
-    const std::size_t n = 3 * structure.n_nodes();
-    weight.assign(n, 0.);
-    water.assign(n, 0.);
-    add_weight(structure, scene.statics.gravity, weight);
+    loads = static_loads(scene, *model, structure);
     if (scene.reservoir.density > 0.)
-    {
-      add_water_pressure(*model, scene.reservoir, scene.statics.gravity, water);
-      if (scene.reservoir.added_mass != "none")
-        added_mass = add_westergaard_mass(*model, scene.reservoir, structure);
-    }
+      added_mass = add_added_mass(*model, scene.reservoir, structure);
     inertia = inertial_loads(structure);
   }
 
@@ -214,11 +208,12 @@ namespace Voussoir
       self_weight_crown = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};
   }
 
-  Unknowns Dam::static_load(const double water_part) const
+  Unknowns Dam::static_load(const double part) const
   {
-    Unknowns load = water;
-    for (std::size_t i = 0; i < load.size(); ++i)
-      load[i] = water_part * water[i] + (scene.statics.self_weight == "monolithic" ? weight[i] : 0.);
-    return load;
+    Unknowns sum(3 * structure.n_nodes(), 0.);
+    for (const StaticLoad &load : loads)
+      for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] += load.is_raised ? part * load.force[i] : load.force[i];
+    return sum;
   }
 } // namespace Voussoir

@@ -174,7 +174,7 @@ namespace Voussoir
       if (!contact.converged)
         break;
       double slack = add_slack(springs, u, base, r), size = 1e-300;
-      solve_rock(r, std::max(1e-11, 1e-2 * error), settled, log);
+      solve_rock(r, 1e-11, settled, log);
       Unknowns f = settled;
       for (std::size_t k = 0; k < n; ++k)
       {

@@ -6,7 +6,7 @@
 #include <voussoir/dam/dam.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/output/checkpoint_file.h>
-#include <voussoir/output/recorders.h>
+#include <voussoir/output/recorder.h>
 #include <voussoir/output/run_directory.h>
 #include <voussoir/output/stability_watch.h>
 
@@ -41,6 +41,9 @@ namespace Voussoir
     Vector3           relative_to_base(unsigned int node) const;
     ContactParameters contact_parameters(const std::string &stage) const;
     void              start_shaking();
+    void              declare_tables();
+    void              declare_history(Recorder &table);
+    void              declare_energy(Recorder &table);
     void              shake();
     void              advance();
     void              step_once();
@@ -118,8 +121,8 @@ namespace Voussoir
     std::unique_ptr<EnvelopeRecorder>           envelope;
     std::unique_ptr<JointRecorder>              joints;
     Table                                       history, energy;
+    std::unique_ptr<Recorder>                   history_columns, energy_columns;
     TableFile                                   history_file, energy_file, joint_file;
-    std::vector<unsigned int>                   probes;    ///< nodes
     std::vector<std::pair<double, std::string>> solutions; ///< time and file of solution.pvd
   };
 } // namespace Voussoir

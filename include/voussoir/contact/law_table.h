@@ -9,7 +9,7 @@
 
 namespace Voussoir
 {
-  /** The law of that name: tied, cohesive, FJA, FJB, KSM. Throws InputError for an unknown name, and for
+  /** The law of that name: tied, FJA, FJB, KSM, cohesive. Throws InputError for an unknown name, and for
    * equations that the law does not have. */
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters);
 
@@ -21,7 +21,7 @@ namespace Voussoir
     return make_joint_law(name, LawParameters(friction, equations, keys));
   }
 
-  /** The names of the laws as a ParameterHandler selection: "tied|cohesive|FJA|FJB|KSM". */
+  /** The names of the laws as a ParameterHandler selection: "tied|FJA|FJB|KSM|cohesive". */
   std::string joint_law_names();
 
   /** What the laws are, a sentence each, for the entry that selects one. */

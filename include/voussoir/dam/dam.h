@@ -2,6 +2,7 @@
 #define voussoir_dam_h
 
 #include <voussoir/dam/dam_geometry.h>
+#include <voussoir/dam/load_table.h>
 #include <voussoir/dam/scene.h>
 #include <voussoir/foundation/foundation.h>
 #include <voussoir/joints/joint_system.h>
@@ -26,7 +27,8 @@ namespace Voussoir
     /** Mean displacement of the lowest part of the base, zero where it is held [m]. */
     Vector3 base_motion(const Unknowns &u) const;
 
-    Unknowns static_load(double water_part) const; ///< water, and the weight if it is not staged [N]
+    /** All static loads, @p part of those that are raised with the water [N]. */
+    Unknowns static_load(double part) const;
 
     const Scene &scene;
     std::string  groups;    ///< table of the mesh's groups: group_table()
@@ -39,7 +41,7 @@ namespace Voussoir
     JointLaws                    laws;
     std::unique_ptr<DamGeometry> geometry;
     std::unique_ptr<Foundation>  foundation;
-    Unknowns                     weight, water;   ///< [N]
+    std::vector<StaticLoad>      loads;
     std::array<Unknowns, 3>      inertia;         ///< load per unit base acceleration
     double                       added_mass = 0.; ///< for motion along x [kg]
     std::vector<Stress>          initial_stress;  ///< of the staged self-weight, per node of the model

@@ -3,7 +3,7 @@
 
 #include <voussoir/contact/contact_solver.h>
 #include <voussoir/contact/law_parameters.h>
-#include <voussoir/dam/dam_loads.h>
+#include <voussoir/dam/reservoir.h>
 #include <voussoir/foundation/foundation_parameters.h>
 #include <voussoir/mesh/mesh_source.h>
 #include <voussoir/motion/motion_parameters.h>

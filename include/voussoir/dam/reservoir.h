@@ -1,0 +1,47 @@
+#ifndef voussoir_reservoir_h
+#define voussoir_reservoir_h
+
+#include <voussoir/solid/structure.h>
+
+#include <string>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace Voussoir
+{
+  class SolidModel;
+
+  struct ReservoirParameters
+  {
+    double      level = 195.;               ///< z of the water surface [m]
+    double      density = 1000.;            ///< 0: empty reservoir [kg/m^3]
+    std::string added_mass = "Westergaard"; ///< or none
+    std::string depth = "global";           ///< or local
+    double      factor = 1.;                ///< of the added mass [-]
+
+    void add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /** Hydrostatic pressure on the surface "upstream" below the water level [N]. */
+  void add_water_pressure(const SolidModel &model, const ReservoirParameters &reservoir, double gravity,
+                          Unknowns &load);
+
+  /** Westergaard's added mass 7/8 rho sqrt(H h) A n n^T on the nodes of the surface "upstream", as 3x3 blocks
+   * in structure.mass and structure.added_mass; h: depth of the node, A n: its tributary area vector; H:
+   * depth of the reservoir (global: at its deepest point; local: in the vertical section through the node,
+   * Kuo 1982). Returns the total added mass for horizontal motion along x [kg]. */
+  double add_westergaard_mass(const SolidModel &model, const ReservoirParameters &reservoir,
+                              Structure &structure);
+
+  /** The added mass of that name, in structure.mass and structure.added_mass. Returns the total for
+   * horizontal motion along x [kg]. */
+  double add_added_mass(const SolidModel &model, const ReservoirParameters &reservoir, Structure &structure);
+
+  std::string added_mass_names(); ///< as a ParameterHandler selection: "Westergaard|none"
+  std::string added_mass_docs();  ///< what they are
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,57 @@
+#ifndef voussoir_recorder_h
+#define voussoir_recorder_h
+
+#include <voussoir/output/recorders.h>
+
+#include <functional>
+
+namespace Voussoir
+{
+  /** Fills a table row by row; name and value of a column are said in one place. */
+  class Recorder
+  {
+  public:
+    explicit Recorder(Table &table) : table(table) { table.columns.clear(); }
+
+    void add(const std::string &name, const std::function<double()> &value)
+    {
+      add(std::vector<std::string>{name}, [value] { return std::vector<double>{value()}; });
+    }
+
+    /** Several columns, whose values @p values gives together. */
+    void add(const std::vector<std::string> &names, const std::function<std::vector<double>()> &values)
+    {
+      table.columns.insert(table.columns.end(), names.begin(), names.end());
+      sources.push_back(values);
+    }
+
+    /** The columns NAME_x, NAME_y and NAME_z. */
+    void add_vector(const std::string &name, const std::function<Vector3()> &value)
+    {
+      add({name + "_x", name + "_y", name + "_z"},
+          [value]
+          {
+            const Vector3 v = value();
+            return std::vector<double>(v.begin(), v.end());
+          });
+    }
+
+    /** One more row, of the present values. */
+    void record()
+    {
+      std::vector<double> row;
+      for (const auto &source : sources)
+      {
+        const std::vector<double> values = source();
+        row.insert(row.end(), values.begin(), values.end());
+      }
+      table.rows.push_back(row);
+    }
+
+  private:
+    Table                                            &table;
+    std::vector<std::function<std::vector<double>()>> sources;
+  };
+} // namespace Voussoir
+
+#endif
