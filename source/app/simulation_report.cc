@@ -8,12 +8,30 @@
 
 namespace Voussoir
 {
+  namespace
+  {
+    /** The first of the zones is the section's own material. */
+    void report_materials(Log &log, const char *title, const std::string &of_section,
+                          const std::vector<Zone> &zones, const char *entry)
+    {
+      log.line("%-9s %s", title, of_section.c_str());
+      for (const Zone &zone : zones)
+        if (!zone.name.empty() && zone.listed)
+          log.line("          zone %s: %s; %.4g m3", zone.name.c_str(), in_words(zone.material).c_str(),
+                   zone.volume);
+        else if (!zone.name.empty())
+          log.line("          zone %s: not in %s, so as the section; %.4g m3", zone.name.c_str(), entry,
+                   zone.volume);
+    }
+  } // namespace
+
   void Simulation::report_setup()
   {
     const unsigned int n_nodes = dam->structure.n_nodes();
     log.line("Mesh      %s: %zu cells, degree %u, %u dofs, %u monoliths; volume %.4g m3, crest %.1f m",
              scene.name.c_str(), dam->n_cells, scene.elements.degree, 3 * n_nodes, dam->n_monoliths,
              dam->volume, dam->crest_length);
+    report_materials(log, "Concrete", in_words(scene.concrete), dam->concrete_zones, "Concrete/Zones");
     if (dam->tied)
       log.line("Joints    %u joints, tied: the monolithic dam", dam->n_joints);
     else
@@ -27,9 +45,8 @@ namespace Voussoir
     if (scene.foundation.model != "rigid")
     {
       const FoundationParameters &p = scene.foundation;
-      log.line("Rock      %s: %.4g GPa, Poisson's ratio %g, %g kg/m3, one material",
-               p.model == "rock" ? "explicit" : "massless", 1e-9 * p.rock.young, p.rock.poisson,
-               p.rock.density);
+      report_materials(log, "Rock", (p.model == "rock" ? "explicit: " : "massless: ") + in_words(p.rock),
+                       dam->rock_zones, "Foundation/Zones");
       if (dam->foundation)
       {
         log.line("          %u nodes; boundary %s, free field by %s", dam->foundation->n_nodes(),

@@ -66,6 +66,12 @@ namespace Voussoir
           "massless, or leave the rock out of the mesh.");
     if (on_rock && scene.elements.degree != 1)
       throw InputError("Foundation/Model = rock needs Elements/Degree = 1: dam and rock share their nodes.");
+    const auto listed = zone_materials(scene.concrete_zones, "Concrete/Zones");
+    materials = materials_of(mesh.zones, scene.concrete, listed);
+    concrete_zones = zones_of(mesh, false, scene.concrete, listed, "Concrete/Zones");
+    if (on_rock || massless)
+      rock_zones =
+          zones_of(mesh, true, scene.foundation.rock, scene.foundation.zone_materials(), "Foundation/Zones");
     volume = Voussoir::volume(concrete);
     crest_length = Voussoir::crest_length(concrete);
     const auto box = bounding_box(concrete);
@@ -93,7 +99,7 @@ namespace Voussoir
     model = std::make_unique<SolidModel>(opened, scene.elements.degree);
     const bool        incompatible_modes = scene.elements.incompatible_modes;
     std::vector<Pair> pairs = find_pairs(*model, n_joints);
-    structure = assemble_structure(*model, {scene.concrete}, incompatible_modes);
+    structure = assemble_structure(*model, materials, incompatible_modes);
     geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
     initial_stress.assign(model->n_nodes(), Stress{});
     if (scene.statics.self_weight == "staged")
@@ -103,14 +109,14 @@ namespace Voussoir
       model->free_base();
       if (massless)
         model->tie_joints(n_joints, true); // the rock joins all monoliths
-      structure = assemble_structure(*model, {scene.concrete}, incompatible_modes);
+      structure = assemble_structure(*model, materials, incompatible_modes);
       pairs = find_pairs(*model, n_joints);
       geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
     }
     if (tied && n_joints > 0)
     {
       model->tie_joints(n_joints);
-      structure = assemble_structure(*model, {scene.concrete}, incompatible_modes);
+      structure = assemble_structure(*model, materials, incompatible_modes);
     }
     else
       structure.pairs = std::move(pairs);
@@ -196,7 +202,7 @@ namespace Voussoir
     add_weight(structure, scene.statics.gravity, load);
     JointSystem system(structure, JointLaws(), ContactParameters(), 0., 1., 0.);
     system.solve_free(load, u);
-    StressRecovery(*model, {scene.concrete}, scene.elements.incompatible_modes).apply(u, initial_stress);
+    StressRecovery(*model, materials, scene.elements.incompatible_modes).apply(u, initial_stress);
     if (const unsigned int e = model->equation[geometry->crown]; e != rigid_ground)
       self_weight_crown = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};
   }

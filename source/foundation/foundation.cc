@@ -25,6 +25,11 @@ namespace Voussoir
     prm.add_parameter("Young's modulus", rock.young, "Modulus of elasticity of the rock [Pa].", Double(1.));
     prm.add_parameter("Poisson's ratio", rock.poisson, "Poisson's ratio of the rock [-].", Double(0., .45));
     prm.add_parameter("Density", rock.density, "Density of the rock [kg/m^3].", Double(1e-3));
+    prm.add_parameter("Zones", zones,
+                      "Materials of zones of the rock, as \"NAME: E nu rho, NAME: E nu rho\", modulus of "
+                      "elasticity, Poisson's ratio and density, in Pa and kg/m^3 or with units; NAME is that "
+                      "of the volumes \"rock NAME\" of the mesh.",
+                      Map(Anything(), Anything()));
     prm.add_parameter("Mass damping", mass_damping, "Rayleigh damping of the rock: factor of the mass [1/s].",
                       Double(0., 1e3));
     prm.add_parameter(
@@ -127,7 +132,7 @@ namespace Voussoir
                                          const double dt)
   {
     RockRegionParameters result;
-    result.rock.materials[PhysicalId::first_rock] = p.rock;
+    result.rock.materials = p.materials_by_volume();
     result.rock.nodal_everywhere = p.nodal_everywhere;
     result.rock.nodal_layers = p.nodal_layers;
     result.rock.centre = centre;
@@ -163,11 +168,8 @@ namespace Voussoir
 
   Foundation::Foundation(const FoundationParameters &parameters, const HexMesh &mesh, const SolidModel &dam,
                          const std::string &source)
-      : parameters(parameters), mesh(mesh)
+      : parameters(parameters), mesh(parameters.volumes_by_material(mesh))
   {
-    for (HexMesh::Cell &cell : this->mesh.cells) // one material
-      if (!is_monolith(cell.volume))
-        cell.volume = PhysicalId::first_rock;
     check_boundary_layers(parameters, this->mesh, source);
     unsigned int count = 0;
     for (unsigned int i = 0; i < dam.n_nodes(); ++i)
