@@ -142,10 +142,16 @@ def valley(file, n=40, n_up=24, half_width=40., low=0., high=40., top=60., thick
     write(file, *block(place, (1,) * n, 1, n_up, DAM))
 
 
-def on_rock(file, cell, n, dam, layers, dam_cells, sides):
-    """A box of rock of n x n columns, `layers` deep, its top at z = 0, all cells cubes of edge `cell`; on the columns
+def on_rock(file, cell, n, dam, layers, dam_cells, sides, zone=None):
+    """zone(i, j, k): the zone of a cell of the rock, "" for none; k = -1 is the uppermost layer. A box of rock of n x n columns, `layers` deep, its top at z = 0, all cells cubes of edge `cell`; on the columns
     dam[0] <= i, j < dam[1] a block of concrete, `dam_cells` high. sides: the surface of the box's four sides."""
-    number, nodes, hexes, quads = {}, [], [], []
+    number, nodes, hexes, quads, zones = {}, [], [], [], [""]
+
+    def volume(*cell):
+        name = zone(*cell) if zone else ""
+        if name not in zones:
+            zones.append(name)
+        return 1000 + zones.index(name)
 
     def node(i, j, k):
         if (i, j, k) not in number:
@@ -164,7 +170,7 @@ def on_rock(file, cell, n, dam, layers, dam_cells, sides):
                 if not has(i, j, k):
                     continue
                 rock = k < 0
-                hexes.append((1000 if rock else 1, [node(i + a, j + b, k + c) for c in (0, 1) for a, b in ring]))
+                hexes.append((volume(i, j, k) if rock else 1, [node(i + a, j + b, k + c) for c in (0, 1) for a, b in ring]))
                 for axis in range(3):
                     for step in (0, 1):
                         to = [i, j, k]
@@ -188,4 +194,5 @@ def on_rock(file, cell, n, dam, layers, dam_cells, sides):
                             at[one], at[two] = at[one] + a, at[two] + b
                             corners.append(node(*at))
                         quads.append((surface, corners))
-    write(file, nodes, hexes, quads)
+    volumes = {1000 + i: f"rock {name}" for i, name in enumerate(zones) if name}
+    write(file, nodes, hexes, quads, volumes=volumes)
