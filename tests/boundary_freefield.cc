@@ -74,6 +74,27 @@ namespace
     return result;
   }
 
+  constexpr int stiff = rock + 1; ///< the volume of the half-space below a layer
+
+  /** A layer of speed 1 and density 1 above z = @p below on rock of 2 and 1.1. */
+  HexMesh layered(HexMesh mesh, const double below)
+  {
+    for (auto &cell : mesh.cells)
+      if (centre(mesh, cell.nodes)[2] < below)
+        cell.volume = stiff;
+    return mesh;
+  }
+
+  RockRegionParameters layered(RockRegionParameters p)
+  {
+    Material m = unit_rock();
+    m.density = 1.1;
+    m.young *= 1.1 * 4.;
+    p.rock.materials[stiff] = m;
+    p.dt = .15;
+    return p;
+  }
+
   Vector3 unit_cells(const double i, const double j, const double k)
   {
     return {{i, j, k}};
@@ -117,6 +138,50 @@ namespace
     }
     below("column, 50 points per S wavelength: surface - 2 incident, S", error_s, .03);
     below("  P", error_p, .01);
+  }
+
+  /** A layer of thickness H on a half-space amplifies harmonic waves from below by 2/|cos kH + i sin kH (rho
+   * c)_1 / (rho c)_2|: at c/4H by twice the ratio of the impedances, 4.4 for a layer of 1 and 1 on 2 and 1.1;
+   * at c/2H by 2, as no layer. */
+  void layer_on_half_space()
+  {
+    auto p = layered(parameters("mtf2", true));
+    p.free_field = "columns";
+    constexpr double H = 20., period = 4. * H;
+    const HexMesh    mesh = layered(box({6, 6, 30}, open_box, unit_cells), 30. - H);
+    const RockModel  model = make_rock_model(mesh, p.rock);
+    const double     w = 2. * pi / period;
+    FreeField        field(model, p.damping, p.dt, 8000,
+                           [&](const double t) -> Vector3
+                           {
+                      const double rise = t < 3. * period ? .5 - .5 * std::cos(pi * t / 3. / period) : 1.;
+                      return {{rise * std::sin(w * t), rise * std::sin(2. * w * t),
+                               rise * std::sin(std::sqrt(3.) * w * t)}}; // P: c is sqrt(3) times as large
+                    });
+    field.add_nodes(model, {static_cast<unsigned int>(model.points.size()) - 1});
+    Unknowns           u;
+    double             largest[3] = {0., 0., 0.};
+    const unsigned int n = std::lround(10. * period / p.dt);
+    for (unsigned int i = 1; i <= n; ++i)
+    {
+      field.advance();
+      field.evaluate(u);
+      for (unsigned int c = 0; c < 3 && i * p.dt > 8. * period; ++c)
+        largest[c] = larger(largest[c], std::abs(u[c]));
+    }
+    Columns::between("layer on half-space, surface / incident at c/4H, S", largest[0], 4.39, 4.41);
+    Columns::between("  P", largest[2], 4.39, 4.41);
+    Columns::between("  at c/2H, S", largest[1], 1.99, 2.01);
+  }
+
+  /** The region has the motion of its columns: layers of different rock are the same in both. */
+  void flat_layers(const std::string &boundary)
+  {
+    auto p = layered(parameters(boundary, true));
+    p.free_field = "columns";
+    const Result r = run(layered(box({14, 13, 12}, open_box, unit_cells), 8.), p, 400);
+    below("flat, two layers, " + boundary + ": total - free field / peak", r.error / r.peak, 1e-10);
+    below("  energy account / largest energy", r.energy_error, 1e-10);
   }
 
   /** Where the rock's bottom is deeper, the wave enters earlier: the level ground moves as one. */
@@ -217,8 +282,10 @@ namespace
 
 int main()
 {
-  return Columns::run_all({refuses, surface_factor, stepped_bottom, [] { flat("mtf2", true, {}); },
-                           [] { flat("mtf2", false, {}); }, [] { flat("mtf3", true, {}); },
+  return Columns::run_all({refuses, surface_factor, layer_on_half_space, stepped_bottom,
+                           [] { flat_layers("mtf3"); }, [] { flat_layers("viscous-spring"); },
+                           [] { flat("mtf2", true, {}); }, [] { flat("mtf2", false, {}); },
+                           [] { flat("mtf3", true, {}); },
                            [] {
                              flat("mtf2", true, {.01, .05});
                            },

@@ -143,7 +143,10 @@ namespace Columns
       for (unsigned int i = 0; i <= bars[b].n; ++i)
         layers[b].push_back(bars[b].layer(i));
     }
-    SolidModel                model(Grids::columns(layers), 1);
+    HexMesh mesh = Grids::columns(layers);
+    for (HexMesh::Cell &cell : mesh.cells) // each bar is a zone
+      cell.zone = cell.volume - 1;
+    SolidModel                model(mesh, 1);
     std::vector<unsigned int> master(model.n_nodes());
     std::vector<bool>         fixed(model.n_nodes());
     const auto                layer = [&](const unsigned int i)

@@ -193,8 +193,7 @@ namespace Voussoir
     stability = std::make_unique<StabilityWatch>(*dam, motion, *newmark);
     joints = std::make_unique<JointRecorder>(structure, *dam->geometry);
     joints->reach = JointReach(*dam->model, structure.pairs);
-    stress = std::make_unique<StressRecovery>(*dam->model, std::vector<Material>{scene.concrete},
-                                              scene.elements.incompatible_modes);
+    stress = std::make_unique<StressRecovery>(*dam->model, dam->materials, scene.elements.incompatible_modes);
     envelope = std::make_unique<EnvelopeRecorder>(*stress, dam->initial_stress);
     declare_tables();
     count.seconds_static += watch.seconds();

@@ -8,12 +8,29 @@
 
 namespace Voussoir
 {
+  namespace
+  {
+    /** The first of the zones is the section's own material. */
+    void report_zones(Log &log, const std::vector<Zone> &zones, const char *entry)
+    {
+      for (const Zone &zone : zones)
+        if (!zone.name.empty() && zone.listed)
+          log.line("          zone %s: %s; %.4g m3", zone.name.c_str(), in_words(zone.material).c_str(),
+                   zone.volume);
+        else if (!zone.name.empty())
+          log.line("          zone %s: not in %s, so as the section; %.4g m3", zone.name.c_str(), entry,
+                   zone.volume);
+    }
+  } // namespace
+
   void Simulation::report_setup()
   {
     const unsigned int n_nodes = dam->structure.n_nodes();
     log.line("Mesh      %s: %zu cells, degree %u, %u dofs, %u monoliths; volume %.4g m3, crest %.1f m",
              scene.name.c_str(), dam->n_cells, scene.elements.degree, 3 * n_nodes, dam->n_monoliths,
              dam->volume, dam->crest_length);
+    log.line("Concrete  %s", in_words(scene.concrete).c_str());
+    report_zones(log, dam->concrete_zones, "Concrete/Zones");
     if (dam->tied)
       log.line("Joints    %u joints, tied: the monolithic dam", dam->n_joints);
     else
@@ -25,6 +42,7 @@ namespace Voussoir
                dam->structure.pairs.size(), laws.c_str(), scene.joints.friction);
     }
     dam->foundation->report(log, motion.dt);
+    report_zones(log, dam->rock_zones, "Foundation/Zones");
     log.line("Damping   Rayleigh, C = %.4g 1/s M + %.4g s K: %.3g %% at %g Hz and %g Hz",
              scene.damping.mass_factor(), scene.damping.stiffness_factor(), 100. * scene.damping.ratio,
              scene.damping.frequency_1, scene.damping.frequency_2);

@@ -17,6 +17,22 @@ namespace Voussoir
       json.add("value", extreme.value).add_list("place", extreme.place).add("time", extreme.time);
       return json;
     }
+
+    Json json_of(const std::vector<Zone> &zones)
+    {
+      Json json;
+      for (const Zone &zone : zones)
+      {
+        Json of_zone;
+        of_zone.add("young", zone.material.young)
+            .add("poisson", zone.material.poisson)
+            .add("density", zone.material.density)
+            .add("volume", zone.volume)
+            .add_flag("listed", zone.listed);
+        json.add(zone.name.empty() ? "(no zone)" : zone.name, of_zone);
+      }
+      return json;
+    }
   } // namespace
 
   void Simulation::write_summary()
@@ -67,6 +83,10 @@ namespace Voussoir
           .add("max_tension_downstream",
                json_of(envelope->extreme(*dam->model, PhysicalId::downstream, true)))
           .add("max_compression", json_of(envelope->extreme(*dam->model, 0, false)));
+    Json zones;
+    zones.add("concrete", json_of(dam->concrete_zones));
+    if (!dam->rock_zones.empty())
+      zones.add("rock", json_of(dam->rock_zones));
     rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     summary.add("scene", scene.name)
@@ -77,6 +97,7 @@ namespace Voussoir
         .add("dealii", DEAL_II_PACKAGE_VERSION)
         .add("ranks", 1.)
         .add("mesh", mesh)
+        .add("zones", zones)
         .add("steps", step)
         .add("time_step", motion.dt)
         .add("seconds", seconds)

@@ -56,6 +56,12 @@ namespace Voussoir
     ungrouped = faces_without_group(mesh);
     foundation = make_foundation(
         {scene.foundation, mesh, source, scene.elements.degree, scene.elements.incompatible_modes});
+    const auto listed = zone_materials(scene.concrete_zones, "Concrete/Zones");
+    materials = materials_of(mesh.zones, scene.concrete, listed);
+    concrete_zones = zones_of(mesh, false, scene.concrete, listed, "Concrete/Zones");
+    if (foundation->uses_rock())
+      rock_zones =
+          zones_of(mesh, true, scene.foundation.rock, scene.foundation.zone_materials(), "Foundation/Zones");
     const HexMesh opened = open_monoliths(mesh, source);
     choose_laws(tie_all);
     assemble(opened);
@@ -107,7 +113,7 @@ namespace Voussoir
     model = std::make_unique<SolidModel>(opened, scene.elements.degree);
     const bool        incompatible_modes = scene.elements.incompatible_modes;
     std::vector<Pair> pairs = find_pairs(*model, n_joints);
-    structure = assemble_structure(*model, {scene.concrete}, incompatible_modes);
+    structure = assemble_structure(*model, materials, incompatible_modes);
     geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
     initial_stress.assign(model->n_nodes(), Stress{});
     if (scene.statics.self_weight == "staged")
@@ -117,14 +123,14 @@ namespace Voussoir
       model->free_base();
       if (foundation->base() == Foundation::Base::shared)
         model->tie_joints(n_joints, true); // the foundation joins all monoliths
-      structure = assemble_structure(*model, {scene.concrete}, incompatible_modes);
+      structure = assemble_structure(*model, materials, incompatible_modes);
       pairs = find_pairs(*model, n_joints);
       geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
     }
     if (tied && n_joints > 0)
     {
       model->tie_joints(n_joints);
-      structure = assemble_structure(*model, {scene.concrete}, incompatible_modes);
+      structure = assemble_structure(*model, materials, incompatible_modes);
     }
     else
       structure.pairs = std::move(pairs);
@@ -203,7 +209,7 @@ namespace Voussoir
     add_weight(structure, scene.statics.gravity, load);
     JointSystem system(structure, JointLaws(), ContactParameters(), 0., 1., 0.);
     system.solve_free(load, u);
-    StressRecovery(*model, {scene.concrete}, scene.elements.incompatible_modes).apply(u, initial_stress);
+    StressRecovery(*model, materials, scene.elements.incompatible_modes).apply(u, initial_stress);
     if (const unsigned int e = model->equation[geometry->crown]; e != rigid_ground)
       self_weight_crown = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};
   }

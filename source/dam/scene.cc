@@ -199,6 +199,11 @@ namespace Voussoir
                       Patterns::Double(-.99, .499));
     prm.add_parameter("Density", concrete.density, "Density of the concrete [kg/m^3].",
                       Patterns::Double(1e-3));
+    prm.add_parameter("Zones", concrete_zones,
+                      "Materials of zones of the dam, as \"NAME: E nu rho, NAME: E nu rho\", modulus of "
+                      "elasticity, Poisson's ratio and density, in Pa and kg/m^3 or with units; NAME is that "
+                      "of the volumes \"monolith 1 NAME\" of the mesh.",
+                      Patterns::Map(Patterns::Anything(), Patterns::Anything()));
     prm.leave_subsection();
     damping.add_parameters(prm);
     reservoir.add_parameters(prm);
@@ -264,6 +269,8 @@ namespace Voussoir
   void Scene::check() const
   {
     mesh.check();
+    zone_materials(concrete_zones, "Concrete/Zones");
+    foundation.zone_materials();
     damping.check();
     joints.check();
     motion.check();

@@ -11,7 +11,7 @@ namespace Voussoir
                                          const double dt)
   {
     RockRegionParameters result;
-    result.rock.materials[PhysicalId::first_rock] = p.rock;
+    result.rock.materials = p.materials_by_volume();
     result.rock.nodal_everywhere = p.nodal_everywhere;
     result.rock.nodal_layers = p.nodal_layers;
     result.rock.centre = centre;
@@ -29,13 +29,10 @@ namespace Voussoir
   }
 
   ExplicitRock::ExplicitRock(const FoundationSite &site)
-      : parameters(site.parameters), mesh(site.mesh), source(site.source)
+      : parameters(site.parameters), mesh(site.parameters.volumes_by_material(site.mesh)), source(site.source)
   {
     if (site.degree != 1)
       throw InputError("Foundation/Model = rock needs Elements/Degree = 1: dam and rock share their nodes.");
-    for (HexMesh::Cell &cell : mesh.cells) // one material
-      if (!is_monolith(cell.volume))
-        cell.volume = PhysicalId::first_rock;
   }
 
   void ExplicitRock::add_stiffness(const SolidModel &dam, Structure &)

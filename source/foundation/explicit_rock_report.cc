@@ -10,8 +10,7 @@ namespace Voussoir
 {
   void ExplicitRock::report(Log &log, const double time_step) const
   {
-    log.line("Rock      explicit: %.4g GPa, Poisson's ratio %g, %g kg/m3, one material",
-             1e-9 * parameters.rock.young, parameters.rock.poisson, parameters.rock.density);
+    log.line("Rock      explicit: %s", in_words(parameters.rock).c_str());
     log.line("          %u nodes; boundary %s, free field by %s", n_nodes(), parameters.boundary.c_str(),
              parameters.free_field.c_str());
     const std::string warning =

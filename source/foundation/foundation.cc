@@ -15,6 +15,11 @@ namespace Voussoir
     prm.add_parameter("Young's modulus", rock.young, "Modulus of elasticity of the rock [Pa].", Double(1.));
     prm.add_parameter("Poisson's ratio", rock.poisson, "Poisson's ratio of the rock [-].", Double(0., .45));
     prm.add_parameter("Density", rock.density, "Density of the rock [kg/m^3].", Double(1e-3));
+    prm.add_parameter("Zones", zones,
+                      "Materials of zones of the rock, as \"NAME: E nu rho, NAME: E nu rho\", modulus of "
+                      "elasticity, Poisson's ratio and density, in Pa and kg/m^3 or with units; NAME is that "
+                      "of the volumes \"rock NAME\" of the mesh.",
+                      Map(Anything(), Anything()));
     prm.add_parameter("Mass damping", mass_damping, "Rayleigh damping of the rock: factor of the mass [1/s].",
                       Double(0., 1e3));
     prm.add_parameter(

@@ -71,7 +71,8 @@ namespace Voussoir
                          const bool incompatible_modes, const std::string &source, Structure &structure)
   {
     const SolidModel rock(rock_only(mesh), dam.fe.degree);
-    Structure        ground = assemble_structure(rock, {parameters.rock}, incompatible_modes);
+    Structure        ground = assemble_structure(
+               rock, materials_of(mesh.zones, parameters.rock, parameters.zone_materials()), incompatible_modes);
     if (ground.n_nodes() == rock.n_nodes())
       throw InputError(source + ": no face of the rock lies on the artificial boundary (surface " +
                        std::to_string(PhysicalId::artificial) + "), which holds massless rock.");
@@ -133,8 +134,7 @@ namespace Voussoir
 
       void report(Log &log, double) const override
       {
-        log.line("Rock      massless: %.4g GPa, Poisson's ratio %g, %g kg/m3, one material",
-                 1e-9 * parameters.rock.young, parameters.rock.poisson, parameters.rock.density);
+        log.line("Rock      massless: %s", in_words(parameters.rock).c_str());
       }
 
     private:

@@ -64,6 +64,12 @@ namespace Voussoir
         throw InputError("mesh " + source + ": artificial boundary: " + text);
       }
 
+      std::string called(const int volume) const
+      {
+        const auto name = mesh.names.find({3, volume});
+        return "'" + (name != mesh.names.end() ? name->second : physical_name(3, volume)) + "'";
+      }
+
       /** The plane in which a face lies. */
       CutFace cut_face(const FaceTable::Entry &entry) const
       {
@@ -122,9 +128,9 @@ namespace Voussoir
           const auto &cell = mesh.cells[entry->cell];
           if (cell.volume != volume)
             fail("behind the face at " + place(centre(mesh, start.key)) + " (" + name_of(face) +
-                 "), the material changes from '" + physical_name(3, volume) + "' to '" +
-                 physical_name(3, cell.volume) + "' in layer " + std::to_string(layer) + " of " +
-                 std::to_string(n_layers) + ". Let the layers of equal elements lie in one material.");
+                 "), the material changes from " + called(volume) + " to " + called(cell.volume) +
+                 " in layer " + std::to_string(layer) + " of " + std::to_string(n_layers) +
+                 ". Let the layers of equal elements lie in one material.");
           const auto next = across(entry->cell, entry->cell_face);
           for (unsigned int v = 0; v < 4; ++v)
             for (unsigned int w = 0; w < 4; ++w)

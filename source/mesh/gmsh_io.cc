@@ -1,20 +1,14 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/guarded.h>
-#include <voussoir/base/output_file.h>
 #include <voussoir/mesh/gmsh_io.h>
+#include <voussoir/mesh/gmsh_session.h>
 #include <voussoir/mesh/mesh_groups.h>
 #include <voussoir/mesh/mesh_pipe.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <gmsh.h>
-#include <new>
 #include <set>
-#include <sstream>
-#include <stdexcept>
-#include <unistd.h>
 #include <unordered_map>
 
 namespace Voussoir
@@ -22,64 +16,7 @@ namespace Voussoir
   namespace
   {
     namespace model = gmsh::model;
-
-    constexpr int quadrangle_4 = 3, hexahedron_8 = 5; // gmsh's element types
-
-    /** Gmsh keeps one global state: initialized, silent and without the user's configuration in this scope.
-     */
-    class Session
-    {
-    public:
-      Session()
-      {
-        gmsh::initialize(0, nullptr, false);
-        gmsh::option::setNumber("General.Terminal", 0);
-        gmsh::option::setNumber("General.AbortOnError", 3); // throw
-      }
-      ~Session() { gmsh::finalize(); }
-      Session(const Session &) = delete;
-      Session &operator=(const Session &) = delete;
-    };
-
-    /** Runs @p action, which calls gmsh; what gmsh throws (strings, numbers, exceptions) becomes an
-     * InputError. */
-    template <typename Action>
-    void with_gmsh(const std::string &file, const std::string &problem, const Action &action)
-    {
-      const Session session;
-      std::string   reason;
-      try
-      {
-        action();
-        return;
-      }
-      catch (const InputError &)
-      {
-        throw;
-      }
-      catch (const std::bad_alloc &)
-      {
-        throw;
-      }
-      catch (const std::length_error &) // more than any memory
-      {
-        throw std::bad_alloc();
-      }
-      catch (const std::exception &error)
-      {
-        reason = error.what();
-      }
-      catch (const std::string &error)
-      {
-        reason = error;
-      }
-      catch (...)
-      {
-        gmsh::logger::getLastError(reason);
-      }
-      throw InputError("mesh " + file + ": " + problem + (reason.empty() ? "" : " (gmsh: " + reason + ")") +
-                       ".");
-    }
+    using GmshType::hexahedron_8, GmshType::quadrangle_4;
 
     /** Gmsh would run anything that does not look like a mesh as a script: look first. */
     void expect_gmsh_file(const std::string &file)
@@ -110,6 +47,7 @@ namespace Voussoir
       std::size_t              tag;
       std::vector<std::size_t> nodes; // tags
       int                      group; // physical id
+      unsigned int             zone;
     };
 
     class Reader
@@ -128,7 +66,7 @@ namespace Voussoir
         read_nodes();
         for (const Element &element : hexahedra)
         {
-          HexMesh::Cell cell{{}, element.group};
+          HexMesh::Cell cell{{}, element.group, element.zone};
           for (unsigned int v = 0; v < 8; ++v)
             cell.nodes[v] = number(element.nodes[v]);
           mesh.cells.push_back(cell);
@@ -171,8 +109,12 @@ namespace Voussoir
             ++id;
         if (!name.empty())
         {
-          std::string &names = mesh.names[{dimension, id}];
-          names += (names.empty() ? "" : ", ") + name;
+          // A monolith of zones is called by its number.
+          const bool         in_zones = dimension == 3 && is_monolith(id) && !zone_of(name).empty();
+          const std::string &called = in_zones ? physical_name(3, id) : name;
+          std::string       &names = mesh.names[{dimension, id}];
+          if (names != called)
+            names += (names.empty() ? "" : ", ") + called;
         }
         else
           unnamed.insert({dimension, id});
@@ -192,6 +134,14 @@ namespace Voussoir
         return id;
       }
 
+      /** Of the cells of gmsh's group of volumes. */
+      unsigned int zone_of_group(const int tag)
+      {
+        std::string name;
+        model::getPhysicalName(3, tag, name);
+        return zone_index(mesh, zone_of(name));
+      }
+
       /** The elements in physical groups of this dimension, by tag; all must be of one type. */
       std::vector<Element> elements(const int dimension, const int type, const std::string &expected)
       {
@@ -200,8 +150,9 @@ namespace Voussoir
         std::vector<Element> result;
         for (const auto &group : groups)
         {
-          const int        id = identify(dimension, group.second);
-          std::vector<int> entities;
+          const int          id = identify(dimension, group.second);
+          const unsigned int zone = dimension == 3 ? zone_of_group(group.second) : 0;
+          std::vector<int>   entities;
           model::getEntitiesForPhysicalGroup(dimension, group.second, entities);
           for (const int entity : entities)
           {
@@ -210,7 +161,7 @@ namespace Voussoir
             model::mesh::getElementsByType(type, tags, nodes, entity);
             const std::size_t n = dimension == 3 ? 8 : 4;
             for (std::size_t e = 0; e < tags.size(); ++e)
-              result.push_back({tags[e], {nodes.begin() + n * e, nodes.begin() + n * (e + 1)}, id});
+              result.push_back({tags[e], {nodes.begin() + n * e, nodes.begin() + n * (e + 1)}, id, zone});
           }
         }
         std::sort(result.begin(), result.end(),
@@ -288,55 +239,6 @@ namespace Voussoir
       std::set<std::pair<int, int>>                 unnamed;     // groups: dimension and id
       std::unordered_map<std::size_t, unsigned int> node_number; // by gmsh's tag
     };
-
-    /** Makes a discrete entity for each physical group of @p dimension and adds its elements, tagged in the
-     *  mesh's order after @p last_tag. */
-    template <typename Range, typename GroupOf>
-    void add_groups(const HexMesh &mesh, const int dimension, const int type, const Range &range,
-                    const GroupOf &group_of, std::size_t last_tag)
-    {
-      std::map<int, std::pair<std::vector<std::size_t>, std::vector<std::size_t>>> groups; // tags, nodes
-      for (const auto &element : range)
-      {
-        auto &group = groups[group_of(element)];
-        group.first.push_back(++last_tag);
-        for (const unsigned int node : element.nodes)
-          group.second.push_back(node + 1);
-      }
-      for (const auto &group : groups)
-      {
-        const int id = group.first;
-        model::addDiscreteEntity(dimension, id);
-        if (dimension == 3 && id == groups.begin()->first) // all nodes in one place keep their order
-        {
-          std::vector<std::size_t> tags;
-          std::vector<double>      coordinates;
-          for (const auto &node : mesh.nodes)
-          {
-            tags.push_back(tags.size() + 1);
-            coordinates.insert(coordinates.end(), node.begin(), node.end());
-          }
-          model::mesh::addNodes(3, id, tags, coordinates);
-        }
-        model::mesh::addElementsByType(id, type, group.second.first, group.second.second);
-        model::addPhysicalGroup(dimension, {id}, id);
-        const auto name = mesh.names.find({dimension, id}); // of rock: others are written as we call them
-        model::setPhysicalName(dimension, id,
-                               name != mesh.names.end() && dimension == 3 && !is_monolith(id)
-                                   ? name->second
-                                   : physical_name(dimension, id));
-      }
-    }
-  } // namespace
-
-  namespace
-  {
-    /** A file that does not stay. */
-    struct Removed
-    {
-      const std::string &file;
-      ~Removed() { std::remove(file.c_str()); }
-    };
   } // namespace
 
   HexMesh read_gmsh(const std::string &file)
@@ -350,42 +252,5 @@ namespace Voussoir
         [&] { with_gmsh(file, "gmsh cannot read this file", [&] { mesh = Reader(file).read(); }); },
         [&](PipeWriter &pipe) { send(mesh, pipe); }, [&](PipeReader &pipe) { receive(pipe, mesh); });
     return mesh;
-  }
-
-  void write_gmsh(const HexMesh &mesh, const std::string &file, const double version)
-  {
-    if (file.size() < 5 || file.substr(file.size() - 4) != ".msh")
-      throw InputError("mesh " + file + ": the name of a gmsh mesh file must end in '.msh'.");
-    if (version != 4.1 && version != 2.2)
-      throw InputError("mesh " + file + ": the MSH format is 4.1 or 2.2, not " + std::to_string(version) +
-                       ".");
-    // gmsh does not say when the disk is full: it writes beside, and what is whole is copied.
-    const std::string part = file.substr(0, file.size() - 4) + "." + std::to_string(getpid()) + ".msh";
-    const Removed     removed{part};
-    OutputFile(file, std::ios::app); // may it be written to?
-    OutputFile(part).check();
-    with_gmsh(file, "gmsh cannot write this file",
-              [&]
-              {
-                model::add("voussoir");
-                add_groups(
-                    mesh, 3, hexahedron_8, mesh.cells, [](const auto &cell) { return cell.volume; }, 0);
-                add_groups(
-                    mesh, 2, quadrangle_4, mesh.faces, [](const auto &face) { return face.surface; },
-                    mesh.cells.size());
-                gmsh::option::setNumber("Mesh.MshFileVersion", version);
-                gmsh::option::setNumber("Mesh.SaveAll", 0);
-                gmsh::option::setNumber("Mesh.Binary", 0);
-                gmsh::write(part);
-              });
-    std::ifstream      in(part, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    const std::string end = "$EndElements\n", whole = text.str();
-    if (whole.size() < end.size() || whole.compare(whole.size() - end.size(), end.size(), end) != 0)
-      throw WriteError("The file " + part + " cannot be written: is the disk full?");
-    OutputFile out(file);
-    out << whole;
-    out.check();
   }
 } // namespace Voussoir

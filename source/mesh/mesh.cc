@@ -172,7 +172,8 @@ namespace Voussoir
     const std::vector<std::string> word = words(name);
     if (dimension == 3)
     {
-      if (word.size() == 2 && word[0] == "monolith")
+      // What follows the number is a zone, and no other number.
+      if (word.size() >= 2 && word[0] == "monolith" && (word.size() == 2 || std::isalpha(word[2][0])))
         return to_number(word[1], PhysicalId::first_rock - 1);
       return !word.empty() && word[0] == "rock" ? PhysicalId::first_rock : -1;
     }
@@ -189,6 +190,41 @@ namespace Voussoir
     if (word.back() == "2" || word.back() == "plus")
       return PhysicalId::joint_side_2 + joint;
     return -1;
+  }
+
+  namespace
+  {
+    std::string joined(const std::vector<std::string> &words, const std::size_t first)
+    {
+      std::string result;
+      for (std::size_t i = first; i < words.size(); ++i)
+        result += (i == first ? "" : " ") + words[i];
+      return result;
+    }
+  } // namespace
+
+  std::string zone_of(const std::string &volume_name)
+  {
+    const std::vector<std::string> word = words(volume_name);
+    const int                      id = physical_id(3, volume_name);
+    const bool is_id = word.size() == 2 && word[1].size() >= 4 && std::isdigit(word[1][0]);
+    if (id == -1 || (!is_monolith(id) && is_id))
+      return "";
+    return joined(word, is_monolith(id) ? 2 : 1);
+  }
+
+  std::string zone_name(const std::string &text)
+  {
+    return joined(words(text), 0);
+  }
+
+  unsigned int zone_index(HexMesh &mesh, const std::string &zone)
+  {
+    const auto found = std::find(mesh.zones.begin(), mesh.zones.end(), zone);
+    if (found != mesh.zones.end())
+      return found - mesh.zones.begin();
+    mesh.zones.push_back(zone);
+    return mesh.zones.size() - 1;
   }
 
   std::string place(const std::array<double, 3> &point)

@@ -7,6 +7,7 @@
 #include <regex>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 namespace Voussoir
 {
@@ -35,24 +36,59 @@ namespace Voussoir
     struct Row
     {
       int         dimension, first_id, last_id;
+      std::string zone;
       bool        named;
       std::string first_name, last_name;
       std::size_t n = 0; ///< hexahedra or faces
     };
 
-    bool continues(const Row &row, const int dimension, const int id, const bool named)
+    bool continues(const Row &row, const int dimension, const int id, const std::string &zone,
+                   const bool named)
     {
-      if (row.dimension != dimension || row.named != named || id != row.last_id + 1)
+      if (row.dimension != dimension || row.named != named || id != row.last_id + 1 || row.zone != zone)
         return false;
       return dimension == 3 ? is_monolith(id) : is_joint_side(row.last_id);
     }
 
     std::string role(const Row &row)
     {
-      const std::string first = physical_name(row.dimension, row.first_id);
+      const std::string first = physical_name(row.dimension, row.first_id),
+                        zone = row.zone.empty() ? "" : ", zone " + row.zone;
       if (row.dimension == 3 && !is_monolith(row.first_id))
-        return "rock";
-      return row.first_id == row.last_id ? first : first + " to " + physical_name(row.dimension, row.last_id);
+        return "rock" + zone;
+      return (row.first_id == row.last_id ? first
+                                          : first + " to " + physical_name(row.dimension, row.last_id)) +
+             zone;
+    }
+
+    /** Successive groups of the mesh as rows: volumes without zone, then those of each zone, then surfaces.
+     */
+    std::vector<Row> rows_of(const HexMesh &mesh)
+    {
+      using Key = std::tuple<int, bool, unsigned int, int>; // surface?, rock?, zone, id
+      std::map<Key, std::size_t> count;
+      for (const auto &cell : mesh.cells)
+        ++count[{0, !is_monolith(cell.volume), cell.zone, cell.volume}];
+      for (const auto &face : mesh.faces)
+        ++count[{1, false, 0, face.surface}];
+      std::vector<Row> rows;
+      for (const auto &group : count)
+      {
+        const auto [is_surface, is_rock, zone_index, id] = group.first;
+        const int         dimension = is_surface ? 2 : 3;
+        const auto        found = mesh.names.find({dimension, id});
+        const bool        named = found != mesh.names.end();
+        const std::string zone = mesh.zones[zone_index];
+        const std::string name =
+            !named ? (is_surface ? "surface " : "volume ") + std::to_string(id) + " (no name)"
+                   : found->second + (is_surface || is_rock || zone.empty() ? "" : " " + zone);
+        if (rows.empty() || !continues(rows.back(), dimension, id, zone, named))
+          rows.push_back({dimension, id, id, zone, named, name, name});
+        rows.back().last_id = id;
+        rows.back().last_name = name;
+        rows.back().n += group.second;
+      }
+      return rows;
     }
   } // namespace
 
@@ -61,7 +97,9 @@ namespace Voussoir
     const std::string kind = dimension == 3 ? "volume" : "surface";
     return "the physical " + kind + " '" + name + "' (id " + std::to_string(tag) +
            ") has an unknown name. Did you mean '" + nearest_name(known_names(dimension), name) + "'? " +
-           (dimension == 3 ? "Volumes are 'monolith 1', 'monolith 2', ... and 'rock' or 'rock ...'"
+           (dimension == 3 ? "Volumes are 'monolith 1', 'monolith 2', ... and 'rock', with the name of a "
+                             "zone behind it ('monolith 1 heel', 'rock weak layer') where they have several "
+                             "materials"
                            : "Surfaces are 'base', 'upstream', 'downstream', 'crest', 'free surface', "
                              "'artificial boundary', 'joint 1 side 1', 'joint 1 side 2' and so on") +
            ". Rename or remove it: ids count for groups without names only.";
@@ -69,29 +107,7 @@ namespace Voussoir
 
   std::string group_table(const HexMesh &mesh)
   {
-    std::map<std::pair<int, int>, std::size_t> count;
-    for (const auto &cell : mesh.cells)
-      ++count[{3, cell.volume}];
-    for (const auto &face : mesh.faces)
-      ++count[{2, face.surface}];
-    std::vector<Row> rows;
-    for (const int dimension : {3, 2})
-      for (const auto &group : count)
-      {
-        if (group.first.first != dimension)
-          continue;
-        const int         id = group.first.second;
-        const auto        found = mesh.names.find(group.first);
-        const bool        named = found != mesh.names.end();
-        const std::string name =
-            named ? found->second
-                  : (dimension == 3 ? "volume " : "surface ") + std::to_string(id) + " (no name)";
-        if (rows.empty() || !continues(rows.back(), dimension, id, named))
-          rows.push_back({dimension, id, id, named, name, name});
-        rows.back().last_id = id;
-        rows.back().last_name = name;
-        rows.back().n += group.second;
-      }
+    const std::vector<Row>   rows = rows_of(mesh);
     std::vector<std::string> groups;
     std::size_t              width_1 = 5, width_2 = 4;
     for (const Row &row : rows)

@@ -14,6 +14,9 @@ namespace Voussoir
       pipe.put(entry.first.second);
       pipe.put(entry.second);
     }
+    pipe.put(mesh.zones.size());
+    for (const std::string &zone : mesh.zones)
+      pipe.put(zone);
   }
 
   void receive(PipeReader &pipe, HexMesh &mesh)
@@ -30,6 +33,17 @@ namespace Voussoir
       pipe.get(id);
       pipe.get(mesh.names[{dimension, id}]);
     }
+    pipe.get(n_names);
+    mesh.zones.clear();
+    for (std::size_t i = 0; i < n_names; ++i)
+    {
+      std::string zone;
+      pipe.get(zone);
+      mesh.zones.push_back(zone);
+    }
+    for (const HexMesh::Cell &cell : mesh.cells)
+      if (cell.zone >= mesh.zones.size())
+        throw PipeReader::End();
     const auto check = [&](const auto &elements)
     {
       for (const auto &element : elements)

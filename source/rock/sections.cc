@@ -40,7 +40,8 @@ namespace Voussoir
         thickness = std::max(thickness, std::sqrt(face.area));
       }
 
-    HexMesh                              section;
+    HexMesh section;
+    section.zones = mesh.zones;
     std::map<unsigned int, unsigned int> copy; // mesh node -> its place in the section, in pairs
     for (const ArtificialFace &face : cut)
       for (const unsigned int node : face.nodes)
@@ -59,6 +60,7 @@ namespace Voussoir
         cell.nodes[i + 4] = copy[face.nodes[i]];
       }
       cell.volume = mesh.cells[face.cell].volume;
+      cell.zone = mesh.cells[face.cell].zone;
       section.cells.push_back(cell);
     }
     // Edges of the cut that other artificial faces share.

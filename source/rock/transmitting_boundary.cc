@@ -81,8 +81,8 @@ namespace Voussoir
         return;
       throw InputError("The transmitting boundary " + p.boundary +
                        " grows without bound in undamped rock whose Poisson's ratio is " + number(highest) +
-                       " or more (\"Foundation/Poisson's ratio\" is " + number(poisson) +
-                       ", the time step of the rock " + number(p.dt / critical) +
+                       " or more (\"Foundation/Poisson's ratio\", \"Foundation/Zones\": the largest is " +
+                       number(poisson) + ", the time step of the rock " + number(p.dt / critical) +
                        " of the critical one): set \"Foundation/Stiffness damping\" to " + number(share) +
                        " of the rock's time step or more, here " + number(damping) +
                        " s, or \"Foundation/Boundary\" to viscous-spring.");

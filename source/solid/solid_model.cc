@@ -29,6 +29,7 @@ namespace Voussoir
     for (std::size_t i = 0; i < cells.size(); ++i)
     {
       cells[i].material_id = mesh.cells[i].volume;
+      zone.push_back(mesh.cells[i].zone); // deal.II keeps the order of the cells
       for (unsigned int v = 0; v < 8; ++v)
         cells[i].vertices[lexicographic[v]] = mesh.cells[i].nodes[v];
     }
@@ -157,7 +158,7 @@ namespace Voussoir
     {
       cell->get_dof_indices(dofs);
       const unsigned int b = model.body[dofs[0]];
-      stiffness.reinit(cell, materials[materials.size() == 1 ? 0 : b]);
+      stiffness.reinit(cell, model.material_of(cell, materials));
       Body &body = structure.bodies[b];
       for (unsigned int i = 0; i < dofs.size(); ++i)
         if (const unsigned int e = model.equation[dofs[i]]; e != rigid_ground)

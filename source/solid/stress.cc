@@ -29,14 +29,21 @@ namespace Voussoir
   {
     const unsigned int                     n = model.n_nodes();
     std::vector<std::vector<unsigned int>> columns(n);
-    std::vector<unsigned int>              n_cells(n, 0);
+    std::vector<unsigned int>              n_cells(n, 0); // of the stiffest material
+    std::vector<double>                    stiffest(n, 0.);
     std::vector<types::global_dof_index>   dofs(model.fe.n_dofs_per_cell());
     for (const auto &cell : model.dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
+      const double young = model.material_of(cell, materials).young;
       for (const auto i : dofs)
       {
-        ++n_cells[i];
+        if (young > stiffest[i])
+        {
+          stiffest[i] = young;
+          n_cells[i] = 0;
+        }
+        n_cells[i] += young == stiffest[i];
         for (const auto j : dofs)
           if (model.equation[j] != rigid_ground)
             columns[i].push_back(model.equation[j]);
@@ -57,11 +64,12 @@ namespace Voussoir
     for (const auto &cell : model.dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
-      elasticity.reinit(cell, materials[materials.size() == 1 ? 0 : model.body[dofs[0]]]);
+      const Material &material = model.material_of(cell, materials);
+      elasticity.reinit(cell, material);
       elasticity.stress_operator(cell_blocks);
       for (unsigned int i = 0; i < dofs.size(); ++i)
         for (unsigned int j = 0; j < dofs.size(); ++j)
-          if (model.equation[dofs[j]] != rigid_ground)
+          if (model.equation[dofs[j]] != rigid_ground && material.young == stiffest[dofs[i]])
           {
             const auto begin = column.begin() + start[dofs[i]], end = column.begin() + start[dofs[i] + 1];
             auto      &entry = blocks[std::lower_bound(begin, end, model.equation[dofs[j]]) - column.begin()];

@@ -6,9 +6,10 @@ from math import cos, pi, radians, sin
 NAMES = {1: "base", 2: "upstream", 3: "downstream", 4: "crest", 5: "free surface", 6: "artificial boundary"}
 
 
-def write(file, nodes, hexes, quads, scale=1.):
-    """hexes, quads: (physical id, corners counted from 0)."""
-    ids = [(3, i, f"monolith {i}" if i < 1000 else "rock") for i in sorted({tag for tag, _ in hexes})]
+def write(file, nodes, hexes, quads, scale=1., volumes=None):
+    """hexes, quads: (physical id, corners counted from 0). volumes: names by id, where they are not the usual ones."""
+    usual = lambda i: f"monolith {i}" if i < 1000 else "rock"
+    ids = [(3, i, (volumes or {}).get(i, usual(i))) for i in sorted({tag for tag, _ in hexes})]
     ids += [(2, i, NAMES[i]) for i in sorted({tag for tag, _ in quads})]
     with open(file, "w") as out:
         print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames", len(ids), sep="\n", file=out)
@@ -59,6 +60,10 @@ DAM = {"right": 1, "left": 1, "upstream": 2, "downstream": 3, "bottom": 1, "top"
 
 def arch(file, monoliths=(1, 1, 2, 2, 3, 3), n_through=1, n_up=3, scale=1.):
     """An arch dam, 60 m high, radius 100 m, 90 degrees, 6 to 18 m thick, in a valley with end walls of 24 m."""
+    write(file, *arch_block(monoliths, n_through, n_up), scale=scale)
+
+
+def arch_block(monoliths, n_through, n_up):
     n = len(monoliths)
 
     def place(i, j, k):
@@ -69,7 +74,18 @@ def arch(file, monoliths=(1, 1, 2, 2, 3, 3), n_through=1, n_up=3, scale=1.):
         r = outer - (6 + .2 * (60 - z)) * j / n_through
         return (100 - r * cos(angle), r * sin(angle), z)
 
-    write(file, *block(place, monoliths, n_through, n_up, DAM), scale=scale)
+    return block(place, monoliths, n_through, n_up, DAM)
+
+
+def zoned_arch(file, monoliths, n_through, n_up, zones=("heel", "crown")):
+    """The arch of three concretes: the lower third of the upstream cells is the heel, the upper third of all the crown,
+    the rest has no zone. The number of each hexahedron's zone."""
+    nodes, hexes, quads = arch_block(monoliths, n_through, n_up)
+    zone = [2 if 3 * k >= 2 * n_up else 1 if 3 * k < n_up and j == 0 else 0
+            for i in range(len(monoliths)) for j in range(n_through) for k in range(n_up)]
+    volumes = {100 * z + m: f"monolith {m} {zones[z - 1]}" for z in (1, 2) for m in monoliths}
+    write(file, nodes, [(100 * z + m, corners) for z, (m, corners) in zip(zone, hexes)], quads, volumes=volumes)
+    return zone
 
 
 def wall(file, monoliths=(1,), width=10., height=60., thickness=10., n_through=2, n_up=12, sides=None, toe=0.):
@@ -126,10 +142,16 @@ def valley(file, n=40, n_up=24, half_width=40., low=0., high=40., top=60., thick
     write(file, *block(place, (1,) * n, 1, n_up, DAM))
 
 
-def on_rock(file, cell, n, dam, layers, dam_cells, sides):
-    """A box of rock of n x n columns, `layers` deep, its top at z = 0, all cells cubes of edge `cell`; on the columns
+def on_rock(file, cell, n, dam, layers, dam_cells, sides, zone=None):
+    """zone(i, j, k): the zone of a cell of the rock, "" for none; k = -1 is the uppermost layer. A box of rock of n x n columns, `layers` deep, its top at z = 0, all cells cubes of edge `cell`; on the columns
     dam[0] <= i, j < dam[1] a block of concrete, `dam_cells` high. sides: the surface of the box's four sides."""
-    number, nodes, hexes, quads = {}, [], [], []
+    number, nodes, hexes, quads, zones = {}, [], [], [], [""]
+
+    def volume(*cell):
+        name = zone(*cell) if zone else ""
+        if name not in zones:
+            zones.append(name)
+        return 1000 + zones.index(name)
 
     def node(i, j, k):
         if (i, j, k) not in number:
@@ -148,7 +170,7 @@ def on_rock(file, cell, n, dam, layers, dam_cells, sides):
                 if not has(i, j, k):
                     continue
                 rock = k < 0
-                hexes.append((1000 if rock else 1, [node(i + a, j + b, k + c) for c in (0, 1) for a, b in ring]))
+                hexes.append((volume(i, j, k) if rock else 1, [node(i + a, j + b, k + c) for c in (0, 1) for a, b in ring]))
                 for axis in range(3):
                     for step in (0, 1):
                         to = [i, j, k]
@@ -172,4 +194,5 @@ def on_rock(file, cell, n, dam, layers, dam_cells, sides):
                             at[one], at[two] = at[one] + a, at[two] + b
                             corners.append(node(*at))
                         quads.append((surface, corners))
-    write(file, nodes, hexes, quads)
+    volumes = {1000 + i: f"rock {name}" for i, name in enumerate(zones) if name}
+    write(file, nodes, hexes, quads, volumes=volumes)

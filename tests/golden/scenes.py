@@ -167,6 +167,19 @@ end
 """
 
 
+# The same arch of three concretes: E, nu, rho without zone, of the heel and of the crown (make_calculix_zones.py)
+CONCRETES = ((21e9, .17, 2400.), (32e9, .2, 2550.), (9e9, .12, 2150.))
+
+
+def zones_prm(directory, plain):
+    text = calculix_prm(directory, plain)
+    meshes.zoned_arch(Path(directory) / "zones.msh", *CALCULIX["cells"])
+    heel, crown = CONCRETES[1:]
+    entry = (f"  set Zones = Heel: {heel[0] / 1e9:g} GPa {heel[1]} {heel[2] / 1e3:g} t/m^3, "
+             f"crown: {crown[0]:g} {crown[1]} {crown[2]:g}")
+    return text.replace("arch.msh", "zones.msh").replace("subsection Concrete\n", f"subsection Concrete\n{entry}\n")
+
+
 # A block on a column of rock, shaken from below: P waves alone, since Poisson's ratio is 0 (rock_exact.py). Metres, m/s.
 ROCK = {"cell": 5., "columns": 2, "layers": 60, "dam_cells": 6, "E": 10e9, "rho": 2600., "dam_E": 2e9, "dam_rho": 2500.,
         "dt": .001, "steps": 1100, "clean": .46, "every": 20, "ratio": .05, "frequencies": (3., 12.), "mass_damping": (0., 10.)}

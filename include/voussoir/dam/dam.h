@@ -30,12 +30,14 @@ namespace Voussoir
     /** All static loads, @p part of those that are raised with the water [N]. */
     Unknowns static_load(double part) const;
 
-    const Scene &scene;
-    std::string  groups;    ///< table of the mesh's groups: group_table()
-    std::string  ungrouped; ///< faces_without_group()
-    std::size_t  n_cells = 0;
-    unsigned int n_monoliths = 0, n_joints = 0;
-    double       volume = 0., crest_length = 0., size = 0.; ///< [m^3], [m], diagonal of the bounding box [m]
+    const Scene          &scene;
+    std::vector<Material> materials;                  ///< of the concrete, by zone of the mesh
+    std::vector<Zone>     concrete_zones, rock_zones; ///< those that the mesh has
+    std::string           groups;                     ///< table of the mesh's groups: group_table()
+    std::string           ungrouped;                  ///< faces_without_group()
+    std::size_t           n_cells = 0;
+    unsigned int          n_monoliths = 0, n_joints = 0;
+    double volume = 0., crest_length = 0., size = 0.; ///< [m^3], [m], diagonal of the bounding box [m]
     std::unique_ptr<SolidModel>  model;
     Structure                    structure;
     JointLaws                    laws;

@@ -7,7 +7,7 @@
 #include <voussoir/foundation/foundation_parameters.h>
 #include <voussoir/mesh/mesh_source.h>
 #include <voussoir/motion/motion_parameters.h>
-#include <voussoir/solid/material.h>
+#include <voussoir/solid/zones.h>
 
 #include <map>
 
@@ -77,7 +77,8 @@ namespace Voussoir
     std::string          impact_rule = "mean-force";
     MeshParameters       mesh;
     ElementParameters    elements;
-    Material             concrete;
+    Material             concrete; ///< where no zone says otherwise
+    ZoneEntry            concrete_zones;
     DampingParameters    damping;
     ReservoirParameters  reservoir;
     JointParameters      joints;

@@ -8,11 +8,11 @@
 namespace Voussoir
 {
   /** Reads hexahedra with physical volumes and quadrilaterals with physical surfaces from a gmsh file (MSH 2
-   *  or 4), in the order of the file's tags. The name of a physical group decides what it is (physical_id());
-   * the ids of groups without names do. Coordinates are the file's: no axes or units are changed. The mesh is
-   * normalized, not checked. Throws InputError: no such file, not a gmsh mesh, names that are not known,
-   * volume elements that are not 8-node hexahedra, surface elements that are not 4-node quadrilaterals,
-   * hexahedra in no or in two physical volumes, unknown ids. */
+   *  or 4), in the order of the file's tags. The name of a physical group decides what it is (physical_id(),
+   * zone_of()); the ids of groups without names do. Coordinates are the file's: no axes or units are changed.
+   * The mesh is normalized, not checked. Throws InputError: no such file, not a gmsh mesh, names that are not
+   * known, volume elements that are not 8-node hexahedra, surface elements that are not 4-node
+   * quadrilaterals, hexahedra in no or in two physical volumes, unknown ids. */
   HexMesh read_gmsh(const std::string &file);
 
   /** Writes a gmsh file in MSH format @p version 4.1 or 2.2 with 16 digits; @p file ends in ".msh".

@@ -29,7 +29,8 @@ namespace Voussoir
     struct Cell
     {
       std::array<unsigned int, 8> nodes;
-      int                         volume; ///< physical id: monolith 1..999, rock from 1000
+      int                         volume;   ///< physical id: monolith 1..999, rock from 1000
+      unsigned int                zone = 0; ///< index into zones: which concrete or rock; 0 = none
     };
     struct Face
     {
@@ -39,7 +40,8 @@ namespace Voussoir
     std::vector<std::array<double, 3>>         nodes; ///< [m]
     std::vector<Cell>                          cells;
     std::vector<Face>                          faces;
-    std::map<std::pair<int, int>, std::string> names; ///< (dimension, physical id) -> physical name
+    std::map<std::pair<int, int>, std::string> names;        ///< (dimension, physical id) -> physical name
+    std::vector<std::string>                   zones = {""}; ///< zone_name()s; the first is no zone
   };
 
   /** Corners of the six faces of a hexahedron, counter-clockwise seen from outside. */
@@ -83,8 +85,18 @@ namespace Voussoir
 
   /** The id that a physical name stands for, -1 if the name is none of ours. Case, spaces, '_' and '-' do
    *  not count ("monolith7", "Free surface"); "minus" and "plus" stand for side 1 and side 2 of a joint.
-   *  All names that begin with "rock" give PhysicalId::first_rock. */
+   *  All names that begin with "rock" give PhysicalId::first_rock; "monolith 3 heel" is monolith 3. */
   int physical_id(int dimension, const std::string &name);
+
+  /** The zone that a name of a physical volume says, as zone_name(): "heel" of "Monolith_3 Heel", "weak
+   *  layer" of "rock weak layer"; empty if it says none, as "monolith 3", "rock" or "rock 1000" (its id). */
+  std::string zone_of(const std::string &volume_name);
+
+  /** A zone's name without what does not count in it: "Weak_layer2" is "weak layer 2". */
+  std::string zone_name(const std::string &text);
+
+  /** Index of a zone_name() in HexMesh::zones, where it is added if it is not there. */
+  unsigned int zone_index(HexMesh &mesh, const std::string &zone);
 
   /** Mean of the places of some nodes [m]: the centre of a face or a cell. */
   template <std::size_t n>

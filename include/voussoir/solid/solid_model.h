@@ -42,12 +42,20 @@ namespace Voussoir
       return surfaces[node].count(surface) > 0;
     }
 
+    /** That of the cell among @p materials: one for each zone of the mesh, or a single one for all. */
+    const Material &material_of(const dealii::DoFHandler<3>::active_cell_iterator &cell,
+                                const std::vector<Material>                       &materials) const
+    {
+      return materials.size() == 1 ? materials[0] : materials.at(zone[cell->active_cell_index()]);
+    }
+
     dealii::Triangulation<3>      triangulation; ///< material ids are monolith numbers, boundary ids surfaces
     dealii::FE_Q<3>               fe;
     dealii::DoFHandler<3>         dof_handler;
     std::vector<dealii::Point<3>> points;         ///< of the nodes [m]
     std::vector<unsigned int>     body;           ///< of each node: index into body_numbers
     std::vector<int>              body_numbers;   ///< monolith numbers, ascending
+    std::vector<unsigned int>     zone;           ///< of each active cell: index into HexMesh::zones
     std::vector<std::set<int>>    surfaces;       ///< of each node
     std::vector<unsigned int>     equation;       ///< of each node; rigid_ground where fixed
     std::vector<unsigned int>     first_equation; ///< of each body, and the number of free nodes at the end
@@ -56,7 +64,7 @@ namespace Voussoir
   /** Bodies with stiffness and lumped mass (row sums). Degree 1: eight-node elements with incompatible modes
    * (Wilson; Taylor, Beresford and Wilson 1976: constant Jacobian in the modes, so the patch test holds), or
    * plain trilinear ones when @p incompatible_modes is false. Degree 2: 27-node elements.
-   *  @p materials: one per body, or a single one for all. */
+   *  @p materials: one per zone of the mesh, or a single one for all. */
   Structure assemble_structure(const SolidModel &model, const std::vector<Material> &materials,
                                bool incompatible_modes);
 

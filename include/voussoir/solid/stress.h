@@ -16,11 +16,14 @@ namespace Voussoir
   std::array<float, 2> principal_stresses(const Stress &s);
 
   /** Stress at all nodes from the displacements of the free ones, as one sparse product. In each cell as
-   *  CellElasticity::stress_operator(), then the mean of the cells of the same monolith around a node. Held
-   * and applied in single precision (1e-7 of the stress): it is read at every recorded step. */
+   *  CellElasticity::stress_operator(), then the mean of the cells of the same monolith around a node;
+   *  where materials meet, of those of the stiffest (largest modulus of elasticity): stresses along the
+   *  interface jump there, and the stiffest has the largest. Held and applied in single precision (1e-7 of
+   * the stress): it is read at every recorded step. */
   class StressRecovery
   {
   public:
+    /** @p materials: as in assemble_structure(). */
     StressRecovery(const SolidModel &model, const std::vector<Material> &materials, bool incompatible_modes);
 
     /** @p u: 3 per free node [m]; result: one per node of the model. */

@@ -1,0 +1,76 @@
+#ifndef voussoir_gmsh_session_h
+#define voussoir_gmsh_session_h
+
+#include <voussoir/base/error.h>
+
+#include <gmsh.h>
+
+#include <new>
+#include <stdexcept>
+#include <string>
+
+namespace Voussoir
+{
+  namespace GmshType
+  {
+    constexpr int quadrangle_4 = 3, hexahedron_8 = 5; ///< element types
+  }
+
+  /** Gmsh keeps one global state: initialized, silent and without the user's configuration in this scope.
+   */
+  class GmshSession
+  {
+  public:
+    GmshSession()
+    {
+      gmsh::initialize(0, nullptr, false);
+      gmsh::option::setNumber("General.Terminal", 0);
+      gmsh::option::setNumber("General.AbortOnError", 3); // throw
+    }
+    ~GmshSession() { gmsh::finalize(); }
+    GmshSession(const GmshSession &) = delete;
+    GmshSession &operator=(const GmshSession &) = delete;
+  };
+
+  /** Runs @p action, which calls gmsh; what gmsh throws (strings, numbers, exceptions) becomes an
+   * InputError. */
+  template <typename Action>
+  void with_gmsh(const std::string &file, const std::string &problem, const Action &action)
+  {
+    const GmshSession session;
+    std::string       reason;
+    try
+    {
+      action();
+      return;
+    }
+    catch (const InputError &)
+    {
+      throw;
+    }
+    catch (const std::bad_alloc &)
+    {
+      throw;
+    }
+    catch (const std::length_error &) // more than any memory
+    {
+      throw std::bad_alloc();
+    }
+    catch (const std::exception &error)
+    {
+      reason = error.what();
+    }
+    catch (const std::string &error)
+    {
+      reason = error;
+    }
+    catch (...)
+    {
+      gmsh::logger::getLastError(reason);
+    }
+    throw InputError("mesh " + file + ": " + problem + (reason.empty() ? "" : " (gmsh: " + reason + ")") +
+                     ".");
+  }
+} // namespace Voussoir
+
+#endif
