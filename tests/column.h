@@ -146,6 +146,7 @@ namespace Columns
     HexMesh mesh = Grids::columns(layers);
     for (HexMesh::Cell &cell : mesh.cells) // each bar is a zone
       cell.zone = cell.volume - 1;
+    mesh.zones.resize(bars.size());
     SolidModel                model(mesh, 1);
     std::vector<unsigned int> master(model.n_nodes());
     std::vector<bool>         fixed(model.n_nodes());

@@ -158,7 +158,8 @@ namespace Grids
     std::mt19937 engine(3);
     const auto   shift = [&](const bool inside)
     { return inside ? .2 * (engine() / 2147483647.5 - 1.) : engine() * 0.; };
-    HexMesh                                             mesh;
+    HexMesh mesh;
+    mesh.zones.resize(n_blocks);
     std::map<std::array<unsigned int, 4>, unsigned int> number;
     const auto                                          node =
         [&](const unsigned int block, const unsigned int i, const unsigned int j, const unsigned int k)
@@ -197,6 +198,7 @@ namespace Grids
             for (unsigned int c = 0; c < 4; ++c)
               cell.nodes[c] = face(i)[c], cell.nodes[c + 4] = face(i + 1)[c];
             cell.volume = shared ? 1 : b + 1;
+            cell.zone = b; // each block is one
             mesh.cells.push_back(cell);
           }
           if (b == 0)

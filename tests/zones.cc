@@ -143,8 +143,13 @@ namespace
     const SolidModel model(mesh, 1);
     expect(model.zone == std::vector<unsigned int>({0, 1, 2, 0}), "zones of the cells");
     const std::vector<Material> materials = {material(10., 1.), material(3., 2.), material(70., 5.)};
-    const Structure             structure = assemble_structure(model, materials, true);
-    double                      mass = 0.;
+    expect_error<dealii::ExceptionBase>(
+        [&] {
+          assemble_structure(model, {materials[0], materials[1]}, true);
+        },
+        {"2", "3"});
+    const Structure structure = assemble_structure(model, materials, true);
+    double          mass = 0.;
     for (const Matrix3 &m : structure.mass)
       mass += m[0];
     expect_close(mass, 1. + 2. + 5. + 1., 1e-13, "mass");

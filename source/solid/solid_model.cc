@@ -19,7 +19,7 @@ namespace Voussoir
   using namespace dealii;
 
   SolidModel::SolidModel(const HexMesh &mesh, const unsigned int degree)
-      : fe(degree), dof_handler(triangulation)
+      : fe(degree), dof_handler(triangulation), n_zones(mesh.zones.size())
   {
     std::vector<Point<3>> vertices;
     for (const auto &x : mesh.nodes)
@@ -117,6 +117,15 @@ namespace Voussoir
     }
     for (unsigned int i = 0; i < n_nodes(); ++i)
       equation[i] = equation[master[i]];
+  }
+
+  const Material &SolidModel::material_of(const DoFHandler<3>::active_cell_iterator &cell,
+                                          const std::vector<Material>               &materials) const
+  {
+    if (materials.size() == 1)
+      return materials[0];
+    AssertThrow(materials.size() == n_zones, ExcDimensionMismatch(materials.size(), n_zones));
+    return materials[zone[cell->active_cell_index()]];
   }
 
   Structure assemble_structure(const SolidModel &model, const std::vector<Material> &materials,

@@ -42,12 +42,10 @@ namespace Voussoir
       return surfaces[node].count(surface) > 0;
     }
 
-    /** That of the cell among @p materials: one for each zone of the mesh, or a single one for all. */
+    /** That of the cell among @p materials: one for each zone of the mesh (HexMesh::zones), or a single one
+     * for all. */
     const Material &material_of(const dealii::DoFHandler<3>::active_cell_iterator &cell,
-                                const std::vector<Material>                       &materials) const
-    {
-      return materials.size() == 1 ? materials[0] : materials.at(zone[cell->active_cell_index()]);
-    }
+                                const std::vector<Material>                       &materials) const;
 
     dealii::Triangulation<3>      triangulation; ///< material ids are monolith numbers, boundary ids surfaces
     dealii::FE_Q<3>               fe;
@@ -55,6 +53,7 @@ namespace Voussoir
     std::vector<dealii::Point<3>> points;         ///< of the nodes [m]
     std::vector<unsigned int>     body;           ///< of each node: index into body_numbers
     std::vector<int>              body_numbers;   ///< monolith numbers, ascending
+    std::size_t                   n_zones;        ///< of the mesh, also those without cells here
     std::vector<unsigned int>     zone;           ///< of each active cell: index into HexMesh::zones
     std::vector<std::set<int>>    surfaces;       ///< of each node
     std::vector<unsigned int>     equation;       ///< of each node; rigid_ground where fixed
