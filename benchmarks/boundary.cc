@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The artificial boundary against extended meshes and analytic solutions: the rows of doc/boundary.md.
 // Usage: benchmark_boundary [speed|halfspace|canyon|psv|lamb|hemisphere]...; all without an argument.
 // A = must, M = wish.

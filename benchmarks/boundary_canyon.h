@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Semicircular and hemispherical canyons under vertical waves, for benchmarks/boundary.cc.
 
 #ifndef voussoir_benchmarks_boundary_canyon_h

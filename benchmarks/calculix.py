@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Voussoir against CalculiX on the same mesh: the tied (linear, monolithic) dam on a rigid base.
 
     benchmarks/calculix.py SCENE.prm [--set 'Section/Entry=value']... [options]

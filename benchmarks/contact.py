@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The contact solver against Siconos on friction problems in FCLib files, as Dolan-More performance profiles.
 
     benchmarks/contact.py [--program build/voussoir] [--samples DIRECTORY] [--problems DIRECTORY] [--output DIRECTORY]

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The tied dam arch210 on finer and finer meshes, against reference values of an independent finite element program.
 
     benchmarks/convergence.py [--levels 3] [--voussoir PROGRAM]

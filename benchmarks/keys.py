@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Do shear keys (KSM) make the joints behave like plain ones (FJA) or like ones that do not slip (FJB)?
 
     benchmarks/keys.py [--voussoir PROGRAM] [--mesh paper|coarse] [--duration 20.48] [--motions 3]

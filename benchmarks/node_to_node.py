@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A second, independent program for the jointed arch of peers.py with joints that open but do not slip (FJB).
 
     benchmarks/node_to_node.py [--data DIRECTORY] [--dt 0.01] [--mass consistent|lumped] [--impact none|mean-force]

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The paper's figures, several runs in one, for doc/rigid_base.md and doc/rock.md:
 
     benchmarks/paper_figures.py rigid_base FJA=DIR FJB=DIR KSM=DIR        [--output doc/figures]

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The jointed arch of six monoliths against a node-to-node reference run that another program made.
 
     benchmarks/peers.py [--data DIRECTORY] [--voussoir PROGRAM]

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Is the physics of arch210 right? The tied dam against response-spectrum values; joints open and relieve the arches.
 
     benchmarks/physics.py [--voussoir PROGRAM]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the program for the other scripts of this directory, on one thread, and measures its CPU time."""
 
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Rigid base, massless rock, rock that radiates: what do 0, 5, 17 and 28 joints do on each? Five seconds of strong
 shaking of prm/rock_fja.prm.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Seconds of wall time per second of earthquake of the benchmark dam, jointed and tied, in one run.
 
 Usage: benchmarks/speed.py [--voussoir build/voussoir] [SCENE.prm ...]     (default: rigid28 with FJA, FJB, tied)

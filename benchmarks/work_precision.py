@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Accuracy against cost of the quick start: time steps on one mesh, then elements and meshes at one time step.
 
     benchmarks/work_precision.py [--duration 6] [--law FJA] [--voussoir PROGRAM]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # "cmake --install": the program, the library Voussoir::voussoir with its headers, the scripts that the program runs, and
 # the examples. A program of a user finds the library with find_package(Voussoir) (tests/user_project).
 include(CMakePackageConfigHelpers)

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Configures and builds Voussoir in build/ (Release); the program is build/voussoir.
 # Usage: scripts/build.sh [--configure-only] [--directory DIR] [--target NAME] [more arguments for cmake, such as
 #        -DCMAKE_BUILD_TYPE=Debug]

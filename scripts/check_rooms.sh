@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Do the rooms stand? A room includes itself and rooms above it only, no two files need each other, no file is longer
 # than 400 lines.
 # Usage: scripts/check_rooms.sh

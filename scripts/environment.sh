@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash disable=SC2034
 # Sourced by the other scripts: the directory of the sources, the environment of a run, and steps that say what they do.
 # One BLAS thread: the program itself works on many small bodies in parallel.

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Makes OUTPUT_DIR/figures/*.png from the output directory of one run of voussoir.
 
     scripts/figures.py OUTPUT_DIR

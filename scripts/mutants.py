@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Do the tests notice errors? Builds all mutants of scripts/mutants.txt into one program, in a scratch directory, and
 runs against each the tests that are likeliest to see it, until one fails: then the mutant is killed.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Do the tests notice errors? Sets up, builds the mutants of scripts/mutants.txt, runs the tests against them.
 # Usage: scripts/mutants.sh [arguments of scripts/mutants.py, which see]
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Paints the dam with its joints open from one of the solution-*.vtu of a run, displacements magnified, coloured by the
 largest principal stress or by the opening of the joints.
 

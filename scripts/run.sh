@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Sets up, builds and runs one scene, by default the quick start.
 # Usage: scripts/run.sh [SCENE.prm] [more arguments for voussoir]
 # Results: output/<scene name>/ in the source directory, unless --output says otherwise.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The quick tests with AddressSanitizer and UndefinedBehaviorSanitizer, in build-sanitize. Not part of continuous integration.
 # Usage: scripts/sanitize.sh [arguments for ctest instead of -L quick]
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what Voussoir needs on Debian 12, by apt and only where a package is missing.
 # Usage: scripts/setup.sh [--program]     --program: what building and running the program needs, nothing for its tests
 set -euo pipefail

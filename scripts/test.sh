@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Sets up, checks the form of sources and scripts, builds the sources' documentation (doc) and everything else with warnings as
 # errors, and runs the tests; then the quick ones again with the assertions of deal.II and of the C++ library (build-debug). What was skipped is listed at the end.
 # Usage: scripts/test.sh [arguments for ctest, such as -R waves, or -L with exact, mesh, motion or program: then these tests only]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reads the .vtu files that voussoir writes; needs nothing but Python."""
 
 import base64

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Structures of blocks with joints between them, for tests that need more than a column.
 
 #ifndef voussoir_tests_blocks_h

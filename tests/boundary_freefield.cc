@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Earthquake input: without dam and topography the total motion is the free field; so it is in a prismatic
 // valley, with the section's motion as free field.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Transmitting formula: its weights, and what it reflects in a bar, against the formula of the discrete
 // problem. Liao and Wong 1984, Soil Dyn. Earthq. Eng. 3(4), 174-183.
 

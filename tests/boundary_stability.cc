@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Long runs of a quarter box of rock (12 x 12 x 12 cells, corner, edges, free surface) after a push on the
 // ground: what is stable, and how the known mistakes fail. Without an argument 1e4 steps, or the number
 // given.

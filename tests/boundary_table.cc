@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The seam of the artificial boundary: its table is what scenes, help and messages know, and a region takes
 // one that is in no table.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rock of unit speed and the wave that goes into it, for the tests of the explicit region.
 
 #ifndef voussoir_tests_box_h

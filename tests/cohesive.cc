@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Law cohesive: one pair along its softening, its Jacobian, its exact solution; a block that is torn off;
 // what it does in the limits of no strength and of any strength.
 

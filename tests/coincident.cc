@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Points at the same place, found within a tolerance.
 
 #include "column.h"

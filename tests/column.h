@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Columns of hexahedra with a cross-section of 1 m x 1 m along x, their runs and energies.
 
 #ifndef voussoir_tests_column_h

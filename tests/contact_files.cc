@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // FCLib files: written and read again, in all layouts of W; bad ones are refused.
 // The bad files stay in DIRECTORY, where the test of the program finds them.
 // Usage: contact_files DIRECTORY

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The joint laws, pair by pair: generalized Jacobians against finite differences, exact solutions of one
 // pair, impulses, units, the measure of convergence, and shear keys against what is known of them.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a solution took (ContactResult): of the solver alone, of a joint system, and of time steps that are
 // halved.
 

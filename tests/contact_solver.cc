@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The contact solver on problems made to be hard: size, rank, coupling, friction, units, noise, what is not a
 // number, no time; and the dense joint problem against the equations of all nodes.
 

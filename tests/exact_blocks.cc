@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Joints between distorted blocks: patch tests, and tied joints against no joints.
 
 #include "blocks.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A chain of three distorted blocks: the equations of the joint system, hard cases for its solver, and the
 // chain in time.
 // Usage: exact_chain [impact rule]

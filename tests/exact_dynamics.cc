@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Impact and sliding against exact solutions, through the program's own elements and time
 // stepping: bars on a wall, two bars, blocks that slide, oblique impact.
 // Usage: exact_dynamics [impact rule]. A force that is a mean over the step is compared with the exact mean.

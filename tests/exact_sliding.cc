@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Curved sliding against an exact solution: a block that a rotating force drives around a circle.
 //
 // On the circle r (cos wt, sin wt) = r e_r a block of mass m has the acceleration -w^2 r e_r, and the

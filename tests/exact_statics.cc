@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Joint laws against their own equations, and friction on circular and cyclic paths against exact solutions.
 
 #include "column.h"

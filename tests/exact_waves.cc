@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plane waves through a joint against the exact solution, and the energy of elastic runs, through the
 // program's own elements and time stepping.
 // Usage: exact_waves [impact rule]. A force that is a mean over the step is compared with the exact force in

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The explicit region itself: nodes whose motion is handed in, the energy account, restart, stability limit.
 
 #include "box.h"

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Damaged input files: whatever is in a file, the program must end with a result or with a message.
 
     fuzz.py VOUSSOIR [--count 200] [--seed 1] [--only N] [--server FILE] [--jobs 2] [--time-out 20] [KIND...]

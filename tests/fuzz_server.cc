@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Many short runs of the program without its start-up, for fuzz.py: most of a start is the dynamic linker's.
 //
 // Each line of stdin is one run, words divided by tabs: directory, seconds, then the command line. The run is

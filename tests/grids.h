@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes of hexahedra for tests: boxes, walls, bars of cubes, columns and distorted blocks.
 
 #ifndef voussoir_tests_grids_h

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Work in a child process: what it sends arrives; whatever happens to it becomes a message.
 
 #include "testing.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The checks of testing.h: that what is wrong fails. This program prints FAILED where a check is made to
 // fail.
 

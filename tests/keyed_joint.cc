@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A joint whose shear keys are meshed, law FJA on its faces and flanks, against a flat joint with the law
 // KSM: two blocks of 4 m x 2 m x 2 m with one trapezoidal key, 20 cm high. The numbers are those of
 // doc/keys.md.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The mesh module: arch210 against its tables, gmsh files, opening and closing joints.
 // Usage: mesh, or mesh DIRECTORY for the sample meshes there; writes its files into the working directory.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The mesh module with what users give it: names, axes, units, entries; and every kind of bad input.
 // Writes its files into the working directory.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the parts of a mesh mean: groups by name, axes and units, the arc length along the crest, probes.
 // Writes its files into the working directory.
 

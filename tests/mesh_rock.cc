@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The rock around arch210, the grid lines of the artificial boundary, and bad meshes with rock.
 // Writes its files into the working directory.
 

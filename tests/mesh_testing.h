@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Helpers of the tests of the mesh module.
 
 #ifndef voussoir_tests_mesh_testing_h

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ground motions: design spectra, response spectra, artificial records, readers, bad input.
 
 #include "testing.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What goes into a motion: resampling of records, records of unequal length and step, scaling, envelopes of
 // short motions, what is left at the end, and input that must be refused.
 

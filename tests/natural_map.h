@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Siconos' measure of Coulomb's law at one contact, written anew from fc3d_compute_error.c.
 
 #ifndef voussoir_tests_natural_map_h

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loads, stresses, places, oscillators and rock against closed forms. Usage: physics loads|model|newmark|rock
 
 #include <voussoir/contact/law_table.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of the program: law cohesive in a dam, between FJA and tied; energy, checkpoints, entries.
 
     program_cohesive.py VOUSSOIR CASE...     cases: see the functions with that name below

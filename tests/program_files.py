@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of the program with files of others that are damaged, and with entries that would hang it.
 
     program_files.py VOUSSOIR

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The whole program against numbers from outside: closed forms, CalculiX, and a second program (golden/).
 
     program_golden.py VOUSSOIR CASE...     cases: see the functions with that name below

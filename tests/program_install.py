@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Test of an installation: a program of a user is built against it, and the installed program runs a scene with figures.
 
     program_install.py VOUSSOIR CASE... with the environment of the build: CMAKE, BUILD, BUILD_TYPE, CXX, GENERATOR

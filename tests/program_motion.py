@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of the program with its ground motion: durations, records, factors, what is refused, what is warned of.
 
     program_motion.py VOUSSOIR CASE...     cases: see the functions with that name below

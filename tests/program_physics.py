@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of the program's results against each other and against closed forms, on a small dam.
 
     program_physics.py VOUSSOIR CASE...     cases: see the functions with that name below

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of the program: nothing that it was given, or has computed, is lost.
 
     program_safety.py VOUSSOIR CASE...     cases: see the functions with that name below

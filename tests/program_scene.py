@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of what the program makes of the command line, of scenes and of meshes: options, units, warnings, groups, axes.
 
     program_scene.py VOUSSOIR CASE...     cases: see the functions with that name below

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of the program: what becomes unstable is refused, or seen and stopped; balances; warnings of joints.
 
     program_watch.py VOUSSOIR CASE...     cases: see the functions with that name below

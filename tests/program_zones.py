@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Zones through the whole program: names in meshes, entries, and waves in layers of rock.
 
     program_zones.py VOUSSOIR CASE...     cases: see the functions with that name below

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Dam and rock of one material, without joints: implicit dam on explicit rock (Foundation, as the program
 // runs it) against a single body of the same elements that is implicit throughout, in the same box and in a
 // larger domain. What pushes is a smooth pulse at the dam's top.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The static solver of the rock: it solves what it is given, and halving the mesh hardly adds iterations.
 
 #include <voussoir/foundation/rock_statics.h>

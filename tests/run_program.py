@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of the program as a whole, on a dam of three monoliths: its messages, its files, its results.
 
     run_program.py VOUSSOIR CASE...     cases: see the functions with that name below

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What users write into scenes: units, patterns in words, entries without effect, implausible values.
 
 #include "testing.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The bounds that a run is watched with: against closed forms, and against oscillators on random ground.
 
 #include "column.h"

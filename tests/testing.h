@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The checks of all C++ tests. Those of a value (below, above, between, throws) print it and go on; those of
 // a condition (expect...) end the test that they are in. Not a number fails all of them.
 

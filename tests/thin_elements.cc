@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stability where methods fail: columns shaken so that their joints open, close and slide, with very thin
 // elements at the joints and stiffness-proportional damping, in time steps that resolve neither. Joints must
 // not create energy.

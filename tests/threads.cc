@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exceptions inside of parallel regions reach the caller as they are.
 
 #include "column.h"

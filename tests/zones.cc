@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Zones of a mesh: names, files, open joints, sections, and the materials that cells, nodes and rock get.
 
 #include "mesh_testing.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/command_options.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/nearest_name.h>

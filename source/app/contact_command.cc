@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/contact_command.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/log.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/multithread_info.h>
 
 #include <voussoir/app/command_line.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/error.h>
 #include <voussoir/motion/motion.h>

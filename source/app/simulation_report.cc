@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/simulation.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
@@ -10,7 +11,6 @@ namespace Voussoir
 {
   namespace
   {
-    /** The first of the zones is the section's own material. */
     void report_zones(Log &log, const std::vector<Zone> &zones, const char *entry)
     {
       for (const Zone &zone : zones)

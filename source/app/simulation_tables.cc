@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the columns of history.csv and energy.csv are.
 
 #include <voussoir/app/simulation.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/config.h>
 
 #include <voussoir/app/simulation.h>

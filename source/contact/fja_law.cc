@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/contact/fja_law.h>
 #include <voussoir/contact/pair_conditions.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/names.h>
 #include <voussoir/contact/law_parameters.h>
 

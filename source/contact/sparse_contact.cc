@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/contact/sparse_contact.h>
 
 #include <umfpack.h>

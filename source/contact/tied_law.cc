@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/contact/pair_conditions.h>
 #include <voussoir/contact/tied_law.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/dam/dam_loads.h>
 #include <voussoir/dam/load_table.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/parameter_handler.h>
 
 #include <voussoir/base/error.h>

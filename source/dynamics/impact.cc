@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/dynamics/impact.h>
 
 #include <voussoir/base/names.h>

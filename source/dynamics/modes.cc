@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/lac/arpack_solver.h>
 #include <deal.II/lac/vector.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the log, the summary and the table of energies say of the rock.
 
 #include <voussoir/foundation/explicit_rock.h>

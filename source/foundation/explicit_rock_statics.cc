@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The static state of dam and rock.
 
 #include <voussoir/base/error.h>

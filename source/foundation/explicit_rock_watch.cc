@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What no earthquake does to the rock: see StabilityWatch.
 
 #include <voussoir/base/excess.h>

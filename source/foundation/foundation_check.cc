@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What would make the rock unstable, refused before the run: see doc/boundary.md
 
 #include <voussoir/base/error.h>

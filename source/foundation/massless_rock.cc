@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/foundation/feet.h>
 #include <voussoir/foundation/massless_rock.h>

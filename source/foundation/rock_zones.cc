@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The materials of foundation_parameters.h
 
 #include <voussoir/foundation/foundation_parameters.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/contact/key_law.h>
 #include <voussoir/joints/joint_laws.h>
 

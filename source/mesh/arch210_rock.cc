@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/mesh/arch210_rock.h>
 #include <voussoir/mesh/grading.h>
 

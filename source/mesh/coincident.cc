@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/numerics/rtree.h>
 
 #include <voussoir/mesh/coincident.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // write_gmsh() of gmsh_io.h
 
 #include <voussoir/base/output_file.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // check_mesh() of mesh.h
 
 #include <voussoir/base/error.h>

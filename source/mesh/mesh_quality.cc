@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // mesh_quality() of mesh.h
 
 #include <voussoir/mesh/mesh.h>

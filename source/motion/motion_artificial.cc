@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/motion/motion_artificial.h>
 #include <voussoir/motion/motion_report.h>
 #include <voussoir/motion/response_spectrum.h>

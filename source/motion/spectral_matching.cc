@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/motion/response_spectrum.h>
 #include <voussoir/motion/spectral_matching.h>
 

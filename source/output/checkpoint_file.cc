@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <boost/crc.hpp>
 
 #include <voussoir/base/output_file.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/lac/vector.h>
 #include <deal.II/numerics/data_out.h>

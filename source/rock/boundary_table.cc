@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/rock/boundary_table.h>
 #include <voussoir/rock/fixed_boundary.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/rock/fixed_boundary.h>
 
 namespace Voussoir

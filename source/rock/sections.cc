@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/rock/rock_grid.h>
 #include <voussoir/rock/sections.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/rock/transmitting_formula.h>
 
 #include <algorithm>

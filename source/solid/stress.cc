@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/solid/cell_elasticity.h>
 #include <voussoir/solid/solid_model.h>
 #include <voussoir/solid/stress.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Cases of program_golden.py: closed forms of statics, added mass and the damped oscillator."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reads Voussoir's files and compares numbers with a limit each; writes simple scenes."""
 
 import base64

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The linear part of dam_reference.py: elements, masses, loads, stresses and pairs of a small dam, with dense matrices."""
 
 import itertools

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A second program for small jointed dams on a rigid base, written from the equations with dense matrices, for the golden
 numbers of program_golden.py. It shares no line with Voussoir, and never calls it.
 

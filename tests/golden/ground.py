@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Cases of program_golden.py: waves in the rock, and artificial motions."""
 
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """CalculiX's golden numbers: writes calculix.json beside this script. Voussoir has no part in it.
 
     make_calculix.py                    needs ccx (Debian package calculix-ccx) and numpy

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """CalculiX's golden numbers of a dam of three concretes: writes calculix_zones.json. Voussoir has no part in it.
 
     make_calculix_zones.py              needs ccx (Debian package calculix-ccx) and numpy

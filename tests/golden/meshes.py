@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Structured meshes for the golden scenes, written as gmsh MSH 2.2 with physical names. Metres; x downstream, y to the
 left bank, z up."""
 

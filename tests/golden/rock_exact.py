@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writes rock.json: a block on a column of rock, exactly. Voussoir has no part in it.
 
 Vertical motion of a prism of Poisson's ratio 0 is one-dimensional. With rho (u'' + a u') = E u_zz the rock gives its top the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The golden scenes that dam_reference.py and Voussoir both compute: their meshes, motions and Voussoir's entries.
 
 s1k.msh is the arch of six monoliths of the comparison with other programs (doc/verification.md), made elsewhere, nodes doubled

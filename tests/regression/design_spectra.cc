@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The design spectra of both codes, on the plateau, in the descent and beyond where the codes end.
 
 #include <voussoir/motion/design_spectrum.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The mesh of the scene that is the argument, in numbers; its joints opened.
 
 #include <deal.II/base/parameter_handler.h>

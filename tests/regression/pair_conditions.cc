@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The equations of single conditions, with their derivatives, at an open, a sticking and a sliding pair; and
 // exact solutions of one pair with friction.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The weights of the transmitting formulas on an even and on an uneven line.
 
 #include <voussoir/rock/transmitting_formula.h>

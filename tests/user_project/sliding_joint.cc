@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A joint with friction 0.8 under 1000 N of compression: pushed sideways it slides with 800 N.
 #include <voussoir/contact/law_table.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #ifndef voussoir_error_h
 #define voussoir_error_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #ifndef voussoir_tensor3_h
 #define voussoir_tensor3_h
 

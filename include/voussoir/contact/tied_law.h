@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #ifndef voussoir_tied_law_h
 #define voussoir_tied_law_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #ifndef voussoir_explicit_rock_h
 #define voussoir_explicit_rock_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #ifndef voussoir_foundation_names_h
 #define voussoir_foundation_names_h
 

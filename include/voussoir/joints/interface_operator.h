@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #ifndef voussoir_interface_operator_h
 #define voussoir_interface_operator_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #ifndef voussoir_joint_factor_h
 #define voussoir_joint_factor_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #ifndef voussoir_gmsh_session_h
 #define voussoir_gmsh_session_h
 

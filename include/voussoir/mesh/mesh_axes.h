@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #ifndef voussoir_mesh_axes_h
 #define voussoir_mesh_axes_h
 
