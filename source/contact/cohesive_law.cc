@@ -86,6 +86,9 @@ namespace Voussoir
         face->evaluate(contact, gap, past, rho, e);
         for (unsigned int i = 0; i < 3; ++i)
           e.d_gap[3 * i] += e.d_force[3 * i] * slope;
+        if (e.touching && strength > 0. && past.memory[condition] == cracked && past.memory[largest] == 0.)
+          e.touching |=
+              bond_bit; // it has not opened: the tension of this step is no impulse to be given back
       }
 
       Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &past,
@@ -136,24 +139,34 @@ namespace Voussoir
         return held;
       }
 
-      bool revise(const Vector3 &force, const PairPast &past, double *memory) const override
+      double excess(const Vector3 &force, const PairPast &past) const override
       {
-        if (!is_bonded(memory) || -force[0] <= strength * past.area)
-          return false;
-        memory[condition] = end > 0. ? cracked : lost;
-        return true;
+        return is_bonded(past.memory) ? -force[0] / (strength * past.area) : 0.;
       }
 
-      void commit(const Vector3 &, const Vector3 &gap, const PairPast &, double *memory) const override
+      void release(double *memory) const override { memory[condition] = end > 0. ? cracked : lost; }
+
+      void commit(const Vector3 &force, const Vector3 &gap, const PairPast &past,
+                  double *memory) const override
       {
         if (memory[condition] != cracked)
           return;
+        if (memory[largest] == 0. && gap[0] <= nothing * end)
+        {
+          // Others cracked and relieved it before it moved; or it slid without an opening that is more than
+          // round-off.
+          if (-force[0] < (1. - nothing) * strength * past.area &&
+              length(gap[1] - past.start[1], gap[2] - past.start[2]) <= nothing * end)
+            memory[condition] = bonded;
+          return;
+        }
         memory[largest] = std::max(memory[largest], gap[0]);
         if (memory[largest] >= end)
           memory[condition] = lost;
-        else if (memory[largest] <= 0.) // it closed again before the crack was open
-          memory[condition] = bonded;
       }
+
+      /** Without strength it is a pair with friction, also on edges. */
+      double flat_friction() const override { return strength == 0. ? face->flat_friction() : -1.; }
 
       double bond_energy(const Vector3 &gap, const double area, const double *memory) const override
       {
@@ -170,7 +183,8 @@ namespace Voussoir
         largest
       };
       static constexpr double        bonded = 0., cracked = 1., lost = 2.; ///< conditions
-      static constexpr unsigned char face_bit = 1, bond_bit = 2;           ///< of PairEquations::touching
+      static constexpr double        nothing = 1e-8; ///< over end; openings and slips below are round-off
+      static constexpr unsigned char face_bit = 1, bond_bit = 2; ///< of PairEquations::touching
 
       bool is_bonded(const double *memory) const { return strength > 0. && memory[condition] == bonded; }
 

@@ -16,7 +16,8 @@ namespace Voussoir
   Vector3 JointLaw::stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
                                 const unsigned char touching) const
   {
-    return {{touching ? std::max(0., spent[0] - v[0] / H[0]) : spent[0], spent[1], spent[2]}};
+    return {
+        {touching ? std::max(std::min(0., spent[0]), spent[0] - v[0] / H[0]) : spent[0], spent[1], spent[2]}};
   }
 
   Vector3 JointLaw::solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &, double,

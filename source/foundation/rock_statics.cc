@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 namespace Voussoir
 {
@@ -29,13 +30,20 @@ namespace Voussoir
         MPI_Initialized(&there);
         if (there != 0)
           return;
+        std::vector<const char *> names;
         // Open MPI need not look for networks, which takes longer than many a static state.
         for (const auto &[name, value] : {std::make_pair("OMPI_MCA_pml", "ob1"),
                                           {"OMPI_MCA_btl", "self"},
                                           {"OMPI_MCA_osc", "^ucx"},
                                           {"OMPI_MCA_ess_singleton_isolated", "1"}})
-          setenv(name, value, 0);
+          if (std::getenv(name) == nullptr)
+          {
+            setenv(name, value, 0);
+            names.push_back(name);
+          }
         MPI_Init(nullptr, nullptr);
+        for (const char *name : names) // programs that are started later know nothing of this
+          unsetenv(name);
         started = true;
       }
 
@@ -210,7 +218,7 @@ namespace Voussoir
     {
       cg.solve(multigrid->matrix, u, load, multigrid->levels);
     }
-    catch (const dealii::SolverControl::NoConvergence &)
+    catch (const dealii::ExceptionBase &) // no convergence, or a breakdown
     {
       throw ComputationError("The static state of the rock did not converge in " +
                              std::to_string(control.last_step()) +

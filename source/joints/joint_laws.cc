@@ -2,6 +2,8 @@
 #include <voussoir/contact/key_law.h>
 #include <voussoir/joints/joint_laws.h>
 
+#include <algorithm>
+
 namespace Voussoir
 {
   void JointLaws::assign(const std::vector<Pair> &pairs)
@@ -45,11 +47,20 @@ namespace Voussoir
 
   unsigned int PairLaws::revise(const ForceMeaning &meaning, Unknowns &force, Unknowns &memory) const
   {
-    unsigned int                count = 0;
+    constexpr double            among_the_worst = .9;
     const std::vector<PairPast> past = pasts(Unknowns(force.size(), 0.), meaning, memory);
+    std::vector<double>         excess(of_pair.size());
+    double                      largest = 0.;
     for (std::size_t p = 0; p < of_pair.size(); ++p)
-      if (of_pair[p]->revise(get(force, p), past[p], memory.data() + memory_begin(p)))
+    {
+      excess[p] = of_pair[p]->excess(get(force, p), past[p]);
+      largest = std::max(largest, excess[p]);
+    }
+    unsigned int count = 0;
+    for (std::size_t p = 0; p < of_pair.size(); ++p)
+      if (excess[p] > 1. && excess[p] >= among_the_worst * largest)
       {
+        of_pair[p]->release(memory.data() + memory_begin(p));
         set(force, p, {});
         ++count;
       }

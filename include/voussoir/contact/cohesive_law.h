@@ -17,7 +17,8 @@ namespace Voussoir
    * closes meanwhile, and there is no shear but friction where it is closed. The bond is lost at w_c; at once
    * where the fracture energy G_f is 0.
    *
-   *  Memory: {bonded 0, cracked 1 or lost 2; largest opening since it cracked [m]}. Where the time
+   *  Memory: {bonded 0, cracked 1 or lost 2; largest opening since it cracked [m]}. A pair that cracks and is
+   * relieved by others in the same step, before it moves, is bonded again. Where the time
    * integration takes means over the step, so does the softening: its work is the fracture energy, to
    * round-off.
    *

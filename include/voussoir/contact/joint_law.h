@@ -87,10 +87,12 @@ namespace Voussoir
     /** Values that the law remembers of a pair; zeros at first. */
     virtual unsigned int n_memory() const { return 0; }
 
-    /** After each solution of a step, with its force: true if it is an event (a bond that breaks), after
-     * which the step is to be solved once more. Puts the event into @p memory, to which past.memory points.
-     */
-    virtual bool revise(const Vector3 &, const PairPast &, double *) const { return false; }
+    /** How far a solution is beyond what the pair can carry, such as its tension over its strength: above 1
+     * the pair, if it is among the worst, is released, and the step is solved once more. */
+    virtual double excess(const Vector3 &, const PairPast &) const { return 0.; }
+
+    /** Puts the event (a bond that breaks) into @p memory. */
+    virtual void release(double *) const {}
 
     /** The step is accepted with this force and gap: bring @p memory up to date, to which past.memory points.
      */

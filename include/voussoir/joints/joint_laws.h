@@ -28,8 +28,8 @@ namespace Voussoir
     std::vector<PairPast> pasts(const Unknowns &start, const ForceMeaning &meaning,
                                 const Unknowns &memory) const;
 
-    /** The events of a solution go into @p memory, and their pairs' forces become 0, a guess for the next.
-     * How many. */
+    /** Releases the pairs that a solution asks most of, within a tenth of the worst, since others may then be
+     * relieved: the events go into @p memory, and the forces become 0, a guess for the next. How many. */
     unsigned int revise(const ForceMeaning &meaning, Unknowns &force, Unknowns &memory) const;
 
     /** The step from @p start with this solution is accepted. */
