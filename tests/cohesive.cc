@@ -89,6 +89,30 @@ namespace
     below("  free when open", bond.residual({}, far, bond.past(far)), 1e-300);
   }
 
+  /** Cracked, but not open at the end of the step: bonded again, unless it slid. */
+  void not_opened()
+  {
+    for (const bool slid : {false, true})
+    {
+      Bond bond;
+      bond.law->release(bond.memory);
+      const PairPast at_rest = bond.past({});
+      bond.law->commit({{-.5 * strength * area, 0., 0.}}, {{0., slid ? .1 * end : 0., 0.}}, at_rest,
+                       bond.memory);
+      const double shear = bond.residual({{0., 1e6, 0.}}, {}, at_rest);
+      if (slid)
+        above("cracked, slid and closed: it has friction only", shear, 1e3);
+      else
+        below("cracked and relieved before it moved: bonded again", shear, 1e-300);
+      if (slid)
+      {
+        PairEquations e;
+        bond.law->evaluate({{1e6, 0., 0.}}, {}, at_rest, 1e9, e);
+        report("  its next impulses are those of friction", e.touching, "1", e.touching == 1);
+      }
+    }
+  }
+
   /** States of a bond with points on both sides of each of its branches. */
   std::vector<Bond> states()
   {
@@ -311,7 +335,7 @@ namespace
 
 int main()
 {
-  return run_all({softening, jacobian, exact_solution, limits, [] { torn_off(0., .01); },
+  return run_all({softening, not_opened, jacobian, exact_solution, limits, [] { torn_off(0., .01); },
                   [] { torn_off(0., .001); }, [] { torn_off(5., .001); }, [] { torn_off(20., .0005); },
                   closed_again, [] { relieved(0., .5); }, [] { relieved(5., .5); }, [] { relieved(0., .8); },
                   [] { relieved(5., .95); }});

@@ -153,11 +153,10 @@ namespace Voussoir
           return;
         if (memory[largest] == 0. && gap[0] <= nothing * end)
         {
-          // Others cracked and relieved it before it moved; or it slid without an opening that is more than
-          // round-off.
-          if (-force[0] < (1. - nothing) * strength * past.area &&
-              length(gap[1] - past.start[1], gap[2] - past.start[2]) <= nothing * end)
-            memory[condition] = bonded;
+          if (length(gap[1] - past.start[1], gap[2] - past.start[2]) > nothing * end)
+            memory[largest] = nothing * end; // it slid: from now on a crack like any other
+          else if (-force[0] < (1. - nothing) * strength * past.area)
+            memory[condition] = bonded; // others cracked and relieved it before it moved
           return;
         }
         memory[largest] = std::max(memory[largest], gap[0]);

@@ -18,7 +18,7 @@ namespace Voussoir
    * where the fracture energy G_f is 0.
    *
    *  Memory: {bonded 0, cracked 1 or lost 2; largest opening since it cracked [m]}. A pair that cracks and is
-   * relieved by others in the same step, before it moves, is bonded again. Where the time
+   * relieved by others in the same step, before it moves, is bonded again; one that slid without opening counts as opened by 1e-8 w_c. Where the time
    * integration takes means over the step, so does the softening: its work is the fracture energy, to
    * round-off.
    *
