@@ -76,6 +76,8 @@ def entries():
             "cohesive", "alart-curnier")
     expect("Joints/Strength" in run_program.voussoir("scene.prm", "--validate", "--set", "Joints/Strength=1 MPa").stdout,
            "a strength without effect is warned of")
+    expect("Joints/Strength is 0" in run_program.voussoir("scene.prm", "--validate", "--set", "Joints/Model=cohesive").stdout,
+           "a bond without strength is warned of")
 
 
 if __name__ == "__main__":

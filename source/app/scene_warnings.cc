@@ -239,6 +239,9 @@ namespace Voussoir
     for (std::size_t r = 0; r < rules.size(); ++r)
       if (!idle[r].empty())
         warnings.push_back(without_effect(idle[r], rules[r].reason));
+    if (any_joint(scene, {"cohesive"}) && scene.joints.strength == 0.)
+      warnings.push_back("Joints/Strength is 0: the model cohesive is then FJA. Set the tensile strength of "
+                         "the bond, such as 1 MPa.");
     return warnings;
   }
 
