@@ -18,9 +18,9 @@ namespace Voussoir
    * where the fracture energy G_f is 0.
    *
    *  Memory: {bonded 0, cracked 1 or lost 2; largest opening since it cracked [m]}. A pair that cracks and is
-   * relieved by others in the same step, before it moves, is bonded again; one that slid without opening counts as opened by 1e-8 w_c. Where the time
-   * integration takes means over the step, so does the softening: its work is the fracture energy, to
-   * round-off.
+   * relieved by others in the same step, before it moves, is bonded again; one that slid without opening
+   * counts as opened by 1e-8 w_c. Where the time integration takes means over the step, so does the
+   * softening: its work is the fracture energy, to round-off.
    *
    *  Elements longer than E G_f/f_t^2 store more energy than the crack takes: there the softening is a drop.
    * Edges where planes of a joint meet are not known to this law. InputError for negative values and other
