@@ -55,6 +55,7 @@ def settings_of(options, case, seed):
     else:
         motion = (options.output / f"motion_{seed}.csv").resolve()
         if not motion.exists():
+            options.output.mkdir(parents=True, exist_ok=True)
             program_output(options.voussoir, "motion", ROOT / "prm" / "paper_3_1_fja.prm", "--output", motion,
                            settings={"Motion/Seed": seed})
         settings.update({"Motion/Source": "file", "Motion/File": motion, "Motion/Duration": UNTIL})

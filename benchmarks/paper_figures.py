@@ -26,7 +26,7 @@ FACES = ("upstream", "downstream")
 
 
 def colour_of(law, number):
-    return COLOURS.get(law, OTHERS[number % len(OTHERS)])
+    return COLOURS.get(law[:3], OTHERS[number % len(OTHERS)])
 
 
 class Envelope:
@@ -66,7 +66,7 @@ def envelopes(rows, title, path):
     for axes_row, (law, row) in zip(grid, rows.items()):
         for axes, envelope in zip(axes_row, row):
             contours = envelope.draw(axes)
-            axes.set_title(f"{law}, {envelope.face}: mean of the upper part {envelope.upper():.1f} MPa", fontsize=9, loc="left")
+            axes.set_title(f"{law}, {envelope.face}; mean of the upper part {envelope.upper():.1f} MPa", fontsize=9, loc="left")
         axes_row[0].set_ylabel("z [m]")
     for axes in grid[-1]:
         axes.set_xlabel("developed arc length s [m], from the right bank to the left")
@@ -188,25 +188,25 @@ def draw(runs, output, directory):
     directory.mkdir(parents=True, exist_ok=True)
     rock = {law: runs[f"3.1_{law.lower()}"] for law in ("FJA", "FJB") if f"3.1_{law.lower()}" in runs}
     rigid = {law: runs[f"3.2_{law.lower()}"] for law in ("FJA", "FJB", "KSM") if f"3.2_{law.lower()}" in runs}
+    rock_labelled, rigid_labelled = ({f"{law} ({len(by_seed)} motion{'s' * (len(by_seed) > 1)})": by_seed
+                                      for law, by_seed in laws.items()} for laws in (rock, rigid))
     key_sketch(directory / "paper_fig5.png")
     if rock:
         letters = [chr(ord("A") + j) for j in range(17)]
-        motions = min(len(by_seed) for by_seed in rock.values())
         layout(next(iter(next(iter(rock.values())).values())), directory / "paper_fig1.png")
-        envelopes({law: mean_envelopes(by_seed) for law, by_seed in rock.items()},
-                  f"Section 3.1, 17 joints on rock: envelopes, mean of {motions} motions", directory / "paper_fig2_3.png")
-        bars({law: crest(by_seed, "openings") for law, by_seed in rock.items()}, letters, "largest opening [mm]",
+        envelopes({law: mean_envelopes(by_seed) for law, by_seed in rock_labelled.items()},
+                  "Section 3.1, 17 joints on rock: envelopes, means over the motions", directory / "paper_fig2_3.png")
+        bars({law: crest(by_seed, "openings") for law, by_seed in rock_labelled.items()}, letters, "largest opening [mm]",
              directory / "paper_fig4.png")
         profiles({law: output / f"3.1_{law.lower()}" / "seed_1" for law in rock},
                  "Section 3.1: opening over height, motion 1", directory / "paper_profile_3_1.png")
     if rigid:
         names = [str(j) for j in range(1, 6)]
-        motions = min(len(by_seed) for by_seed in rigid.values())
         for face, name in zip(FACES, ("paper_fig6_8.png", "paper_fig6_8_downstream.png")):
-            envelopes({law: mean_envelopes(by_seed, [face]) for law, by_seed in rigid.items()},
-                      f"Section 3.2, 5 joints, rigid base: mean of {motions} motions", directory / name)
+            envelopes({law: mean_envelopes(by_seed, [face]) for law, by_seed in rigid_labelled.items()},
+                      "Section 3.2, 5 joints, rigid base: means over the motions", directory / name)
         for what, name in (("openings", "paper_fig9.png"), ("slips", "paper_fig10.png")):
-            bars({law: crest(by_seed, what) for law, by_seed in rigid.items()}, names, f"largest {what[:-1]} [mm]",
+            bars({law: crest(by_seed, what) for law, by_seed in rigid_labelled.items()}, names, f"largest {what[:-1]} [mm]",
                  directory / name)
         profiles({law: output / f"3.2_{law.lower()}" / "seed_1" for law in rigid},
                  "Section 3.2: opening over height, motion 1", directory / "paper_profile_3_2.png")
