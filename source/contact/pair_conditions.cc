@@ -61,6 +61,19 @@ namespace Voussoir
     e.state = PairState::slip;
   }
 
+  Vector3 natural_map(const Vector3 &force, const Vector3 &moved, const double mu, const double rho)
+  {
+    const Vector3 x = {{force[0] - rho * (moved[0] + mu * length(moved[1], moved[2])),
+                        force[1] - rho * moved[1], force[2] - rho * moved[2]}};
+    const double  t = length(x[1], x[2]);
+    if (mu * t <= -x[0])
+      return force;
+    if (t <= mu * x[0])
+      return force - x;
+    const double n = (x[0] + mu * t) / (1. + mu * mu);
+    return {{force[0] - n, force[1] - mu * n * x[1] / t, force[2] - mu * n * x[2] / t}};
+  }
+
   /** Open, stick, or slip with force_t(k) = -(S + k I)^-1 c, where k = |slip|/|force_t| is the root of
    *  |force_t(k)| - mu force_n(k). 1/|force_t| is nearly linear in k, so the secant of 1/|force_t| -
    *  1/(mu force_n) converges in a few steps; bisection keeps the bracket, which cannot fail for H positive

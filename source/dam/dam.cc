@@ -100,7 +100,7 @@ namespace Voussoir
     {
       const std::string &law = tie_all ? "tied" : scene.joints.model_of(j);
       tied = tied && law == "tied";
-      laws.of_joint.push_back(make_joint_law(law, scene.joints.law()));
+      laws.of_joint.push_back(make_joint_law(law, scene.joints.law(scene.concrete.young)));
     }
     for (const auto &entry : scene.joints.overrides)
       if (entry.first > n_joints)

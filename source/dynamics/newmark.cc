@@ -24,8 +24,9 @@ namespace Voussoir
                rule == ImpactRule::mean_force ? ForceMeaning{2., true} : ForceMeaning()),
         impact(structure, laws, rule)
   {
-    if (laws.have_memory() && rule != ImpactRule::mean_force)
-      throw InputError("Joint laws with a memory need the impact rule mean-force.");
+    for (const JointLaw *law : laws.of_pair)
+      if (law->needs_mean_force() && rule != ImpactRule::mean_force)
+        throw InputError("The joint law \"cohesive\" needs the impact rule mean-force (Dynamics/Impact).");
   }
 
   void Newmark::start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,

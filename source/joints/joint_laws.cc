@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/contact/key_law.h>
+#include <voussoir/contact/surfaces_law.h>
 #include <voussoir/joints/joint_laws.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace Voussoir
       {
         std::vector<ContactSurface> surfaces;
         for (const Matrix3 &plane : pair.planes)
-          surfaces.push_back({plane, 0., friction, 0});
+          surfaces.push_back({plane, 0., friction});
         of_edges.push_back(std::make_unique<SurfacesLaw>(std::move(surfaces)));
         law = of_edges.back().get();
       }

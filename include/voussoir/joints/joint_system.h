@@ -65,7 +65,8 @@ namespace Voussoir
     void          condense();
     ContactResult solve_pairs(const Unknowns &b, const Unknowns &start, Unknowns &memory, Unknowns &force,
                               Unknowns &gap);
-    void          write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &force) const;
+    void          write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &memory,
+                                const Unknowns &force) const;
 
     const Structure                 &structure;
     const ContactParameters          parameters;
