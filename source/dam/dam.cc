@@ -4,6 +4,7 @@
 #include <voussoir/dam/dam.h>
 #include <voussoir/dam/dam_loads.h>
 #include <voussoir/foundation/foundation_table.h>
+#include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh_axes.h>
 #include <voussoir/mesh/mesh_groups.h>
 #include <voussoir/mesh/mesh_joints.h>
@@ -123,14 +124,14 @@ namespace Voussoir
     {
       model->free_base();
       if (foundation->base() == Foundation::Base::shared)
-        model->tie_joints(n_joints, true); // the foundation joins all monoliths
+        tie_joints(*model, n_joints, true); // the foundation joins all monoliths
       structure = assemble_structure(*model, materials, incompatible_modes);
       pairs = find_pairs(*model, n_joints);
       geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
     }
     if (tied && n_joints > 0)
     {
-      model->tie_joints(n_joints);
+      tie_joints(*model, n_joints);
       structure = assemble_structure(*model, materials, incompatible_modes);
     }
     else
