@@ -178,32 +178,69 @@ namespace Voussoir
   /** One step; false when the joints do not converge: then nothing has changed. */
   bool Newmark::step(const Unknowns &load, const Vector3 &base_velocity, ContactResult &result)
   {
+    Unknowns force, u_new;
+    result = solve(load, base_velocity, force, u_new);
+    if (!result.converged)
+      return false;
+    const double half_dt = .5 * dt; // the impulse of each pair, from the mean of its force over the step
+    for (std::size_t k = 0; k < force.size(); ++k)
+      impulse[k] = half_dt * (rule == ImpactRule::mean_force ? force[k] : now.force[k] + force[k]);
+
+    Work     work;
+    Unknowns change; // of the jumps
+    add_work_of_joints(u_new, change, work);
+    move(load, base_velocity, u_new, work);
+    if (!std::isfinite(work.input))
+      throw ComputationError("The displacements are not finite at t = " + std::to_string(now.time) + " s.");
+    const double kinetic_before = kinetic_energy_of_pairs();
+    if (rule != ImpactRule::none)
+      impact.correct_velocity(system, dt, change, now.v, impulse);
+    account(work, kinetic_before);
+
+    if (rule == ImpactRule::mean_force)
+      for (std::size_t k = 0; k < force.size(); ++k)
+        now.force[k] = .5 * force[k];
+    else if (rule == ImpactRule::none || structure.pairs.empty())
+      now.force = force;
+    else
+      now.force = impact.end_force(system, force, now.v, force_without_joints());
+    return true;
+  }
+
+  /** Displacements and joint forces at the end of a step; the memory of the laws, once they have converged.
+   */
+  ContactResult Newmark::solve(const Unknowns &load, const Vector3 &base_velocity, Unknowns &force,
+                               Unknowns &u_new)
+  {
     const std::size_t n_pairs = structure.pairs.size();
-    Unknowns          offset(3 * n_pairs), start(3 * n_pairs), force = now.force, memory = now.memory, u_new;
+    Unknowns          offset(3 * n_pairs), start(3 * n_pairs), memory = now.memory;
     for (std::size_t p = 0; p < n_pairs; ++p)
     {
       set(start, p, opening_and_slip(p));
       for (unsigned int c = 0; c < 3; ++c)
         offset[3 * p + c] = -reference[3 * p + c];
     }
+    force = now.force;
     if (rule == ImpactRule::mean_force)
       for (double &f : force)
         f *= 2.;
-    result = system.solve(right_hand_side(load, base_velocity), offset, start, memory, force, gap, u_new);
-    if (!result.converged)
-      return false;
-    system.commit(start, force, gap, memory);
-    now.memory.swap(memory);
+    const ContactResult result =
+        system.solve(right_hand_side(load, base_velocity), offset, start, memory, force, gap, u_new);
+    if (result.converged)
+    {
+      system.commit(start, force, gap, memory);
+      now.memory.swap(memory);
+    }
+    return result;
+  }
 
-    // The impulse of each pair, from the mean of its force over the step.
-    const double half_dt = .5 * dt;
-    for (std::size_t k = 0; k < 3 * n_pairs; ++k)
-      impulse[k] = half_dt * (rule == ImpactRule::mean_force ? force[k] : now.force[k] + force[k]);
-
-    // The work of the step: exact, since all forces enter by their means and u_new - u = dt/2 (v + v_new).
-    double   friction = 0., opening = 0.;
-    Unknowns change(3 * n_pairs); // of the jumps
-    for (std::size_t p = 0; p < n_pairs; ++p)
+  /** Work of the joint forces; @p change: of the jumps, 3 per pair [m]. All works of a step are exact, since
+   * all forces enter by their means and u_new - u = dt/2 (v + v_new). */
+  void Newmark::add_work_of_joints(const Unknowns &u_new, Unknowns &change, Work &work) const
+  {
+    double &opening = work.opening, &friction = work.friction;
+    change.resize(3 * structure.pairs.size());
+    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
     {
       const Vector3 before = structure.jump(structure.pairs[p], now.u),
                     after = structure.jump(structure.pairs[p], u_new);
@@ -213,6 +250,11 @@ namespace Voussoir
         (c == 0 ? opening : friction) -= impulse[3 * p + c] / dt * change[3 * p + c];
       }
     }
+  }
+
+  /** The state at the end of the step, but for joint forces and impacts; the work of loads and damping. */
+  void Newmark::move(const Unknowns &load, const Vector3 &base_velocity, const Unknowns &u_new, Work &work)
+  {
     Unknowns Ku;
     structure.multiply_stiffness(u_new, Ku);
     double  input = 0., damping = 0.;
@@ -238,34 +280,27 @@ namespace Voussoir
       damping += structure.mass_damping / dt * dot(relative, momentum);
       input -= structure.mass_damping * dot(base, momentum);
     }
+    work.input = input;
+    work.damping = damping;
     now.Ku.swap(Ku);
     now.load = load;
     now.base_velocity = base_velocity;
     now.time += dt;
-    if (!std::isfinite(input))
-      throw ComputationError("The displacements are not finite at t = " + std::to_string(now.time) + " s.");
+  }
 
-    const double kinetic_before = kinetic_energy_of_pairs();
-    if (rule != ImpactRule::none)
-      impact.correct_velocity(system, dt, change, now.v, impulse);
-    now.energy.input += input;
-    now.energy.damping += damping;
-    now.energy.friction += friction;
+  /** Books the work of a step, whose impacts took the pairs' kinetic energy from @p kinetic_before to what it
+   * is now [J]. */
+  void Newmark::account(const Work &work, const double kinetic_before)
+  {
+    now.energy.input += work.input;
+    now.energy.damping += work.damping;
+    now.energy.friction += work.friction;
     const double bond = bond_energy();
-    now.energy.impact += opening - (bond - now.energy.bond) + kinetic_before - kinetic_energy_of_pairs();
+    now.energy.impact += work.opening - (bond - now.energy.bond) + kinetic_before - kinetic_energy_of_pairs();
     now.energy.bond = bond;
     account_states();
     largest = std::max({largest, std::abs(now.energy.input), now.energy.kinetic + now.energy.added_mass,
                         first.kinetic, std::abs(now.energy.strain - first.strain), now.energy.damping});
-
-    if (rule == ImpactRule::mean_force)
-      for (std::size_t k = 0; k < 3 * n_pairs; ++k)
-        now.force[k] = .5 * force[k];
-    else if (rule == ImpactRule::none || n_pairs == 0)
-      now.force = force;
-    else
-      now.force = impact.end_force(system, force, now.v, force_without_joints());
-    return true;
   }
 
   double Newmark::kinetic_energy_of_pairs() const

@@ -115,18 +115,25 @@ namespace Voussoir
       factor->L = cholmod_analyze(A, &common);
     cholmod_factorize(A, factor->L, &common);
     cholmod_free_sparse(&A, &common);
-    cholmod_factor *L = factor->L;
+    const cholmod_factor *L = factor->L;
     if (common.status != CHOLMOD_OK || L == nullptr || L->minor < L->n)
       throw ComputationError(
           "The stiffness of monolith " + std::to_string(body.number) +
           " is not positive definite: nothing holds it (does its foot lie on the surface \"base\"?), or "
           "its elements are badly shaped.");
+    find_interface(body, is_interface);
+    copy_interface_factor();
+    factor->b = cholmod_zeros(L->n, 1, CHOLMOD_REAL, &common);
+    factor->x = cholmod_zeros(L->n, 1, CHOLMOD_REAL, &common);
+  }
 
-    // The interface must really stand last; the elimination tree is a chain there, so its postorder keeps it
-    // so.
-    const unsigned int n = L->n, m = 3 * body.interface.size(), first = n - m;
-    const int         *permutation = static_cast<const int *>(L->Perm);
-    tail.assign(permutation + first, permutation + n);
+  /** The interface must really stand last; the elimination tree is a chain there, so its postorder keeps it
+   * so. */
+  void CondensedBody::find_interface(const Body &body, const std::vector<bool> &is_interface)
+  {
+    const unsigned int n = factor->L->n, m = 3 * body.interface.size();
+    const int         *permutation = static_cast<const int *>(factor->L->Perm);
+    tail.assign(permutation + n - m, permutation + n);
     std::map<unsigned int, unsigned int> place;
     for (unsigned int i = 0; i < m; ++i)
     {
@@ -139,8 +146,13 @@ namespace Voussoir
     for (unsigned int i = 0; i < body.interface.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
         slot[3 * i + c] = place.at(3 * body.interface[i] + c);
+  }
 
-    // Copy L_GG out of the supernodes.
+  /** L_GG out of the supernodes. */
+  void CondensedBody::copy_interface_factor()
+  {
+    const cholmod_factor *L = factor->L;
+    const unsigned int    m = n_interface(), first = L->n - m;
     dense.assign(std::size_t(m) * m, 0.);
     const int *super = static_cast<const int *>(L->super), *pi = static_cast<const int *>(L->pi),
               *px = static_cast<const int *>(L->px), *rows = static_cast<const int *>(L->s);
@@ -153,9 +165,6 @@ namespace Voussoir
           dense[std::size_t(column - first) * m + (rows[pi[s] + i] - first)] =
               values[px[s] + std::size_t(j) * n_rows + i];
       }
-
-    factor->b = cholmod_zeros(n, 1, CHOLMOD_REAL, &common);
-    factor->x = cholmod_zeros(n, 1, CHOLMOD_REAL, &common);
   }
 
   CondensedBody::~CondensedBody() = default;

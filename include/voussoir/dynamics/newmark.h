@@ -73,7 +73,15 @@ namespace Voussoir
     const JointSystem &joint_system() const { return system; }
 
   private:
+    struct Work ///< of one step [J]
+    {
+      double opening = 0., friction = 0., input = 0., damping = 0.;
+    };
     bool          step(const Unknowns &load, const Vector3 &base_velocity, ContactResult &result);
+    ContactResult solve(const Unknowns &load, const Vector3 &base_velocity, Unknowns &force, Unknowns &u_new);
+    void          add_work_of_joints(const Unknowns &u_new, Unknowns &change, Work &work) const;
+    void          move(const Unknowns &load, const Vector3 &base_velocity, const Unknowns &u_new, Work &work);
+    void          account(const Work &work, double kinetic_before);
     ContactResult advance_in_halves(const Unknowns &load, const Vector3 &base_velocity,
                                     const ContactResult &failed);
     Unknowns      right_hand_side(const Unknowns &load, const Vector3 &base_velocity) const;

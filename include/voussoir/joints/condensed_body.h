@@ -51,6 +51,9 @@ namespace Voussoir
 
   private:
     struct Factor;
+    void find_interface(const Body &body, const std::vector<bool> &is_interface);
+    void copy_interface_factor();
+
     std::unique_ptr<Factor>   factor;
     std::vector<unsigned int> tail;  ///< local unknown at each interface position
     std::vector<unsigned int> slot;  ///< the inverse, by interface node and component
