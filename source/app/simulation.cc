@@ -201,7 +201,7 @@ namespace Voussoir
     if (n_steps > 0)
     {
       log.line("Shaking   %.2f s in %u steps of %g s; joints and factors hold %.2f GiB", n_steps * motion.dt,
-               n_steps, motion.dt, newmark->joint_system().memory() / std::pow(2., 30));
+               n_steps, motion.dt, newmark->memory() / std::pow(2., 30));
       log.line("\n   time  newton  open  slip  opening [mm]  slip [mm]  tension [MPa]  elapsed     left");
     }
   }
@@ -217,7 +217,12 @@ namespace Voussoir
     dam->foundation->advance(load);
     const SystemTimes   before = newmark->joint_system().times;
     const Vector3       base_velocity = dam->foundation->base_velocity();
+    const double        memory_before = newmark->memory();
     const ContactResult result = newmark->advance(load, base_velocity);
+    if (const double more = newmark->memory() - memory_before; more > 0.)
+      log.line(
+          "          smaller steps from t = %.4g s on, where joints ask for them: factors of %.2f GiB more",
+          newmark->state().time, more / std::pow(2., 30));
     dam->foundation->follow(newmark->state());
     ++count.path[static_cast<unsigned int>(result.path)];
     ++step;
