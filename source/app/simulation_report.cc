@@ -41,7 +41,7 @@ namespace Voussoir
       log.line("Joints    %u joints, %zu pairs, law %s (friction %g)", dam->n_joints,
                dam->structure.pairs.size(), laws.c_str(), scene.joints.friction);
     }
-    dam->foundation->report(log, motion.dt);
+    dam->foundation->report(log, grid());
     report_zones(log, dam->rock_zones, "Foundation/Zones");
     log.line("Damping   Rayleigh, C = %.4g 1/s M + %.4g s K: %.3g %% at %g Hz and %g Hz",
              scene.damping.mass_factor(), scene.damping.stiffness_factor(), 100. * scene.damping.ratio,

@@ -65,7 +65,7 @@ namespace Voussoir
         .add("rock", count.seconds_rock)
         .add("stresses", count.seconds_stresses)
         .add("output", count.seconds_output)
-        .add("per_second_of_earthquake", n_steps > 0 ? count.seconds_shaking / (n_steps * motion.dt) : 0.);
+        .add("per_second_of_earthquake", n_steps > 0 ? count.seconds_shaking / grid().duration() : 0.);
     return json;
   }
 
@@ -138,7 +138,7 @@ namespace Voussoir
         .add("static", json_of_statics())
         .add("extremes", json_of_extremes())
         .add_texts("warnings", log.warnings());
-    dam->foundation->add_to_summary(summary, motion.dt);
+    dam->foundation->add_to_summary(summary, grid());
     OutputFile out(directory + "/summary.json");
     out << summary.text() << "\n";
     out.check();

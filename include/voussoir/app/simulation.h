@@ -35,6 +35,7 @@ namespace Voussoir
 
   private:
     void              read_input();
+    TimeGrid          grid() const { return {motion.dt, scene.foundation.substeps, n_steps}; }
     void              report_setup();
     void              report_motion_notes();
     void              report_motion_and_warnings();
