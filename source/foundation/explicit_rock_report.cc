@@ -42,26 +42,18 @@ namespace Voussoir
     summary.add("rock", json);
   }
 
-  std::vector<std::string> ExplicitRock::columns() const
-  {
-    if (!region)
-      return {};
-    return {"rock_kinetic", "rock_strain",  "rock_damping", "rock_feet",
-            "transmitted",  "rock_balance", "interface"};
-  }
-
-  std::vector<double> ExplicitRock::row() const
+  std::vector<std::pair<std::string, double>> ExplicitRock::energies() const
   {
     if (!region)
       return {};
     const RegionEnergy &e = energy();
-    return {e.kinetic,
-            e.strain,
-            e.damping,
-            e.prescribed,
-            e.transmitted,
-            e.balance(),
-            e.prescribed + work_on_dam()};
+    return {{"rock_kinetic", e.kinetic},
+            {"rock_strain", e.strain},
+            {"rock_damping", e.damping},
+            {"rock_feet", e.prescribed},
+            {"transmitted", e.transmitted},
+            {"rock_balance", e.balance()},
+            {"interface", e.prescribed + work_on_dam()}};
   }
 
   double ExplicitRock::balance_error() const

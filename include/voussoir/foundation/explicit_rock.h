@@ -66,11 +66,10 @@ namespace Voussoir
     Vector3 base_velocity() const override;
     double  seconds() const override { return seconds_advancing; }
 
-    std::vector<std::string>           columns() const override;
-    std::vector<double>                row() const override;
-    double                             balance_error() const override;
-    void                               report_balance(Log &log) const override;
-    std::vector<std::vector<double> *> state() override;
+    std::vector<std::pair<std::string, double>> energies() const override;
+    double                                      balance_error() const override;
+    void                                        report_balance(Log &log) const override;
+    std::vector<std::vector<double> *>          state() override;
 
     void        watch(const GroundMotion &motion, const WatchBounds &bounds) override;
     std::string trouble_of_energy() const override;

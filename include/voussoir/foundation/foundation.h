@@ -95,13 +95,11 @@ namespace Voussoir
     virtual Vector3 base_velocity() const { return {}; }
     virtual double  seconds() const { return 0.; } ///< of wall time in advance()
 
-    virtual std::vector<std::string> columns() const
-    {
-      return {};
-    }                                                      ///< of the table of energies, after start()
-    virtual std::vector<double> row() const { return {}; } ///< the same now
-    virtual double              balance_error() const { return 0.; } ///< of its energies, over the largest
-    virtual void                report_balance(Log &) const {}
+    /** Its energies and works now [J], with the names of their columns in energy.csv; after start() always
+     * the same names. */
+    virtual std::vector<std::pair<std::string, double>> energies() const { return {}; }
+    virtual double balance_error() const { return 0.; } ///< of its energies, over the largest
+    virtual void   report_balance(Log &) const {}
 
     virtual std::vector<std::vector<double> *> state() { return {}; } ///< for checkpoints, after start()
 
