@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
+
 #include <voussoir/dynamics/newmark.h>
 
 #include <voussoir/base/error.h>
@@ -46,6 +48,10 @@ namespace Voussoir
   void Newmark::start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
                       const Unknowns &reference_jump, const Unknowns &memory)
   {
+    for (const Unknowns *of_nodes : {&u, &v, &load})
+      AssertDimension(of_nodes->size(), 3 * std::size_t(structure.n_nodes()));
+    AssertDimension(force.size(), 3 * structure.pairs.size());
+    AssertDimension(reference_jump.size(), 3 * structure.pairs.size());
     reference = reference_jump;
     impulse.assign(force.size(), 0.);
     now = DynamicState();
@@ -142,6 +148,7 @@ namespace Voussoir
 
   ContactResult Newmark::advance(const Unknowns &load, const Vector3 &base_velocity)
   {
+    AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
     return advance(0, load, base_velocity);
   }
 

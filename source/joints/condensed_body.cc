@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
+
 #include <voussoir/base/error.h>
 #include <voussoir/joints/condensed_body.h>
 
@@ -96,6 +98,7 @@ namespace Voussoir
                                const double stiffness_factor, const double dashpot_factor)
       : factor(std::make_unique<Factor>())
   {
+    AssertIndexRange(body.first_node + body.n_nodes(), structure.n_nodes() + 1);
     cholmod_common &common = factor->common;
     cholmod_sparse *A =
         upper_triangle(structure, body, mass_factor, stiffness_factor, dashpot_factor, common);
