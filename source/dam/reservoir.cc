@@ -3,7 +3,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
-#include <voussoir/base/error.h>
+#include <voussoir/base/names.h>
 #include <voussoir/dam/reservoir.h>
 #include <voussoir/solid/solid_model.h>
 
@@ -166,34 +166,22 @@ namespace Voussoir
         {"Westergaard", "his formula, in the normal direction of the upstream face", add_westergaard_mass},
         {"none", "the water is a static load only",
          [](const SolidModel &, const ReservoirParameters &, Structure &) { return 0.; }}};
-
-    /** All names, or what they are. */
-    std::string list(const char *AddedMassRow::*member, const std::string &separator, const bool with_name)
-    {
-      std::string text;
-      for (const AddedMassRow &row : added_masses)
-        text +=
-            (text.empty() ? "" : separator) + (with_name ? row.name + std::string(": ") : "") + row.*member;
-      return text;
-    }
   } // namespace
 
   std::string added_mass_names()
   {
-    return list(&AddedMassRow::name, "|", false);
+    return names_of(added_masses);
   }
 
   std::string added_mass_docs()
   {
-    return list(&AddedMassRow::doc, "; ", true);
+    return docs_of(added_masses);
   }
 
   double add_added_mass(const SolidModel &model, const ReservoirParameters &reservoir, Structure &structure)
   {
-    for (const AddedMassRow &row : added_masses)
-      if (reservoir.added_mass == row.name)
-        return row.add(model, reservoir, structure);
-    throw InputError("Entry \"Reservoir/Added mass\" is " + reservoir.added_mass + "; there are " +
-                     added_mass_names() + ".");
+    return row_of(added_masses, reservoir.added_mass, "is no added mass",
+                  "Entry \"Reservoir/Added mass\" may be")
+        .add(model, reservoir, structure);
   }
 } // namespace Voussoir
