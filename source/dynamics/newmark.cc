@@ -48,8 +48,9 @@ namespace Voussoir
   void Newmark::start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
                       const Unknowns &reference_jump, const Unknowns &memory)
   {
-    for (const Unknowns *of_nodes : {&u, &v, &load})
-      AssertDimension(of_nodes->size(), 3 * std::size_t(structure.n_nodes()));
+    AssertDimension(u.size(), 3 * std::size_t(structure.n_nodes()));
+    AssertDimension(v.size(), 3 * std::size_t(structure.n_nodes()));
+    AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
     AssertDimension(force.size(), 3 * structure.pairs.size());
     AssertDimension(reference_jump.size(), 3 * structure.pairs.size());
     reference = reference_jump;
