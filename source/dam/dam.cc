@@ -17,22 +17,6 @@ namespace Voussoir
 {
   namespace
   {
-    /** The dam without the rock. */
-    HexMesh monoliths_only(const HexMesh &mesh)
-    {
-      HexMesh result = mesh;
-      result.cells.clear();
-      result.faces.clear();
-      for (const HexMesh::Cell &cell : mesh.cells)
-        if (is_monolith(cell.volume))
-          result.cells.push_back(cell);
-      for (const HexMesh::Face &face : mesh.faces)
-        if (face.surface != PhysicalId::free_surface && face.surface != PhysicalId::artificial)
-          result.faces.push_back(face);
-      normalize(result); // drops the rock's nodes
-      return result;
-    }
-
     /** InputError where joint j is not between monoliths j and j + 1. */
     void check_joint_numbers(const HexMesh &opened, const unsigned int n_joints, const std::string &source)
     {
