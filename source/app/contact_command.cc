@@ -87,31 +87,37 @@ namespace Voussoir
     return solution;
   }
 
-  void run_contact(const std::vector<std::string> &files, const ContactOptions &options)
+  namespace
   {
-    omp_set_num_threads(1); // small problems; CPU seconds are those of the solution
-    if (files.empty())
-      throw InputError("`voussoir contact` needs FCLib files. `voussoir --help` shows how.");
-    ContactParameters parameters;
-    parameters.tolerance = positive_number("--tolerance", options.tolerance);
-    if (!std::isfinite(parameters.tolerance))
-      throw InputError("--tolerance must be a finite number, not \"" + options.tolerance + "\".");
-    parameters.max_seconds = positive_number("--max-seconds", options.max_seconds);
-    parameters.max_iterations = 1000000; // time is the limit
-    Equations equations = Equations::alart_curnier;
-    if (options.solver == "paper" || options.solver == "fischer-burmeister")
-      equations = equations_from_name(options.solver);
-    else if (options.solver == "newton" || options.solver == "proximal" || options.solver == "sweeps")
-      parameters.method = options.solver;
-    else
-      throw InputError("There is no solver \"" + options.solver +
-                       "\". The solvers are: newton, proximal, sweeps, paper, fischer-burmeister.");
-    if (!options.solutions.empty())
+    /** The method or the equations that --solver names. */
+    Equations choose_solver(const std::string &solver, ContactParameters &parameters)
+    {
+      if (solver == "paper" || solver == "fischer-burmeister")
+        return equations_from_name(solver);
+      if (solver != "newton" && solver != "proximal" && solver != "sweeps")
+        throw InputError("There is no solver \"" + solver +
+                         "\". The solvers are: newton, proximal, sweeps, paper, fischer-burmeister.");
+      parameters.method = solver;
+      return Equations::alart_curnier;
+    }
+
+    ContactParameters parameters_of(const ContactOptions &options)
+    {
+      ContactParameters parameters;
+      parameters.tolerance = positive_number("--tolerance", options.tolerance);
+      if (!std::isfinite(parameters.tolerance))
+        throw InputError("--tolerance must be a finite number, not \"" + options.tolerance + "\".");
+      parameters.max_seconds = positive_number("--max-seconds", options.max_seconds);
+      parameters.max_iterations = 1000000; // time is the limit
+      return parameters;
+    }
+
+    void make_directory_of_solutions(const std::string &directory, const std::vector<std::string> &files)
     {
       std::error_code error;
-      std::filesystem::create_directories(options.solutions, error);
-      if (error || !std::filesystem::is_directory(options.solutions, error))
-        throw InputError("--write-solutions: the directory " + options.solutions + " cannot be made.");
+      std::filesystem::create_directories(directory, error);
+      if (error || !std::filesystem::is_directory(directory, error))
+        throw InputError("--write-solutions: the directory " + directory + " cannot be made.");
       std::map<std::string, std::string> names; // and their files: a file may repeat
       for (const std::string &file : files)
         if (names.try_emplace(std::filesystem::path(file).stem().string(), file).first->second != file)
@@ -119,6 +125,49 @@ namespace Voussoir
                            std::filesystem::path(file).stem().string() +
                            ", and their solutions would be, too. Solve them one by one.");
     }
+
+    void write_solution(const std::string &directory, const std::string &file, const Unknowns &force)
+    {
+      const auto name = std::filesystem::path(directory) / std::filesystem::path(file).stem();
+      OutputFile out(name.string() + ".txt");
+      out << std::setprecision(17);
+      for (const double f : force)
+        out << f << '\n';
+      out.check();
+    }
+
+    /** Solves one problem and prints its line. */
+    FrictionSolution solve_and_print(const std::string &file, const FrictionProblem &problem,
+                                     const ContactParameters &parameters, const Equations equations)
+    {
+      const std::clock_t     start = std::clock();
+      const FrictionSolution solution = solve_friction_problem(problem, parameters, equations);
+      const double           seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+      const ContactResult   &result = solution.result;
+      const std::string      text = Json()
+                                   .add("file", file)
+                                   .add("contacts", problem.W.n_rows())
+                                   .add_flag("converged", result.converged)
+                                   .add("residual", result.residual)
+                                   .add("iterations", result.iterations)
+                                   .add("seconds", seconds)
+                                   .add("solver", solution.solver)
+                                   .add("sweeps", result.sweeps)
+                                   .line();
+      std::cout << text << std::endl;
+      return solution;
+    }
+  } // namespace
+
+  void run_contact(const std::vector<std::string> &files, const ContactOptions &options)
+  {
+    omp_set_num_threads(1); // small problems; CPU seconds are those of the solution
+    if (files.empty())
+      throw InputError("`voussoir contact` needs FCLib files. `voussoir --help` shows how.");
+    ContactParameters parameters = parameters_of(options);
+    const Equations   equations = choose_solver(options.solver, parameters);
+    if (!options.solutions.empty())
+      make_directory_of_solutions(options.solutions, files);
     unsigned int failures = 0, unreadable = 0;
     for (const std::string &file : files)
     {
@@ -135,31 +184,10 @@ namespace Voussoir
         ++unreadable; // the others are solved
         continue;
       }
-      const std::clock_t     start = std::clock();
-      const FrictionSolution solution = solve_friction_problem(problem, parameters, equations);
-      const double           seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
-      const ContactResult   &result = solution.result;
-      failures += !result.converged;
-      const std::string text = Json()
-                                   .add("file", file)
-                                   .add("contacts", problem.W.n_rows())
-                                   .add_flag("converged", result.converged)
-                                   .add("residual", result.residual)
-                                   .add("iterations", result.iterations)
-                                   .add("seconds", seconds)
-                                   .add("solver", solution.solver)
-                                   .add("sweeps", result.sweeps)
-                                   .line();
-      std::cout << text << std::endl;
+      const FrictionSolution solution = solve_and_print(file, problem, parameters, equations);
+      failures += !solution.result.converged;
       if (!options.solutions.empty())
-      {
-        const auto name = std::filesystem::path(options.solutions) / std::filesystem::path(file).stem();
-        OutputFile out(name.string() + ".txt");
-        out << std::setprecision(17);
-        for (const double f : solution.force)
-          out << f << '\n';
-        out.check();
-      }
+        write_solution(options.solutions, file, solution.force);
     }
     const std::string not_converged = std::to_string(failures) + " of " +
                                       std::to_string(files.size() - unreadable) +

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
+
 #include <voussoir/base/parallel.h>
 #include <voussoir/joints/joint_system.h>
 
@@ -126,6 +128,10 @@ namespace Voussoir
   ContactResult JointSystem::solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
                                    Unknowns &memory, Unknowns &force, Unknowns &gap, Unknowns &u)
   {
+    AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
+    AssertDimension(offset.size(), 3 * sides.size());
+    AssertDimension(start.size(), 3 * sides.size());
+    AssertDimension(force.size(), 3 * sides.size());
     const double begin = now();
     const int    n_bodies = bodies.size();
     u.resize(load.size());
@@ -214,6 +220,7 @@ namespace Voussoir
 
   void JointSystem::solve_free(const Unknowns &load, Unknowns &u)
   {
+    AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
     u.resize(load.size());
     for (unsigned int i = 0; i < bodies.size(); ++i)
     {
