@@ -7,6 +7,7 @@
 #include <voussoir/contact/sparse_contact.h>
 #include <voussoir/joints/pair_groups.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
@@ -39,6 +40,42 @@ namespace Voussoir
       return name;
     }
 
+    double largest(const double x)
+    {
+      return std::abs(x);
+    }
+    double largest(const Matrix3 &block)
+    {
+      double result = 0.;
+      for (const double x : block)
+        result = std::max(result, std::abs(x));
+      return result;
+    }
+    void scale(double &x, const int exponent)
+    {
+      x = std::ldexp(x, exponent);
+    }
+    void scale(Matrix3 &block, const int exponent)
+    {
+      for (double &x : block)
+        scale(x, exponent);
+    }
+
+    /** Divides by a power of two, such that the largest is about 1 and squares neither overflow nor
+     * underflow. Returns the exponent. */
+    template <typename T> int normalise(std::vector<T> &values)
+    {
+      double size = 0.;
+      for (const T &x : values)
+        size = std::max(size, largest(x));
+      int exponent = 0;
+      if (size > 0. && std::isfinite(size))
+        std::frexp(size, &exponent);
+      for (T &x : values)
+        scale(x, -exponent);
+      return exponent;
+    }
+
     double positive_number(const std::string &option, const std::string &text)
     {
       char        *end = nullptr;
@@ -58,31 +95,36 @@ namespace Voussoir
     for (const double mu : problem.mu)
       if (laws.find(mu) == laws.end())
         laws[mu] = make_joint_law("FJA", mu, equations);
-    const PairGroups groups = find_groups(problem.W);
-    const bool       joints = has_joints(problem.W, groups);
+    FrictionProblem  scaled = problem;
+    const int        exponent_W = normalise(scaled.W.value), exponent_q = normalise(scaled.q);
+    const PairGroups groups = find_groups(scaled.W);
+    const bool       joints = has_joints(scaled.W, groups);
     const auto       old = [&](const unsigned int i) { return joints ? groups.order[i] : i; };
     for (unsigned int i = 0; i < n; ++i)
       law[i] = laws[problem.mu[old(i)]].get();
 
     std::unique_ptr<ContactOperator> W;
     if (joints)
-      W = std::make_unique<InterfaceOperator>(make_interface_operator(problem.W, groups));
+      W = std::make_unique<InterfaceOperator>(make_interface_operator(scaled.W, groups));
     else
-      W = std::make_unique<SparseContactOperator>(problem.W);
+      W = std::make_unique<SparseContactOperator>(scaled.W);
     ContactSolver solver(*W, law, parameters);
 
     FrictionSolution solution;
     Unknowns         q(3 * n), force(3 * n, 0.), gap, start(3 * n, 0.);
     for (unsigned int k = 0; k < 3 * n; ++k)
-      q[k] = problem.q[3 * old(k / 3) + k % 3];
+      q[k] = scaled.q[3 * old(k / 3) + k % 3];
     solution.result = solver.solve(q, start, force, gap);
     solution.force.resize(3 * n);
     solution.gap.resize(3 * n);
     for (unsigned int k = 0; k < 3 * n; ++k)
     {
-      solution.force[3 * old(k / 3) + k % 3] = force[k];
-      solution.gap[3 * old(k / 3) + k % 3] = gap[k];
+      solution.force[3 * old(k / 3) + k % 3] = std::ldexp(force[k], exponent_q - exponent_W);
+      solution.gap[3 * old(k / 3) + k % 3] = std::ldexp(gap[k], exponent_q);
     }
+    solution.result.converged =
+        solution.result.converged && std::all_of(solution.force.begin(), solution.force.end(),
+                                                 [](const double f) { return std::isfinite(f); });
     solution.solver = path_name(parameters, equations, solution.result.path);
     return solution;
   }
@@ -168,7 +210,7 @@ namespace Voussoir
     const Equations   equations = choose_solver(options.solver, parameters);
     if (!options.solutions.empty())
       make_directory_of_solutions(options.solutions, files);
-    unsigned int failures = 0, unreadable = 0;
+    unsigned int failures = 0, unreadable = 0, unbounded = 0;
     for (const std::string &file : files)
     {
       FrictionProblem problem;
@@ -186,13 +228,18 @@ namespace Voussoir
       }
       const FrictionSolution solution = solve_and_print(file, problem, parameters, equations);
       failures += !solution.result.converged;
+      unbounded += !solution.result.converged && solution.result.force_over_load > 1e3;
       if (!options.solutions.empty())
         write_solution(options.solutions, file, solution.force);
     }
-    const std::string not_converged = std::to_string(failures) + " of " +
-                                      std::to_string(files.size() - unreadable) +
-                                      " problems did not converge to " + options.tolerance + " within " +
-                                      options.max_seconds + " s each (\"converged\": false).";
+    const std::string not_converged =
+        std::to_string(failures) + " of " + std::to_string(files.size() - unreadable) +
+        " problems did not converge to " + options.tolerance + " within " + options.max_seconds +
+        " s each (\"converged\": false)." +
+        (unbounded > 0 ? " In " + std::to_string(unbounded) +
+                             " of them forces grow without bound: is the problem "
+                             "feasible?"
+                       : "");
     if (unreadable > 0)
       throw InputError(std::to_string(unreadable) + " of " + std::to_string(files.size()) +
                        " files cannot be read, as said above; the others were solved." +

@@ -165,10 +165,14 @@ namespace Voussoir
     const double force_size = std::sqrt(p), load_size = mean_rho * std::sqrt(q),
                  round_off = 1e-15 * mean_rho * std::sqrt(norm_square(*past));
     scale = std::max({force_size, load_size, mean_rho * std::sqrt(u), round_off / parameters.tolerance});
-    // A singular step leaves forces without bound, which would make any error look small.
+    // A singular step, or a problem without a solution, leaves forces without bound, which would make any
+    // error look small: it must be small against the load, too, as far as round-off allows.
+    result.force_over_load = load_size > 0. ? force_size / load_size : 0.;
     if (!std::isfinite(f + scale) || force_size > 1e8 * (load_size + round_off))
       return std::numeric_limits<double>::infinity();
-    return scale > 0. ? std::sqrt(f) / scale : 0.;
+    const double against_load = std::max(
+        {1e2 * load_size, 1e-13 / parameters.tolerance * force_size, round_off / parameters.tolerance});
+    return scale > 0. ? std::sqrt(f) / std::min(scale, std::max(against_load, 1e-300)) : 0.;
   }
 
   /** gap = W force + b, free of the round-off of updates; the last product is kept for the next step. */
@@ -283,9 +287,10 @@ namespace Voussoir
     return 1e-6 * t * mean_rho * std::sqrt(norm_square(step.gap));
   }
 
-  /** Newton's method from @p x for the present (regularised) problem. False when it stalls; @p x is then the
-   *  best that was found. */
-  bool ContactSolver::newton(const double target, const unsigned int max_steps, Iterate &x)
+  /** Newton's method from @p x for the present (regularised) problem. False when it stalls for @p patience
+   *  steps; @p x is then the best that was found. */
+  bool ContactSolver::newton(const double target, const unsigned int max_steps, const unsigned int patience,
+                             Iterate &x)
   {
     evaluate(x);
     double             now = checked_residual(target, x), previous = now;
@@ -308,7 +313,7 @@ namespace Voussoir
       stalled = now < .9 * found.residual ? 0 : stalled + 1;
       if (now < found.residual)
         found = {now, x.force, x.beside};
-      if (stalled == (with_surfaces.empty() ? 15 : 7))
+      if (stalled == patience)
         break;
     }
     if (now <= target)

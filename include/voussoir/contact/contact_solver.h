@@ -23,8 +23,10 @@ namespace Voussoir
    * these stay.
    *
    *  Convergence is measured by the law's own error, |error|/max(|force|, |b|/w, |gap|/w) in 2-norms, w: mean
-   *  diagonal of W. For Coulomb's law this is the full relative natural-map error of Siconos on the problem
-   *  scaled to mean diagonal 1; it does not depend on units. */
+   *  diagonal of W; where forces are above 100 times the load |b|/w, by the load as far as round-off allows,
+   *  so that forces that grow without bound do not pass for a solution. For Coulomb's law this is the full
+   * relative natural-map error of Siconos on the problem scaled to mean diagonal 1; it does not depend on
+   * units. */
   class ContactSolver
   {
   public:
@@ -81,7 +83,7 @@ namespace Voussoir
     void         refresh_gap(Iterate &x);
     void         set_force(Iterate &x, const Best &from);
     double       remember(const Iterate &x); ///< if it is the best; its residual
-    bool         newton(double target, unsigned int max_steps, Iterate &x);
+    bool         newton(double target, unsigned int max_steps, unsigned int patience, Iterate &x);
     double       newton_step(double forcing, double bound, Iterate &x);
     double       line_search(double bound, const Iterate &step, Iterate &x);
     void         sweep(unsigned int count, Iterate &x);
