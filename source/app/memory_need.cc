@@ -26,6 +26,7 @@ namespace Voussoir
     {
       std::vector<std::vector<unsigned int>> neighbours;
       std::vector<bool>                      is_interface;
+      std::vector<unsigned int>              place; ///< of the nodes in the mesh
       double                                 n_blocks() const
       {
         double sum = 0.;
@@ -48,6 +49,7 @@ namespace Voussoir
             number[node] = graph.neighbours.size();
             graph.neighbours.emplace_back();
             graph.is_interface.push_back(in_pair[node]);
+            graph.place.push_back(node);
           }
       for (const HexMesh::Cell &cell : mesh.cells)
         if (counts(cell))
@@ -62,6 +64,22 @@ namespace Voussoir
       for (auto &row : graph.neighbours)
         std::sort(row.begin(), row.end());
       return graph;
+    }
+
+    /** Massless rock makes all nodes of the base neighbours. */
+    void couple(const std::vector<bool> &on_base, Graph &graph)
+    {
+      std::vector<unsigned int> base;
+      for (unsigned int i = 0; i < graph.place.size(); ++i)
+        if (on_base[graph.place[i]])
+          base.push_back(i);
+      for (const unsigned int i : base)
+      {
+        std::vector<unsigned int> &row = graph.neighbours[i];
+        row.insert(row.end(), base.begin(), base.end());
+        std::sort(row.begin(), row.end());
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+      }
     }
 
     std::vector<bool> nodes_on(const HexMesh &mesh, const std::function<bool(int)> &surface)
@@ -133,13 +151,15 @@ namespace Voussoir
       const std::vector<Joint> joints = joints_of(opened);
       const bool               tied = all_tied(scene, joints);
       const HexMesh            dam = tied ? close_joints(opened) : opened;
-      const bool               held_base = scene.foundation.model != "rock";
-      std::vector<bool>        held =
-          nodes_on(dam, [&](const int surface) { return held_base && surface == PhysicalId::base; });
+      const bool               massless = scene.foundation.model == "massless";
+      const std::vector<bool>  on_base =
+          nodes_on(dam, [](const int surface) { return surface == PhysicalId::base; });
+      const std::vector<bool> held =
+          scene.foundation.model == "rigid" ? on_base : std::vector<bool>(dam.nodes.size(), false);
       const std::vector<bool> in_pair = nodes_on(dam, is_joint_side);
       std::set<int>           volumes;
       for (const HexMesh::Cell &cell : dam.cells)
-        volumes.insert(tied ? 1 : cell.volume);
+        volumes.insert(tied || massless ? 1 : cell.volume);
       // Of elements of degree 2: nodes, blocks, entries of factors, and of what lies on surfaces squared.
       const bool   quadratic = scene.elements.degree == 2;
       const double nodes_2 = quadratic ? 8. : 1., blocks_2 = quadratic ? 19. : 1.,
@@ -147,8 +167,11 @@ namespace Voussoir
       double n_nodes = 0., n_blocks = 0.;
       for (const int volume : volumes)
       {
-        const Graph graph = graph_of(
-            dam, [&](const HexMesh::Cell &cell) { return tied || cell.volume == volume; }, held, in_pair);
+        Graph graph = graph_of(
+            dam, [&](const HexMesh::Cell &cell) { return volumes.size() == 1 || cell.volume == volume; },
+            held, in_pair);
+        if (massless)
+          couple(on_base, graph);
         const double m = 3. * std::count(graph.is_interface.begin(), graph.is_interface.end(), true);
         factors.entries += entries_2 * entries_of_factor(graph.neighbours, graph.is_interface);
         factors.dense += surface_2 * m * m;
@@ -160,6 +183,17 @@ namespace Voussoir
       factors.operators *= surface_2;
       factors.diagonal *= surface_2;
       return 2. * block * n_blocks + per_cell * dam.cells.size() + per_node * n_nodes; // stiffness, stress
+    }
+
+    /** Massless rock, while it is condensed: its stiffness, its factor, and what is dense at the base. */
+    double of_massless_rock(const HexMesh &mesh)
+    {
+      const auto nodes = [&](const int id)
+      { return nodes_on(mesh, [&](const int surface) { return surface == id; }); };
+      const Graph  rock = graph_of(mesh, is_rock, nodes(PhysicalId::artificial), nodes(PhysicalId::base));
+      const double m = 3. * std::count(rock.is_interface.begin(), rock.is_interface.end(), true);
+      return block * rock.n_blocks() +
+             8. * (entries_of_factor(rock.neighbours, rock.is_interface) + 2. * m * m);
     }
 
     /** Rock with mass: its stiffness, and at the peak, the static state, multigrid levels. */
@@ -183,10 +217,10 @@ namespace Voussoir
     need.halved_step =
         8. * (factors.entries + factors.dense) + 12. * factors.operators + 4. * factors.diagonal;
     need.run = program + dam + need.halved_step;
-    double rock = 0.;
     if (scene.foundation.model == "rock")
-      rock = of_rock(scene, mesh);
-    need.run += rock;
+      need.run += of_rock(scene, mesh);
+    else if (scene.foundation.model == "massless") // before the dam has factors
+      need.run = std::max(need.run, program + dam + of_massless_rock(mesh));
     return need;
   }
 
