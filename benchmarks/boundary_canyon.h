@@ -274,6 +274,38 @@ namespace Benchmarks
     return result;
   }
 
+  /** One component at the distance @p r from the middle on the x axis (@p axis = 0) or the y axis of a
+   * hemispherical canyon: the polynomial through the four nearest nodes on the same side of the canyon's
+   * edge, of the angle on the wall (whose nodes have about equal angles), of the distance on the ground. */
+  inline double at_radius(const Amplitudes &run, const unsigned int frequency, const unsigned int component,
+                          const unsigned int axis, const double r)
+  {
+    const bool wall = r < 1. - 1e-9;
+    const auto coordinate = [wall](const double distance)
+    { return wall ? std::asin(std::min(1., distance)) : distance; };
+    std::vector<std::pair<double, double>> nodes; // coordinate less that of r, value
+    for (std::size_t i = 0; i < run.place.size(); ++i)
+    {
+      const double distance = run.place[i][axis];
+      if (std::abs(run.place[i][1 - axis]) < 1e-9 && (wall ? distance < 1. + 1e-9 : distance > 1. - 1e-9))
+        nodes.emplace_back(coordinate(distance) - coordinate(r), run.value[frequency][i][component]);
+    }
+    if (nodes.size() < 4)
+      throw std::runtime_error("there are not enough nodes on the axis");
+    std::partial_sort(nodes.begin(), nodes.begin() + 4, nodes.end(),
+                      [](const auto &a, const auto &b) { return std::abs(a.first) < std::abs(b.first); });
+    double value = 0.;
+    for (unsigned int i = 0; i < 4; ++i)
+    {
+      double weight = 1.;
+      for (unsigned int j = 0; j < 4; ++j)
+        if (j != i)
+          weight *= nodes[j].first / (nodes[j].first - nodes[i].first);
+      value += weight * nodes[i].second;
+    }
+    return value;
+  }
+
   /** Rms over the places of the difference of all components, in per cent of the flat ground's 2. */
   inline double rms_difference(const unsigned int frequency, const Amplitudes &a, const Amplitudes &reference)
   {

@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A second, independent program for the jointed arch of peers.py with joints that open but do not slip (FJB).
+"""A second, independent program for the jointed arch of peers.py, with joints that slide (FJA) or do not (FJB).
 
-    benchmarks/node_to_node.py [--data DIRECTORY] [--dt 0.01] [--mass consistent|lumped] [--impact none|mean-force]
+    benchmarks/node_to_node.py [--data DIRECTORY] [--law fja|fjb] [--dt 0.01] [--mass consistent|lumped]
+                               [--impact none|mean-force]
 
-Dense matrices and an active set on one page: plain trilinear elements, trapezoidal Newmark. "none" takes the joints'
-forces at the end of each step; "mean-force" as means over it, with the closed joints' relative velocity made zero by
-an impulse. It shows what the reference of peers.py owes to its consistent mass and to its impact rule.
+Dense matrices on a few pages: plain trilinear elements, trapezoidal Newmark, an active set (FJB) or Newton's method on
+Alart and Curnier's equations (FJA, friction 1). "none" takes the joints' forces at the end of each step; "mean-force"
+as means over it, and then the velocities that the law of impulses leaves. It shows what the reference of peers.py owes
+to its consistent mass and to its impact rule.
 """
 
 import argparse
@@ -15,11 +17,13 @@ from pathlib import Path
 
 import numpy as np
 import scipy.linalg
+import scipy.optimize
 
 import calculix
 from program import ROOT
 
 YOUNG, POISSON, DENSITY, A0, A1 = 21e9, 0.17, 2400., 0.785, 0.00177
+FRICTION = 1.
 SIGNS = np.array([(-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1),
                   (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)], dtype=float)
 
@@ -80,7 +84,7 @@ def read_doubled(path):
     return mesh, pairs
 
 
-def contact(W, gap, force):
+def no_slip(W, gap, force):
     """Forces f with gap + W f = 0 tangentially; normally (every third row) gap >= 0, f >= 0, and one of them zero."""
     tied = np.arange(len(gap)) % 3 != 0
     active = tied | (force > 0)
@@ -94,9 +98,90 @@ def contact(W, gap, force):
     raise RuntimeError("the active set does not settle")
 
 
-def simulate(data, dt, mass, impact):
-    """Static displacement of the crown's crest, downstream and up, and the largest openings of the joints at the
-    crest, upstream and downstream, all in mm."""
+def project(x):
+    """The point with the normal force max(0, x_n) and the friction nearest to x_t, and its derivative, (pair, 3[, 3])."""
+    closed, size = x[:, 0] > 0, np.hypot(x[:, 1], x[:, 2])
+    radius = FRICTION * np.maximum(0, x[:, 0])
+    slides = closed & (size > radius)
+    shrink = np.where(slides, radius / np.maximum(size, 1e-300), closed)
+    along = x[:, 1:] / np.maximum(size, 1e-300)[:, None] * slides[:, None]
+    point = np.column_stack([np.maximum(0, x[:, 0]), shrink[:, None] * x[:, 1:]])
+    slope = np.zeros((len(x), 3, 3))
+    slope[:, 0, 0] = closed
+    slope[:, 1:, 0] = FRICTION * along
+    slope[:, 1:, 1:] = shrink[:, None, None] * (np.eye(2) - along[:, :, None] * along[:, None, :])
+    return point, slope
+
+
+def coulomb(W, gap, force):
+    """Forces f with gap + W f: normally f >= 0, gap >= 0, and one of them zero; friction at most FRICTION f_n, against
+    the tangential gap (the slip of the step). Damped Newton, with Gauss-Seidel sweeps where it stalls."""
+    n, identity = len(gap) // 3, np.eye(3)
+    diagonal = W.reshape(n, 3, n, 3)[np.arange(n), :, np.arange(n)]
+    rho = 1 / np.linalg.eigvalsh(diagonal)[:, -1]
+
+    def residual(f):
+        point, slope = project((f - np.repeat(rho, 3) * (gap + W @ f)).reshape(-1, 3))
+        return f - point.ravel(), slope
+
+    f, scale = force.copy(), max(np.abs(gap * np.repeat(rho, 3)).max(), np.abs(force).max())
+    for _ in range(200):
+        for _ in range(40):
+            r, slope = residual(f)
+            if np.abs(r).max() <= 1e-12 * scale:
+                return f
+            J = np.einsum("pij,pjk->pik", rho[:, None, None] * slope, W.reshape(n, 3, 3 * n)).reshape(3 * n, 3 * n)
+            J.reshape(n, 3, n, 3)[np.arange(n), :, np.arange(n)] += identity - slope
+            step, length = np.linalg.solve(J, -r), 1.
+            while length > 1e-3 and (np.linalg.norm(residual(f + length * step)[0])
+                                     > (1 - 1e-4 * length) * np.linalg.norm(r)):
+                length /= 2
+            if length <= 1e-3:
+                break
+            f = f + length * step
+        for pair in np.tile(np.arange(n), 5):
+            k = slice(3 * pair, 3 * pair + 3)
+            for _ in range(20):
+                f[k] = project((f[k] - rho[pair] * (gap[k] + W[k] @ f))[None])[0][0]
+    raise RuntimeError("the joints do not converge")
+
+
+def allowed_impulse(H, v):
+    """The impulse that Coulomb's law allows to a closed pair that has the velocity v without it. H: 3x3."""
+    if v[0] >= 0:
+        return np.zeros(3)
+
+    def at(k):  # the velocity of slip is -k times the tangential impulse
+        f = np.linalg.solve(H + np.diag([0, k, k]), -v)
+        return f, np.hypot(*f[1:]) - FRICTION * f[0]
+
+    if at(0.)[1] <= 0:
+        return at(0.)[0]
+    high = np.trace(H)
+    while at(high)[1] > 0:
+        high *= 4
+    return at(scipy.optimize.brentq(lambda k: at(k)[1], 0., high, xtol=1e-300, rtol=1e-15))[0]
+
+
+def impulses(H, spent, jump, change, dt):
+    """What has to be added to the impulse `spent` of each pair, by the rule of doc/method.md. Rows of pairs: the
+    velocity `jump` at the end of the step and the displacement `change` in it."""
+    more = np.zeros_like(spent)
+    for p in np.flatnonzero(spent[:, 0] > 0):
+        slides = np.hypot(*spent[p, 1:]) >= (1 - 1e-9) * FRICTION * spent[p, 0]
+        struck = abs(jump[p, 0]) / H[p, 0, 0] > 1e-6 * np.linalg.norm(spent[p])
+        if slides and not struck and jump[p] @ change[p] >= .5 * np.linalg.norm(jump[p]) * np.linalg.norm(change[p]):
+            continue  # slides on: the mean friction of the step stays
+        more[p] = allowed_impulse(H[p], jump[p] - H[p] @ spent[p]) - spent[p]
+        gain = more[p] @ jump[p] + .5 * more[p] @ H[p] @ more[p]
+        if gain > -spent[p] @ change[p] / dt + 1e-12 * np.abs(more[p]) @ (np.abs(jump[p]) + np.abs(H[p] @ more[p])):
+            more[p] = [max(-spent[p, 0], -jump[p, 0] / H[p, 0, 0]), 0, 0]
+    return more
+
+
+def simulate(data, law, dt, mass, impact):
+    """Static displacement of the crown's crest, downstream and up, and the largest openings and slips of the joints at
+    the crest, upstream and downstream, all in mm."""
     mesh, pairs = read_doubled(data / "s1k.v22.msh")
     n = len(mesh.nodes)
     K, m = np.zeros((3 * n, 3 * n)), np.zeros((n, n))
@@ -135,6 +220,7 @@ def simulate(data, dt, mass, impact):
 
     static, G, W = flexibility(K)
     u = scipy.linalg.cho_solve(static, load)
+    contact = coulomb if law == "fja" else no_slip
     force = contact(W, B @ u, np.zeros(len(B)))
     u += G @ force
     probe = np.flatnonzero(keep == 3 * calculix.crown_crest(mesh, "upstream", 1))[0]
@@ -146,7 +232,10 @@ def simulate(data, dt, mass, impact):
     motion = np.loadtxt(data / "motion.txt")
     times = np.arange(1, round(2 / dt) + 1) * dt
     v, a = np.zeros_like(u), np.zeros_like(u)
-    widest, f_old = np.zeros(len(top)), load
+    widest, farthest, f_old = np.zeros(len(top)), np.zeros(len(top)), load
+    n_pairs, at = len(pairs), np.arange(len(pairs))
+    H = (B @ G_mass).reshape(n_pairs, 3, n_pairs, 3)[at, :, at]  # of each pair alone: for lumped masses
+    normal = np.arange(len(B)) % 3 == 0
     for t in times:
         ground = np.array([np.interp(t, motion[:, 0], motion[:, k]) for k in (1, 2, 3)])
         f_new = load - influence @ ground
@@ -155,25 +244,31 @@ def simulate(data, dt, mass, impact):
         else:  # trapezoidal rule in momentum; the joints' force is constant over the step
             rhs = (f_old + f_new) + M @ (4 / dt**2 * u + 4 / dt * v) + C @ (2 / dt * u) - K @ u
         predicted = scipy.linalg.cho_solve(factor, rhs)
-        force = contact(W, B @ predicted, force)
+        before = np.zeros(len(B)) if law == "fjb" else np.where(normal, 0, B @ u)  # slip is that of the step
+        force = contact(W, B @ predicted - before, force)
         new = predicted + G @ force
         if impact == "none":
             a_new = 4 / dt**2 * (new - u) - 4 / dt * v - a
             u, v, a = new, v + dt / 2 * (a + a_new), a_new
+        elif law == "fja":
+            change, u, v = B @ (new - u), new, 2 / dt * (new - u) - v
+            spent, jump = dt / 2 * force.reshape(-1, 3), (B @ v).reshape(-1, 3)
+            v += G_mass @ impulses(H, spent, jump, change.reshape(-1, 3), dt).ravel()
         else:
             u, v = new, 2 / dt * (new - u) - v
             jump, closed = B @ v, force != 0
             # Newton's impact law of a closed pair: no relative velocity, whatever the mean force left of it.
-            H = (B @ G_mass)[np.ix_(closed, closed)]
-            v += G_mass[:, closed] @ np.linalg.solve(H, -jump[closed])
+            v += G_mass[:, closed] @ np.linalg.solve((B @ G_mass)[np.ix_(closed, closed)], -jump[closed])
         f_old = f_new
-        widest = np.maximum(widest, (B @ u)[3 * top])
-    return crest, 1e3 * widest.reshape(2, 5)
+        gaps = (B @ u).reshape(-1, 3)[top]
+        widest, farthest = np.maximum(widest, gaps[:, 0]), np.maximum(farthest, np.hypot(gaps[:, 1], gaps[:, 2]))
+    return crest, 1e3 * widest.reshape(2, 5), 1e3 * farthest.reshape(2, 5)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, default=ROOT / "../shared/reference/data/peers", help="reference data")
+    parser.add_argument("--law", default="fjb", choices=["fja", "fjb"])
     parser.add_argument("--dt", type=float, default=0.01)
     parser.add_argument("--mass", default="consistent", choices=["consistent", "lumped"])
     parser.add_argument("--impact", default="none", choices=["none", "mean-force"])
@@ -181,11 +276,13 @@ def main():
     if not (o.data / "motion.txt").exists():
         print(f"SKIPPED: no reference data in {o.data} (option --data)")
         return 77
-    crest, openings = simulate(o.data, o.dt, o.mass, o.impact)
+    if o.law == "fja" and (o.mass, o.impact) == ("consistent", "mean-force"):
+        parser.error("the law of impulses is pair by pair here, which needs --mass lumped")
+    crest, openings, slips = simulate(o.data, o.law, o.dt, o.mass, o.impact)
     print(f"static crest {crest[0]:.2f} mm downstream, {crest[1]:.2f} mm up")
-    print(f"{o.mass} mass, impact {o.impact}, dt {1e3 * o.dt:g} ms: largest openings [mm]")
-    for face, values in zip(("upstream", "downstream"), openings):
-        print(f"  {face:<12}" + " ".join(f"{x:6.1f}" for x in values))
+    print(f"{o.law}, {o.mass} mass, impact {o.impact}, dt {1e3 * o.dt:g} ms: largest openings, slips [mm]")
+    for face, values in zip(("upstream", "downstream"), np.hstack([openings, slips])):
+        print(f"  {face:<12}" + " ".join(f"{x:6.2f}" for x in values))
     return 0
 
 

@@ -1,9 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The paper's figures, several runs in one, for doc/rigid_base.md and doc/rock.md:
+"""Figures laid out as the paper's, for benchmarks/paper.py; and several single runs in one figure, for doc/rock.md:
 
-    benchmarks/paper_figures.py rigid_base FJA=DIR FJB=DIR KSM=DIR        [--output doc/figures]
-    benchmarks/paper_figures.py rock 'rigid base=DIR' FJA=DIR FJB=DIR
+    benchmarks/paper_figures.py rock 'rigid base=DIR' FJA=DIR FJB=DIR [--output doc/figures]
 
 DIR are the output directories; the first word begins the names of the figures.
 """
@@ -19,60 +18,198 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import figures  # noqa: E402
 from figures import plt, LineCollection  # noqa: E402
 
-STYLES = [("#0b5394", "o", "-"), ("#cc4125", "s", "-"), ("k", "x", "--")]
-LEVELS = np.arange(0., 13., 2.)
+COLOURS = {"FJA": "#0b5394", "FJB": "#cc4125", "KSM": "#6aa84f"}
+OTHERS = ["#7f7f7f", "#b45f06", "#674ea7"]
+LEVELS = [0., .5, 1., 1.5, 2., 3., 4., 6., 8., 12.]  # MPa, in all figures
+LIMIT = 1.5  # MPa, the paper's: a heavy line
+FACES = ("upstream", "downstream")
 
 
-def stress(runs, name, path):
-    """The envelopes of one face, one law below the other."""
-    colours = plt.get_cmap("RdBu_r")(0.5 + 0.5 * np.append(LEVELS - 1., 13.) / 13.)
-    figure, rows = plt.subplots(len(runs), 1, figsize=(7.5, 8.8), sharex=True, squeeze=False)
-    rows = rows[:, 0]
-    for axes, (law, run) in zip(rows, runs.items()):
-        nodes = figures.read_table(run / "faces.csv", ["face"])
-        cells = figures.read_table(run / "faces_cells.csv", ["face"])
-        mine = nodes["face"] == name
-        quads = np.stack([cells[f"n{i}"] for i in range(4)], axis=1).astype(int)[cells["face"] == name]
-        quads = (np.cumsum(mine) - 1)[quads]
-        x, y, z, s = (nodes[key][mine] for key in ("x", "y", "z", "s"))
-        value = nodes["max_principal"][mine] / 1e6
-        points, corners = figures.triangles(np.stack([s, z], axis=1), quads)
-        values = np.concatenate([value, value[quads].mean(axis=1)])
-        contours = axes.tricontourf(points[:, 0], points[:, 1], corners, values, levels=LEVELS, colors=colours,
-                                    extend="both")
-        axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=LEVELS, colors="0.35", linewidths=0.25)
-        outline, joints = figures.edges(np.stack([s, z], axis=1), np.stack([x, y, z], axis=1), quads)
-        axes.add_collection(LineCollection(joints, colors="k", linewidths=0.6))
-        axes.add_collection(LineCollection(outline, colors="k", linewidths=1.2))
-        worst, upper = value.argmax(), value[(z >= 150) & (np.abs(s) <= 150)].mean()
-        axes.set_title(figures.minus(f"{law}: largest {value[worst]:.1f} MPa at s = {round(s[worst])} m, "
-                                     f"z = {round(z[worst])} m; mean of the upper part {upper:.1f} MPa"),
-                       fontsize=10, loc="left")
-        axes.set(aspect="equal", ylabel="z [m]", xlim=(s.min() - 8, s.max() + 8), ylim=(-6, 216))
+def colour_of(law, number):
+    return COLOURS.get(law, OTHERS[number % len(OTHERS)])
+
+
+class Envelope:
+    """The largest tension [MPa] on one face."""
+
+    def __init__(self, nodes, quads, tension, face):
+        mine = nodes["face"] == face
+        self.x, self.y, self.z, self.s = (nodes[key][mine] for key in ("x", "y", "z", "s"))
+        self.value, self.face = tension[mine], face
+        self.quads = (np.cumsum(mine) - 1)[quads[mine[quads[:, 0]]]]
+
+    def draw(self, axes):
+        drawn = np.stack([self.s, self.z], axis=1)
+        points, corners = figures.triangles(drawn, self.quads)
+        values = np.concatenate([self.value, self.value[self.quads].mean(axis=1)])
+        reds = plt.get_cmap("YlOrRd")(np.linspace(0., 1., len(LEVELS)))
+        contours = axes.tricontourf(points[:, 0], points[:, 1], corners, values, levels=LEVELS,
+                                    colors=np.vstack([[[.75, .85, .95, 1.]], reds]), extend="both")
+        axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=LEVELS, colors="0.35", linewidths=0.2)
+        axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=[LIMIT], colors="k", linewidths=0.9)
+        outline, joints = figures.edges(drawn, np.stack([self.x, self.y, self.z], axis=1), self.quads)
+        axes.add_collection(LineCollection(joints, colors="k", linewidths=0.5))
+        axes.add_collection(LineCollection(outline, colors="k", linewidths=1.1))
+        axes.set(aspect="equal", xlim=(self.s.min() - 8, self.s.max() + 8), ylim=(-6, 216))
         axes.grid(False)
-    rows[-1].set_xlabel("developed arc length s [m], seen from downstream")
-    figure.suptitle(f"{name.capitalize()} face: envelope of the maximum principal stress", fontsize=11, y=0.94)
-    bar = figure.colorbar(contours, ax=list(rows), orientation="horizontal", fraction=0.03, pad=0.1, aspect=45,
-                          ticks=LEVELS)
-    bar.set_label("principal stress, tension positive [MPa]")
-    figure.savefig(path, dpi=90)
+        return contours
+
+    def upper(self):
+        return self.value[(self.z >= 150) & (np.abs(self.s) <= 150)].mean()
+
+
+def envelopes(rows, title, path):
+    """`rows`: law -> envelopes side by side. The same levels in all of them."""
+    n, m = len(rows), max(len(row) for row in rows.values())
+    figure, grid = plt.subplots(n, m, figsize=(6.2 * m, 2.55 * n + 1.3), sharex=True, sharey=True, squeeze=False,
+                                constrained_layout=True)
+    for axes_row, (law, row) in zip(grid, rows.items()):
+        for axes, envelope in zip(axes_row, row):
+            contours = envelope.draw(axes)
+            axes.set_title(f"{law}, {envelope.face}: mean of the upper part {envelope.upper():.1f} MPa", fontsize=9, loc="left")
+        axes_row[0].set_ylabel("z [m]")
+    for axes in grid[-1]:
+        axes.set_xlabel("developed arc length s [m], from the right bank to the left")
+    figure.suptitle(title, fontsize=11)
+    bar = figure.colorbar(contours, ax=grid.ravel().tolist(), orientation="horizontal", aspect=50, ticks=LEVELS)
+    bar.set_label("largest principal stress, tension positive [MPa]; heavy line: 1.5 MPa")
+    figure.savefig(path, dpi=80)
     plt.close(figure)
 
 
-def crest(runs, quantity, path):
-    figure, both = plt.subplots(1, 2, figsize=(8.5, 3.2), sharey=True)
-    for face, axes in zip(("upstream", "downstream"), both):
-        for (law, run), (colour, marker, line) in zip(runs.items(), STYLES):
-            joints = figures.read_table(run / "joints.csv")
-            axes.plot(joints["s"], 1e3 * np.abs(joints[f"{quantity}_{face}"]), color=colour, marker=marker,
-                      linestyle=line, linewidth=1.4, markersize=7, label=law)
-        axes.set(xlabel="arc length along the crest s [m]", title=face)
-    top = both[0].get_ylim()[1]
-    both[0].set_ylim(-0.03 * top, 1.03 * top)
-    both[0].set_ylabel(f"largest {quantity} [mm]")
-    figure.legend(*both[0].get_legend_handles_labels(), loc="lower center", ncol=3, bbox_to_anchor=(0.5, 0.98))
-    figure.savefig(path, dpi=90)
+def bars(values, names, ylabel, path, xlabel="joint", spread=True):
+    """`values`: law -> (motion, joint, face) [mm]: bars of the means, from the smallest to the largest as a line."""
+    values = {law: np.asarray(v) for law, v in values.items()}
+    figure, both = plt.subplots(1, 2, figsize=(max(8., .56 * len(names) + 3.), 3.1), sharey=True)
+    width = .8 / len(values)
+    for f, axes in enumerate(both):
+        for k, (law, v) in enumerate(values.items()):
+            place = np.arange(len(names)) + (k - (len(values) - 1) / 2) * width
+            mean = v[:, :, f].mean(axis=0)
+            axes.bar(place, mean, .92 * width, color=colour_of(law, k), label=law)
+            if spread and len(v) > 1:
+                reach = [mean - v[:, :, f].min(axis=0), v[:, :, f].max(axis=0) - mean]
+                axes.errorbar(place, mean, np.maximum(reach, 0.), fmt="none", ecolor="0.25", elinewidth=.9, capsize=1.5)
+        axes.set_xticks(range(len(names)), names)
+        axes.set(title=f"({'ab'[f]}) {FACES[f]}", xlabel=xlabel)
+        axes.grid(False, axis="x")
+    both[0].set_ylabel(ylabel)
+    both[0].set_ylim(bottom=0)
+    figure.legend(*both[0].get_legend_handles_labels(), loc="lower center", ncol=len(values), bbox_to_anchor=(.5, .98))
+    figure.subplots_adjust(wspace=.06)
+    figure.savefig(path, dpi=80)
     plt.close(figure)
+
+
+def crest(runs, what):
+    """case -> the runs' openings or slips, (motion, joint, face)"""
+    return np.array([getattr(run, what) for run in runs.values()])
+
+
+def profiles(directories, title, path):
+    """`directories`: law -> of a run with profile.csv. Opening over height, a panel for each joint."""
+    tables = {law: figures.read_table(directory / "profile.csv", ["face"]) for law, directory in directories.items()
+              if (directory / "profile.csv").exists()}
+    if not tables:
+        return
+    joints = np.unique(next(iter(tables.values()))["joint"]).astype(int)
+    names = [chr(ord("A") + j) for j in range(len(joints))] if len(joints) > 5 else [str(j) for j in joints]
+    columns = min(len(joints), 9)
+    rows = -(-len(joints) // columns)
+    figure, grid = plt.subplots(rows, columns, figsize=(1.25 * columns + 1.5, 2.9 * rows), sharex=True, sharey=True,
+                                squeeze=False, constrained_layout=True)
+    for axes in grid.ravel()[len(joints):]:
+        axes.set_visible(False)
+    for axes, joint, name in zip(grid.ravel(), joints, names):
+        for k, (law, table) in enumerate(tables.items()):
+            for face, line in zip(FACES, ("-", "--")):
+                mine = (table["joint"] == joint) & (table["face"] == face)
+                order = np.argsort(table["z"][mine])
+                axes.plot(1e3 * table["opening"][mine][order], table["z"][mine][order], line, color=colour_of(law, k),
+                          linewidth=1.2, label=f"{law}, {face}")
+        axes.set_title(name, fontsize=10)
+    grid[0, 0].set_xlim(left=0)
+    for axes in grid[:, 0]:
+        axes.set_ylabel("z [m]")
+    figure.supxlabel("largest opening [mm]", fontsize=11)
+    figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="lower center", ncol=len(tables), fontsize=9, title=title,
+                  bbox_to_anchor=(.5, 1.01))
+    figure.savefig(path, dpi=80)
+    plt.close(figure)
+
+
+def layout(run, path):
+    """The joints and their letters on the upstream face, with the mesh."""
+    envelope = Envelope(run.nodes, run.quads, run.tension, "upstream")
+    drawn = np.stack([envelope.s, envelope.z], axis=1)
+    figure, axes = plt.subplots(figsize=(8, 3.6))
+    outline, joints = figures.edges(drawn, np.stack([envelope.x, envelope.y, envelope.z], axis=1), envelope.quads)
+    axes.add_collection(LineCollection(drawn[np.vstack([envelope.quads.T, envelope.quads[:, 0]]).T], colors="0.7", linewidths=.4))
+    axes.add_collection(LineCollection(joints, colors=COLOURS["FJB"], linewidths=1.6))
+    axes.add_collection(LineCollection(outline, colors="k", linewidths=1.3))
+    tops = sorted({round(float(edge[np.argmax(edge[:, 1]), 0]), 1) for edge in joints if edge[:, 1].max() > 209.9})
+    for k, s in enumerate(tops):
+        axes.text(s, 216, chr(ord("A") + k), ha="center", color=COLOURS["FJB"])
+    axes.set(aspect="equal", xlim=(drawn[:, 0].min() - 8, drawn[:, 0].max() + 8), ylim=(-6, 232), ylabel="z [m]",
+             xlabel="developed arc length s [m], from the right bank to the left")
+    axes.grid(False)
+    figure.savefig(path, dpi=80)
+    plt.close(figure)
+
+
+def key_sketch(path):
+    """Sections through a joint, not to scale: flat, and with the rectangular key of 20 cm."""
+    figure, both = plt.subplots(1, 2, figsize=(7, 2.4))
+    for axes, key, title in zip(both, (0., 1.), ("flat joint: FJA slides, FJB does not", "KSM: one key, 20 cm high")):
+        joint = np.array([[0, 0], [0, 1.], [key, 1.], [key, 2.], [0, 2.], [0, 3.]])
+        for gap, side in ((-.06, -3.), (.06, 3.)):
+            edge = joint + [gap, 0.]
+            axes.fill(np.append(edge[:, 0], [side, side]), np.append(edge[:, 1], [3., 0.]), color="0.85")
+            axes.plot(edge[:, 0], edge[:, 1], color="k", linewidth=1.2)
+        if key:
+            axes.annotate("", (0, 2.25), (key, 2.25), arrowprops={"arrowstyle": "<->"})
+            axes.text(1.1, 2.33, "20 cm")
+        axes.text(-2.9, .1, "upstream")
+        axes.text(-2.9, 2.7, "downstream")
+        axes.set_title(title, fontsize=10)
+        axes.axis("off")
+    figure.savefig(path, dpi=80)
+    plt.close(figure)
+
+
+def mean_envelopes(runs, faces=FACES):
+    """Of the runs of one case, which have one mesh."""
+    first, tension = next(iter(runs.values())), np.mean([run.tension for run in runs.values()], axis=0)
+    return [Envelope(first.nodes, first.quads, tension, face) for face in faces]
+
+
+def draw(runs, output, directory):
+    """All figures of doc/paper.md that can be made of these runs (of paper.py: case -> motion -> Run)."""
+    directory.mkdir(parents=True, exist_ok=True)
+    rock = {law: runs[f"3.1_{law.lower()}"] for law in ("FJA", "FJB") if f"3.1_{law.lower()}" in runs}
+    rigid = {law: runs[f"3.2_{law.lower()}"] for law in ("FJA", "FJB", "KSM") if f"3.2_{law.lower()}" in runs}
+    key_sketch(directory / "paper_fig5.png")
+    if rock:
+        letters = [chr(ord("A") + j) for j in range(17)]
+        motions = min(len(by_seed) for by_seed in rock.values())
+        layout(next(iter(next(iter(rock.values())).values())), directory / "paper_fig1.png")
+        envelopes({law: mean_envelopes(by_seed) for law, by_seed in rock.items()},
+                  f"Section 3.1, 17 joints on rock: envelopes, mean of {motions} motions", directory / "paper_fig2_3.png")
+        bars({law: crest(by_seed, "openings") for law, by_seed in rock.items()}, letters, "largest opening [mm]",
+             directory / "paper_fig4.png")
+        profiles({law: output / f"3.1_{law.lower()}" / "seed_1" for law in rock},
+                 "Section 3.1: opening over height, motion 1", directory / "paper_profile_3_1.png")
+    if rigid:
+        names = [str(j) for j in range(1, 6)]
+        motions = min(len(by_seed) for by_seed in rigid.values())
+        for face, name in zip(FACES, ("paper_fig6_8.png", "paper_fig6_8_downstream.png")):
+            envelopes({law: mean_envelopes(by_seed, [face]) for law, by_seed in rigid.items()},
+                      f"Section 3.2, 5 joints, rigid base: mean of {motions} motions", directory / name)
+        for what, name in (("openings", "paper_fig9.png"), ("slips", "paper_fig10.png")):
+            bars({law: crest(by_seed, what) for law, by_seed in rigid.items()}, names, f"largest {what[:-1]} [mm]",
+                 directory / name)
+        profiles({law: output / f"3.2_{law.lower()}" / "seed_1" for law in rigid},
+                 "Section 3.2: opening over height, motion 1", directory / "paper_profile_3_2.png")
 
 
 def main():
@@ -81,14 +218,18 @@ def main():
     parser.add_argument("runs", nargs="+", metavar="LABEL=DIR")
     parser.add_argument("--output", type=Path, default=ROOT / "doc" / "figures")
     options = parser.parse_args()
-    if len(options.runs) > len(STYLES) or any("=" not in run for run in options.runs):
-        parser.error(f"give one to {len(STYLES)} runs as LABEL=DIR")
-    runs = {label: Path(directory) for label, directory in (run.split("=", 1) for run in options.runs)}
+    if any("=" not in run for run in options.runs):
+        parser.error("give runs as LABEL=DIR")
+    from paper import Run
+    runs = {label: {1: Run(Path(directory))} for label, directory in (run.split("=", 1) for run in options.runs)}
     options.output.mkdir(parents=True, exist_ok=True)
-    for face in ("upstream", "downstream"):
-        stress(runs, face, options.output / f"{options.name}_stress_{face}.png")
-    for quantity in ("opening", "slip"):
-        crest(runs, quantity, options.output / f"{options.name}_{quantity}s.png")
+    for face in FACES:
+        envelopes({label: mean_envelopes(by_seed, [face]) for label, by_seed in runs.items()}, "",
+                  options.output / f"{options.name}_stress_{face}.png")
+    for what in ("openings", "slips"):
+        values = {label: crest(by_seed, what) for label, by_seed in runs.items()}
+        names = [str(j + 1) for j in range(next(iter(values.values())).shape[1])]
+        bars(values, names, f"largest {what[:-1]} [mm]", options.output / f"{options.name}_{what}.png")
 
 
 if __name__ == "__main__":
