@@ -9,7 +9,7 @@
 
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dynamics/newmark.h>
-#include <voussoir/solid/solid_model.h>
+#include <voussoir/joints/pairs.h>
 
 #include <algorithm>
 #include <cmath>

@@ -67,9 +67,13 @@ namespace
       for (const double mu : {0., .3, .7, 2.})
         put("FJA", equations, mu);
     for (const double mu : {0., .8})
-      for (const KeyParameters &k : key_sets())
-        list.push_back({name_of(k) + ", face " + text(mu),
-                        make_joint_law("KSM", mu, Equations::alart_curnier, k), k.height, mu, k});
+      for (KeyParameters k : key_sets())
+        for (const double seat : {0., .5})
+        {
+          k.seat_compliance = seat;
+          list.push_back({name_of(k) + ", face " + text(mu) + (seat > 0. ? ", seat" : ""),
+                          make_joint_law("KSM", mu, Equations::alart_curnier, k), k.height, mu, k});
+        }
     return list;
   }
 
@@ -143,6 +147,8 @@ namespace
       std::map<int, int> touching;
       const unsigned int n = 2000;
       const bool         has_keys = l.name.find("KSM") == 0;
+      if (has_keys && l.keys.seat_compliance == 0.)
+        continue; // those of a numerical compliance: stiff
       for (unsigned int trial = 0; trial < n; ++trial)
       {
         const Vector3 start = random_start(trial);
@@ -202,6 +208,18 @@ namespace
     }
   }
 
+  /** What the surfaces of a pair miss at its own solution @p f, and how far that is from the sum of theirs.
+   */
+  double surfaces_error(const SurfacesLaw &law, const Matrix3 &H, const Vector3 &b, const Vector3 &start,
+                        const Vector3 &f, const double rho)
+  {
+    std::vector<double> beside;
+    const Vector3       force = solve_surfaces(law.present(start), H, b, &beside), gap = plus(H * f, b);
+    PairSurfaces        pair;
+    pair.start(law.present(start), rho, 1. / rho);
+    return norm(force - f) + std::sqrt(pair.error_square(f, gap, beside.data(), rho, true));
+  }
+
   /** The exact solution of one pair makes the equations zero, whatever rho and formulation. */
   void test_solve()
   {
@@ -219,6 +237,12 @@ namespace
         double       equations = 0., error = 0.;
         for (const double rho : {.1, 1., 10.})
         {
+          if (has_keys)
+          {
+            equations = std::max(equations, surfaces_error(*l.law->surfaces_law(), H, b, start, f, rho) /
+                                                scale / (1. + rho));
+            continue;
+          }
           PairEquations e;
           l.law->evaluate(f, gap, start, rho, e);
           if (l.name.find("paper") == std::string::npos || std::hypot(f[1], f[2]) > 1e-6)
@@ -556,7 +580,7 @@ namespace
         law->evaluate(f, gap, start, 1., e);
         same->evaluate(f, gap, start, 1., e_same);
         difference = std::max(difference, norm(e.residual - e_same.residual));
-        not_solved += !(norm(e.residual) < 1e-11 * (1. + norm(f)));
+        not_solved += !(surfaces_error(*law->surfaces_law(), H, b, start, f, 1.) < 1e-11 * (1. + norm(f)));
       }
       const std::string what = "keys of " + text(angle) + " deg, friction not given: ";
       below(what + "difference from the face's", difference, 1e-300);
@@ -576,6 +600,56 @@ namespace
       report("keys with friction " + text(friction), friction, "refused",
              message.find("Joints/Keys/Friction") != std::string::npos);
     }
+  }
+
+  /** Elastic seats: stiff in series, friction that remembers, flanks that are passed by. */
+  void test_seats()
+  {
+    KeyParameters k = keys(.2, .001, 0., "radial", .5);
+    k.seat_compliance = 1e-10;
+    const double area = 3.;
+    const auto   law = make_joint_law("KSM", 0., Equations::alart_curnier, k);
+    double       memory[6] = {};
+    PairPast     past;
+    past.area = area;
+    past.memory = memory;
+    past.start = {{.01, 0., 0.}};
+    // Moved by 5 mm along the key's play of 1 mm, against a spring.
+    const double  spring = 2e-11; // [m/N]
+    const Matrix3 H = {{spring, 0., 0., 0., spring, 0., 0., 0., spring}};
+    Vector3       b = {{.01, .005, 0.}}, f = law->solve(H, b, past), gap = plus(H * f, b);
+    const double  expected = -(.005 - .001) / (spring + k.seat_compliance / area);
+    below("elastic seat: force of spring and seat in series", f[1] / expected - 1., 1e-12);
+    below("  play and deformation of the seat [m]", gap[1] - .001 + f[1] * k.seat_compliance / area, 1e-14);
+    law->commit(f, gap, past, memory);
+    below("  energy of the seat", law->bond_energy(gap, area, memory) / (.5 * (gap[1] - .001) * -f[1]) - 1.,
+          1e-12);
+    // Along the flank: elastic until friction is spent, and back by as much.
+    past.start = gap;
+    const double limit = -.5 * f[1], give = limit * k.seat_compliance / area;
+    b = gap - H * f;
+    b[0] += .4 * give + spring * .4 * limit; // pulled open along the flank
+    Vector3 g = law->solve(H, b, past), there = plus(H * g, b);
+    below("  friction of the seat before it slips", (-g[0]) / (.4 * limit) - 1., 1e-9);
+    below("  its deformation", (there[0] - gap[0]) / (.4 * give) - 1., 1e-9);
+    law->commit(g, there, past, memory);
+    past.start = there;
+    const Vector3 held = law->solve({{1e-30, 0., 0., 0., 1e-30, 0., 0., 0., 1e-30}}, there, past);
+    below("  it stays while nothing moves", norm(held - g) / norm(g), 1e-9);
+    // Out of the seat, past the flank, and back: the flank is taken as it lies, and found again where it was.
+    const auto go = [&](const Vector3 &to)
+    {
+      const Vector3 force = law->solve({{1e-30, 0., 0., 0., 1e-30, 0., 0., 0., 1e-30}}, to, past);
+      law->commit(force, to, past, memory);
+      past.start = to;
+      return norm(force);
+    };
+    below("  force out of the seat", (go({{.3, .005, 0.}}), go({{.3, .05, 0.}}) + go({{.3, 0., 0.}})),
+          1e-300);
+    below("  force where the key came back beside its seat", go({{.15, .05, 0.}}), 1e-3);
+    above("  and pressed further there", go({{.15, .051, 0.}}), .9 * .001 * area / 1e-10);
+    below("  back in its play", go({{.15, 0., 0.}}), 1e-3);
+    below("  pressed by the elastic 1 mm again", go({{.15, .002, 0.}}) / (.001 * area / 1e-10) - 1., 1e-9);
   }
 
   JointLaws laws_of(const Structure &structure, const std::string &name, const double mu,
@@ -659,5 +733,5 @@ int main()
 {
   return run_all({test_derivatives, test_solve, test_impulses, test_units, test_error, test_no_keys,
                   test_rectangular, test_variational, test_kinematics, test_structures, test_start_on_flank,
-                  test_default_friction});
+                  test_default_friction, test_seats});
 }

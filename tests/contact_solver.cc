@@ -9,7 +9,7 @@
 #include <voussoir/contact/law_table.h>
 #include <voussoir/contact/sparse_contact.h>
 
-#include <chrono>
+#include <ctime>
 #include <filesystem>
 
 extern "C" void dgesv_(const int *, const int *, double *, const int *, int *, double *, const int *, int *);
@@ -20,7 +20,7 @@ namespace
 {
   double seconds()
   {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return double(std::clock()) / CLOCKS_PER_SEC; // as the solver's limit
   }
 
   /** A problem by its dense matrix, contact after contact. */
@@ -516,6 +516,74 @@ namespace
            solve(p, "sparse", with("newton", 1e-8)).result.converged, .5);
   }
 
+  /** Boxes between two walls that approach: no forces hold them apart. Whatever the tolerance, no solution is
+   *  claimed. */
+  void test_infeasible()
+  {
+    for (const unsigned int n : {1, 3, 8})
+      for (const double mu : {0., .3, .8})
+        for (const double tolerance : {1e-4, 1e-8, 1e-12})
+        {
+          Problem p = make_problem(2 * n, mu);
+          for (unsigned int c = 0; c < n; ++c) // contacts 2 c and 2 c + 1: the two sides of a rigid point
+            for (unsigned int i = 0; i < 6; ++i)
+              for (unsigned int j = 0; j < 6; ++j)
+                if (i % 3 == j % 3)
+                  p(6 * c + i, 6 * c + j) = (i == j || i % 3 == 0) ? (i == j ? 1. : -1.) : 1.;
+          for (unsigned int c = 0; c < 2 * n; ++c)
+          {
+            p.b[3 * c] = -1.;
+            p.b[3 * c + 1] = .1 * random_number();
+          }
+          const BlockSparseMatrix     W = sparse(p);
+          const SparseContactOperator A(W);
+          const auto                  law = make_joint_law("FJA", mu);
+          ContactParameters           parameters = with("newton", tolerance);
+          parameters.max_iterations = 2000;
+          ContactSolver       solver(A, std::vector<const JointLaw *>(2 * n, law.get()), parameters);
+          Unknowns            force(6 * n, 0.), gap;
+          const ContactResult result = solver.solve(p.b, Unknowns(6 * n, 0.), force, gap);
+          report("squeezed, " + text(2 * n) + " contacts, friction " + text(mu) + ", tolerance " +
+                     text(tolerance),
+                 result.force_over_load, "no solution", !result.converged);
+        }
+  }
+
+  /** Every contact twice: the forces are not unique, the gaps are. And numbers whose squares are none. */
+  void test_twice_and_extreme()
+  {
+    const Problem once = chain(3, 6, .6, 1e-3, 1.);
+    Problem       twice = make_problem(2 * once.n, .6);
+    for (unsigned int i = 0; i < 3 * twice.n; ++i)
+    {
+      const unsigned int from_i = i % (3 * once.n);
+      twice.b[i] = once.b[from_i];
+      for (unsigned int j = 0; j < 3 * twice.n; ++j)
+        twice(i, j) = once(from_i, j % (3 * once.n));
+    }
+    const Solution s = solve(twice);
+    check("every contact twice", twice, s);
+    below("  Newton steps (goal: 60)", s.result.iterations, 70.);
+    FrictionProblem f;
+    f.W = sparse(once);
+    f.q = once.b;
+    f.mu = once.mu;
+    const FrictionSolution plain = solve_friction_problem(f, with("newton"), Equations::alart_curnier);
+    for (const int exponent : {-990, -600, 600, 990})
+    {
+      FrictionProblem extreme = f;
+      for (Matrix3 &block : extreme.W.value)
+        for (double &x : block)
+          x = std::ldexp(x, exponent);
+      const FrictionSolution solution =
+          solve_friction_problem(extreme, with("newton"), Equations::alart_curnier);
+      double apart = solution.result.converged ? 0. : 1.;
+      for (std::size_t i = 0; i < f.q.size(); ++i)
+        apart = std::max(apart, std::abs(solution.gap[i] - plain.gap[i]));
+      below("W times 2^" + text(exponent) + ": gaps", apart / largest(plain.gap), 1e-15);
+    }
+  }
+
   /** Out of time or steps: flagged, and the best that was seen, the guess included. */
   void test_unconverged()
   {
@@ -719,5 +787,5 @@ int main()
 {
   return run_all({test_sizes, test_coupling, test_friction, test_hyperstatic, test_separate_chains,
                   test_reversals, test_units, test_noise, test_methods, test_bad_problems, test_unconverged,
-                  test_condensation});
+                  test_infeasible, test_twice_and_extreme, test_condensation});
 }

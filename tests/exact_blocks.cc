@@ -158,7 +158,7 @@ namespace
     below(what + "displacement against one block", error / largest(v), 1e-11);
 
     SolidModel tied(blocks(2, false), degree);
-    tied.tie_joints(1);
+    tie_joints(tied, 1);
     const Structure merged = assemble_structure(tied, {Material()}, true);
     JointSystem     plain(merged, none, tight(), 0., 1., 0.);
     plain.solve_free(smooth_load(tied, 1e6), v);

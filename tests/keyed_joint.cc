@@ -69,6 +69,7 @@ namespace
       system = std::make_unique<JointSystem>(structure, laws, tight(), 0., 1., 0.);
       force.assign(3 * structure.pairs.size(), 0.);
       gap = force;
+      memory = laws.initial_memory();
     }
 
     /** From the last accepted state to a displacement (x, y) of the plate [m]. */
@@ -81,7 +82,8 @@ namespace
           for (unsigned int c = 0; c < 3; ++c)
             offset[3 * p + i] += structure.pairs[p].frame[i][c] * d[c];
       trial_force = force;
-      result = system->solve(Unknowns(3 * structure.n_nodes(), 0.), offset, gap, trial_force, trial_gap, u);
+      result = system->solve(Unknowns(3 * structure.n_nodes(), 0.), offset, gap, memory, trial_force,
+                             trial_gap, u);
       unconverged += !result.converged;
       iterations += result.iterations;
       worst = std::max(worst, result.residual);
@@ -93,6 +95,7 @@ namespace
     }
     void accept()
     {
+      laws.commit(gap, ForceMeaning(), trial_force, trial_gap, memory);
       force = trial_force;
       gap = trial_gap;
     }
@@ -120,7 +123,7 @@ namespace
     Structure                    structure;
     JointLaws                    laws;
     std::unique_ptr<JointSystem> system;
-    Unknowns                     force, gap, trial_force, trial_gap;
+    Unknowns                     force, gap, memory, trial_force, trial_gap;
     Vector3                      total{}; ///< on the plate, from outside [N]
     ContactResult                result;
     unsigned int                 unconverged = 0, iterations = 0;
@@ -128,13 +131,14 @@ namespace
     const double                 stiffness = 2.4e10 * 4. / 8.; ///< of the blocks along y, about [N/m]
   };
 
-  KeyParameters keys_of(const double angle, const double friction)
+  KeyParameters keys_of(const double angle, const double friction, const double seat)
   {
     KeyParameters keys;
     keys.height = height;
     keys.flank_angle = angle;
     keys.direction = "radial";
     keys.friction = friction;
+    keys.seat_compliance = seat;
     return keys;
   }
 
@@ -148,12 +152,12 @@ namespace
   };
 
   Curve measure(const std::string &what, const HexMesh &mesh, const std::string &law, const double angle,
-                const double mu)
+                const double mu, const double seat = 0.)
   {
     Curve        curve;
     const double N = pressing_force;
     {
-      Press        press(mesh, law, mu, keys_of(angle, mu));
+      Press        press(mesh, law, mu, keys_of(angle, mu, seat));
       double       y = press.push(0., N, -N / press.stiffness), y_before = y;
       const double step = 1e-4;
       for (unsigned int i = 1; i <= 40; ++i)
@@ -170,7 +174,7 @@ namespace
       report(what + ": all steps converged; worst", press.worst, "", press.unconverged == 0);
       below(what + ": compression missed", press.missed_force, 1e-6);
     }
-    Press press(mesh, law, mu, keys_of(angle, mu));
+    Press press(mesh, law, mu, keys_of(angle, mu, seat));
     press.move(0., .002);
     press.accept();
     double T[2];
@@ -190,13 +194,17 @@ namespace
     const std::string what = text(angle) + " deg, friction " + text(mu) + ", mesh " + text(refine);
     const double      a = angle * pi / 180., c = std::cos(a), s = std::sin(a);
     const Curve meshed = measure(what + ", meshed", keyed_blocks(angle, height, refine), "FJA", angle, mu),
-                law = measure(what + ", law", keyed_blocks(angle, 0., refine), "KSM", angle, mu);
+                law = measure(what + ", law", keyed_blocks(angle, 0., refine), "KSM", angle, mu),
+                seats = measure(what + ", law, elastic seats", keyed_blocks(angle, 0., refine), "KSM", angle,
+                                mu, 20. * height / 2.4e10); // the default
     const bool rides = mu < s / c;
     if (rides)
       note("  capacity, rigid blocks: T/N", (c + mu * s) / (s - mu * c));
-    for (const Curve *curve : {&meshed, &law})
+    for (const Curve *curve : {&meshed, &law, &seats})
     {
-      std::printf("  %s\n", curve == &meshed ? "meshed keys, FJA" : "flat mesh, KSM");
+      std::printf("  %s\n", curve == &meshed ? "meshed keys, FJA"
+                            : curve == &law  ? "flat mesh, KSM, rigid seats"
+                                             : "flat mesh, KSM, elastic seats");
       note("  stiffness at 0.2 mm [GN/m]", 1e-9 * curve->T_first / 2e-4);
       note("  T/N at 4 mm", curve->T_last / pressing_force);
       note("  rise of the plate per slip, 3 to 4 mm", curve->rise);
@@ -216,6 +224,9 @@ namespace
     below("  stiffness at 0.2 mm, meshed/law - 1", meshed.T_first / law.T_first - 1., .05);
     below("  stiffness after the play, meshed/law - 1", meshed.shear_stiffness / law.shear_stiffness - 1.,
           .05);
+    below("  stiffness at 0.2 mm, meshed/elastic seats - 1", meshed.T_first / seats.T_first - 1., .05);
+    below("  stiffness after the play, meshed/elastic seats - 1",
+          meshed.shear_stiffness / seats.shear_stiffness - 1., .05);
   }
 } // namespace
 

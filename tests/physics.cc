@@ -6,6 +6,7 @@
 #include <voussoir/dam/dam_loads.h>
 #include <voussoir/dam/reservoir.h>
 #include <voussoir/dynamics/newmark.h>
+#include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/mesh/mesh_source.h>
@@ -15,7 +16,6 @@
 #include <voussoir/rock/free_field.h>
 #include <voussoir/rock/rock_model.h>
 #include <voussoir/rock/viscous_boundary.h>
-#include <voussoir/solid/solid_model.h>
 #include <voussoir/solid/stress.h>
 
 #include "box.h"

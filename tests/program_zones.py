@@ -62,13 +62,16 @@ def entries():
     file = scene("entries", "entries.msh")
     for value, *parts in (("hell: 24e9 .2 2400", "\"hell\"", "Did you mean \"heel\"?"),
                           ("heel: 24e9 .2", "\"heel\"", "three values"),
-                          ("heel: 24e9 .5 2400", "\"heel\"", "Poisson's ratio", "less than 0.5"),
+                          ("heel: 24e9 .5 2400", "\"heel\"", "Poisson's ratio", "from 0 to 0.499"),
                           ("heel: -24e9 .2 2400", "\"heel\"", "modulus of elasticity", "positive"),
                           ("heel: 24e9 .2 0", "\"heel\"", "density", "positive"),
                           ("heel: 24 kN/m^3 .2 2400", "\"heel\"", "Pa"),
                           ("heel: 24e9 .2 2400, Heel: 2e9 .2 2400", "twice"),
+                          ("Höcker: 24e9 .2 2400", "\"Höcker\"", "letters"),
                           ("heel 24e9 .2 2400", "Concrete/Zones")):
         refused([file, "--validate", "--set", f"Concrete/Zones={value}"], "Concrete/Zones", *parts)
+    write("letters.msh", Path("entries.msh").read_text().replace("heel", "Höcker"))
+    refused([scene("letters", "letters.msh"), "--validate"], "letters.msh", "Höcker'", "letters")
     refused([scene("generated", "entries.msh"), "--validate", "--set", "Mesh/Source=arch210", "--set",
              "Concrete/Zones=heel: 24e9 .2 2400"], "Concrete/Zones", "no zones")
 
@@ -138,6 +141,8 @@ def rocks():
     runs(scene("alike", "low.msh", Foundation={**ground, "Zones": ""}, **parts), "--validate")
     refused([scene("poisson", "rocks.msh", Foundation={**ground, "Stiffness damping": 0, "Zones": "weak layer: 4e9 0.4 2400"}, **parts)],
             "Poisson's ratio", "Foundation/Zones", "0.4")
+    refused([scene("too_high", "rocks.msh", Foundation={**ground, "Zones": "weak layer: 4e9 0.46 2400"}, **parts)],
+            "Foundation/Zones", "Poisson's ratio", "from 0 to 0.45")
     refused([scene("missing", "rocks.msh", Foundation={**ground, "Zones": "weak leyer: 4e9 0.3 2400"}, **parts)],
             "Foundation/Zones", "Did you mean \"weak layer\"?")
 

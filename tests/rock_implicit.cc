@@ -6,6 +6,7 @@
 #include "column.h"
 
 #include <voussoir/foundation/explicit_rock.h>
+#include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/motion/motion.h>
 
@@ -227,9 +228,10 @@ namespace
     ExplicitRock  foundation({p, both, "test"});
     foundation.add_stiffness(dam.model, dam.structure);
     foundation.add_mass(dam.structure);
-    foundation.add_interface_mass(dam.structure, c.dt);
+    const TimeGrid grid{c.dt, c.substeps, 0};
+    foundation.add_interface_mass(dam.structure, grid);
     Newmark newmark(dam.structure, dam.laws, Columns::tight(), c.dt, ImpactRule::mean_force);
-    foundation.start({}, c.dt, 0, Unknowns(unit.size(), 0.));
+    foundation.start({}, grid, Unknowns(unit.size(), 0.));
     return run(
         newmark, dam, unit, c.dt, c.duration, [&](Unknowns &load) { foundation.advance(load); },
         [&] { foundation.follow(newmark.state()); });

@@ -125,7 +125,7 @@ namespace
       motion.acceleration.push_back({{part * std::sin(12. * t), part * std::cos(17. * t), 0.}});
     }
     const Unknowns zero(3 * dam.structure.n_nodes(), 0.);
-    dam.foundation->start(motion, motion.dt, n, zero);
+    dam.foundation->start(motion, {motion.dt, 1, n}, zero);
     Newmark newmark(dam.structure, dam.laws, scene.contact, motion.dt, ImpactRule::mean_force);
     newmark.start(zero, zero, {}, zero, {});
     const StabilityWatch watch(dam, motion, newmark);

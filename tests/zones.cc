@@ -187,9 +187,9 @@ namespace
                             {"0 .2 2400", "positive"},
                             {"inf .2 2400", "positive"},
                             {"24 kg .2 2400", "kg"},
-                            {"24e9 .5 2400", "less than 0.5"},
-                            {"24e9 -.1 2400", "less than 0.5"},
-                            {"24e9 nan 2400", "less than 0.5"},
+                            {"24e9 .5 2400", "from 0 to 0.499"},
+                            {"24e9 -.1 2400", "from 0 to 0.499"},
+                            {"24e9 nan 2400", "from 0 to 0.499"},
                             {"24e9 .2 -2400", "positive"},
                             {"24e9 .2 nan", "positive"},
                             {"24e9 x .2 2400", "24e9 x"}})

@@ -6,6 +6,7 @@
 #include <voussoir/app/command_options.h>
 #include <voussoir/app/contact_command.h>
 #include <voussoir/app/declared_entries.h>
+#include <voussoir/app/memory_need.h>
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/error.h>
 #include <voussoir/dynamics/modes.h>
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <new>
 #include <sstream>
 
 extern "C" void openblas_set_num_threads(int);
@@ -121,7 +123,18 @@ namespace Voussoir
 #ifdef DEBUG
       std::cerr << "voussoir: warning: this is a Debug build, many times slower than Release.\n";
 #endif
-      Simulation(scene, text, options).run();
+      try
+      {
+        Simulation(scene, text, options).run();
+      }
+      catch (const std::bad_alloc &)
+      {
+        throw ComputationError(not_enough_memory(scene));
+      }
+      catch (const ExcOutOfMemory &) // deal.II's
+      {
+        throw ComputationError(not_enough_memory(scene));
+      }
     }
 
     void run_with_scene(const Arguments &arguments)

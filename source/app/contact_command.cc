@@ -7,6 +7,7 @@
 #include <voussoir/contact/sparse_contact.h>
 #include <voussoir/joints/pair_groups.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
@@ -39,6 +40,42 @@ namespace Voussoir
       return name;
     }
 
+    double largest(const double x)
+    {
+      return std::abs(x);
+    }
+    double largest(const Matrix3 &block)
+    {
+      double result = 0.;
+      for (const double x : block)
+        result = std::max(result, std::abs(x));
+      return result;
+    }
+    void scale(double &x, const int exponent)
+    {
+      x = std::ldexp(x, exponent);
+    }
+    void scale(Matrix3 &block, const int exponent)
+    {
+      for (double &x : block)
+        scale(x, exponent);
+    }
+
+    /** Divides by a power of two, such that the largest is about 1 and squares neither overflow nor
+     * underflow. Returns the exponent. */
+    template <typename T> int normalise(std::vector<T> &values)
+    {
+      double size = 0.;
+      for (const T &x : values)
+        size = std::max(size, largest(x));
+      int exponent = 0;
+      if (size > 0. && std::isfinite(size))
+        std::frexp(size, &exponent);
+      for (T &x : values)
+        scale(x, -exponent);
+      return exponent;
+    }
+
     double positive_number(const std::string &option, const std::string &text)
     {
       char        *end = nullptr;
@@ -58,60 +95,71 @@ namespace Voussoir
     for (const double mu : problem.mu)
       if (laws.find(mu) == laws.end())
         laws[mu] = make_joint_law("FJA", mu, equations);
-    const PairGroups groups = find_groups(problem.W);
-    const bool       joints = has_joints(problem.W, groups);
+    FrictionProblem  scaled = problem;
+    const int        exponent_W = normalise(scaled.W.value), exponent_q = normalise(scaled.q);
+    const PairGroups groups = find_groups(scaled.W);
+    const bool       joints = has_joints(scaled.W, groups);
     const auto       old = [&](const unsigned int i) { return joints ? groups.order[i] : i; };
     for (unsigned int i = 0; i < n; ++i)
       law[i] = laws[problem.mu[old(i)]].get();
 
     std::unique_ptr<ContactOperator> W;
     if (joints)
-      W = std::make_unique<InterfaceOperator>(make_interface_operator(problem.W, groups));
+      W = std::make_unique<InterfaceOperator>(make_interface_operator(scaled.W, groups));
     else
-      W = std::make_unique<SparseContactOperator>(problem.W);
+      W = std::make_unique<SparseContactOperator>(scaled.W);
     ContactSolver solver(*W, law, parameters);
 
     FrictionSolution solution;
     Unknowns         q(3 * n), force(3 * n, 0.), gap, start(3 * n, 0.);
     for (unsigned int k = 0; k < 3 * n; ++k)
-      q[k] = problem.q[3 * old(k / 3) + k % 3];
+      q[k] = scaled.q[3 * old(k / 3) + k % 3];
     solution.result = solver.solve(q, start, force, gap);
     solution.force.resize(3 * n);
     solution.gap.resize(3 * n);
     for (unsigned int k = 0; k < 3 * n; ++k)
     {
-      solution.force[3 * old(k / 3) + k % 3] = force[k];
-      solution.gap[3 * old(k / 3) + k % 3] = gap[k];
+      solution.force[3 * old(k / 3) + k % 3] = std::ldexp(force[k], exponent_q - exponent_W);
+      solution.gap[3 * old(k / 3) + k % 3] = std::ldexp(gap[k], exponent_q);
     }
+    solution.result.converged =
+        solution.result.converged && std::all_of(solution.force.begin(), solution.force.end(),
+                                                 [](const double f) { return std::isfinite(f); });
     solution.solver = path_name(parameters, equations, solution.result.path);
     return solution;
   }
 
-  void run_contact(const std::vector<std::string> &files, const ContactOptions &options)
+  namespace
   {
-    omp_set_num_threads(1); // small problems; CPU seconds are those of the solution
-    if (files.empty())
-      throw InputError("`voussoir contact` needs FCLib files. `voussoir --help` shows how.");
-    ContactParameters parameters;
-    parameters.tolerance = positive_number("--tolerance", options.tolerance);
-    if (!std::isfinite(parameters.tolerance))
-      throw InputError("--tolerance must be a finite number, not \"" + options.tolerance + "\".");
-    parameters.max_seconds = positive_number("--max-seconds", options.max_seconds);
-    parameters.max_iterations = 1000000; // time is the limit
-    Equations equations = Equations::alart_curnier;
-    if (options.solver == "paper" || options.solver == "fischer-burmeister")
-      equations = equations_from_name(options.solver);
-    else if (options.solver == "newton" || options.solver == "proximal" || options.solver == "sweeps")
-      parameters.method = options.solver;
-    else
-      throw InputError("There is no solver \"" + options.solver +
-                       "\". The solvers are: newton, proximal, sweeps, paper, fischer-burmeister.");
-    if (!options.solutions.empty())
+    /** The method or the equations that --solver names. */
+    Equations choose_solver(const std::string &solver, ContactParameters &parameters)
+    {
+      if (solver == "paper" || solver == "fischer-burmeister")
+        return equations_from_name(solver);
+      if (solver != "newton" && solver != "proximal" && solver != "sweeps")
+        throw InputError("There is no solver \"" + solver +
+                         "\". The solvers are: newton, proximal, sweeps, paper, fischer-burmeister.");
+      parameters.method = solver;
+      return Equations::alart_curnier;
+    }
+
+    ContactParameters parameters_of(const ContactOptions &options)
+    {
+      ContactParameters parameters;
+      parameters.tolerance = positive_number("--tolerance", options.tolerance);
+      if (!std::isfinite(parameters.tolerance))
+        throw InputError("--tolerance must be a finite number, not \"" + options.tolerance + "\".");
+      parameters.max_seconds = positive_number("--max-seconds", options.max_seconds);
+      parameters.max_iterations = 1000000; // time is the limit
+      return parameters;
+    }
+
+    void make_directory_of_solutions(const std::string &directory, const std::vector<std::string> &files)
     {
       std::error_code error;
-      std::filesystem::create_directories(options.solutions, error);
-      if (error || !std::filesystem::is_directory(options.solutions, error))
-        throw InputError("--write-solutions: the directory " + options.solutions + " cannot be made.");
+      std::filesystem::create_directories(directory, error);
+      if (error || !std::filesystem::is_directory(directory, error))
+        throw InputError("--write-solutions: the directory " + directory + " cannot be made.");
       std::map<std::string, std::string> names; // and their files: a file may repeat
       for (const std::string &file : files)
         if (names.try_emplace(std::filesystem::path(file).stem().string(), file).first->second != file)
@@ -119,7 +167,50 @@ namespace Voussoir
                            std::filesystem::path(file).stem().string() +
                            ", and their solutions would be, too. Solve them one by one.");
     }
-    unsigned int failures = 0, unreadable = 0;
+
+    void write_solution(const std::string &directory, const std::string &file, const Unknowns &force)
+    {
+      const auto name = std::filesystem::path(directory) / std::filesystem::path(file).stem();
+      OutputFile out(name.string() + ".txt");
+      out << std::setprecision(17);
+      for (const double f : force)
+        out << f << '\n';
+      out.check();
+    }
+
+    /** Solves one problem and prints its line. */
+    FrictionSolution solve_and_print(const std::string &file, const FrictionProblem &problem,
+                                     const ContactParameters &parameters, const Equations equations)
+    {
+      const std::clock_t     start = std::clock();
+      const FrictionSolution solution = solve_friction_problem(problem, parameters, equations);
+      const double           seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+      const ContactResult   &result = solution.result;
+      const std::string      text = Json()
+                                   .add("file", file)
+                                   .add("contacts", problem.W.n_rows())
+                                   .add_flag("converged", result.converged)
+                                   .add("residual", result.residual)
+                                   .add("iterations", result.iterations)
+                                   .add("seconds", seconds)
+                                   .add("solver", solution.solver)
+                                   .add("sweeps", result.sweeps)
+                                   .line();
+      std::cout << text << std::endl;
+      return solution;
+    }
+  } // namespace
+
+  void run_contact(const std::vector<std::string> &files, const ContactOptions &options)
+  {
+    omp_set_num_threads(1); // small problems; CPU seconds are those of the solution
+    if (files.empty())
+      throw InputError("`voussoir contact` needs FCLib files. `voussoir --help` shows how.");
+    ContactParameters parameters = parameters_of(options);
+    const Equations   equations = choose_solver(options.solver, parameters);
+    if (!options.solutions.empty())
+      make_directory_of_solutions(options.solutions, files);
+    unsigned int failures = 0, unreadable = 0, unbounded = 0;
     for (const std::string &file : files)
     {
       FrictionProblem problem;
@@ -135,36 +226,20 @@ namespace Voussoir
         ++unreadable; // the others are solved
         continue;
       }
-      const std::clock_t     start = std::clock();
-      const FrictionSolution solution = solve_friction_problem(problem, parameters, equations);
-      const double           seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
-      const ContactResult   &result = solution.result;
-      failures += !result.converged;
-      const std::string text = Json()
-                                   .add("file", file)
-                                   .add("contacts", problem.W.n_rows())
-                                   .add_flag("converged", result.converged)
-                                   .add("residual", result.residual)
-                                   .add("iterations", result.iterations)
-                                   .add("seconds", seconds)
-                                   .add("solver", solution.solver)
-                                   .add("sweeps", result.sweeps)
-                                   .line();
-      std::cout << text << std::endl;
+      const FrictionSolution solution = solve_and_print(file, problem, parameters, equations);
+      failures += !solution.result.converged;
+      unbounded += !solution.result.converged && solution.result.force_over_load > 1e3;
       if (!options.solutions.empty())
-      {
-        const auto name = std::filesystem::path(options.solutions) / std::filesystem::path(file).stem();
-        OutputFile out(name.string() + ".txt");
-        out << std::setprecision(17);
-        for (const double f : solution.force)
-          out << f << '\n';
-        out.check();
-      }
+        write_solution(options.solutions, file, solution.force);
     }
-    const std::string not_converged = std::to_string(failures) + " of " +
-                                      std::to_string(files.size() - unreadable) +
-                                      " problems did not converge to " + options.tolerance + " within " +
-                                      options.max_seconds + " s each (\"converged\": false).";
+    const std::string not_converged =
+        std::to_string(failures) + " of " + std::to_string(files.size() - unreadable) +
+        " problems did not converge to " + options.tolerance + " within " + options.max_seconds +
+        " s each (\"converged\": false)." +
+        (unbounded > 0 ? " In " + std::to_string(unbounded) +
+                             " of them forces grow without bound: is the problem "
+                             "feasible?"
+                       : "");
     if (unreadable > 0)
       throw InputError(std::to_string(unreadable) + " of " + std::to_string(files.size()) +
                        " files cannot be read, as said above; the others were solved." +

@@ -2,6 +2,7 @@
 #include <voussoir/app/scene_warnings.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <sstream>
@@ -216,6 +217,25 @@ namespace Voussoir
       }
       return "";
     }
+
+    /** Keys for which Coulomb's law itself has two branches (reference: contact, 12). */
+    std::string two_branches(const Scene &scene)
+    {
+      const KeyParameters &keys = scene.joints.keys;
+      const double         face = scene.joints.friction, flank = keys.friction < 0. ? face : keys.friction,
+                   degree = std::acos(-1.) / 180.,
+                   needed = 90. - keys.flank_angle + std::atan(flank) / degree;
+      if (!any_joint(scene, {"KSM"}) || keys.height == 0. || needed >= 90. ||
+          face <= std::tan(needed * degree))
+        return "";
+      std::ostringstream text;
+      text << "Joints/Friction " << face << " beside flanks of " << keys.flank_angle
+           << " degrees with friction " << flank << " (Joints/Keys): above " << std::tan(needed * degree)
+           << " Coulomb's law has two solutions, a key that stays before its flank and one that rides on it, "
+              "and which is found is not determined. Give the flanks the friction of the faces "
+              "(Joints/Keys/Friction = -1), or a smaller angle.";
+      return text.str();
+    }
   } // namespace
 
   std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<WrittenEntry> &entries)
@@ -242,6 +262,8 @@ namespace Voussoir
     if (any_joint(scene, {"cohesive"}) && scene.joints.strength == 0.)
       warnings.push_back("Joints/Strength is 0: the model cohesive is then FJA. Set the tensile strength of "
                          "the bond, such as 1 MPa.");
+    if (const std::string warning = two_branches(scene); !warning.empty())
+      warnings.push_back(warning);
     return warnings;
   }
 

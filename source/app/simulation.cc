@@ -88,7 +88,7 @@ namespace Voussoir
     n_steps = scene.motion.source == "none" ? 0 : motion.acceleration.size() - 1;
     dam = std::make_unique<Dam>(scene);
     if (n_steps > 0)
-      dam->foundation->check(motion.dt, scene.steps_per_sample);
+      dam->foundation->check(grid(), scene.steps_per_sample);
     count.seconds_setup = clock.seconds();
   }
 
@@ -171,8 +171,8 @@ namespace Voussoir
     const Structure &structure = dam->structure;
     if (n_steps > 0)
     {
-      dam->foundation->start(motion, motion.dt, n_steps, statics.u);
-      if (const double added = dam->foundation->add_interface_mass(dam->structure, motion.dt); added > 0.)
+      dam->foundation->start(motion, grid(), statics.u);
+      if (const double added = dam->foundation->add_interface_mass(dam->structure, grid()); added > 0.)
       {
         double mass = 0.;
         for (const Matrix3 &m : structure.mass)
@@ -200,8 +200,8 @@ namespace Voussoir
     count.seconds_static += watch.seconds();
     if (n_steps > 0)
     {
-      log.line("Shaking   %.2f s in %u steps of %g s; joints and factors hold %.2f GiB", n_steps * motion.dt,
-               n_steps, motion.dt, newmark->joint_system().memory() / std::pow(2., 30));
+      log.line("Shaking   %.2f s in %u steps of %g s; joints and factors hold %.2f GiB", grid().duration(),
+               n_steps, motion.dt, newmark->memory() / std::pow(2., 30));
       log.line("\n   time  newton  open  slip  opening [mm]  slip [mm]  tension [MPa]  elapsed     left");
     }
   }
@@ -217,7 +217,12 @@ namespace Voussoir
     dam->foundation->advance(load);
     const SystemTimes   before = newmark->joint_system().times;
     const Vector3       base_velocity = dam->foundation->base_velocity();
+    const double        memory_before = newmark->memory();
     const ContactResult result = newmark->advance(load, base_velocity);
+    if (const double more = newmark->memory() - memory_before; more > 0.)
+      log.line(
+          "          smaller steps from t = %.4g s on, where joints ask for them: factors of %.2f GiB more",
+          newmark->state().time, more / std::pow(2., 30));
     dam->foundation->follow(newmark->state());
     ++count.path[static_cast<unsigned int>(result.path)];
     ++step;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/app/memory_need.h>
 #include <voussoir/app/simulation.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
@@ -41,7 +42,7 @@ namespace Voussoir
       log.line("Joints    %u joints, %zu pairs, law %s (friction %g)", dam->n_joints,
                dam->structure.pairs.size(), laws.c_str(), scene.joints.friction);
     }
-    dam->foundation->report(log, motion.dt);
+    dam->foundation->report(log, grid());
     report_zones(log, dam->rock_zones, "Foundation/Zones");
     log.line("Damping   Rayleigh, C = %.4g 1/s M + %.4g s K: %.3g %% at %g Hz and %g Hz",
              scene.damping.mass_factor(), scene.damping.stiffness_factor(), 100. * scene.damping.ratio,
@@ -59,16 +60,9 @@ namespace Voussoir
       const char        *title = "Groups";
       for (std::string row; std::getline(groups, row); title = "")
         log.line("%-9s %s", title, row.c_str());
-      double pairs = 0.;
-      for (const Body &body : dam->structure.bodies)
-        pairs += std::pow(3. * body.interface.size(), 2);
-      double entries = 0.;
-      for (const Body &body : dam->structure.bodies)
-        entries += 9. * body.stiffness.value.size();
       log.line("Unknowns  %u of the bodies, %zu of the joints", 3 * n_nodes, 3 * dam->structure.pairs.size());
       log.line("Steps     %u of %g s%s", n_steps, motion.dt, dam->foundation->about_steps().c_str());
-      log.line("Memory    about %.1f GiB",
-               (8. * (entries * 5. + pairs * 3.) + 1e3 * 27 * n_nodes) / std::pow(2., 30));
+      log.line("Memory    %s", in_words(memory_need(scene, make_mesh(scene.mesh, scene.directory))).c_str());
     }
   }
 

@@ -43,7 +43,7 @@ namespace Voussoir
     table.add("balance", [=] { return now().balance(first()); });
     if (dam->laws.have_memory())
       table.add("bond", [=] { return now().bond - first().bond; });
-    table.add(dam->foundation->columns(), [this] { return dam->foundation->row(); });
+    table.add_named([this] { return dam->foundation->energies(); });
   }
 
   /** Displacement of a node against the base (on rock: against its lowest part), the static one included. */

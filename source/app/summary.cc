@@ -36,20 +36,25 @@ namespace Voussoir
     }
   } // namespace
 
-  void Simulation::write_summary()
+  Json Simulation::json_of_mesh() const
   {
-    const Structure &structure = dam->structure;
-    Json             mesh, seconds, newton, path, statics_json, extremes, summary;
-    mesh.add("cells", dam->n_cells)
+    Json json;
+    json.add("cells", dam->n_cells)
         .add("degree", scene.elements.degree)
-        .add("nodes", structure.n_nodes())
-        .add("dofs", 3. * structure.n_nodes())
+        .add("nodes", dam->structure.n_nodes())
+        .add("dofs", 3. * dam->structure.n_nodes())
         .add("monoliths", dam->n_monoliths)
         .add("joints", dam->n_joints)
-        .add("pairs", structure.pairs.size())
+        .add("pairs", dam->structure.pairs.size())
         .add("volume", dam->volume)
         .add("crest_length", dam->crest_length);
-    seconds.add("wall", clock_before + clock.seconds())
+    return json;
+  }
+
+  Json Simulation::json_of_times() const
+  {
+    Json json;
+    json.add("wall", clock_before + clock.seconds())
         .add("cpu", cpu_before + double(std::clock()) / CLOCKS_PER_SEC)
         .add("setup", count.seconds_setup)
         .add("static", count.seconds_static)
@@ -60,31 +65,53 @@ namespace Voussoir
         .add("rock", count.seconds_rock)
         .add("stresses", count.seconds_stresses)
         .add("output", count.seconds_output)
-        .add("per_second_of_earthquake", n_steps > 0 ? count.seconds_shaking / (n_steps * motion.dt) : 0.);
+        .add("per_second_of_earthquake", n_steps > 0 ? count.seconds_shaking / grid().duration() : 0.);
+    return json;
+  }
+
+  Json Simulation::json_of_newton() const
+  {
     const double n = std::max(1u, step);
-    newton.add("mean", count.newton / n)
+    Json         json;
+    json.add("mean", count.newton / n)
         .add("max", count.newton_max)
         .add("linear_iterations_mean", count.krylov / n)
         .add("joint_factorisations_mean", count.factorisations / n)
         .add("sweeps", count.sweeps);
-    for (unsigned int i = 0; i < count.path.size(); ++i)
-      path.add(name(static_cast<ContactPath>(i)), count.path[i]);
+    return json;
+  }
+
+  Json Simulation::json_of_statics() const
+  {
     const auto &crown = dam->model->points[dam->geometry->crown];
-    statics_json.add_list("crest_point", Vector3{{crown[0], crown[1], crown[2]}})
+    Json        json;
+    json.add_list("crest_point", Vector3{{crown[0], crown[1], crown[2]}})
         .add_list("crest_displacement", statics.crown)
         .add_list("self_weight_crest_displacement", dam->self_weight_crown)
         .add("newton_iterations", statics.contact.iterations)
         .add("path", std::string(name(statics.contact.path)))
         .add("residual", statics.contact.residual)
         .add("open_pairs", statics.n_open);
-    extremes.add("max_opening", json_of(joints->opening)).add("max_slip", json_of(joints->slip));
+    return json;
+  }
+
+  Json Simulation::json_of_extremes() const
+  {
+    Json json;
+    json.add("max_opening", json_of(joints->opening)).add("max_slip", json_of(joints->slip));
     if (scene.output.envelope_interval > 0)
-      extremes
-          .add("max_tension_upstream", json_of(envelope->extreme(*dam->model, PhysicalId::upstream, true)))
+      json.add("max_tension_upstream", json_of(envelope->extreme(*dam->model, PhysicalId::upstream, true)))
           .add("max_tension_downstream",
                json_of(envelope->extreme(*dam->model, PhysicalId::downstream, true)))
           .add("max_compression", json_of(envelope->extreme(*dam->model, 0, false)));
-    Json zones;
+    return json;
+  }
+
+  void Simulation::write_summary()
+  {
+    Json path, zones, summary;
+    for (unsigned int i = 0; i < count.path.size(); ++i)
+      path.add(name(static_cast<ContactPath>(i)), count.path[i]);
     zones.add("concrete", json_of(dam->concrete_zones));
     if (!dam->rock_zones.empty())
       zones.add("rock", json_of(dam->rock_zones));
@@ -97,21 +124,21 @@ namespace Voussoir
         .add("revision", VOUSSOIR_REVISION)
         .add("dealii", DEAL_II_PACKAGE_VERSION)
         .add("ranks", 1.)
-        .add("mesh", mesh)
+        .add("mesh", json_of_mesh())
         .add("zones", zones)
         .add("steps", step)
         .add("time_step", motion.dt)
-        .add("seconds", seconds)
+        .add("seconds", json_of_times())
         .add("memory_bytes", 1024. * usage.ru_maxrss)
-        .add("newton_iterations", newton)
+        .add("newton_iterations", json_of_newton())
         .add("contact_path", path)
         .add("contact_residual", count.residual)
         .add("energy_balance_error", balance_error())
         .add("largest_energy", largest_energy())
-        .add("static", statics_json)
-        .add("extremes", extremes)
+        .add("static", json_of_statics())
+        .add("extremes", json_of_extremes())
         .add_texts("warnings", log.warnings());
-    dam->foundation->add_to_summary(summary, motion.dt);
+    dam->foundation->add_to_summary(summary, grid());
     OutputFile out(directory + "/summary.json");
     out << summary.text() << "\n";
     out.check();

@@ -13,9 +13,9 @@ namespace Voussoir
              (a[1] * a[6] - a[0] * a[7]) * d, (a[0] * a[4] - a[1] * a[3]) * d}};
   }
 
-  Vector3 operator*(const Matrix3 &a, const Vector3 &x)
+  double determinant(const Matrix3 &a)
   {
-    return {{a[0] * x[0] + a[1] * x[1] + a[2] * x[2], a[3] * x[0] + a[4] * x[1] + a[5] * x[2],
-             a[6] * x[0] + a[7] * x[1] + a[8] * x[2]}};
+    return a[0] * (a[4] * a[8] - a[5] * a[7]) - a[1] * (a[3] * a[8] - a[5] * a[6]) +
+           a[2] * (a[3] * a[7] - a[4] * a[6]);
   }
 } // namespace Voussoir

@@ -71,6 +71,7 @@ namespace Voussoir
       }
 
       unsigned int n_memory() const override { return 2; }
+      bool         needs_mean_force() const override { return true; }
 
       void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
                     PairEquations &e) const override

@@ -2,7 +2,6 @@
 #include <voussoir/contact/contact_solver.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <deque>
 
@@ -10,6 +9,8 @@ namespace Voussoir
 {
   namespace
   {
+    constexpr std::size_t no_surfaces = std::numeric_limits<std::size_t>::max();
+
     void add(Unknowns &y, const double factor, const Unknowns &x)
     {
       for (std::size_t i = 0; i < y.size(); ++i)
@@ -32,16 +33,6 @@ namespace Voussoir
         for (const double y : pair.start)
           sum += y * y;
       return sum;
-    }
-
-    bool is_finite(const Unknowns &x)
-    {
-      return std::all_of(x.begin(), x.end(), [](const double y) { return std::isfinite(y); });
-    }
-
-    double wall_time()
-    {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     }
 
     /** Largest eigenvalue of the symmetric part of a positive definite 3x3 matrix: power method with
@@ -83,6 +74,17 @@ namespace Voussoir
       const double largest = largest_eigenvalue(H);
       rho.push_back(largest > 0. ? 1. / largest : 0.);
     }
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < law.size(); ++i)
+    {
+      number.push_back(no_surfaces);
+      if (const SurfacesLaw *surfaces = law[i]->surfaces_law())
+      {
+        number.back() = with_surfaces.size();
+        with_surfaces.push_back({i, begin, surfaces, {}});
+        begin += 3 * surfaces->n_beside();
+      }
+    }
     mean_rho = trace > 0. ? 3. * law.size() / trace : 1.;
     for (double &r : rho)
       if (!(r > 0.))
@@ -102,37 +104,55 @@ namespace Voussoir
     return smallest;
   }
 
-  Vector3 ContactSolver::shifted_gap(const std::size_t i, const Unknowns &force, const Unknowns &gap) const
+  Vector3 ContactSolver::shifted_gap(const std::size_t i, const Iterate &x) const
   {
-    Vector3 g = get(gap, i);
-    if (proximal.alpha > 0.)
+    Vector3 g = get(x.gap, i);
+    if (proximal.alpha > 0. && number[i] == no_surfaces) // surfaces have it themselves
       for (unsigned int c = 0; c < 3; ++c)
-        g[c] += proximal.alpha / rho[i] * (force[3 * i + c] - proximal.centre[3 * i + c]);
+        g[c] += proximal.alpha / rho[i] * (x.force[3 * i + c] - proximal.centre[3 * i + c]);
     return g;
   }
 
-  void ContactSolver::evaluate(const Unknowns &force, const Unknowns &gap)
+  void ContactSolver::evaluate(const Iterate &x)
   {
+    beside_merit = 0.;
     for (std::size_t i = 0; i < law.size(); ++i)
-      law[i]->evaluate(get(force, i), shifted_gap(i, force, gap), (*past)[i], rho[i], equations[i]);
+      if (number[i] == no_surfaces)
+        law[i]->evaluate(get(x.force, i), shifted_gap(i, x), (*past)[i], rho[i], equations[i]);
+      else
+      {
+        WithSurfaces &pair = with_surfaces[number[i]];
+        beside_merit += pair.surfaces.evaluate(get(x.force, i), shifted_gap(i, x),
+                                               x.beside.data() + pair.begin, equations[i]) /
+                        (rho[i] * rho[i]);
+      }
   }
 
   double ContactSolver::merit() const
   {
-    double sum = 0.;
+    double sum = beside_merit;
     for (std::size_t i = 0; i < law.size(); ++i)
       sum += dot(equations[i].residual, equations[i].residual) / (rho[i] * rho[i]);
     return sum;
   }
 
-  double ContactSolver::residual(const Unknowns &force, const Unknowns &gap)
+  /** @p rigid: of the problem with rigid seats. */
+  double ContactSolver::residual(const Iterate &x, const bool rigid)
   {
     double f = 0., p = 0., q = 0., u = 0.;
     for (std::size_t i = 0; i < law.size(); ++i)
     {
-      const Vector3 g = shifted_gap(i, force, gap), s = (*past)[i].start, r = get(force, i);
-      const Vector3 e = law[i]->error(r, g, (*past)[i], mean_rho);
-      f += dot(e, e);
+      const Vector3 g = shifted_gap(i, x), s = (*past)[i].start, r = get(x.force, i);
+      if (number[i] == no_surfaces)
+      {
+        const Vector3 e = law[i]->error(r, g, (*past)[i], mean_rho);
+        f += dot(e, e);
+      }
+      else
+      {
+        const WithSurfaces &pair = with_surfaces[number[i]];
+        f += pair.surfaces.error_square(r, g, x.beside.data() + pair.begin, mean_rho, rigid);
+      }
       p += dot(r, r);
       for (unsigned int c = 0; c < 3; ++c) // friction only knows the displacement of the step
       {
@@ -145,36 +165,42 @@ namespace Voussoir
     const double force_size = std::sqrt(p), load_size = mean_rho * std::sqrt(q),
                  round_off = 1e-15 * mean_rho * std::sqrt(norm_square(*past));
     scale = std::max({force_size, load_size, mean_rho * std::sqrt(u), round_off / parameters.tolerance});
-    // A singular step leaves forces without bound, which would make any error look small.
+    // A singular step, or a problem without a solution, leaves forces without bound, which would make any
+    // error look small: it must be small against the load, too, as far as round-off allows.
+    result.force_over_load = load_size > 0. ? force_size / load_size : 0.;
     if (!std::isfinite(f + scale) || force_size > 1e8 * (load_size + round_off))
       return std::numeric_limits<double>::infinity();
-    return scale > 0. ? std::sqrt(f) / scale : 0.;
+    const double against_load = std::max(
+        {1e2 * load_size, 1e-13 / parameters.tolerance * force_size, round_off / parameters.tolerance});
+    return scale > 0. ? std::sqrt(f) / std::min(scale, std::max(against_load, 1e-300)) : 0.;
   }
 
   /** gap = W force + b, free of the round-off of updates; the last product is kept for the next step. */
-  void ContactSolver::refresh_gap(const Unknowns &force, Unknowns &gap)
+  void ContactSolver::refresh_gap(Iterate &x)
   {
-    if (multiplied != force || product.empty())
+    if (multiplied != x.force || product.empty())
     {
-      W.multiply(force, product);
-      multiplied = force;
+      W.multiply(x.force, product);
+      multiplied = x.force;
     }
-    gap = product;
+    x.gap = product;
     drift = 0.;
-    add(gap, 1., *b);
+    add(x.gap, 1., *b);
   }
 
-  double ContactSolver::remember(const Unknowns &force, const Unknowns &gap)
+  void ContactSolver::set_force(Iterate &x, const Best &from)
   {
-    const double r = residual(force, gap);
+    x.force = from.force;
+    x.beside = from.beside;
+    refresh_gap(x);
+  }
+
+  double ContactSolver::remember(const Iterate &x)
+  {
+    const double r = residual(x);
     if (r < best.residual)
-      best = {r, force};
+      best = {r, x.force, x.beside};
     return r;
-  }
-
-  bool ContactSolver::out_of_time() const
-  {
-    return wall_time() > deadline;
   }
 
   unsigned int ContactSolver::steps_left() const
@@ -182,32 +208,36 @@ namespace Voussoir
     return parameters.max_iterations - std::min(parameters.max_iterations, result.iterations);
   }
 
-  void ContactSolver::sweep(const unsigned int count, Unknowns &force, Unknowns &gap)
+  void ContactSolver::sweep(const unsigned int count, Iterate &x)
   {
-    const auto solve_pair = [this](const unsigned int pair, const Matrix3 &H, const Vector3 &free)
-    { return law[pair]->solve(H, free, (*past)[pair]); };
+    const double accuracy = parameters.method == "sweeps" ? 1e-14 : 1e-6; // Newton's method does the rest
+    const auto   solve_pair = [&](const unsigned int pair, const Matrix3 &H, const Vector3 &free)
+    {
+      if (number[pair] == no_surfaces)
+        return law[pair]->solve(H, free, (*past)[pair]);
+      WithSurfaces &with = with_surfaces[number[pair]];
+      return with.surfaces.solve(H, free, accuracy, get(x.force, pair), x.beside.data() + with.begin);
+    };
     for (unsigned int i = 0; i < count && !out_of_time(); ++i, ++result.sweeps)
-      W.sweep(solve_pair, force, gap);
+      W.sweep(solve_pair, x.force, x.gap);
     drift += 1e-6;
   }
 
   /** Moves along @p step; returns by how much of it. None decreases: the whole step is taken. */
-  double ContactSolver::line_search(const double bound, const Unknowns &step, const Unknowns &d_gap,
-                                    Unknowns &force, Unknowns &gap)
+  double ContactSolver::line_search(const double bound, const Iterate &step, Iterate &x)
   {
-    Unknowns trial_force, trial_gap;
+    Iterate trial;
     for (unsigned int halving = 0; halving <= 12; ++halving)
     {
       const double t = halving == 12 ? 1. : std::ldexp(1., -static_cast<int>(halving));
-      trial_force = force;
-      trial_gap = gap;
-      add(trial_force, t, step);
-      add(trial_gap, t, d_gap);
-      evaluate(trial_force, trial_gap);
+      trial = x;
+      add(trial.force, t, step.force);
+      add(trial.gap, t, step.gap);
+      add(trial.beside, t, step.beside);
+      evaluate(trial);
       if (merit() <= (1. - 2e-4 * t) * bound || halving == 12)
       {
-        force.swap(trial_force);
-        gap.swap(trial_gap);
+        std::swap(x, trial);
         return t;
       }
     }
@@ -215,14 +245,14 @@ namespace Voussoir
   }
 
   /** The residual, free of the round-off of single precision where that matters. */
-  double ContactSolver::checked_residual(const double target, const Unknowns &force, Unknowns &gap)
+  double ContactSolver::checked_residual(const double target, Iterate &x)
   {
-    const double now = residual(force, gap);
+    const double now = residual(x);
     if (drift == 0. || (now > target && drift <= .1 * now))
       return now;
-    refresh_gap(force, gap);
-    evaluate(force, gap);
-    return residual(force, gap);
+    refresh_gap(x);
+    evaluate(x);
+    return residual(x);
   }
 
   /** How exact the linear solver must be: as Newton is about to become (Eisenstat and Walker 1996, choice 2),
@@ -235,166 +265,61 @@ namespace Voussoir
     return std::clamp(.9 * ratio * ratio, std::min(loosest, .3 * target / now), loosest);
   }
 
-  /** Newton's method from @p force for the present (regularised) problem. False when it stalls; @p force is
-   *  then the best that was found. */
-  bool ContactSolver::newton(const double target, const unsigned int max_steps, Unknowns &force,
-                             Unknowns &gap)
+  /** One step from the equations as last evaluated, its merit at most @p bound. Returns what @p drift has
+   *  grown by, times the scale. */
+  double ContactSolver::newton_step(const double forcing, const double bound, Iterate &x)
   {
-    evaluate(force, gap);
-    double             now = checked_residual(target, force, gap), previous = now;
-    Best               found{now, force};
+    for (WithSurfaces &pair : with_surfaces)
+      pair.surfaces.condense(equations[pair.pair]);
+    if (proximal.alpha > 0.) // d gap/d force = W + alpha D
+      for (std::size_t i = 0; i < law.size(); ++i)
+        for (unsigned int c = 0; c < 9 && number[i] == no_surfaces; ++c)
+          equations[i].d_force[c] += proximal.alpha / rho[i] * equations[i].d_gap[c];
+    Iterate step;
+    result.factorisations += jacobian->update(equations);
+    result.krylov += jacobian->solve(forcing, step.force, step.gap);
+    ++result.iterations;
+    step.beside.resize(x.beside.size());
+    for (const WithSurfaces &pair : with_surfaces)
+      pair.surfaces.expand(equations[pair.pair], get(step.force, pair.pair), get(step.gap, pair.pair),
+                           step.beside.data() + pair.begin);
+    const double t = line_search(bound, step, x);
+    return 1e-6 * t * mean_rho * std::sqrt(norm_square(step.gap));
+  }
+
+  /** Newton's method from @p x for the present (regularised) problem. False when it stalls for @p patience
+   *  steps; @p x is then the best that was found. */
+  bool ContactSolver::newton(const double target, const unsigned int max_steps, const unsigned int patience,
+                             Iterate &x)
+  {
+    evaluate(x);
+    double             now = checked_residual(target, x), previous = now;
+    Best               found{now, x.force, x.beside};
     std::deque<double> merits(1, merit());
-    Unknowns           step, d_gap;
     unsigned int       stalled = 0;
     for (unsigned int k = 0; now > target && k < max_steps && steps_left() > 0 && !out_of_time(); ++k)
     {
-      if (proximal.alpha > 0.) // d gap/d force = W + alpha D
-        for (std::size_t i = 0; i < law.size(); ++i)
-          for (unsigned int c = 0; c < 9; ++c)
-            equations[i].d_force[c] += proximal.alpha / rho[i] * equations[i].d_gap[c];
-      result.factorisations += jacobian->update(equations);
-      result.krylov += jacobian->solve(forcing_term(now, previous, target, stalled > 0), step, d_gap);
-      ++result.iterations;
       // Nonmonotone, until it cycles.
       const double bound = stalled > 2 ? merits.back() : *std::max_element(merits.begin(), merits.end());
-      const double t = line_search(bound, step, d_gap, force, gap);
+      const double moved = newton_step(forcing_term(now, previous, target, stalled > 0), bound, x);
       previous = now;
-      if (!std::isfinite(residual(force, gap))) // singular
+      if (!std::isfinite(residual(x))) // singular
         break;
-      drift += 1e-6 * t * mean_rho * std::sqrt(norm_square(d_gap)) / scale;
-      now = checked_residual(target, force, gap);
+      drift += moved / scale;
+      now = checked_residual(target, x);
       merits.push_back(merit());
       if (merits.size() > 5)
         merits.pop_front();
       stalled = now < .9 * found.residual ? 0 : stalled + 1;
       if (now < found.residual)
-        found = {now, force};
-      if (stalled == 15)
+        found = {now, x.force, x.beside};
+      if (stalled == patience)
         break;
     }
     if (now <= target)
       return true;
-    force = found.force;
-    refresh_gap(force, gap);
-    evaluate(force, gap);
+    set_force(x, found);
+    evaluate(x);
     return false;
-  }
-
-  /** Regularised problems around the last solution; superlinear, since alpha falls with the residual. */
-  bool ContactSolver::proximal_point(Unknowns &force, Unknowns &gap)
-  {
-    const auto here = [&]
-    {
-      proximal.alpha = 0.;
-      return remember(force, gap);
-    };
-    double       now = here(), boost = 1.;
-    unsigned int failures = 0, n_sweeps = 20;
-    while (now > parameters.tolerance && steps_left() > 0 && !out_of_time())
-    {
-      proximal.centre = force;
-      proximal.alpha = std::min(1., 5. * now) * boost;
-      if (newton(std::max(.1 * now, .3 * parameters.tolerance), 50, force, gap))
-        boost = std::max(1., .1 * boost);
-      else
-      {
-        boost *= 10.;
-        if (++failures == 4 && steps_left() > 0)
-        {
-          force = best.force;
-          refresh_gap(force, gap);
-          sweep(n_sweeps, force, gap);
-          refresh_gap(force, gap);
-          n_sweeps = std::min(2 * n_sweeps, 2000u);
-          failures = 0;
-          boost = 1.;
-        }
-      }
-      now = here();
-    }
-    return now <= parameters.tolerance;
-  }
-
-  ContactResult ContactSolver::solve(const Unknowns &right_hand_side, const Unknowns &start, Unknowns &force,
-                                     Unknowns &gap)
-  {
-    std::vector<PairPast> pairs;
-    for (std::size_t i = 0; i < law.size(); ++i)
-      pairs.emplace_back(get(start, i));
-    return solve(right_hand_side, pairs, force, gap);
-  }
-
-  ContactResult ContactSolver::solve(const Unknowns &right_hand_side, const std::vector<PairPast> &pairs,
-                                     Unknowns &force, Unknowns &gap)
-  {
-    b = &right_hand_side;
-    past = &pairs;
-    result = ContactResult();
-    proximal.alpha = 0.;
-    best = Best();
-    deadline = wall_time() + parameters.max_seconds;
-
-    if (!is_finite(force))
-      force.assign(force.size(), 0.);
-    refresh_gap(force, gap);
-    const bool defined = is_finite(*b) && std::isfinite(norm_square(*past));
-    if (defined)
-    {
-      best = {residual(force, gap), force};
-      // Nothing touches? Newton comes close to zero forces only, which is not enough where b is zero, too.
-      const Unknowns none(force.size(), 0.);
-      if (best.residual > parameters.tolerance && residual(none, *b) <= parameters.tolerance)
-      {
-        force = none;
-        gap = *b;
-        best = {residual(force, gap), force};
-      }
-      evaluate(force, gap);
-    }
-    result.converged = !defined || best.residual <= parameters.tolerance; // looked at again below
-    if (!result.converged && parameters.method == "newton")
-    {
-      sweep(parameters.sweeps, force, gap);
-      result.converged = newton(parameters.tolerance, steps_left(), force, gap);
-      remember(force, gap);
-      if (!result.converged)
-      {
-        result.path = ContactPath::sweeps;
-        sweep(20, force, gap);
-        result.converged = newton(parameters.tolerance, steps_left(), force, gap);
-        remember(force, gap);
-      }
-    }
-    if (!result.converged && parameters.method == "sweeps")
-    {
-      result.path = ContactPath::sweeps;
-      while (!result.converged && !out_of_time() &&
-             result.sweeps < 1000 * std::size_t(parameters.max_iterations))
-      {
-        sweep(10, force, gap);
-        refresh_gap(force, gap);
-        result.converged = remember(force, gap) <= parameters.tolerance;
-      }
-    }
-    else if (!result.converged)
-    {
-      result.path = ContactPath::proximal;
-      if (parameters.method == "proximal")
-        sweep(parameters.sweeps, force, gap);
-      result.converged = proximal_point(force, gap);
-    }
-    if (!result.converged && best.residual < std::numeric_limits<double>::infinity())
-      force = best.force;
-    proximal.alpha = 0.;
-    refresh_gap(force, gap);
-    evaluate(force, gap);
-    result.residual = residual(force, gap);
-    result.converged = result.residual <= parameters.tolerance;
-    for (std::size_t i = 0; i < law.size(); ++i)
-    {
-      state[i] = equations[i].state;
-      touch[i] = equations[i].touching;
-    }
-    return result;
   }
 } // namespace Voussoir

@@ -21,20 +21,10 @@ namespace Voussoir
         alart_curnier(force, gap[0], {{gap[1] - past.start[1], gap[2] - past.start[2]}}, mu, rho, e);
       }
 
-      /** r - P(r - rho (u + mu |u_t| n)), P: projection on the cone of friction. */
       Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &past,
                     const double rho) const override
       {
-        const double  s1 = gap[1] - past.start[1], s2 = gap[2] - past.start[2];
-        const Vector3 x = {
-            {force[0] - rho * (gap[0] + mu * length(s1, s2)), force[1] - rho * s1, force[2] - rho * s2}};
-        const double t = length(x[1], x[2]);
-        if (mu * t <= -x[0])
-          return force;
-        if (t <= mu * x[0])
-          return force - x;
-        const double n = (x[0] + mu * t) / (1. + mu * mu);
-        return {{force[0] - n, force[1] - mu * n * x[1] / t, force[2] - mu * n * x[2] / t}};
+        return natural_map(force, {{gap[0], gap[1] - past.start[1], gap[2] - past.start[2]}}, mu, rho);
       }
 
       Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const override

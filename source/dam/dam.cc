@@ -4,6 +4,7 @@
 #include <voussoir/dam/dam.h>
 #include <voussoir/dam/dam_loads.h>
 #include <voussoir/foundation/foundation_table.h>
+#include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh_axes.h>
 #include <voussoir/mesh/mesh_groups.h>
 #include <voussoir/mesh/mesh_joints.h>
@@ -16,22 +17,6 @@ namespace Voussoir
 {
   namespace
   {
-    /** The dam without the rock. */
-    HexMesh monoliths_only(const HexMesh &mesh)
-    {
-      HexMesh result = mesh;
-      result.cells.clear();
-      result.faces.clear();
-      for (const HexMesh::Cell &cell : mesh.cells)
-        if (is_monolith(cell.volume))
-          result.cells.push_back(cell);
-      for (const HexMesh::Face &face : mesh.faces)
-        if (face.surface != PhysicalId::free_surface && face.surface != PhysicalId::artificial)
-          result.faces.push_back(face);
-      normalize(result); // drops the rock's nodes
-      return result;
-    }
-
     /** InputError where joint j is not between monoliths j and j + 1. */
     void check_joint_numbers(const HexMesh &opened, const unsigned int n_joints, const std::string &source)
     {
@@ -100,7 +85,7 @@ namespace Voussoir
     {
       const std::string &law = tie_all ? "tied" : scene.joints.model_of(j);
       tied = tied && law == "tied";
-      laws.of_joint.push_back(make_joint_law(law, scene.joints.law()));
+      laws.of_joint.push_back(make_joint_law(law, scene.joints.law(scene.concrete.young)));
     }
     for (const auto &entry : scene.joints.overrides)
       if (entry.first > n_joints)
@@ -123,14 +108,14 @@ namespace Voussoir
     {
       model->free_base();
       if (foundation->base() == Foundation::Base::shared)
-        model->tie_joints(n_joints, true); // the foundation joins all monoliths
+        tie_joints(*model, n_joints, true); // the foundation joins all monoliths
       structure = assemble_structure(*model, materials, incompatible_modes);
       pairs = find_pairs(*model, n_joints);
       geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
     }
     if (tied && n_joints > 0)
     {
-      model->tie_joints(n_joints);
+      tie_joints(*model, n_joints);
       structure = assemble_structure(*model, materials, incompatible_modes);
     }
     else

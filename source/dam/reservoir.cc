@@ -3,7 +3,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
-#include <voussoir/base/error.h>
+#include <voussoir/base/names.h>
 #include <voussoir/dam/reservoir.h>
 #include <voussoir/solid/solid_model.h>
 
@@ -78,6 +78,45 @@ namespace Voussoir
                        });
   }
 
+  namespace
+  {
+    /** The foot of the upstream face, as elevation over y. */
+    class UpstreamFoot
+    {
+    public:
+      explicit UpstreamFoot(const SolidModel &model)
+      {
+        for (unsigned int i = 0; i < model.n_nodes(); ++i)
+          if (model.on_surface(i, PhysicalId::upstream) && model.on_surface(i, PhysicalId::base))
+            foot.emplace_back(model.points[i][1], model.points[i][2]);
+        std::sort(foot.begin(), foot.end());
+        if (foot.empty())
+          throw InputError(
+              "The surfaces \"upstream\" and \"base\" of the mesh do not meet, so that the depth of the "
+              "reservoir is not known. Mark both in the mesh, or set \"Reservoir/Added mass\" to none.");
+        for (const auto &p : foot)
+          lowest = std::min(lowest, p.second);
+      }
+
+      double at(const double y) const
+      {
+        const auto right = std::lower_bound(foot.begin(), foot.end(), std::make_pair(y, -1e300));
+        if (right == foot.begin())
+          return right->second;
+        const auto left = right - 1;
+        if (right == foot.end() || right->first <= left->first)
+          return left->second;
+        const double t = (y - left->first) / (right->first - left->first);
+        return (1. - t) * left->second + t * right->second;
+      }
+
+      double lowest = 1e300;
+
+    private:
+      std::vector<std::pair<double, double>> foot;
+    };
+  } // namespace
+
   double add_westergaard_mass(const SolidModel &model, const ReservoirParameters &reservoir,
                               Structure &structure)
   {
@@ -90,34 +129,8 @@ namespace Voussoir
                              area[dofs[i]] +=
                                  values.shape_value(i, q) * values.JxW(q) * values.normal_vector(q);
                        });
-
-    // The foot of the upstream face, as elevation over y.
-    std::vector<std::pair<double, double>> foot;
-    for (unsigned int i = 0; i < model.n_nodes(); ++i)
-      if (model.on_surface(i, PhysicalId::upstream) && model.on_surface(i, PhysicalId::base))
-        foot.emplace_back(model.points[i][1], model.points[i][2]);
-    std::sort(foot.begin(), foot.end());
-    double lowest = 1e300;
-    for (const auto &p : foot)
-      lowest = std::min(lowest, p.second);
-    const auto foot_at = [&](const double y)
-    {
-      const auto right = std::lower_bound(foot.begin(), foot.end(), std::make_pair(y, -1e300));
-      if (right == foot.begin())
-        return right->second;
-      const auto left = right - 1;
-      if (right == foot.end() || right->first <= left->first)
-        return left->second;
-      const double t = (y - left->first) / (right->first - left->first);
-      return (1. - t) * left->second + t * right->second;
-    };
-
-    if (foot.empty())
-      throw InputError(
-          "The surfaces \"upstream\" and \"base\" of the mesh do not meet, so that the depth of the "
-          "reservoir is not known. Mark both in the mesh, or set \"Reservoir/Added mass\" to none.");
-
-    double total = 0.;
+    const UpstreamFoot foot(model);
+    double             total = 0.;
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
     {
       const unsigned int e = model.equation[i];
@@ -125,7 +138,7 @@ namespace Voussoir
       if (h <= 0. || size == 0.)
         continue;
       const double depth =
-          reservoir.level - (reservoir.depth == "local" ? foot_at(model.points[i][1]) : lowest);
+          reservoir.level - (reservoir.depth == "local" ? foot.at(model.points[i][1]) : foot.lowest);
       const double m =
           reservoir.factor * 7. / 8. * reservoir.density * std::sqrt(std::max(depth, h) * h) / size;
       total += m * area[i][0] * area[i][0];
@@ -153,34 +166,22 @@ namespace Voussoir
         {"Westergaard", "his formula, in the normal direction of the upstream face", add_westergaard_mass},
         {"none", "the water is a static load only",
          [](const SolidModel &, const ReservoirParameters &, Structure &) { return 0.; }}};
-
-    /** All names, or what they are. */
-    std::string list(const char *AddedMassRow::*member, const std::string &separator, const bool with_name)
-    {
-      std::string text;
-      for (const AddedMassRow &row : added_masses)
-        text +=
-            (text.empty() ? "" : separator) + (with_name ? row.name + std::string(": ") : "") + row.*member;
-      return text;
-    }
   } // namespace
 
   std::string added_mass_names()
   {
-    return list(&AddedMassRow::name, "|", false);
+    return names_of(added_masses);
   }
 
   std::string added_mass_docs()
   {
-    return list(&AddedMassRow::doc, "; ", true);
+    return docs_of(added_masses);
   }
 
   double add_added_mass(const SolidModel &model, const ReservoirParameters &reservoir, Structure &structure)
   {
-    for (const AddedMassRow &row : added_masses)
-      if (reservoir.added_mass == row.name)
-        return row.add(model, reservoir, structure);
-    throw InputError("Entry \"Reservoir/Added mass\" is " + reservoir.added_mass + "; there are " +
-                     added_mass_names() + ".");
+    return row_of(added_masses, reservoir.added_mass, "is no added mass",
+                  "Entry \"Reservoir/Added mass\" may be")
+        .add(model, reservoir, structure);
   }
 } // namespace Voussoir

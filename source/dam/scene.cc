@@ -94,13 +94,20 @@ namespace Voussoir
     prm.add_parameter("Friction", keys.friction,
                       "Coefficient of friction of the flanks [-]; -1: that of the faces (Joints/Friction).",
                       Patterns::Double(-1.));
+    prm.add_parameter(
+        "Seat compliance", seat_compliance,
+        "Compliance of a key's seat, per area of the joint [m/Pa]: how much the flanks give under the "
+        "stress that they carry; -1: from the concrete's modulus, 20 Height/E, as meshed keys have "
+        "it (doc/keys.md); 0: rigid.",
+        Patterns::Double(-1., 1e-6));
     prm.leave_subsection();
     prm.leave_subsection();
   }
 
-  LawParameters JointParameters::law() const
+  LawParameters JointParameters::law(const double young) const
   {
     LawParameters result(friction, equations_from_name(equations), keys);
+    result.keys.seat_compliance = seat_compliance < 0. ? 20. * keys.height / young : seat_compliance;
     result.strength = strength;
     result.fracture_energy = fracture_energy;
     return result;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
+
 #include <voussoir/dynamics/newmark.h>
 
 #include <voussoir/base/error.h>
@@ -17,20 +19,41 @@ namespace Voussoir
 
   Newmark::Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters,
                    const double dt, const ImpactRule rule)
-      : structure(structure), laws(laws), parameters(parameters), dt(dt), rule(rule),
-        system(structure, laws, parameters, 4. / (dt * dt) + 2. / dt * structure.mass_damping,
-               1. + 2. / dt * structure.stiffness_damping, 2. / dt,
-               // of the rule mean-force: the sum of the forces at both ends
-               rule == ImpactRule::mean_force ? ForceMeaning{2., true} : ForceMeaning()),
-        impact(structure, laws, rule)
+      : structure(structure), laws(laws), parameters(parameters), rule(rule), impact(structure, laws, rule)
   {
-    if (laws.have_memory() && rule != ImpactRule::mean_force)
-      throw InputError("Joint laws with a memory need the impact rule mean-force.");
+    for (const JointLaw *law : laws.of_pair)
+      if (law->needs_mean_force() && rule != ImpactRule::mean_force)
+        throw InputError("The joint law \"cohesive\" needs the impact rule mean-force (Dynamics/Impact).");
+    add_level(dt);
+  }
+
+  void Newmark::add_level(const double dt)
+  {
+    ContactParameters of_level = parameters;
+    of_level.write_problems = parameters.write_problems && levels.empty();
+    // Of the rule mean-force: the sum of the forces at both ends.
+    const ForceMeaning meaning = rule == ImpactRule::mean_force ? ForceMeaning{2., true} : ForceMeaning();
+    levels.emplace_back(new Level{
+        dt, JointSystem(structure, laws, of_level, 4. / (dt * dt) + 2. / dt * structure.mass_damping,
+                        1. + 2. / dt * structure.stiffness_damping, 2. / dt, meaning)});
+  }
+
+  double Newmark::memory() const
+  {
+    double bytes = 0.;
+    for (const auto &level : levels)
+      bytes += level->system.memory();
+    return bytes;
   }
 
   void Newmark::start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
                       const Unknowns &reference_jump, const Unknowns &memory)
   {
+    AssertDimension(u.size(), 3 * std::size_t(structure.n_nodes()));
+    AssertDimension(v.size(), 3 * std::size_t(structure.n_nodes()));
+    AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
+    AssertDimension(force.size(), 3 * structure.pairs.size());
+    AssertDimension(reference_jump.size(), 3 * structure.pairs.size());
     reference = reference_jump;
     impulse.assign(force.size(), 0.);
     now = DynamicState();
@@ -98,7 +121,7 @@ namespace Voussoir
   /** The sum of the equations of motion at both ends of the step, in which accelerations cancel:
    *  S u_new = load + load_old + M (4/dt^2 u + 4/dt v) + 2/dt C u - K u + G^T (force + force_old), and the
    *  damping's part of the moving base. */
-  Unknowns Newmark::right_hand_side(const Unknowns &load, const Vector3 &base_velocity) const
+  Unknowns Newmark::right_hand_side(const double dt, const Unknowns &load, const Vector3 &base_velocity) const
   {
     Unknowns     rhs(load.size());
     const double c_m = 4. / (dt * dt) + 2. / dt * structure.mass_damping,
@@ -127,17 +150,29 @@ namespace Voussoir
 
   ContactResult Newmark::advance(const Unknowns &load, const Vector3 &base_velocity)
   {
+    AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
+    return advance(0, load, base_velocity);
+  }
+
+  /** A step that has been halved so many times. */
+  ContactResult Newmark::advance(const unsigned int halvings, const Unknowns &load,
+                                 const Vector3 &base_velocity)
+  {
+    if (halvings == levels.size())
+      add_level(.5 * levels.back()->dt);
     ContactResult result;
-    if (!step(load, base_velocity, result))
-      return advance_in_halves(load, base_velocity, result);
-    halved = false;
+    if (!step(*levels[halvings], load, base_velocity, result))
+      return advance_in_halves(halvings, load, base_velocity, result);
+    last_level = halvings;
     return result;
   }
 
-  ContactResult Newmark::advance_in_halves(const Unknowns &load, const Vector3 &base_velocity,
-                                           const ContactResult &failed)
+  ContactResult Newmark::advance_in_halves(const unsigned int halvings, const Unknowns &load,
+                                           const Vector3 &base_velocity, const ContactResult &failed)
   {
-    if (halvings_left == 0)
+    constexpr unsigned int most = 3;
+    const double           dt = levels[halvings]->dt;
+    if (halvings == most)
     {
       std::ostringstream message;
       message << "The joint conditions did not converge at t = " << now.time + dt
@@ -146,64 +181,91 @@ namespace Voussoir
               << " sweeps. See entries \"Motion/Time step\" and \"Contact/Maximum iterations\".";
       throw ComputationError(message.str());
     }
-    if (!finer)
-    {
-      ContactParameters quiet = parameters;
-      quiet.write_problems = false;
-      finer = std::make_unique<Newmark>(structure, laws, quiet, .5 * dt, rule);
-      finer->halvings_left = halvings_left - 1;
-    }
     Unknowns middle = load;
     for (std::size_t k = 0; k < load.size(); ++k)
       middle[k] = .5 * (load[k] + now.load[k]);
     Vector3 middle_base;
     for (unsigned int c = 0; c < 3; ++c)
       middle_base[c] = .5 * (base_velocity[c] + now.base_velocity[c]);
-    finer->resume(now, first, largest, reference);
-    ContactResult result = finer->advance(middle, middle_base);
-    impulse = finer->impulse;
-    result += finer->advance(load, base_velocity);
+    const double   end = now.time + dt; // free of the round-off of halves
+    ContactResult  result = advance(halvings + 1, middle, middle_base);
+    const Unknowns first_half = impulse;
+    result += advance(halvings + 1, load, base_velocity);
     result.add_work(failed);
     result.path = ContactPath::smaller_step;
-    const double end = now.time + dt; // free of the round-off of halves
-    now = finer->now;
     now.time = end;
-    largest = finer->largest;
-    halved = true;
     for (std::size_t k = 0; k < impulse.size(); ++k)
-      impulse[k] += finer->impulse[k];
+      impulse[k] += first_half[k];
     return result;
   }
 
   /** One step; false when the joints do not converge: then nothing has changed. */
-  bool Newmark::step(const Unknowns &load, const Vector3 &base_velocity, ContactResult &result)
+  bool Newmark::step(Level &level, const Unknowns &load, const Vector3 &base_velocity, ContactResult &result)
+  {
+    const double dt = level.dt;
+    Unknowns     force, u_new;
+    result = solve(level, load, base_velocity, force, u_new);
+    if (!result.converged)
+      return false;
+    const double half_dt = .5 * dt; // the impulse of each pair, from the mean of its force over the step
+    for (std::size_t k = 0; k < force.size(); ++k)
+      impulse[k] = half_dt * (rule == ImpactRule::mean_force ? force[k] : now.force[k] + force[k]);
+
+    Work     work;
+    Unknowns change; // of the jumps
+    add_work_of_joints(dt, u_new, change, work);
+    move(dt, load, base_velocity, u_new, work);
+    if (!std::isfinite(work.input))
+      throw ComputationError("The displacements are not finite at t = " + std::to_string(now.time) + " s.");
+    const double kinetic_before = kinetic_energy_of_pairs();
+    if (rule != ImpactRule::none)
+      impact.correct_velocity(level.system, dt, change, now.v, impulse);
+    account(work, kinetic_before);
+
+    if (rule == ImpactRule::mean_force)
+      for (std::size_t k = 0; k < force.size(); ++k)
+        now.force[k] = .5 * force[k];
+    else if (rule == ImpactRule::none || structure.pairs.empty())
+      now.force = force;
+    else
+      now.force = impact.end_force(level.system, force, now.v, force_without_joints());
+    return true;
+  }
+
+  /** Displacements and joint forces at the end of a step; the memory of the laws, once they have converged.
+   */
+  ContactResult Newmark::solve(Level &level, const Unknowns &load, const Vector3 &base_velocity,
+                               Unknowns &force, Unknowns &u_new)
   {
     const std::size_t n_pairs = structure.pairs.size();
-    Unknowns          offset(3 * n_pairs), start(3 * n_pairs), force = now.force, memory = now.memory, u_new;
+    Unknowns          offset(3 * n_pairs), start(3 * n_pairs), memory = now.memory;
     for (std::size_t p = 0; p < n_pairs; ++p)
     {
       set(start, p, opening_and_slip(p));
       for (unsigned int c = 0; c < 3; ++c)
         offset[3 * p + c] = -reference[3 * p + c];
     }
+    force = now.force;
     if (rule == ImpactRule::mean_force)
       for (double &f : force)
         f *= 2.;
-    result = system.solve(right_hand_side(load, base_velocity), offset, start, memory, force, gap, u_new);
-    if (!result.converged)
-      return false;
-    system.commit(start, force, gap, memory);
-    now.memory.swap(memory);
+    const ContactResult result = level.system.solve(right_hand_side(level.dt, load, base_velocity), offset,
+                                                    start, memory, force, gap, u_new);
+    if (result.converged)
+    {
+      level.system.commit(start, force, gap, memory);
+      now.memory.swap(memory);
+    }
+    return result;
+  }
 
-    // The impulse of each pair, from the mean of its force over the step.
-    const double half_dt = .5 * dt;
-    for (std::size_t k = 0; k < 3 * n_pairs; ++k)
-      impulse[k] = half_dt * (rule == ImpactRule::mean_force ? force[k] : now.force[k] + force[k]);
-
-    // The work of the step: exact, since all forces enter by their means and u_new - u = dt/2 (v + v_new).
-    double   friction = 0., opening = 0.;
-    Unknowns change(3 * n_pairs); // of the jumps
-    for (std::size_t p = 0; p < n_pairs; ++p)
+  /** Work of the joint forces; @p change: of the jumps, 3 per pair [m]. All works of a step are exact, since
+   * all forces enter by their means and u_new - u = dt/2 (v + v_new). */
+  void Newmark::add_work_of_joints(const double dt, const Unknowns &u_new, Unknowns &change, Work &work) const
+  {
+    double &opening = work.opening, &friction = work.friction;
+    change.resize(3 * structure.pairs.size());
+    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
     {
       const Vector3 before = structure.jump(structure.pairs[p], now.u),
                     after = structure.jump(structure.pairs[p], u_new);
@@ -213,6 +275,12 @@ namespace Voussoir
         (c == 0 ? opening : friction) -= impulse[3 * p + c] / dt * change[3 * p + c];
       }
     }
+  }
+
+  /** The state at the end of the step, but for joint forces and impacts; the work of loads and damping. */
+  void Newmark::move(const double dt, const Unknowns &load, const Vector3 &base_velocity,
+                     const Unknowns &u_new, Work &work)
+  {
     Unknowns Ku;
     structure.multiply_stiffness(u_new, Ku);
     double  input = 0., damping = 0.;
@@ -238,34 +306,27 @@ namespace Voussoir
       damping += structure.mass_damping / dt * dot(relative, momentum);
       input -= structure.mass_damping * dot(base, momentum);
     }
+    work.input = input;
+    work.damping = damping;
     now.Ku.swap(Ku);
     now.load = load;
     now.base_velocity = base_velocity;
     now.time += dt;
-    if (!std::isfinite(input))
-      throw ComputationError("The displacements are not finite at t = " + std::to_string(now.time) + " s.");
+  }
 
-    const double kinetic_before = kinetic_energy_of_pairs();
-    if (rule != ImpactRule::none)
-      impact.correct_velocity(system, dt, change, now.v, impulse);
-    now.energy.input += input;
-    now.energy.damping += damping;
-    now.energy.friction += friction;
+  /** Books the work of a step, whose impacts took the pairs' kinetic energy from @p kinetic_before to what it
+   * is now [J]. */
+  void Newmark::account(const Work &work, const double kinetic_before)
+  {
+    now.energy.input += work.input;
+    now.energy.damping += work.damping;
+    now.energy.friction += work.friction;
     const double bond = bond_energy();
-    now.energy.impact += opening - (bond - now.energy.bond) + kinetic_before - kinetic_energy_of_pairs();
+    now.energy.impact += work.opening - (bond - now.energy.bond) + kinetic_before - kinetic_energy_of_pairs();
     now.energy.bond = bond;
     account_states();
     largest = std::max({largest, std::abs(now.energy.input), now.energy.kinetic + now.energy.added_mass,
                         first.kinetic, std::abs(now.energy.strain - first.strain), now.energy.damping});
-
-    if (rule == ImpactRule::mean_force)
-      for (std::size_t k = 0; k < 3 * n_pairs; ++k)
-        now.force[k] = .5 * force[k];
-    else if (rule == ImpactRule::none || n_pairs == 0)
-      now.force = force;
-    else
-      now.force = impact.end_force(system, force, now.v, force_without_joints());
-    return true;
   }
 
   double Newmark::kinetic_energy_of_pairs() const

@@ -65,9 +65,9 @@ namespace Voussoir
           structure.mass[node][4 * c] += model.mass[f.rock] / f.nodes.size();
   }
 
-  double ExplicitRock::add_interface_mass(Structure &structure, const double time_step) const
+  double ExplicitRock::add_interface_mass(Structure &structure, const TimeGrid &steps) const
   {
-    if (parameters.substeps == 1)
+    if (steps.substeps == 1)
       return 0.;
     std::vector<bool> is_foot(n_nodes(), false);
     for (const Foot &f : foot)
@@ -81,7 +81,7 @@ namespace Voussoir
         for (std::size_t k = K.start[f.rock]; k < K.start[f.rock + 1]; ++k)
           for (unsigned int d = 0; is_foot[K.column[k]] && d < 3; ++d)
             bound += std::abs(K.value[k][3 * c + d]);
-        const double added = .5 * time_step * time_step * bound;
+        const double added = .5 * steps.dt * steps.dt * bound;
         for (const unsigned int node : f.nodes)
           structure.mass[node][4 * c] += added / f.nodes.size();
         sum += added / 3.;
@@ -89,16 +89,14 @@ namespace Voussoir
     return sum;
   }
 
-  void ExplicitRock::start(const GroundMotion &outcrop, const double time_step, const unsigned int n_steps,
-                           const Unknowns &u)
+  void ExplicitRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
   {
     statics.reset(); // its memory
-    dt = time_step;
-    const unsigned int         m = parameters.substeps;
-    const RockRegionParameters p = region_parameters(parameters, centre, dt / m);
+    grid = steps;
+    const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
     region = make_region(model, p);
-    if (n_steps > 0) // else without an earthquake
-      shake(*region, mesh, model, p, incident_wave(outcrop), m * n_steps + 2);
+    if (grid.n > 0) // else without an earthquake
+      shake(*region, mesh, model, p, incident_wave(outcrop), grid.n_substeps() + 2);
     std::vector<unsigned int> nodes;
     for (const Foot &f : foot)
       nodes.push_back(f.rock);
@@ -117,7 +115,8 @@ namespace Voussoir
   void ExplicitRock::advance(Unknowns &load)
   {
     const Stopwatch    watch;
-    const unsigned int m = parameters.substeps;
+    const double       dt = grid.dt;
+    const unsigned int m = grid.substeps;
     const std::size_t  n = 3 * foot.size();
     const Unknowns     u_before = u_predicted, v_before = v_predicted;
     for (std::size_t i = 0; i < foot.size(); ++i)
@@ -168,7 +167,7 @@ namespace Voussoir
         u_new -= rest[k];
         account[0] += .5 * (force_before[k] + force[k]) * (u_new - u_feet[k]);
         u_feet[k] = u_new;
-        a[k] = 2. / dt * (v_new - v[k]) - a[k];
+        a[k] = 2. / grid.dt * (v_new - v[k]) - a[k];
         v[k] = v_new;
       }
     const RegionEnergy &e = energy();

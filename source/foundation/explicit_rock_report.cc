@@ -9,14 +9,13 @@
 
 namespace Voussoir
 {
-  void ExplicitRock::report(Log &log, const double time_step) const
+  void ExplicitRock::report(Log &log, const TimeGrid &steps) const
   {
     log.line("Rock      explicit: %s", in_words(parameters.rock).c_str());
     log.line("          %u nodes; boundary %s, free field by %s", n_nodes(), parameters.boundary.c_str(),
              parameters.free_field.c_str());
     const std::string warning =
-        make_boundary(parameters.boundary)
-            ->warning(region_parameters(parameters, {}, time_step / parameters.substeps));
+        make_boundary(parameters.boundary)->warning(region_parameters(parameters, {}, steps.substep()));
     if (!warning.empty())
       log.line("warning: %s", warning.c_str());
   }
@@ -30,39 +29,31 @@ namespace Voussoir
     return text.str();
   }
 
-  void ExplicitRock::add_to_summary(Json &summary, const double time_step) const
+  void ExplicitRock::add_to_summary(Json &summary, const TimeGrid &steps) const
   {
     Json json;
     json.add("nodes", n_nodes())
         .add("dofs", 3. * n_nodes())
         .add("boundary", parameters.boundary)
-        .add("time_step", time_step / parameters.substeps)
+        .add("time_step", steps.substep())
         .add("critical_time_step", dt_critical);
     if (region)
       json.add("transmitted_energy", energy().transmitted).add("energy_balance_error", balance_error());
     summary.add("rock", json);
   }
 
-  std::vector<std::string> ExplicitRock::columns() const
-  {
-    if (!region)
-      return {};
-    return {"rock_kinetic", "rock_strain",  "rock_damping", "rock_feet",
-            "transmitted",  "rock_balance", "interface"};
-  }
-
-  std::vector<double> ExplicitRock::row() const
+  std::vector<std::pair<std::string, double>> ExplicitRock::energies() const
   {
     if (!region)
       return {};
     const RegionEnergy &e = energy();
-    return {e.kinetic,
-            e.strain,
-            e.damping,
-            e.prescribed,
-            e.transmitted,
-            e.balance(),
-            e.prescribed + work_on_dam()};
+    return {{"rock_kinetic", e.kinetic},
+            {"rock_strain", e.strain},
+            {"rock_damping", e.damping},
+            {"rock_feet", e.prescribed},
+            {"transmitted", e.transmitted},
+            {"rock_balance", e.balance()},
+            {"interface", e.prescribed + work_on_dam()}};
   }
 
   double ExplicitRock::balance_error() const

@@ -14,7 +14,8 @@ namespace Voussoir
     prm.add_parameter("Model", model, "What the dam stands on. " + foundation_docs() + ".",
                       Selection(foundation_names()));
     prm.add_parameter("Young's modulus", rock.young, "Modulus of elasticity of the rock [Pa].", Double(1.));
-    prm.add_parameter("Poisson's ratio", rock.poisson, "Poisson's ratio of the rock [-].", Double(0., .45));
+    prm.add_parameter("Poisson's ratio", rock.poisson, "Poisson's ratio of the rock [-].",
+                      Double(0., largest_poisson));
     prm.add_parameter("Density", rock.density, "Density of the rock [kg/m^3].", Double(1e-3));
     prm.add_parameter("Zones", zones,
                       "Materials of zones of the rock, as \"NAME: E nu rho, NAME: E nu rho\", modulus of "

@@ -24,10 +24,10 @@ namespace Voussoir
 
     /** A run with sub-steps of the rock grows slowly without damping; tests/rock_implicit.cc: 0.1 was not
      * always enough, two sub-steps needed none. */
-    void check_substeps(const FoundationParameters &p, const double rock_dt)
+    void check_substeps(const FoundationParameters &p, const TimeGrid &steps)
     {
-      const double damping = .15 * rock_dt;
-      if (p.substeps > 2 && p.stiffness_damping < .99 * damping) // .99: the message rounds
+      const double damping = .15 * steps.substep();
+      if (steps.substeps > 2 && p.stiffness_damping < .99 * damping) // .99: the message rounds
         throw InputError(
             "More than two sub-steps (\"Foundation/Substeps\") grow slowly without damping of the rock: set "
             "\"Foundation/Stiffness damping\" to 0.15 of its time step, here " +
@@ -62,30 +62,29 @@ namespace Voussoir
     }
   }
 
-  void ExplicitRock::check(const double time_step, const unsigned int steps_per_sample) const
+  void ExplicitRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
   {
-    const double rock_dt = time_step / parameters.substeps;
+    const double rock_dt = steps.substep();
     if (!(rock_dt <= dt_critical)) // or not a number
     {
       std::ostringstream message;
       message << "The time step " << rock_dt << " s is too large for the rock: its critical time step is "
               << dt_critical << " s. Raise \"Dynamics/Steps per sample\" to "
               << std::ceil(steps_per_sample * rock_dt / dt_critical) << " or \"Foundation/Substeps\" to "
-              << std::ceil(time_step / dt_critical)
+              << std::ceil(steps.dt / dt_critical)
               << ", take larger rock elements, or less \"Foundation/Stiffness damping\".";
       throw InputError(message.str());
     }
-    check_stability(time_step);
+    check_stability(steps);
   }
 
-  void ExplicitRock::check_stability(const double time_step) const
+  void ExplicitRock::check_stability(const TimeGrid &steps) const
   {
-    const double rock_dt = time_step / parameters.substeps;
-    check_substeps(parameters, rock_dt);
-    const RockRegionParameters p = region_parameters(parameters, centre, rock_dt);
+    check_substeps(parameters, steps);
+    const RockRegionParameters p = region_parameters(parameters, centre, steps.substep());
     const auto                 boundary = make_boundary(p);
     boundary->check(p, dt_critical);
-    boundary->attach(model, centre, rock_dt);
+    boundary->attach(model, centre, steps.substep());
     std::vector<unsigned int> nodes;
     for (const Foot &f : foot)
       nodes.push_back(f.rock);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/base/error.h>
+#include <voussoir/base/names.h>
 #include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/foundation/foundation_table.h>
 #include <voussoir/foundation/massless_rock.h>
@@ -47,30 +47,19 @@ namespace Voussoir
 
   std::unique_ptr<Foundation> make_foundation(const FoundationSite &site)
   {
-    for (const FoundationRow &row : rows)
-      if (site.parameters.model == row.name)
-      {
-        std::unique_ptr<Foundation> foundation = row.make(site);
-        check_mesh(site, *foundation);
-        return foundation;
-      }
-    throw InputError("There is no foundation \"" + site.parameters.model +
-                     "\". They are: " + foundation_names() + ".");
+    const FoundationRow        &row = row_of(rows, site.parameters.model, "is no foundation", "They are:");
+    std::unique_ptr<Foundation> foundation = row.make(site);
+    check_mesh(site, *foundation);
+    return foundation;
   }
 
   std::string foundation_names()
   {
-    std::string names;
-    for (const FoundationRow &row : rows)
-      names += (names.empty() ? "" : "|") + std::string(row.name);
-    return names;
+    return names_of(rows);
   }
 
   std::string foundation_docs()
   {
-    std::string text;
-    for (const FoundationRow &row : rows)
-      text += (text.empty() ? "" : "; ") + std::string(row.name) + ": " + row.doc;
-    return text;
+    return docs_of(rows);
   }
 } // namespace Voussoir

@@ -133,7 +133,7 @@ namespace Voussoir
         add_massless_rock(parameters, mesh, dam, incompatible_modes, source, structure);
       }
 
-      void report(Log &log, double) const override
+      void report(Log &log, const TimeGrid &) const override
       {
         log.line("Rock      massless: %s", in_words(parameters.rock).c_str());
       }

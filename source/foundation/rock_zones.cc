@@ -15,7 +15,7 @@ namespace Voussoir
 
   std::map<std::string, Material> FoundationParameters::zone_materials() const
   {
-    return Voussoir::zone_materials(zones, "Foundation/Zones");
+    return Voussoir::zone_materials(zones, "Foundation/Zones", largest_poisson);
   }
 
   std::map<int, Material> FoundationParameters::materials_by_volume() const

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
+
 #include <voussoir/base/error.h>
 #include <voussoir/joints/condensed_body.h>
 
@@ -6,6 +8,7 @@
 
 #include <algorithm>
 #include <map>
+#include <new>
 #include <numeric>
 #include <string>
 
@@ -20,6 +23,37 @@ extern "C"
 
 namespace Voussoir
 {
+  namespace
+  {
+    /** What CHOLMOD says of its memory as an exception. */
+    void check_memory(const cholmod_common &common)
+    {
+      if (common.status == CHOLMOD_OUT_OF_MEMORY)
+        throw std::bad_alloc();
+      if (common.status == CHOLMOD_TOO_LARGE)
+        throw ComputationError("A monolith is too large: its factors have more than 2^31 entries. Use fewer "
+                               "elements, or more joints.");
+    }
+
+    /** A matrix of CHOLMOD that frees itself. */
+    class SparseMatrix
+    {
+    public:
+      SparseMatrix(const std::size_t n, const std::size_t n_entries, const int type, cholmod_common &common)
+          : matrix(cholmod_allocate_sparse(n, n, n_entries, 1, 1, -1, type, &common)), common(common)
+      {
+        check_memory(common);
+      }
+      SparseMatrix(const SparseMatrix &) = delete;
+      ~SparseMatrix() { cholmod_free_sparse(&matrix, &common); }
+
+      cholmod_sparse *matrix;
+
+    private:
+      cholmod_common &common;
+    };
+  } // namespace
+
   struct CondensedBody::Factor
   {
     cholmod_common  common;
@@ -44,22 +78,21 @@ namespace Voussoir
     void solve(const int system)
     {
       cholmod_solve2(system, L, b, nullptr, &x, nullptr, &work_1, &work_2, &common);
+      check_memory(common);
     }
   };
 
   namespace
   {
-    cholmod_sparse *upper_triangle(const Structure &structure, const Body &body, const double mass_factor,
-                                   const double stiffness_factor, const double dashpot_factor,
-                                   cholmod_common &common)
+    /** A of the class, its lower triangle, in the matrix @p A. */
+    void fill(const Structure &structure, const Body &body, const double mass_factor,
+              const double stiffness_factor, const double dashpot_factor, cholmod_sparse *A)
     {
       const BlockSparseMatrix &K = body.stiffness;
       const unsigned int       n = 3 * K.n_rows();
-      cholmod_sparse          *A =
-          cholmod_allocate_sparse(n, n, 9 * K.value.size() / 2 + 3 * n, 1, 1, -1, CHOLMOD_REAL, &common);
-      int    *p = static_cast<int *>(A->p), *index = static_cast<int *>(A->i);
-      double *x = static_cast<double *>(A->x);
-      int     k = 0;
+      int                     *p = static_cast<int *>(A->p), *index = static_cast<int *>(A->i);
+      double                  *x = static_cast<double *>(A->x);
+      int                      k = 0;
       // The matrix is symmetric: row by row of K's upper part is column by column of its lower part.
       for (unsigned int row = 0; row < K.n_rows(); ++row)
         for (unsigned int i = 0; i < 3; ++i)
@@ -80,7 +113,6 @@ namespace Voussoir
               }
         }
       p[n] = k;
-      return A;
     }
 
     /** A fill-reducing order in which the interface comes last. */
@@ -88,6 +120,7 @@ namespace Voussoir
     {
       std::vector<int> group(is_interface.begin(), is_interface.end()), permutation(is_interface.size());
       cholmod_camd(A, nullptr, 0, group.data(), permutation.data(), &common);
+      check_memory(common);
       return permutation;
     }
   } // namespace
@@ -96,37 +129,48 @@ namespace Voussoir
                                const double stiffness_factor, const double dashpot_factor)
       : factor(std::make_unique<Factor>())
   {
-    cholmod_common &common = factor->common;
-    cholmod_sparse *A =
-        upper_triangle(structure, body, mass_factor, stiffness_factor, dashpot_factor, common);
-    std::vector<bool> is_interface(A->nrow, false);
+    AssertIndexRange(body.first_node + body.n_nodes(), structure.n_nodes() + 1);
+    const std::size_t  n = 3 * body.n_nodes();
+    cholmod_common    &common = factor->common;
+    const SparseMatrix A(n, 9 * body.stiffness.value.size() / 2 + 3 * n, CHOLMOD_REAL, common);
+    fill(structure, body, mass_factor, stiffness_factor, dashpot_factor, A.matrix);
+    std::vector<bool> is_interface(n, false);
     for (const unsigned int node : body.interface)
       for (unsigned int c = 0; c < 3; ++c)
         is_interface[3 * node + c] = true;
 
     if (!body.interface.empty()) // otherwise CHOLMOD's own choice of orderings is the best
     {
-      std::vector<int> permutation = order(A, is_interface, common);
+      std::vector<int> permutation = order(A.matrix, is_interface, common);
       common.nmethods = 1;
       common.method[0].ordering = CHOLMOD_GIVEN;
-      factor->L = cholmod_analyze_p(A, permutation.data(), nullptr, 0, &common);
+      factor->L = cholmod_analyze_p(A.matrix, permutation.data(), nullptr, 0, &common);
     }
     else
-      factor->L = cholmod_analyze(A, &common);
-    cholmod_factorize(A, factor->L, &common);
-    cholmod_free_sparse(&A, &common);
-    cholmod_factor *L = factor->L;
+      factor->L = cholmod_analyze(A.matrix, &common);
+    check_memory(common);
+    cholmod_factorize(A.matrix, factor->L, &common);
+    check_memory(common);
+    const cholmod_factor *L = factor->L;
     if (common.status != CHOLMOD_OK || L == nullptr || L->minor < L->n)
       throw ComputationError(
           "The stiffness of monolith " + std::to_string(body.number) +
           " is not positive definite: nothing holds it (does its foot lie on the surface \"base\"?), or "
           "its elements are badly shaped.");
+    find_interface(body, is_interface);
+    copy_interface_factor();
+    factor->b = cholmod_zeros(L->n, 1, CHOLMOD_REAL, &common);
+    factor->x = cholmod_zeros(L->n, 1, CHOLMOD_REAL, &common);
+    check_memory(common);
+  }
 
-    // The interface must really stand last; the elimination tree is a chain there, so its postorder keeps it
-    // so.
-    const unsigned int n = L->n, m = 3 * body.interface.size(), first = n - m;
-    const int         *permutation = static_cast<const int *>(L->Perm);
-    tail.assign(permutation + first, permutation + n);
+  /** The interface must really stand last; the elimination tree is a chain there, so its postorder keeps it
+   * so. */
+  void CondensedBody::find_interface(const Body &body, const std::vector<bool> &is_interface)
+  {
+    const unsigned int n = factor->L->n, m = 3 * body.interface.size();
+    const int         *permutation = static_cast<const int *>(factor->L->Perm);
+    tail.assign(permutation + n - m, permutation + n);
     std::map<unsigned int, unsigned int> place;
     for (unsigned int i = 0; i < m; ++i)
     {
@@ -139,8 +183,13 @@ namespace Voussoir
     for (unsigned int i = 0; i < body.interface.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
         slot[3 * i + c] = place.at(3 * body.interface[i] + c);
+  }
 
-    // Copy L_GG out of the supernodes.
+  /** L_GG out of the supernodes. */
+  void CondensedBody::copy_interface_factor()
+  {
+    const cholmod_factor *L = factor->L;
+    const unsigned int    m = n_interface(), first = L->n - m;
     dense.assign(std::size_t(m) * m, 0.);
     const int *super = static_cast<const int *>(L->super), *pi = static_cast<const int *>(L->pi),
               *px = static_cast<const int *>(L->px), *rows = static_cast<const int *>(L->s);
@@ -153,9 +202,6 @@ namespace Voussoir
           dense[std::size_t(column - first) * m + (rows[pi[s] + i] - first)] =
               values[px[s] + std::size_t(j) * n_rows + i];
       }
-
-    factor->b = cholmod_zeros(n, 1, CHOLMOD_REAL, &common);
-    factor->x = cholmod_zeros(n, 1, CHOLMOD_REAL, &common);
   }
 
   CondensedBody::~CondensedBody() = default;
@@ -236,5 +282,47 @@ namespace Voussoir
   double CondensedBody::memory() const
   {
     return 8. * (factor->L->xsize + dense.size());
+  }
+
+  double entries_of_factor(const std::vector<std::vector<unsigned int>> &neighbours,
+                           const std::vector<bool>                      &is_interface)
+  {
+    constexpr double merged = 1.1; // CHOLMOD's supernodes hold some zeros
+    cholmod_common   common;
+    cholmod_start(&common);
+    common.print = 0;
+    common.supernodal = CHOLMOD_SIMPLICIAL;
+    std::size_t n_entries = 0;
+    for (const auto &row : neighbours)
+      n_entries += row.size();
+    const std::size_t n = neighbours.size();
+    double            entries = 0.;
+    {
+      const SparseMatrix A(n, n_entries, CHOLMOD_PATTERN, common);
+      int               *p = static_cast<int *>(A.matrix->p), *index = static_cast<int *>(A.matrix->i);
+      std::size_t        k = 0;
+      for (std::size_t row = 0; row < n; ++row)
+      {
+        p[row] = k;
+        for (const unsigned int column : neighbours[row])
+          if (column >= row)
+            index[k++] = column;
+      }
+      p[n] = k;
+      cholmod_factor *L = nullptr;
+      if (std::find(is_interface.begin(), is_interface.end(), true) != is_interface.end())
+      {
+        std::vector<int> permutation = order(A.matrix, is_interface, common);
+        common.nmethods = 1;
+        common.method[0].ordering = CHOLMOD_GIVEN;
+        L = cholmod_analyze_p(A.matrix, permutation.data(), nullptr, 0, &common);
+      }
+      else
+        L = cholmod_analyze(A.matrix, &common);
+      entries = 9. * common.lnz * merged; // of 3 x 3
+      cholmod_free_factor(&L, &common);
+    }
+    cholmod_finish(&common);
+    return entries;
   }
 } // namespace Voussoir

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
+
 #include <voussoir/base/parallel.h>
 #include <voussoir/joints/interface_operator.h>
 
@@ -21,6 +23,8 @@ namespace Voussoir
 
   std::vector<double> &InterfaceOperator::block(const unsigned int j, const unsigned int k)
   {
+    AssertIndexRange(k, n_groups());
+    AssertIndexRange(j, k + 1);
     const auto inserted = blocks.try_emplace({j, k});
     if (inserted.second)
     {
@@ -50,6 +54,7 @@ namespace Voussoir
 
   void InterfaceOperator::multiply(const Unknowns &x, Unknowns &y) const
   {
+    AssertDimension(x.size(), n());
     // A block of two joints serves both while it is in the cache; its two products are added up afterwards,
     // in the order of the blocks, so that the result does not depend on the number of threads.
     std::vector<const std::pair<const std::pair<unsigned int, unsigned int>, std::vector<double>> *> list;
@@ -114,6 +119,8 @@ namespace Voussoir
 
   void InterfaceOperator::sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const
   {
+    AssertDimension(force.size(), n());
+    AssertDimension(gap.size(), n());
     std::vector<float> change(n());
     for (const auto &groups : colours())
     {
@@ -171,6 +178,7 @@ namespace Voussoir
 
   Matrix3 InterfaceOperator::diagonal(const unsigned int pair) const
   {
+    AssertIndexRange(pair, n_pairs());
     const unsigned int group = std::upper_bound(offset.begin(), offset.end(), 3 * pair) - offset.begin() - 1;
     const std::vector<double> &b = blocks.at({group, group});
     const std::size_t          first = 3 * pair - offset[group], m = size(group);

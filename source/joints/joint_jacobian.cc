@@ -299,6 +299,32 @@ namespace Voussoir
     return iterations;
   }
 
+  namespace
+  {
+    /** Makes a column of the Hessenberg matrix triangular by the rotations of the columns before, and one of
+     * its own; applies that to the right-hand side @p g. False if the column is nothing. */
+    bool rotate(std::vector<double> &column, std::vector<double> &cosine, std::vector<double> &sine,
+                std::vector<double> &g)
+    {
+      const std::size_t k = cosine.size();
+      for (std::size_t i = 0; i < k; ++i)
+      {
+        const double t = cosine[i] * column[i] + sine[i] * column[i + 1];
+        column[i + 1] = -sine[i] * column[i] + cosine[i] * column[i + 1];
+        column[i] = t;
+      }
+      const double radius = std::hypot(column[k], column[k + 1]);
+      if (!(radius > 0.) || !std::isfinite(radius))
+        return false;
+      cosine.push_back(column[k] / radius);
+      sine.push_back(column[k + 1] / radius);
+      column[k] = radius;
+      g.push_back(-sine[k] * g[k]);
+      g[k] *= cosine[k];
+      return true;
+    }
+  } // namespace
+
   /** step += J^-1 r, until the residual is below @p target. */
   unsigned int JointJacobian::gmres(const Unknowns &r, double target, Unknowns &step) const
   {
@@ -329,22 +355,10 @@ namespace Voussoir
           w[j] -= static_cast<float>(column[i]) * v[i][j];
       }
       const double next = column[k + 1] = std::sqrt(dot(w, w));
-      for (unsigned int i = 0; i < k; ++i)
-      {
-        const double t = cosine[i] * column[i] + sine[i] * column[i + 1];
-        column[i + 1] = -sine[i] * column[i] + cosine[i] * column[i + 1];
-        column[i] = t;
-      }
-      const double radius = std::hypot(column[k], column[k + 1]);
-      if (!(radius > 0.) || !std::isfinite(radius))
+      if (!rotate(column, cosine, sine, g))
         break;
-      cosine.push_back(column[k] / radius);
-      sine.push_back(column[k + 1] / radius);
-      column[k] = radius;
       h.push_back(column);
-      g.push_back(-sine[k] * g[k]);
-      g[k] *= cosine[k];
-      breakdown = next < 1e-7 * radius;
+      breakdown = next < 1e-7 * column[k];
       for (float &x : w)
         x /= static_cast<float>(next);
       v.push_back(std::move(w));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/contact/key_law.h>
+#include <deal.II/base/exceptions.h>
+
+#include <voussoir/contact/surfaces_law.h>
 #include <voussoir/joints/joint_laws.h>
 
 #include <algorithm>
@@ -15,7 +17,7 @@ namespace Voussoir
       {
         std::vector<ContactSurface> surfaces;
         for (const Matrix3 &plane : pair.planes)
-          surfaces.push_back({plane, 0., friction, 0});
+          surfaces.push_back({plane, 0., friction});
         of_edges.push_back(std::make_unique<SurfacesLaw>(std::move(surfaces)));
         law = of_edges.back().get();
       }
@@ -33,6 +35,8 @@ namespace Voussoir
   std::vector<PairPast> PairLaws::pasts(const Unknowns &start, const ForceMeaning &meaning,
                                         const Unknowns &memory) const
   {
+    AssertDimension(start.size(), 3 * of_pair.size());
+    AssertDimension(memory.size(), n_memory());
     std::vector<PairPast> list;
     list.reserve(of_pair.size());
     for (std::size_t p = 0; p < of_pair.size(); ++p)
@@ -47,6 +51,7 @@ namespace Voussoir
 
   unsigned int PairLaws::revise(const ForceMeaning &meaning, Unknowns &force, Unknowns &memory) const
   {
+    AssertDimension(force.size(), 3 * of_pair.size());
     constexpr double            among_the_worst = .9;
     const std::vector<PairPast> past = pasts(Unknowns(force.size(), 0.), meaning, memory);
     std::vector<double>         excess(of_pair.size());
@@ -72,6 +77,8 @@ namespace Voussoir
   {
     if (!have_memory())
       return;
+    AssertDimension(force.size(), 3 * of_pair.size());
+    AssertDimension(gap.size(), 3 * of_pair.size());
     const std::vector<PairPast> past = pasts(start, meaning, memory);
     for (std::size_t p = 0; p < of_pair.size(); ++p)
       of_pair[p]->commit(get(force, p), get(gap, p), past[p], memory.data() + memory_begin(p));
@@ -81,8 +88,12 @@ namespace Voussoir
   {
     double sum = 0.;
     if (have_memory())
+    {
+      AssertDimension(gap.size(), 3 * of_pair.size());
+      AssertDimension(memory.size(), n_memory());
       for (std::size_t p = 0; p < of_pair.size(); ++p)
         sum += of_pair[p]->bond_energy(get(gap, p), area[p], memory.data() + memory_begin(p));
+    }
     return sum;
   }
 } // namespace Voussoir

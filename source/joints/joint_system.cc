@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
+
 #include <voussoir/base/parallel.h>
 #include <voussoir/joints/joint_system.h>
 
 #include <voussoir/base/error.h>
 #include <voussoir/contact/fclib_io.h>
-#include <voussoir/joints/pair_groups.h>
+#include <voussoir/joints/friction_problem.h>
 
 #include <algorithm>
 #include <chrono>
@@ -50,10 +52,10 @@ namespace Voussoir
         sides(structure.pairs.size()), W(pairs_per_joint(structure)), n_solved(parameters.first_problem)
   {
     for (const JointLaw *law : laws.of_pair)
-      if (parameters.write_problems && law->flat_friction() < 0.)
+      if (parameters.write_problems && law->flat_friction() < 0. && !law->surfaces_law())
         throw InputError(
-            "Contact/Write problems: only problems with Coulomb friction on flat joints can be written; "
-            "use the joint model FJA.");
+            "Contact/Write problems: only problems with Coulomb friction can be written; use the "
+            "joint model FJA or KSM.");
     const int                                 n_bodies = structure.bodies.size();
     std::vector<std::optional<CondensedBody>> condensed(n_bodies);
     for_each_parallel(n_bodies,
@@ -126,6 +128,10 @@ namespace Voussoir
   ContactResult JointSystem::solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
                                    Unknowns &memory, Unknowns &force, Unknowns &gap, Unknowns &u)
   {
+    AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
+    AssertDimension(offset.size(), 3 * sides.size());
+    AssertDimension(start.size(), 3 * sides.size());
+    AssertDimension(force.size(), 3 * sides.size());
     const double begin = now();
     const int    n_bodies = bodies.size();
     u.resize(load.size());
@@ -152,7 +158,7 @@ namespace Voussoir
                 b[3 * p + i] += structure.pairs[p].frame[i][c] * x;
             }
       if (parameters.write_problems && n_solved++ % parameters.write_interval == 0)
-        write_problem(b, start, force);
+        write_problem(b, start, memory, force);
       result = solve_pairs(b, start, memory, force, gap);
       for (auto &f : interface)
         std::fill(f.begin(), f.end(), 0.);
@@ -194,30 +200,27 @@ namespace Voussoir
     return total;
   }
 
-  void JointSystem::write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &force) const
+  void JointSystem::write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &memory,
+                                  const Unknowns &force) const
   {
-    FrictionProblem problem;
-    problem.W = sparse_matrix(W);
-    problem.q = b;
-    for (std::size_t p = 0; p < laws.of_pair.size(); ++p)
-    {
-      problem.mu.push_back(laws.of_pair[p]->flat_friction());
-      for (unsigned int c = 1; c < 3; ++c)
-        problem.q[3 * p + c] -= start[3 * p + c];
-    }
-    Unknowns gap;
-    W.multiply(force, gap);
-    for (std::size_t k = 0; k < gap.size(); ++k)
-      gap[k] += problem.q[k];
-    char name[40];
+    const FrictionProblem problem = friction_problem(W, laws, laws.pasts(start, meaning, memory), b);
+    char                  name[40];
     std::snprintf(name, sizeof(name), "/problem-%06u.hdf5", n_solved);
-    problem.title = "joints of a dam, gap = W force + q [m, N]";
     std::filesystem::remove(parameters.write_directory + name); // of a step that is done again
-    write_fclib(parameters.write_directory + name, problem, force, gap);
+    Unknowns guess, gap;
+    if (problem.q.size() == force.size())
+    {
+      guess = force;
+      W.multiply(force, gap);
+      for (std::size_t k = 0; k < gap.size(); ++k)
+        gap[k] += problem.q[k];
+    }
+    write_fclib(parameters.write_directory + name, problem, guess, gap);
   }
 
   void JointSystem::solve_free(const Unknowns &load, Unknowns &u)
   {
+    AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
     u.resize(load.size());
     for (unsigned int i = 0; i < bodies.size(); ++i)
     {

@@ -21,6 +21,34 @@ namespace Voussoir
     return result;
   }
 
+  BlockSparseMatrix sparse_matrix(const BlockSparseMatrix                             &W,
+                                  const std::vector<std::pair<unsigned int, Matrix3>> &surfaces)
+  {
+    std::vector<std::vector<unsigned int>> of_pair(W.n_rows());
+    for (unsigned int s = 0; s < surfaces.size(); ++s)
+      of_pair[surfaces[s].first].push_back(s);
+    std::vector<std::vector<unsigned int>> columns(surfaces.size());
+    for (unsigned int s = 0; s < surfaces.size(); ++s)
+      for (std::size_t k = W.start[surfaces[s].first]; k < W.start[surfaces[s].first + 1]; ++k)
+        columns[s].insert(columns[s].end(), of_pair[W.column[k]].begin(), of_pair[W.column[k]].end());
+    BlockSparseMatrix result(columns);
+    for (unsigned int s = 0; s < surfaces.size(); ++s)
+      for (std::size_t k = W.start[surfaces[s].first]; k < W.start[surfaces[s].first + 1]; ++k)
+        for (const unsigned int t : of_pair[W.column[k]])
+        {
+          const Matrix3 &a = surfaces[s].second, &c = surfaces[t].second;
+          Matrix3        block;
+          for (unsigned int j = 0; j < 3; ++j)
+          {
+            const Vector3 column = a * (W.value[k] * Vector3{{c[3 * j], c[3 * j + 1], c[3 * j + 2]}});
+            for (unsigned int i = 0; i < 3; ++i)
+              block[3 * i + j] = column[i];
+          }
+          result.add(s, t, block);
+        }
+    return result;
+  }
+
   InterfaceOperator make_interface_operator(const BlockSparseMatrix &W, const PairGroups &groups)
   {
     InterfaceOperator         result(groups.size);

@@ -140,6 +140,11 @@ namespace Voussoir
       {
         std::string name;
         model::getPhysicalName(3, tag, name);
+        if (!is_plain(name))
+          fail("the physical volume '" + name +
+               "' has letters that no zone can have. Use a to z, digits, blanks, '_' and '-', in the mesh "
+               "and in "
+               "the scene.");
         return zone_index(mesh, zone_of(name));
       }
 

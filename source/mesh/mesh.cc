@@ -219,6 +219,11 @@ namespace Voussoir
     return joined(words(text), 0);
   }
 
+  bool is_plain(const std::string &name)
+  {
+    return std::all_of(name.begin(), name.end(), [](const unsigned char c) { return c < 128; });
+  }
+
   unsigned int zone_index(HexMesh &mesh, const std::string &zone)
   {
     const auto found = std::find(mesh.zones.begin(), mesh.zones.end(), zone);

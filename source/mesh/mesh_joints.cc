@@ -296,6 +296,21 @@ namespace Voussoir
     return opened;
   }
 
+  HexMesh monoliths_only(const HexMesh &mesh)
+  {
+    HexMesh result = mesh;
+    result.cells.clear();
+    result.faces.clear();
+    for (const HexMesh::Cell &cell : mesh.cells)
+      if (is_monolith(cell.volume))
+        result.cells.push_back(cell);
+    for (const HexMesh::Face &face : mesh.faces)
+      if (face.surface != PhysicalId::free_surface && face.surface != PhysicalId::artificial)
+        result.faces.push_back(face);
+    normalize(result); // drops the rock's nodes
+    return result;
+  }
+
   std::vector<Joint> joints_of(const HexMesh &mesh)
   {
     const FaceTable      table(mesh);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
+
 #include <voussoir/solid/structure.h>
 
 namespace Voussoir
@@ -21,6 +23,7 @@ namespace Voussoir
 
   void Structure::multiply_stiffness(const Unknowns &u, Unknowns &Ku) const
   {
+    AssertDimension(u.size(), 3 * std::size_t(n_nodes()));
     Ku.resize(u.size());
     for (const Body &body : bodies)
       body.stiffness.multiply(u.data() + 3 * std::size_t(body.first_node),

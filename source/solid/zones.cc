@@ -41,7 +41,7 @@ namespace Voussoir
       return end == text.c_str() || *end != '\0' ? std::nan("") : x;
     }
 
-    Material material_from(const std::string &text, const std::string &what)
+    Material material_from(const std::string &text, const double largest_poisson, const std::string &what)
     {
       const std::vector<std::string> values = values_in(text);
       if (values.size() != 3)
@@ -57,8 +57,12 @@ namespace Voussoir
       if (!std::isfinite(m.young) || !(m.young > 0.))
         refuse(values[0], "the modulus of elasticity", "a positive number, in Pa");
       m.poisson = number(values[1], "-", what + ": Poisson's ratio");
-      if (!(m.poisson >= 0. && m.poisson < .5))
-        refuse(values[1], "Poisson's ratio", "from 0 to less than 0.5");
+      if (!(m.poisson >= 0. && m.poisson <= largest_poisson))
+      {
+        std::ostringstream range;
+        range << "from 0 to " << largest_poisson;
+        refuse(values[1], "Poisson's ratio", range.str());
+      }
       m.density = number(values[2], "kg/m^3", what + ": the density");
       if (!std::isfinite(m.density) || !(m.density > 0.))
         refuse(values[2], "the density", "a positive number, in kg/m^3");
@@ -66,18 +70,23 @@ namespace Voussoir
     }
   } // namespace
 
-  std::map<std::string, Material> zone_materials(const ZoneEntry &zones, const std::string &entry)
+  std::map<std::string, Material> zone_materials(const ZoneEntry &zones, const std::string &entry,
+                                                 const double largest_poisson)
   {
     std::map<std::string, Material> materials;
     for (const auto &zone : zones)
     {
       const std::string name = zone_name(zone.first),
                         what = "Entry \"" + entry + "\": zone \"" + zone.first + "\"";
+      if (!is_plain(zone.first))
+        throw InputError(what +
+                         " has letters that no zone can have. Use a to z, digits, blanks, '_' and '-', in "
+                         "the mesh and in the scene.");
       if (name.empty())
         throw InputError(what +
                          " has no name. Give it as in \"heel: 24e9 0.2 2400\"; the volumes of the zone are "
                          "called by it in the mesh, \"monolith 3 heel\" or \"rock heel\".");
-      if (!materials.emplace(name, material_from(zone.second, what)).second)
+      if (!materials.emplace(name, material_from(zone.second, largest_poisson, what)).second)
         throw InputError(what + " is named twice: case, blanks, '_' and '-' do not count. Leave one.");
     }
     return materials;

@@ -35,6 +35,7 @@ namespace Voussoir
 
   private:
     void              read_input();
+    TimeGrid          grid() const { return {motion.dt, scene.foundation.substeps, n_steps}; }
     void              report_setup();
     void              report_motion_notes();
     void              report_motion_and_warnings();
@@ -56,6 +57,11 @@ namespace Voussoir
     void              write_fields();
     void              write_results();
     void              write_summary();
+    Json              json_of_mesh() const;
+    Json              json_of_times() const;
+    Json              json_of_newton() const;
+    Json              json_of_statics() const;
+    Json              json_of_extremes() const;
     double            largest_energy() const; ///< of the dam, that has gone through [J]
     double            balance_error() const;  ///< largest |balance| of its energies, over largest_energy()
     void              check_balance() const;  ///< ComputationError where an account does not close

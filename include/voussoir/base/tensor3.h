@@ -14,7 +14,37 @@ namespace Voussoir
   using Unknowns = std::vector<double>;  ///< three components per node, node after node
 
   Matrix3 inverse(const Matrix3 &a);
-  Vector3 operator*(const Matrix3 &a, const Vector3 &x);
+
+  inline Vector3 operator*(const Matrix3 &a, const Vector3 &x)
+  {
+    return {{a[0] * x[0] + a[1] * x[1] + a[2] * x[2], a[3] * x[0] + a[4] * x[1] + a[5] * x[2],
+             a[6] * x[0] + a[7] * x[1] + a[8] * x[2]}};
+  }
+
+  inline Matrix3 times(const Matrix3 &a, const Matrix3 &b)
+  {
+    Matrix3 c;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        c[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
+    return c;
+  }
+
+  inline Matrix3 transpose(const Matrix3 &a)
+  {
+    return {{a[0], a[3], a[6], a[1], a[4], a[7], a[2], a[5], a[8]}};
+  }
+
+  /** a + factor * b. */
+  inline Matrix3 sum(const Matrix3 &a, const double factor, const Matrix3 &b)
+  {
+    Matrix3 c;
+    for (unsigned int i = 0; i < 9; ++i)
+      c[i] = a[i] + factor * b[i];
+    return c;
+  }
+
+  double determinant(const Matrix3 &a);
 
   inline double dot(const Vector3 &a, const Vector3 &b)
   {

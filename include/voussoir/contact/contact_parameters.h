@@ -19,7 +19,7 @@ namespace Voussoir
     unsigned int max_iterations = 500; ///< Newton steps in all
     unsigned int sweeps = 4;           ///< Gauss-Seidel sweeps before the first Newton step
     std::string  method = "newton";    ///< newton (with its fallbacks), proximal, sweeps
-    double       max_seconds = std::numeric_limits<double>::infinity(); ///< of wall time
+    double       max_seconds = std::numeric_limits<double>::infinity(); ///< of CPU time
     bool         write_problems = false;                                ///< in FCLib's format
     unsigned int first_problem = 0;  ///< numbers of the files begin after it
     unsigned int write_interval = 1; ///< of the problems

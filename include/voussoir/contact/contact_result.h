@@ -24,6 +24,7 @@ namespace Voussoir
     unsigned int factorisations = 0; ///< of joints
     unsigned int sweeps = 0;         ///< Gauss-Seidel sweeps
     ContactPath  path = ContactPath::newton;
+    double       force_over_load = 0.; ///< sizes, in forces; where no solution exists it grows without bound
 
     /** Add the iterations, factorisations and sweeps of another solution. */
     void add_work(const ContactResult &other);

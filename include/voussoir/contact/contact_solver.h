@@ -5,6 +5,7 @@
 #include <voussoir/contact/contact_operator.h>
 #include <voussoir/contact/contact_parameters.h>
 #include <voussoir/contact/contact_result.h>
+#include <voussoir/contact/surfaces_law.h>
 
 namespace Voussoir
 {
@@ -16,9 +17,16 @@ namespace Voussoir
    *  stalls, more sweeps follow; when it stalls again, the proximal point method, whose regularised problems
    *  W + alpha D, alpha falling with the residual, Newton solves (reference: contact, 6).
    *
+   *  Pairs that touch on several surfaces (SurfacesLaw) bring the forces of these as further unknowns, which
+   *  are eliminated pair by pair (PairSurfaces). Where their seats are rigid the problem is solved with a
+   * small compliance, 1e-3 of the pair's own flexibility, around the forces of the solution before, until
+   * these stay.
+   *
    *  Convergence is measured by the law's own error, |error|/max(|force|, |b|/w, |gap|/w) in 2-norms, w: mean
-   *  diagonal of W. For Coulomb's law this is the full relative natural-map error of Siconos on the problem
-   *  scaled to mean diagonal 1; it does not depend on units. */
+   *  diagonal of W; where forces are above 100 times the load |b|/w, by the load as far as round-off allows,
+   *  so that forces that grow without bound do not pass for a solution. For Coulomb's law this is the full
+   * relative natural-map error of Siconos on the problem scaled to mean diagonal 1; it does not depend on
+   * units. */
   class ContactSolver
   {
   public:
@@ -42,6 +50,11 @@ namespace Voussoir
     double critical_friction() const;
 
   private:
+    struct Iterate
+    {
+      Unknowns force, gap;
+      Unknowns beside; ///< forces of the surfaces beside the face, of all pairs that have them
+    };
     struct Proximal ///< regularisation: gap + alpha D (force - centre)
     {
       double   alpha = 0.;
@@ -50,22 +63,34 @@ namespace Voussoir
     struct Best
     {
       double   residual = std::numeric_limits<double>::infinity();
-      Unknowns force;
+      Unknowns force, beside;
     };
-    void         evaluate(const Unknowns &force, const Unknowns &gap);
+    struct WithSurfaces ///< a pair that touches on several surfaces
+    {
+      std::size_t        pair, begin; ///< begin: of its forces in Iterate::beside
+      const SurfacesLaw *law;
+      PairSurfaces       surfaces;
+    };
+    Iterate      first_guess(const Unknowns &b, const std::vector<PairPast> &past, Unknowns &force);
+    bool         stages(Iterate &x);
+    void         rigid_seats(Iterate &x);
+    void         regularise(double alpha, const Iterate &x);
+    void         evaluate(const Iterate &x);
     double       merit() const;
-    double       residual(const Unknowns &force, const Unknowns &gap);
-    double       checked_residual(double target, const Unknowns &force, Unknowns &gap);
+    double       residual(const Iterate &x, bool rigid = false);
+    double       checked_residual(double target, Iterate &x);
     double       forcing_term(double now, double previous, double target, bool stalls) const;
-    void         refresh_gap(const Unknowns &force, Unknowns &gap);
-    double       remember(const Unknowns &force, const Unknowns &gap); ///< if it is the best; its residual
-    bool         newton(double target, unsigned int max_steps, Unknowns &force, Unknowns &gap);
-    double       line_search(double bound, const Unknowns &step, const Unknowns &d_gap, Unknowns &force,
-                             Unknowns &gap);
-    void         sweep(unsigned int count, Unknowns &force, Unknowns &gap);
-    bool         proximal_point(Unknowns &force, Unknowns &gap);
+    void         refresh_gap(Iterate &x);
+    void         set_force(Iterate &x, const Best &from);
+    double       remember(const Iterate &x); ///< if it is the best; its residual
+    bool         newton(double target, unsigned int max_steps, unsigned int patience, Iterate &x);
+    double       newton_step(double forcing, double bound, Iterate &x);
+    double       line_search(double bound, const Iterate &step, Iterate &x);
+    void         sweep(unsigned int count, Iterate &x);
+    bool         sweeps_only(Iterate &x);
+    bool         proximal_point(Iterate &x);
     bool         out_of_time() const;
-    Vector3      shifted_gap(std::size_t pair, const Unknowns &force, const Unknowns &gap) const;
+    Vector3      shifted_gap(std::size_t pair, const Iterate &x) const;
     unsigned int steps_left() const;
 
     const ContactOperator              &W;
@@ -75,13 +100,17 @@ namespace Voussoir
     std::vector<double>                 rho;      ///< per pair [N/m]
     double                              mean_rho; ///< of the measure of convergence [N/m]
     std::vector<PairEquations>          equations;
+    std::vector<WithSurfaces>           with_surfaces;
+    std::vector<std::size_t>            number; ///< of each pair in with_surfaces, or none
     std::vector<PairState>              state;
     std::vector<unsigned char>          touch;
 
     Unknowns                     multiplied, product; ///< product = W multiplied, of the last refresh
     const Unknowns              *b = nullptr;         ///< of the present problem, as the next
     const std::vector<PairPast> *past = nullptr;
-    double                       scale = 0.; ///< of the last residual [N]
+    double                       scale = 0.;          ///< of the last residual [N]
+    double                       tolerance = 0.;      ///< of the present stage
+    double        beside_merit = 0., seat_alpha = 0.; ///< compliance of rigid seats, relative to the pair's
     double        drift = 0.; ///< of gap from W force + b, by single precision; relative, as the residual
     Proximal      proximal;
     Best          best;

@@ -41,6 +41,8 @@ namespace Voussoir
     const double *memory = nullptr;
   };
 
+  class SurfacesLaw;
+
   /** The conditions between the two faces of a joint at one pair, in the frame (n,a,b).
    *
    *  force: of side 1 on side 2 [N]; force[0] > 0 is compression. gap: displacement of side 2 against side 1
@@ -87,6 +89,9 @@ namespace Voussoir
     /** Values that the law remembers of a pair; zeros at first. */
     virtual unsigned int n_memory() const { return 0; }
 
+    /** Must the force be the mean over the step (Newmark with the rule mean-force)? */
+    virtual bool needs_mean_force() const { return false; }
+
     /** How far a solution is beyond what the pair can carry, such as its tension over its strength: above 1
      * the pair, if it is among the worst, is released, and the step is solved once more. */
     virtual double excess(const Vector3 &, const PairPast &) const { return 0.; }
@@ -98,9 +103,13 @@ namespace Voussoir
      */
     virtual void commit(const Vector3 &, const Vector3 &, const PairPast &, double *) const {}
 
-    /** Energy that the bond holds and has lost, at a gap and a committed memory [J]. @p area: tributary
-     * [m^2]. */
+    /** Energy that the bond holds and has lost (or the seats of keys hold), at a gap and a committed memory
+     * [J]. @p area: tributary [m^2]. */
     virtual double bond_energy(const Vector3 &, double, const double *) const { return 0.; }
+
+    /** The same law, if its pairs touch on several surfaces, each with a force of its own: the solver takes
+     *  these, see PairSurfaces. */
+    virtual const SurfacesLaw *surfaces_law() const { return nullptr; }
 
     /** Coefficient of friction if the law is Coulomb's on one flat face, -1 otherwise. */
     virtual double flat_friction() const { return -1.; }

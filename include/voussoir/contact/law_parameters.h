@@ -20,11 +20,12 @@ namespace Voussoir
   /** Shear keys: trapezoidal, on a flat face that opens and slides (law KSM). Subsection "Joints/Keys". */
   struct KeyParameters
   {
-    double      height = .2;        ///< of the keys [m]: an opening beyond it frees them
-    double      clearance = 0.;     ///< of each flank, normal to it [m]
-    double      flank_angle = 0.;   ///< of the flanks to the joint's normal [degrees]; 0: rectangular
-    std::string direction = "both"; ///< of slip that is restrained: radial, vertical, both
-    double      friction = -1.;     ///< of the flanks [-]; -1: that of the face
+    double      height = .2;          ///< of the keys [m]: an opening beyond it frees them
+    double      clearance = 0.;       ///< of each flank, normal to it [m]
+    double      flank_angle = 0.;     ///< of the flanks to the joint's normal [degrees]; 0: rectangular
+    std::string direction = "both";   ///< of slip that is restrained: radial, vertical, both
+    double      friction = -1.;       ///< of the flanks [-]; -1: that of the face
+    double      seat_compliance = 0.; ///< of the flanks, per area of the joint [m/Pa]; 0: rigid
   };
 
   /** What makes a joint law of its name. Section "Joints" of a scene. */

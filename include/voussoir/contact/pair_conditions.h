@@ -22,6 +22,10 @@ namespace Voussoir
   void alart_curnier(const Vector3 &force, double opening, const std::array<double, 2> &slip, double friction,
                      double rho, PairEquations &equations);
 
+  /** What a surface misses of Coulomb's law, the natural map of De Saxce: r - P(r - rho (u + mu |u_t| n)), P:
+   *  projection on the cone of friction, u: opening and slip. */
+  Vector3 natural_map(const Vector3 &force, const Vector3 &moved, double friction, double rho);
+
   /** Exact solution of Coulomb's law at one pair: gap = H force + b, gap_n >= 0, friction against the
    *  tangential gap. @p H symmetric positive definite. */
   Vector3 solve_coulomb(const Matrix3 &H, const Vector3 &b, double friction);

@@ -38,11 +38,13 @@ namespace Voussoir
     std::string                         equations = "alart-curnier";
     double                              strength = 0., fracture_energy = 0.; ///< of law cohesive [Pa], [N/m]
     KeyParameters                       keys;
-    std::map<unsigned int, std::string> overrides; ///< joint number -> model
+    double                              seat_compliance = -1.; ///< of the keys [m/Pa]; -1: 20 height/E
+    std::map<unsigned int, std::string> overrides;             ///< joint number -> model
     void                                add_parameters(dealii::ParameterHandler &prm);
     void                                check() const;
-    LawParameters                       law() const;
-    const std::string                  &model_of(const unsigned int joint) const
+    /** @p young: modulus of the concrete [Pa]. */
+    LawParameters      law(double young) const;
+    const std::string &model_of(const unsigned int joint) const
     {
       const auto found = overrides.find(joint);
       return found == overrides.end() ? model : found->second;

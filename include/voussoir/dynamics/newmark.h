@@ -51,9 +51,9 @@ namespace Voussoir
                 const Unknowns &reference);
 
     /** One step to time + dt, under @p load there. When the joints do not converge, two steps of half the
-     *  size take its place, and so on down to dt/8; then throws ComputationError. @p base_velocity: at that
-     * time, where the displacements are absolute: the mass-proportional damping acts on the velocity relative
-     * to it, as on a rigid base [m/s]. */
+     *  size take its place, and so on down to dt/8; then throws ComputationError, in a state between two
+     *  steps. @p base_velocity: at that time, where the displacements are absolute: the mass-proportional
+     *  damping acts on the velocity relative to it, as on a rigid base [m/s]. */
     ContactResult advance(const Unknowns &load, const Vector3 &base_velocity = {{0., 0., 0.}});
 
     const DynamicState &state() const { return now; }
@@ -65,37 +65,50 @@ namespace Voussoir
     Vector3 opening_and_slip(unsigned int pair) const;
 
     /** Of the last step. */
-    const std::vector<PairState> &pair_states() const
-    {
-      return halved ? finer->pair_states() : system.states();
-    }
-    const Unknowns    &impulses() const { return impulse; } ///< of the last step, 3 per pair [N s]
-    const JointSystem &joint_system() const { return system; }
+    const std::vector<PairState> &pair_states() const { return levels[last_level]->system.states(); }
+    const Unknowns               &impulses() const { return impulse; } ///< of the last step, 3 per pair [N s]
+    const JointSystem            &joint_system() const { return levels[0]->system; } ///< of whole steps
+    double memory() const; ///< of factors and joint operators, those of halved steps included [bytes]
 
   private:
-    bool          step(const Unknowns &load, const Vector3 &base_velocity, ContactResult &result);
-    ContactResult advance_in_halves(const Unknowns &load, const Vector3 &base_velocity,
+    struct Work ///< of one step [J]
+    {
+      double opening = 0., friction = 0., input = 0., damping = 0.;
+    };
+    /** What belongs to the size of a step: whole, or halved once, twice, three times. All else is shared. */
+    struct Level
+    {
+      double      dt;
+      JointSystem system;
+    };
+    void          add_level(double dt);
+    ContactResult advance(unsigned int halvings, const Unknowns &load, const Vector3 &base_velocity);
+    ContactResult advance_in_halves(unsigned int halvings, const Unknowns &load, const Vector3 &base_velocity,
                                     const ContactResult &failed);
-    Unknowns      right_hand_side(const Unknowns &load, const Vector3 &base_velocity) const;
+    bool step(Level &level, const Unknowns &load, const Vector3 &base_velocity, ContactResult &result);
+    ContactResult solve(Level &level, const Unknowns &load, const Vector3 &base_velocity, Unknowns &force,
+                        Unknowns &u_new);
+    void          add_work_of_joints(double dt, const Unknowns &u_new, Unknowns &change, Work &work) const;
+    void          move(double dt, const Unknowns &load, const Vector3 &base_velocity, const Unknowns &u_new,
+                       Work &work);
+    void          account(const Work &work, double kinetic_before);
+    Unknowns      right_hand_side(double dt, const Unknowns &load, const Vector3 &base_velocity) const;
     Unknowns      force_without_joints() const;
     double        kinetic_energy_of_pairs() const;
     double        bond_energy() const;
     void          account_states();
 
-    const Structure         &structure;
-    const JointLaws         &laws;
-    const ContactParameters  parameters;
-    const double             dt;
-    const ImpactRule         rule;
-    JointSystem              system;
-    Impact                   impact;
-    Unknowns                 reference, impulse, gap;
-    DynamicState             now;
-    Energy                   first; ///< at the start
-    double                   largest = 0.;
-    unsigned int             halvings_left = 3;
-    bool                     halved = false; ///< was the last step?
-    std::unique_ptr<Newmark> finer;          ///< with half the time step; made when it is needed
+    const Structure                    &structure;
+    const JointLaws                    &laws;
+    const ContactParameters             parameters;
+    const ImpactRule                    rule;
+    Impact                              impact;
+    Unknowns                            reference, impulse, gap;
+    DynamicState                        now;
+    Energy                              first; ///< at the start
+    double                              largest = 0.;
+    std::vector<std::unique_ptr<Level>> levels;         ///< by number of halvings; made when they are needed
+    unsigned int                        last_level = 0; ///< of the last step, or its last part
   };
 } // namespace Voussoir
 

@@ -43,9 +43,9 @@ namespace Voussoir
 
     void        add_stiffness(const SolidModel &dam, Structure &structure) override; ///< none: finds the feet
     void        add_mass(Structure &structure) const override; ///< half of it each where two monoliths stand
-    void        report(Log &log, double dt) const override;
+    void        report(Log &log, const TimeGrid &grid) const override;
     std::string about_steps() const override;
-    void        add_to_summary(Json &summary, double dt) const override;
+    void        add_to_summary(Json &summary, const TimeGrid &grid) const override;
 
     unsigned int n_nodes() const { return static_cast<unsigned int>(model.points.size()); }
     double       critical_time_step() const { return dt_critical; } ///< of the rock [s]
@@ -54,23 +54,22 @@ namespace Voussoir
     ContactResult settle(const DamSolve &solve, const Unknowns &springs, const Unknowns &u, Unknowns &load,
                          Log &log) override;
 
-    /** InputError for a step above the critical one, and for what would become unstable at the dam's step
-     * @p dt [s]: an artificial boundary with lines too short, waves too fast, Gauss points, or too near the
-     * base; a high Poisson's ratio, or more than two substeps, without enough damping. */
-    void check(double dt, unsigned int steps_per_sample) const override;
+    /** InputError for a step above the critical one, and for what would become unstable with the steps
+     * of the @p grid: an artificial boundary with lines too short, waves too fast, Gauss points, or too near
+     * the base; a high Poisson's ratio, or more than two substeps, without enough damping. */
+    void check(const TimeGrid &grid, unsigned int steps_per_sample) const override;
 
-    double  add_interface_mass(Structure &structure, double dt) const override;
-    void    start(const GroundMotion &outcrop, double dt, unsigned int n_steps, const Unknowns &u) override;
+    double  add_interface_mass(Structure &structure, const TimeGrid &grid) const override;
+    void    start(const GroundMotion &outcrop, const TimeGrid &grid, const Unknowns &u) override;
     void    advance(Unknowns &load) override;
     void    follow(const DynamicState &state) override;
     Vector3 base_velocity() const override;
     double  seconds() const override { return seconds_advancing; }
 
-    std::vector<std::string>           columns() const override;
-    std::vector<double>                row() const override;
-    double                             balance_error() const override;
-    void                               report_balance(Log &log) const override;
-    std::vector<std::vector<double> *> state() override;
+    std::vector<std::pair<std::string, double>> energies() const override;
+    double                                      balance_error() const override;
+    void                                        report_balance(Log &log) const override;
+    std::vector<std::vector<double> *>          state() override;
 
     void        watch(const GroundMotion &motion, const WatchBounds &bounds) override;
     std::string trouble_of_energy() const override;
@@ -85,7 +84,7 @@ namespace Voussoir
     double work_on_dam() const { return account[0]; }
 
   private:
-    void     check_stability(double dt) const;
+    void     check_stability(const TimeGrid &grid) const;
     void     solve_rock(const Unknowns &r, double tolerance, Unknowns &u_base, Log &log);
     Unknowns with_springs(const Unknowns &external, const Unknowns &springs, const Unknowns &base,
                           const Unknowns &r) const;
@@ -100,12 +99,13 @@ namespace Voussoir
     std::unique_ptr<ExplicitRegion> region;
     std::unique_ptr<RockStatics>    statics; ///< while the static state is looked for
     unsigned int                    n_settled = 0;
-    double                          dt = 0., dt_critical = 0.; ///< of the dam, for the rock [s]
-    double                          seconds_advancing = 0.;    ///< of wall time [s]
-    Unknowns                        rest;                      ///< of the feet [m]
-    Unknowns                        u_feet, v, a;              ///< of the feet
-    Unknowns                        force, force_before;       ///< of the rock's elements on them [N]
-    Unknowns                        u_predicted, v_predicted;  ///< for the end of the step
+    TimeGrid                        grid;
+    double                          dt_critical = 0.;         ///< for the rock [s]
+    double                          seconds_advancing = 0.;   ///< of wall time [s]
+    Unknowns                        rest;                     ///< of the feet [m]
+    Unknowns                        u_feet, v, a;             ///< of the feet
+    Unknowns                        force, force_before;      ///< of the rock's elements on them [N]
+    Unknowns                        u_predicted, v_predicted; ///< for the end of the step
     std::vector<double> account = {0., 0., 0.}; ///< work on the dam, largest energy, largest imbalance [J]
     WatchBounds         bounds;
     double              energy_bound = 0.; ///< that the rock may take in [J]

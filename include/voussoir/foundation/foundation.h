@@ -5,6 +5,7 @@
 #include <voussoir/base/log.h>
 #include <voussoir/contact/contact_result.h>
 #include <voussoir/dynamics/newmark.h>
+#include <voussoir/dynamics/time_grid.h>
 #include <voussoir/foundation/foundation_parameters.h>
 #include <voussoir/mesh/mesh.h>
 #include <voussoir/solid/solid_model.h>
@@ -63,13 +64,13 @@ namespace Voussoir
     virtual void add_stiffness(const SolidModel &, Structure &) {}
     virtual void add_mass(Structure &) const {} ///< the rock's at the base; after the inertia loads
 
-    virtual void        report(Log &, double /*dt of the dam*/) const {} ///< what it is, and warnings
+    virtual void        report(Log &, const TimeGrid &) const {} ///< what it is, and warnings
     virtual std::string about_steps() const; ///< what follows "Steps N of DT s" in the log
-    virtual void        add_to_summary(Json &, double /*dt of the dam*/) const {}
+    virtual void        add_to_summary(Json &, const TimeGrid &) const {}
 
-    /** InputError for what would become unstable at the dam's step [s], of which there are that many in a
-     * sample of the motion. */
-    virtual void check(double /*dt*/, unsigned int /*steps_per_sample*/) const {}
+    /** InputError for what would become unstable with these steps, of which there are that many of the dam in
+     * a sample of the motion. */
+    virtual void check(const TimeGrid &, unsigned int /*steps_per_sample*/) const {}
 
     /** Springs between dam and foundation for the static iteration, per component of the dam [N/m], or empty.
      */
@@ -82,10 +83,10 @@ namespace Voussoir
 
     /** Add the mass to the feet that substeps need; to be done before the dam's Newmark is made. Returns that
      * mass [kg]. */
-    virtual double add_interface_mass(Structure &, double /*dt*/) const { return 0.; }
+    virtual double add_interface_mass(Structure &, const TimeGrid &) const { return 0.; }
 
-    /** Make ready for @p n_steps of the dam of size @p dt [s] from its static displacement @p u, at rest. */
-    virtual void start(const GroundMotion &, double /*dt*/, unsigned int /*n_steps*/, const Unknowns &) {}
+    /** Make ready for these steps from the static displacement of the dam, at rest. */
+    virtual void start(const GroundMotion &, const TimeGrid &, const Unknowns & /*u*/) {}
 
     virtual void advance(Unknowns &) {} ///< its part of the next step; adds its forces to the load [N]
     virtual void follow(const DynamicState &) {} ///< the dam has made its step
@@ -94,13 +95,11 @@ namespace Voussoir
     virtual Vector3 base_velocity() const { return {}; }
     virtual double  seconds() const { return 0.; } ///< of wall time in advance()
 
-    virtual std::vector<std::string> columns() const
-    {
-      return {};
-    }                                                      ///< of the table of energies, after start()
-    virtual std::vector<double> row() const { return {}; } ///< the same now
-    virtual double              balance_error() const { return 0.; } ///< of its energies, over the largest
-    virtual void                report_balance(Log &) const {}
+    /** Its energies and works now [J], with the names of their columns in energy.csv; after start() always
+     * the same names. */
+    virtual std::vector<std::pair<std::string, double>> energies() const { return {}; }
+    virtual double balance_error() const { return 0.; } ///< of its energies, over the largest
+    virtual void   report_balance(Log &) const {}
 
     virtual std::vector<std::vector<double> *> state() { return {}; } ///< for checkpoints, after start()
 

@@ -26,6 +26,8 @@ namespace Voussoir
     unsigned int nodal_layers = 6;
     unsigned int substeps = 1; ///< of the rock in each step of the dam
 
+    static constexpr double largest_poisson = .45; ///< of rock
+
     void add_parameters(dealii::ParameterHandler &prm);
 
     /** Of the zones, by name. Throws InputError as zone_materials(). */

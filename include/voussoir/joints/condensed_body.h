@@ -23,8 +23,8 @@ namespace Voussoir
   class CondensedBody
   {
   public:
-    /** Throws ComputationError when A is not positive definite (a body that nothing holds, or bad elements).
-     */
+    /** Throws ComputationError when A is not positive definite (a body that nothing holds, or bad elements),
+     * and std::bad_alloc. */
     CondensedBody(const Structure &structure, const Body &body, double mass_factor, double stiffness_factor,
                   double dashpot_factor);
     ~CondensedBody();
@@ -51,11 +51,19 @@ namespace Voussoir
 
   private:
     struct Factor;
+    void find_interface(const Body &body, const std::vector<bool> &is_interface);
+    void copy_interface_factor();
+
     std::unique_ptr<Factor>   factor;
     std::vector<unsigned int> tail;  ///< local unknown at each interface position
     std::vector<unsigned int> slot;  ///< the inverse, by interface node and component
     std::vector<double>       dense; ///< L_GG, column by column
   };
+
+  /** Entries that the factor of a body would have, without making it: @p neighbours of each node, ascending,
+   * the node itself included; @p is_interface: nodes that come last. To a tenth. */
+  double entries_of_factor(const std::vector<std::vector<unsigned int>> &neighbours,
+                           const std::vector<bool>                      &is_interface);
 } // namespace Voussoir
 
 #endif

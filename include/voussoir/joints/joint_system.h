@@ -25,6 +25,7 @@ namespace Voussoir
     JointSystem(const Structure &structure, const PairLaws &laws, const ContactParameters &parameters,
                 double mass_factor, double stiffness_factor, double dashpot_factor,
                 ForceMeaning meaning = ForceMeaning());
+    JointSystem(const JointSystem &) = delete; // the solver knows the joint operator by its place
 
     /** @p start: gap at the start of the step, 3 per pair [m]; @p memory: of the pairs, as committed before
      * the step; receives the events of the step, after each of which it is solved once more; @p force: guess,
@@ -65,7 +66,8 @@ namespace Voussoir
     void          condense();
     ContactResult solve_pairs(const Unknowns &b, const Unknowns &start, Unknowns &memory, Unknowns &force,
                               Unknowns &gap);
-    void          write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &force) const;
+    void          write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &memory,
+                                const Unknowns &force) const;
 
     const Structure                 &structure;
     const ContactParameters          parameters;

@@ -19,6 +19,11 @@ namespace Voussoir
   /** The operator as one sparse matrix, joint after joint. */
   BlockSparseMatrix sparse_matrix(const InterfaceOperator &W);
 
+  /** W between surfaces of pairs: rows are the axes of surface k of pair p, for each entry (p, axes) of
+   *  @p surfaces, in the order of the pairs. */
+  BlockSparseMatrix sparse_matrix(const BlockSparseMatrix                             &W,
+                                  const std::vector<std::pair<unsigned int, Matrix3>> &surfaces);
+
   /** The same operator in dense blocks by group; @p W symmetric. */
   InterfaceOperator make_interface_operator(const BlockSparseMatrix &W, const PairGroups &groups);
 } // namespace Voussoir

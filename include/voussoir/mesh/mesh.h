@@ -96,6 +96,9 @@ namespace Voussoir
   /** A zone's name without what does not count in it: "Weak_layer2" is "weak layer 2". */
   std::string zone_name(const std::string &text);
 
+  /** Has a name characters of ASCII only? Others would not count in zone_name(). */
+  bool is_plain(const std::string &name);
+
   /** Index of a zone_name() in HexMesh::zones, where it is added if it is not there. */
   unsigned int zone_index(HexMesh &mesh, const std::string &zone);
 

@@ -16,6 +16,9 @@ namespace Voussoir
     int monolith_1, monolith_2; ///< monolith_1 < monolith_2
   };
 
+  /** The dam without the rock. */
+  HexMesh monoliths_only(const HexMesh &mesh);
+
   /** The mesh in which no two monoliths share a node, and the two sides of every joint are surfaces.
    *
    *  Joint j lies between monoliths j and j+1; contacts of other monoliths get the numbers from

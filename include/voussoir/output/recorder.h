@@ -5,6 +5,7 @@
 #include <voussoir/output/recorders.h>
 
 #include <functional>
+#include <utility>
 
 namespace Voussoir
 {
@@ -24,6 +25,22 @@ namespace Voussoir
     {
       table.columns.insert(table.columns.end(), names.begin(), names.end());
       sources.push_back(values);
+    }
+
+    /** Columns whose names and values @p values gives together; the names are always the same. */
+    void add_named(const std::function<std::vector<std::pair<std::string, double>>()> &values)
+    {
+      std::vector<std::string> names;
+      for (const auto &value : values())
+        names.push_back(value.first);
+      add(names,
+          [values]
+          {
+            std::vector<double> row;
+            for (const auto &value : values())
+              row.push_back(value.second);
+            return row;
+          });
     }
 
     /** The columns NAME_x, NAME_y and NAME_z. */

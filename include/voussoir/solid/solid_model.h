@@ -31,10 +31,6 @@ namespace Voussoir
     /** Number the free nodes anew; nodes with the same @p master (a node of the same body) move as one. */
     void number_equations(const std::vector<bool> &fixed, const std::vector<unsigned int> &master);
 
-    /** Make one body of all: coincident nodes on the two sides of joints 1..n_joints move as one, or only
-     * those on the base, when @p feet_only. */
-    void tie_joints(unsigned int n_joints, bool feet_only = false);
-
     bool         base_is_fixed = true;
     unsigned int n_nodes() const { return static_cast<unsigned int>(points.size()); }
     unsigned int n_bodies() const { return static_cast<unsigned int>(body_numbers.size()); }
@@ -59,6 +55,9 @@ namespace Voussoir
     std::vector<std::set<int>>    surfaces;       ///< of each node
     std::vector<unsigned int>     equation;       ///< of each node; rigid_ground where fixed
     std::vector<unsigned int>     first_equation; ///< of each body, and the number of free nodes at the end
+
+  private:
+    void find_nodes();
   };
 
   /** Bodies with stiffness and lumped mass (row sums). Degree 1: eight-node elements with incompatible modes
@@ -67,15 +66,6 @@ namespace Voussoir
    *  @p materials: one per zone of the mesh, or a single one for all. */
   Structure assemble_structure(const SolidModel &model, const std::vector<Material> &materials,
                                bool incompatible_modes);
-
-  /** The pairs of all joints 1..n_joints, in joint order: nodes of surfaces 100 + j and 200 + j that
-   * coincide, with frame {n, a, b}: n from side 1 to side 2, b upwards in the joint, a = b x n. Throws
-   * InputError for nodes that do not match. Pairs of two fixed nodes, and of nodes that
-   * move as one, are left out.
-   *
-   *  Where faces meet at an edge (their normals differ by more than 20 degrees, as at meshed shear keys) the
-   *  pair has several planes, and the frame of the one that is nearest to the joint's mean normal. */
-  std::vector<Pair> find_pairs(const SolidModel &model, unsigned int n_joints);
 } // namespace Voussoir
 
 #endif

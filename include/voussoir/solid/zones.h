@@ -17,7 +17,8 @@ namespace Voussoir
   /** Materials by zone_name(), from "24 GPa 0.2 2400 kg/m^3" or numbers in Pa, - and kg/m^3. Throws
    * InputError, naming @p entry ("Concrete/Zones") and the zone, for what is no material, and for zones that
    * are named twice. */
-  std::map<std::string, Material> zone_materials(const ZoneEntry &zones, const std::string &entry);
+  std::map<std::string, Material> zone_materials(const ZoneEntry &zones, const std::string &entry,
+                                                 double largest_poisson = .499);
 
   /** By index in @p zones (HexMesh::zones): those of @p listed, else @p own. */
   std::vector<Material> materials_of(const std::vector<std::string> &zones, const Material &own,

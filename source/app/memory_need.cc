@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/app/memory_need.h>
+#include <voussoir/joints/condensed_body.h>
+#include <voussoir/mesh/mesh_joints.h>
+#include <voussoir/mesh/mesh_source.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <new>
+#include <set>
+
+namespace Voussoir
+{
+  namespace
+  {
+    constexpr unsigned int none = static_cast<unsigned int>(-1);
+    constexpr double       block = 9 * 8. + 4.; // of a sparse matrix: 3 x 3 numbers and a column [bytes]
+
+    // Measured, see tests/program_memory.py [bytes].
+    constexpr double program = 178e6, per_cell = 700., per_node = 700., per_rock_node = 2300.;
+
+    /** The nodes of some cells, their neighbours, and which of them are in pairs. */
+    struct Graph
+    {
+      std::vector<std::vector<unsigned int>> neighbours;
+      std::vector<bool>                      is_interface;
+      std::vector<unsigned int>              place; ///< of the nodes in the mesh
+      double                                 n_blocks() const
+      {
+        double sum = 0.;
+        for (const auto &row : neighbours)
+          sum += row.size();
+        return sum;
+      }
+    };
+
+    /** Of the cells that @p counts, without the nodes that are @p held. */
+    Graph graph_of(const HexMesh &mesh, const std::function<bool(const HexMesh::Cell &)> &counts,
+                   const std::vector<bool> &held, const std::vector<bool> &in_pair)
+    {
+      Graph                     graph;
+      std::vector<unsigned int> number(mesh.nodes.size(), none);
+      for (const HexMesh::Cell &cell : mesh.cells)
+        for (unsigned int v = 0; v < 8 && counts(cell); ++v)
+          if (const unsigned int node = cell.nodes[v]; !held[node] && number[node] == none)
+          {
+            number[node] = graph.neighbours.size();
+            graph.neighbours.emplace_back();
+            graph.is_interface.push_back(in_pair[node]);
+            graph.place.push_back(node);
+          }
+      for (const HexMesh::Cell &cell : mesh.cells)
+        if (counts(cell))
+          for (const unsigned int a : cell.nodes)
+            for (const unsigned int b : cell.nodes)
+              if (number[a] != none && number[b] != none)
+              {
+                auto &row = graph.neighbours[number[a]];
+                if (std::find(row.begin(), row.end(), number[b]) == row.end())
+                  row.push_back(number[b]);
+              }
+      for (auto &row : graph.neighbours)
+        std::sort(row.begin(), row.end());
+      return graph;
+    }
+
+    /** Massless rock makes all nodes of the base neighbours. */
+    void couple(const std::vector<bool> &on_base, Graph &graph)
+    {
+      std::vector<unsigned int> base;
+      for (unsigned int i = 0; i < graph.place.size(); ++i)
+        if (on_base[graph.place[i]])
+          base.push_back(i);
+      for (const unsigned int i : base)
+      {
+        std::vector<unsigned int> &row = graph.neighbours[i];
+        row.insert(row.end(), base.begin(), base.end());
+        std::sort(row.begin(), row.end());
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+      }
+    }
+
+    std::vector<bool> nodes_on(const HexMesh &mesh, const std::function<bool(int)> &surface)
+    {
+      std::vector<bool> result(mesh.nodes.size(), false);
+      for (const HexMesh::Face &face : mesh.faces)
+        for (const unsigned int node : face.nodes)
+          result[node] = result[node] || surface(face.surface);
+      return result;
+    }
+
+    bool is_rock(const HexMesh::Cell &cell)
+    {
+      return !is_monolith(cell.volume);
+    }
+
+    /** Factors and joint operators of one size of steps, and what belongs to them. */
+    struct Factors
+    {
+      double entries = 0.;   ///< of the factors
+      double dense = 0.;     ///< of the interfaces' dense ones
+      double operators = 0.; ///< of W
+      double diagonal = 0.;  ///< of W's own blocks of the joints
+    };
+
+    /** @p m: unknowns of each joint. */
+    void add_operator(const std::vector<Joint> &joints, const std::vector<double> &m, Factors &factors)
+    {
+      for (std::size_t j = 0; j < joints.size(); ++j)
+        for (std::size_t k = j; k < joints.size(); ++k)
+        {
+          const Joint &a = joints[j], &b = joints[k];
+          if (a.monolith_1 == b.monolith_1 || a.monolith_1 == b.monolith_2 || a.monolith_2 == b.monolith_1 ||
+              a.monolith_2 == b.monolith_2)
+            factors.operators += m[j] * m[k];
+          if (j == k)
+            factors.diagonal += m[j] * m[k];
+        }
+    }
+
+    /** Unknowns of each joint: three for each node on its side 1. */
+    std::vector<double> joint_unknowns(const HexMesh &opened, const std::vector<Joint> &joints,
+                                       const std::vector<bool> &held)
+    {
+      std::vector<double> m;
+      for (const Joint &joint : joints)
+      {
+        std::set<unsigned int> nodes;
+        for (const HexMesh::Face &face : opened.faces)
+          if (face.surface == PhysicalId::joint_side_1 + joint.number)
+            for (const unsigned int node : face.nodes)
+              if (!held[node])
+                nodes.insert(node);
+        m.push_back(3. * nodes.size());
+      }
+      return m;
+    }
+
+    bool all_tied(const Scene &scene, const std::vector<Joint> &joints)
+    {
+      return std::all_of(joints.begin(), joints.end(),
+                         [&](const Joint &joint) { return scene.joints.model_of(joint.number) == "tied"; });
+    }
+
+    /** The dam: its matrices, and its factors in @p factors. */
+    double of_dam(const Scene &scene, const HexMesh &mesh, Factors &factors)
+    {
+      const HexMesh            opened = open_joints(monoliths_only(mesh));
+      const std::vector<Joint> joints = joints_of(opened);
+      const bool               tied = all_tied(scene, joints);
+      const HexMesh            dam = tied ? close_joints(opened) : opened;
+      const bool               massless = scene.foundation.model == "massless";
+      const std::vector<bool>  on_base =
+          nodes_on(dam, [](const int surface) { return surface == PhysicalId::base; });
+      const std::vector<bool> held =
+          scene.foundation.model == "rigid" ? on_base : std::vector<bool>(dam.nodes.size(), false);
+      const std::vector<bool> in_pair = nodes_on(dam, is_joint_side);
+      std::set<int>           volumes;
+      for (const HexMesh::Cell &cell : dam.cells)
+        volumes.insert(tied || massless ? 1 : cell.volume);
+      // Of elements of degree 2: nodes, blocks, entries of factors, and of what lies on surfaces squared.
+      const bool   quadratic = scene.elements.degree == 2;
+      const double nodes_2 = quadratic ? 8. : 1., blocks_2 = quadratic ? 19. : 1.,
+                   entries_2 = quadratic ? 32. : 1., surface_2 = quadratic ? 16. : 1.;
+      double n_nodes = 0., n_blocks = 0.;
+      for (const int volume : volumes)
+      {
+        Graph graph = graph_of(
+            dam, [&](const HexMesh::Cell &cell) { return volumes.size() == 1 || cell.volume == volume; },
+            held, in_pair);
+        if (massless)
+          couple(on_base, graph);
+        const double m = 3. * std::count(graph.is_interface.begin(), graph.is_interface.end(), true);
+        factors.entries += entries_2 * entries_of_factor(graph.neighbours, graph.is_interface);
+        factors.dense += surface_2 * m * m;
+        n_nodes += nodes_2 * graph.neighbours.size();
+        n_blocks += blocks_2 * graph.n_blocks();
+      }
+      if (!tied)
+        add_operator(joints, joint_unknowns(dam, joints, held), factors);
+      factors.operators *= surface_2;
+      factors.diagonal *= surface_2;
+      return 2. * block * n_blocks + per_cell * dam.cells.size() + per_node * n_nodes; // stiffness, stress
+    }
+
+    /** Massless rock, while it is condensed: its stiffness, its factor, and what is dense at the base. */
+    double of_massless_rock(const HexMesh &mesh)
+    {
+      const auto nodes = [&](const int id)
+      { return nodes_on(mesh, [&](const int surface) { return surface == id; }); };
+      const Graph  rock = graph_of(mesh, is_rock, nodes(PhysicalId::artificial), nodes(PhysicalId::base));
+      const double m = 3. * std::count(rock.is_interface.begin(), rock.is_interface.end(), true);
+      return block * rock.n_blocks() +
+             8. * (entries_of_factor(rock.neighbours, rock.is_interface) + 2. * m * m);
+    }
+
+    /** Rock with mass: its stiffness, and at the peak, the static state, multigrid levels. */
+    double of_rock(const Scene &scene, const HexMesh &mesh)
+    {
+      const std::vector<bool> no(mesh.nodes.size(), false);
+      const Graph             rock = graph_of(mesh, is_rock, no, no);
+      double                  n_blocks = rock.n_blocks();
+      if (scene.foundation.nodal_everywhere) // does not couple the ends of a cell's diagonals
+        n_blocks -= 8. * std::count_if(mesh.cells.begin(), mesh.cells.end(), is_rock);
+      return 5. * block * n_blocks + per_rock_node * rock.neighbours.size();
+    }
+  } // namespace
+
+  MemoryNeed memory_need(const Scene &scene, const HexMesh &mesh)
+  {
+    Factors      factors;
+    MemoryNeed   need;
+    const double dam = of_dam(scene, mesh, factors);
+    // Of the operator also single precision; LU factors of the joints' blocks in single precision.
+    need.halved_step =
+        8. * (factors.entries + factors.dense) + 12. * factors.operators + 4. * factors.diagonal;
+    need.run = program + dam + need.halved_step;
+    if (scene.foundation.model == "rock")
+      need.run += of_rock(scene, mesh);
+    else if (scene.foundation.model == "massless") // before the dam has factors
+      need.run = std::max(need.run, program + dam + of_massless_rock(mesh));
+    return need;
+  }
+
+  std::string in_words(const MemoryNeed &need)
+  {
+    char text[200];
+    std::snprintf(text, sizeof(text), "about %.2f GiB, and %.2f GiB more for each halving of a step",
+                  need.run / std::pow(2., 30), need.halved_step / std::pow(2., 30));
+    return text;
+  }
+
+  std::string not_enough_memory(const Scene &scene)
+  {
+    try
+    {
+      return "There is not enough memory: this scene needs " +
+             in_words(memory_need(scene, make_mesh(scene.mesh, scene.directory))) +
+             ". Use fewer elements, or a machine that has as much.";
+    }
+    catch (const std::bad_alloc &)
+    {
+      return "There is not enough memory, not even for the mesh. Use fewer elements.";
+    }
+  }
+} // namespace Voussoir

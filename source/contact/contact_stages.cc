@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The stages of a solution: sweeps, Newton's method, sweeps, proximal points.
+#include <voussoir/contact/contact_solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+namespace Voussoir
+{
+  namespace
+  {
+    /** Of the process: what ends a solution must not depend on what else the machine does [s]. */
+    double cpu_time()
+    {
+      return double(std::clock()) / CLOCKS_PER_SEC;
+    }
+
+    bool is_finite(const Unknowns &x)
+    {
+      return std::all_of(x.begin(), x.end(), [](const double y) { return std::isfinite(y); });
+    }
+
+    bool is_finite(const std::vector<PairPast> &past)
+    {
+      return std::all_of(past.begin(), past.end(),
+                         [](const PairPast &pair) { return std::isfinite(dot(pair.start, pair.start)); });
+    }
+  } // namespace
+
+  bool ContactSolver::out_of_time() const
+  {
+    return cpu_time() > deadline;
+  }
+
+  void ContactSolver::regularise(const double alpha, const Iterate &x)
+  {
+    proximal.alpha = alpha;
+    proximal.centre = x.force;
+    for (WithSurfaces &pair : with_surfaces)
+      pair.surfaces.regularise(alpha / rho[pair.pair], get(x.force, pair.pair), x.beside.data() + pair.begin);
+  }
+
+  /** Regularised problems around the last solution; superlinear, since alpha falls with the residual. */
+  bool ContactSolver::proximal_point(Iterate &x)
+  {
+    const auto here = [&]
+    {
+      regularise(0., x);
+      return remember(x);
+    };
+    double       now = here();
+    double       boost = 1., halved = now; // halved: the last residual that was half of the one before
+    unsigned int n_sweeps = 20, halved_at = result.iterations;
+    while (now > tolerance && steps_left() > 0 && !out_of_time())
+    {
+      if (best.residual < .5 * halved)
+      {
+        halved = best.residual;
+        halved_at = result.iterations;
+      }
+      // Where Coulomb's law has several solutions it may circle for ever: better a smaller step.
+      else if (!with_surfaces.empty() && result.iterations > halved_at + 60)
+        break;
+      const double alpha = std::min(1., 5. * now * boost);
+      regularise(alpha, x);
+      const bool solved = newton(std::max(.1 * now, .3 * tolerance), 50, with_surfaces.empty() ? 15 : 4, x);
+      now = here();
+      if (solved)
+        boost = std::max(1., .1 * boost);
+      else if (alpha < 1.)
+        boost *= 10.;
+      else if (steps_left() > 0) // go on from the swept iterate, better or not
+      {
+        sweep(n_sweeps, x);
+        refresh_gap(x);
+        n_sweeps = std::min(2 * n_sweeps, 2000u);
+        boost = 1.;
+        now = here();
+      }
+    }
+    return now <= tolerance;
+  }
+
+  bool ContactSolver::sweeps_only(Iterate &x)
+  {
+    result.path = ContactPath::sweeps;
+    double now = best.residual;
+    while (now > tolerance && !out_of_time() && result.sweeps < 1000 * std::size_t(parameters.max_iterations))
+    {
+      sweep(10, x);
+      refresh_gap(x);
+      now = remember(x);
+    }
+    return now <= tolerance;
+  }
+
+  /** The stages, to the present tolerance. */
+  bool ContactSolver::stages(Iterate &x)
+  {
+    if (parameters.method == "sweeps")
+      return sweeps_only(x);
+    if (parameters.method == "newton")
+    {
+      // With surfaces that share a force a Newton step that gains nothing is rarely followed by one that
+      // does.
+      const unsigned int first = with_surfaces.empty() ? 12 : 4, second = with_surfaces.empty() ? 8 : 4;
+      sweep(parameters.sweeps, x);
+      bool converged = newton(tolerance, steps_left(), first, x);
+      remember(x);
+      if (!converged)
+      {
+        result.path = std::max(result.path, ContactPath::sweeps);
+        sweep(20, x);
+        converged = newton(tolerance, steps_left(), second, x);
+        remember(x);
+      }
+      if (converged)
+        return true;
+    }
+    result.path = ContactPath::proximal;
+    if (!with_surfaces.empty()) // where there are several solutions, those found so far only mislead
+    {
+      best = Best();
+      std::fill(x.force.begin(), x.force.end(), 0.);
+      std::fill(x.beside.begin(), x.beside.end(), 0.);
+      refresh_gap(x);
+    }
+    if (parameters.method == "proximal")
+      sweep(parameters.sweeps, x);
+    return proximal_point(x);
+  }
+
+  /** The stages for pairs with rigid seats, around the forces of one solution after the other. */
+  void ContactSolver::rigid_seats(Iterate &x)
+  {
+    double       now = 1e-3; // what a compliance of 1e-3 leaves, about
+    unsigned int failures = 0;
+    for (unsigned int i = 0; i < 200 && steps_left() > 0 && !out_of_time(); ++i)
+    {
+      tolerance = std::max(.1 * now, .3 * parameters.tolerance);
+      evaluate(x);
+      if (i == 0 || !newton(tolerance, steps_left(), 4, x))
+      {
+        best = Best();
+        if (!stages(x))
+        {
+          if (++failures == 4)
+            break;
+          seat_alpha = std::min(1., 10. * seat_alpha);
+        }
+      }
+      now = residual(x, true);
+      if (now <= parameters.tolerance)
+        break;
+      for (WithSurfaces &pair : with_surfaces)
+        pair.surfaces.recentre(x.beside.data() + pair.begin, seat_alpha / rho[pair.pair]);
+    }
+    best = {now, x.force, x.beside};
+  }
+
+  ContactResult ContactSolver::solve(const Unknowns &right_hand_side, const Unknowns &start, Unknowns &force,
+                                     Unknowns &gap)
+  {
+    std::vector<PairPast> pairs;
+    for (std::size_t i = 0; i < law.size(); ++i)
+      pairs.emplace_back(get(start, i));
+    return solve(right_hand_side, pairs, force, gap);
+  }
+
+  /** Starts a solution; its first iterate is @p force, or none where nothing touches. */
+  ContactSolver::Iterate ContactSolver::first_guess(const Unknowns              &right_hand_side,
+                                                    const std::vector<PairPast> &pairs, Unknowns &force)
+  {
+    b = &right_hand_side;
+    past = &pairs;
+    result = ContactResult();
+    proximal.alpha = 0.;
+    tolerance = parameters.tolerance;
+    seat_alpha = 1e-3;
+    best = Best();
+    deadline = cpu_time() + parameters.max_seconds;
+    Iterate x;
+    x.force = force;
+    if (!is_finite(x.force))
+      x.force.assign(x.force.size(), 0.);
+    for (WithSurfaces &pair : with_surfaces)
+    {
+      pair.surfaces.start(pair.law->present(pairs[pair.pair]), rho[pair.pair], seat_alpha / rho[pair.pair]);
+      x.beside.resize(pair.begin + 3 * pair.law->n_beside());
+    }
+    refresh_gap(x);
+    return x;
+  }
+
+  ContactResult ContactSolver::solve(const Unknowns &right_hand_side, const std::vector<PairPast> &pairs,
+                                     Unknowns &force, Unknowns &gap)
+  {
+    Iterate    x = first_guess(right_hand_side, pairs, force);
+    const bool defined = is_finite(*b) && is_finite(pairs);
+    if (defined)
+    {
+      best = {residual(x, true), x.force, x.beside};
+      // Nothing touches? Newton comes close to zero forces only, which is not enough where b is zero, too.
+      const Iterate none{Unknowns(force.size(), 0.), *b, Unknowns(x.beside.size(), 0.)};
+      if (best.residual > tolerance && residual(none, true) <= tolerance)
+      {
+        x = none;
+        best = {residual(x, true), x.force, x.beside};
+      }
+    }
+    if (defined && best.residual > tolerance)
+    {
+      const bool rigid = std::any_of(with_surfaces.begin(), with_surfaces.end(),
+                                     [](const WithSurfaces &pair) { return pair.surfaces.is_regularised(); });
+      if (rigid)
+        rigid_seats(x);
+      else if (!stages(x) && std::isfinite(best.residual))
+        set_force(x, best);
+    }
+    regularise(0., x);
+    refresh_gap(x);
+    evaluate(x);
+    result.residual = residual(x, true);
+    result.converged = result.residual <= parameters.tolerance;
+    for (std::size_t i = 0; i < law.size(); ++i)
+    {
+      state[i] = equations[i].state;
+      touch[i] = equations[i].touching;
+    }
+    for (const WithSurfaces &pair : with_surfaces)
+      touch[pair.pair] =
+          pair.surfaces.touching(get(x.force, pair.pair), get(x.gap, pair.pair), touch[pair.pair]);
+    force.swap(x.force);
+    gap.swap(x.gap);
+    return result;
+  }
+} // namespace Voussoir

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/contact/surfaces_law.h>
+
+#include <voussoir/contact/fja_law.h>
+
+namespace Voussoir
+{
+  SurfacesLaw::SurfacesLaw(std::vector<ContactSurface> list)
+      : surfaces(std::move(list)), face(make_fja_law(surfaces[0].friction))
+  {
+  }
+
+  PresentSurfaces SurfacesLaw::present(const PairPast &past) const
+  {
+    PresentSurfaces result{surfaces, {}, past.start};
+    for (std::size_t k = 0; k < surfaces.size(); ++k)
+      result.bits.push_back(static_cast<unsigned char>(1u << k));
+    return result;
+  }
+
+  void SurfacesLaw::evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
+                             PairEquations &e) const
+  {
+    PairSurfaces pair;
+    pair.start(present(past), rho, 1e-3 / rho);
+    std::vector<double> beside(3 * pair.n_beside());
+    for (std::size_t k = 0; k < pair.n_beside(); ++k)
+    {
+      const Vector3 r = pair.surfaces().surfaces[k + 1].seat_force(gap, pair.surfaces().start);
+      std::copy(r.begin(), r.end(), beside.begin() + 3 * k);
+    }
+    pair.evaluate(force, gap, beside.data(), e);
+    pair.condense(e, false);
+  }
+
+  Vector3 solve_surfaces(PresentSurfaces present, const Matrix3 &H, const Vector3 &b,
+                         std::vector<double> *beside)
+  {
+    double size = norm(b) + norm(present.start);
+    for (const ContactSurface &s : present.surfaces)
+      size = std::max(size, std::abs(s.clearance));
+    const double rho = 3. / (H[0] + H[4] + H[8]), good = 1e-14 * rho * size, first = 1e-3 / rho;
+    PairSurfaces pair;
+    pair.start(std::move(present), rho, first);
+    std::vector<double> r(3 * pair.n_beside(), 0.);
+    Vector3             force{};
+    double              last = std::numeric_limits<double>::infinity();
+    for (unsigned int i = 0; i < 60; ++i)
+    {
+      force = pair.solve(H, b, 1e-14, force, r.data());
+      Vector3 gap = H * force;
+      add(gap, b);
+      const double error = std::sqrt(pair.error_square(force, gap, r.data(), rho, true));
+      if (!pair.is_regularised() || error <= good || (error <= 1e2 * good && error > .5 * last))
+        break;
+      last = error;
+      pair.recentre(r.data(), first);
+    }
+    if (beside)
+      *beside = r;
+    return force;
+  }
+
+  Vector3 SurfacesLaw::solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const
+  {
+    return solve_surfaces(present(past), H, b);
+  }
+
+  PresentSurfaces SurfacesLaw::touching_surfaces(const unsigned char touching, const bool frictionless) const
+  {
+    PresentSurfaces result;
+    for (std::size_t k = 0; k < surfaces.size(); ++k)
+      if (touching & (1u << k))
+      {
+        result.surfaces.push_back({surfaces[k].axes, 0., frictionless ? 0. : surfaces[k].friction});
+        result.bits.push_back(static_cast<unsigned char>(1u << k));
+      }
+    result.start = {};
+    return result;
+  }
+
+  Vector3 SurfacesLaw::solve_impulse(const Matrix3 &H, const Vector3 &v, const unsigned char touching) const
+  {
+    return touching ? solve_surfaces(touching_surfaces(touching, false), H, v) : Vector3{};
+  }
+
+  Vector3 SurfacesLaw::stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
+                                   const unsigned char touching) const
+  {
+    if (touching == 1)
+      return face->stop_normal(H, v, spent, touching);
+    Vector3 result = spent;
+    if (touching)
+      add(result, solve_surfaces(touching_surfaces(touching, true), H, v));
+    return result;
+  }
+
+  Vector3 SurfacesLaw::solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
+                                          const double still, const unsigned char touching) const
+  {
+    return touching == 1 ? face->solve_acceleration(H, b, slip_velocity, still, touching)
+                         : solve_impulse(H, b, touching);
+  }
+} // namespace Voussoir

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <voussoir/base/error.h>
+#include <voussoir/joints/pairs.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <sstream>
+
+namespace Voussoir
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Two coincident nodes of a joint, and the tributary area vector, from side 1 to side 2. */
+    struct NodePair
+    {
+      unsigned int              joint, node_1, node_2;
+      Tensor<1, 3>              area;
+      std::vector<Tensor<1, 3>> planes; ///< its parts, where faces meet at an edge; else empty
+    };
+
+    /** Adds the area vector of a face to the plane that it lies in, within 20 degrees. */
+    void add_to_planes(std::vector<Tensor<1, 3>> &planes, const Tensor<1, 3> &area)
+    {
+      for (Tensor<1, 3> &plane : planes)
+        if (plane * area > std::cos(20. * numbers::PI / 180.) * plane.norm() * area.norm())
+        {
+          plane += area;
+          return;
+        }
+      planes.push_back(area);
+    }
+
+    std::array<Vector3, 3> frame_of(const Tensor<1, 3> &area)
+    {
+      const Tensor<1, 3> n = area / area.norm();
+      Tensor<1, 3>       up;
+      up[std::abs(n[2]) < .9 ? 2 : 1] = 1.;
+      Tensor<1, 3> b = up - (up * n) * n;
+      b /= b.norm();
+      const Tensor<1, 3>     a = cross_product_3d(b, n);
+      std::array<Vector3, 3> frame;
+      for (unsigned int d = 0; d < 3; ++d)
+        frame[0][d] = n[d], frame[1][d] = a[d], frame[2][d] = b[d];
+      return frame;
+    }
+
+    /** The nodes of a joint: those of side 1 with their area vectors, outward from side 1, that is from side
+     * 1 to side 2, and the planes that these are made of. */
+    struct JointNodes
+    {
+      std::map<unsigned int, Tensor<1, 3>>              area;
+      std::map<unsigned int, std::vector<Tensor<1, 3>>> planes;
+      std::set<unsigned int>                            side_2;
+    };
+
+    void add_face(const FEFaceValues<3> &values, const std::vector<types::global_dof_index> &dofs,
+                  const unsigned int face, const bool is_side_2, JointNodes &nodes)
+    {
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+      {
+        if (!values.get_fe().has_support_on_face(i, face))
+          continue;
+        if (is_side_2)
+        {
+          nodes.side_2.insert(dofs[i]);
+          continue;
+        }
+        Tensor<1, 3> of_face;
+        for (const unsigned int q : values.quadrature_point_indices())
+        {
+          const Tensor<1, 3> part = values.shape_value(i, q) * values.JxW(q) * values.normal_vector(q);
+          nodes.area[dofs[i]] += part;
+          of_face += part;
+        }
+        add_to_planes(nodes.planes[dofs[i]], of_face);
+      }
+    }
+
+    std::vector<JointNodes> nodes_of_joints(const SolidModel &model, const unsigned int n_joints)
+    {
+      std::vector<JointNodes>              joints(n_joints);
+      FEFaceValues<3>                      values(model.fe, QGauss<2>(model.fe.degree + 1),
+                                                  update_values | update_normal_vectors | update_JxW_values);
+      std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+      for (const auto &cell : model.dof_handler.active_cell_iterators())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() && is_joint_side(cell->face(f)->boundary_id()))
+          {
+            const bool         is_side_2 = cell->face(f)->boundary_id() > PhysicalId::joint_side_2;
+            const unsigned int joint = cell->face(f)->boundary_id() -
+                                       (is_side_2 ? PhysicalId::joint_side_2 : PhysicalId::joint_side_1) - 1;
+            AssertThrow(joint < n_joints, ExcInternalError());
+            cell->get_dof_indices(dofs);
+            values.reinit(cell, f);
+            add_face(values, dofs, f, is_side_2, joints[joint]);
+          }
+      return joints;
+    }
+
+    /** The one of the @p candidates that lies where node @p node does, which has the area @p area. */
+    unsigned int partner_of(const unsigned int node, const double area, const SolidModel &model,
+                            const std::set<unsigned int> &candidates, const unsigned int joint)
+    {
+      const Point<3> &p = model.points[node];
+      double          distance = 1e300;
+      unsigned int    nearest = rigid_ground;
+      for (const unsigned int k : candidates)
+        if (const double d = p.distance(model.points[k]); d < distance)
+        {
+          distance = d;
+          nearest = k;
+        }
+      if (distance <= 1e-3 * std::sqrt(area))
+        return nearest;
+      std::ostringstream message;
+      message << "Joint " << joint + 1 << " of the mesh: the node at (" << p
+              << ") m on side 1 has no partner on side 2";
+      if (nearest != rigid_ground)
+        message << "; the nearest is " << distance << " m away";
+      message << ". The nodes on the two sides of a joint must coincide: mesh both monoliths with the "
+                 "same divisions.";
+      throw InputError(message.str());
+    }
+
+    std::vector<NodePair> match_joint_nodes(const SolidModel &model, const unsigned int n_joints)
+    {
+      std::vector<JointNodes> joints = nodes_of_joints(model, n_joints);
+      std::vector<NodePair>   matched;
+      for (unsigned int j = 0; j < n_joints; ++j)
+      {
+        std::set<unsigned int> &free = joints[j].side_2;
+        Tensor<1, 3>            mean;
+        for (const auto &node : joints[j].area)
+          mean += node.second;
+        for (const auto &node : joints[j].area)
+        {
+          const unsigned int partner = partner_of(node.first, node.second.norm(), model, free, j);
+          free.erase(partner);
+          std::vector<Tensor<1, 3>> &parts = joints[j].planes[node.first];
+          std::stable_sort(parts.begin(), parts.end(),
+                           [&](const Tensor<1, 3> &x, const Tensor<1, 3> &y)
+                           { return x * mean / x.norm() > y * mean / y.norm() + 1e-9 * mean.norm(); });
+          matched.push_back(
+              {j, node.first, partner, node.second, parts.size() > 1 ? parts : std::vector<Tensor<1, 3>>()});
+        }
+      }
+      return matched;
+    }
+  } // namespace
+
+  std::vector<Pair> find_pairs(const SolidModel &model, const unsigned int n_joints)
+  {
+    std::vector<Pair> pairs;
+    for (const NodePair &match : match_joint_nodes(model, n_joints))
+    {
+      Pair pair;
+      pair.node_1 = model.equation[match.node_1];
+      pair.node_2 = model.equation[match.node_2];
+      if (pair.node_1 == pair.node_2) // both fixed, or tied
+        continue;
+      const auto same = std::find_if(pairs.begin(), pairs.end(),
+                                     [&](const Pair &other) {
+                                       return other.joint == match.joint && other.node_1 == pair.node_1 &&
+                                              other.node_2 == pair.node_2;
+                                     });
+      if (same != pairs.end()) // nodes that move as one
+      {
+        same->area += match.area.norm();
+        continue;
+      }
+      pair.joint = match.joint;
+      pair.area = match.area.norm();
+      for (unsigned int d = 0; d < 3; ++d)
+        pair.place[d] = model.points[match.node_1][d];
+      pair.frame = frame_of(match.planes.empty() ? match.area : match.planes[0]);
+      if (!match.planes.empty())
+        pair.area = 0.;
+      for (const Tensor<1, 3> &plane : match.planes)
+      {
+        const std::array<Vector3, 3> axes = frame_of(plane);
+        Matrix3                      in_frame;
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int k = 0; k < 3; ++k)
+            in_frame[3 * i + k] =
+                axes[i][0] * pair.frame[k][0] + axes[i][1] * pair.frame[k][1] + axes[i][2] * pair.frame[k][2];
+        pair.planes.push_back(pair.planes.empty() ? Matrix3{{1., 0., 0., 0., 1., 0., 0., 0., 1.}} : in_frame);
+        pair.area += plane.norm();
+      }
+      pairs.push_back(pair);
+    }
+    return pairs;
+  }
+
+  void tie_joints(SolidModel &model, const unsigned int n_joints, const bool feet_only)
+  {
+    std::vector<unsigned int> master(model.n_nodes());
+    std::iota(master.begin(), master.end(), 0);
+    const auto root = [&](unsigned int i)
+    {
+      while (master[i] != i)
+        i = master[i];
+      return i;
+    };
+    for (const NodePair &match : match_joint_nodes(model, n_joints))
+    {
+      if (feet_only && !model.on_surface(match.node_1, PhysicalId::base))
+        continue;
+      const unsigned int a = root(match.node_1), b = root(match.node_2);
+      master[std::max(a, b)] = std::min(a, b);
+    }
+    std::vector<bool> fixed(model.n_nodes());
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+    {
+      master[i] = root(i);
+      if (model.on_surface(i, PhysicalId::base)) // of one monolith is enough
+        fixed[master[i]] = model.base_is_fixed;
+    }
+    std::fill(model.body.begin(), model.body.end(), 0);
+    model.body_numbers.resize(1);
+    model.number_equations(fixed, master);
+  }
+} // namespace Voussoir

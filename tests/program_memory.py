@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How much memory a run needs: what --validate says, what it takes, and what is said when there is not so much.
+
+    program_memory.py VOUSSOIR CASE...     cases: see the functions with that name below
+"""
+
+import re
+import resource
+import subprocess
+import sys
+from pathlib import Path
+
+from run_program import VOUSSOIR, expect, run_cases, runs, summary, write
+
+GIB = 2**30
+SCENE = """
+subsection Mesh
+  subsection Arch210
+    set Joints = {joints}
+    set Elements along = {along}
+    set Elements up = {up}
+    set Elements through = {through}
+    {rock}
+  end
+end
+subsection Motion
+  set Duration = 0.05
+  set Time step = 0.01
+end
+subsection Output
+  set Figures = false
+end
+{more}
+"""
+ROCK = "subsection Rock\n set Enabled = true\n set Element size = 30\n end"
+ON_ROCK = "subsection Foundation\n set Model = rock\n end\n subsection Dynamics\n set Steps per sample = 5\n end"
+
+
+def scene(name, joints, along, up, through, rock="", more=""):
+    return write(f"{name}.prm", SCENE.format(joints=joints, along=along, up=up, through=through, rock=rock, more=more))
+
+
+def estimate(text):
+    """Of a run, and more for each halving [bytes]."""
+    found = re.search(r"about ([\d.]+) GiB, and ([\d.]+) GiB more for each halving", text)
+    expect(found, f"no estimate in {text}")
+    return [float(x) * GIB for x in found.groups()]
+
+
+def estimates():
+    """To a fifth: joints, tied, elements of degree 2, on rock."""
+    for name, file in (("joints", scene("joints", 5, 60, 16, 2)), ("tied", scene("tied", 0, 60, 16, 3)),
+                       ("quadratic", scene("quadratic", 5, 30, 8, 1, more="subsection Elements\n set Degree = 2\n end")),
+                       ("rock", scene("rock", 5, 30, 10, 1, ROCK, ON_ROCK))):
+        run, halved = estimate(runs(file, "--validate"))
+        runs(file, "--output", name)
+        taken = summary(name)["memory_bytes"]
+        print(f"    {name}: estimate {run / GIB:.2f} GiB, taken {taken / GIB:.2f} GiB, ratio {run / taken:.2f}; halved {halved / GIB:.2f}")
+        expect(.8 < run / taken < 1.2, f"{name}: estimate {run}, taken {taken}")
+
+
+def shortage():
+    """Too little memory ends the run with status 1 and the estimate."""
+    file = scene("large", 5, 120, 60, 4)
+    run, _ = estimate(runs(file, "--validate"))
+    limit = int(1.5 * GIB)
+    result = subprocess.run([VOUSSOIR, file, "--output", "large"], capture_output=True, text=True, timeout=120,
+                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+    expect(run > limit, f"the scene is too small: {run}")
+    expect(result.returncode == 1 and result.stderr.startswith("voussoir: failed: There is not enough memory: this scene needs"),
+           f"status {result.returncode}: {result.stderr}")
+    expect(estimate(result.stderr)[0] == run, f"{result.stderr}")
+    expect(not Path("large", "summary.json").exists(), "it has results")
+
+
+if __name__ == "__main__":
+    run_cases(estimates, shortage)
