@@ -11,7 +11,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from run_program import VOUSSOIR, expect, run_cases, runs, summary, write
+import run_program
+from run_program import expect, run_cases, runs, summary, write
 
 GIB = 2**30
 SCENE = """
@@ -25,7 +26,7 @@ subsection Mesh
   end
 end
 subsection Motion
-  set Duration = 0.05
+  set Duration = 0.32
   set Time step = 0.01
 end
 subsection Output
@@ -64,8 +65,8 @@ def shortage():
     """Too little memory ends the run with status 1 and the estimate."""
     file = scene("large", 5, 120, 60, 4)
     run, _ = estimate(runs(file, "--validate"))
-    limit = int(1.5 * GIB)
-    result = subprocess.run([VOUSSOIR, file, "--output", "large"], capture_output=True, text=True, timeout=120,
+    limit = int(.8 * GIB)
+    result = subprocess.run([run_program.VOUSSOIR, file, "--output", "large"], capture_output=True, text=True, timeout=120,
                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
     expect(run > limit, f"the scene is too small: {run}")
     expect(result.returncode == 1 and result.stderr.startswith("voussoir: failed: There is not enough memory: this scene needs"),

@@ -76,7 +76,7 @@ def options():
         expect("set Height" in text and "subsection Keys" in text and "Overrides" not in text, text)
         expect(re.search(r"# .*Height of the shear keys \[m\]", text), text)
     rows = runs("parameters", "markdown", "Joints/Keys").splitlines()
-    expect(len(rows) == 7 and all("Joints/Keys/" in row for row in rows[2:]), f"{rows}")
+    expect(len(rows) == 8 and all("Joints/Keys/" in row for row in rows[2:]), f"{rows}")
     expect(len(runs("parameters", "markdown", "Joints/Friction").splitlines()) == 3, "a single entry")
     for entry in runs("parameters", "markdown").splitlines()[2:]:
         expect(len(re.findall(r"(?<!\\)\|", entry)) == 4, f"columns of {entry}")

@@ -170,8 +170,8 @@ namespace Voussoir
     result.force_over_load = load_size > 0. ? force_size / load_size : 0.;
     if (!std::isfinite(f + scale) || force_size > 1e8 * (load_size + round_off))
       return std::numeric_limits<double>::infinity();
-    const double against_load = std::max(
-        {1e2 * load_size, 1e-13 / parameters.tolerance * force_size, round_off / parameters.tolerance});
+    const double against_load =
+        std::max({1e2 * load_size, 1e-12 / parameters.tolerance * scale, round_off / parameters.tolerance});
     return scale > 0. ? std::sqrt(f) / std::min(scale, std::max(against_load, 1e-300)) : 0.;
   }
 

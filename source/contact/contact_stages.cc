@@ -51,7 +51,7 @@ namespace Voussoir
     };
     double       now = here();
     double       boost = 1., halved = now; // halved: the last residual that was half of the one before
-    unsigned int n_sweeps = 20, halved_at = result.iterations;
+    unsigned int n_sweeps = 20, failures = 0, halved_at = result.iterations;
     while (now > tolerance && steps_left() > 0 && !out_of_time())
     {
       if (best.residual < .5 * halved)
@@ -62,16 +62,20 @@ namespace Voussoir
       // Where Coulomb's law has several solutions it may circle for ever: better a smaller step.
       else if (!with_surfaces.empty() && result.iterations > halved_at + 60)
         break;
-      const double alpha = std::min(1., 5. * now * boost);
+      const double alpha =
+          with_surfaces.empty() ? std::min(1., 5. * now) * boost : std::min(1., 5. * now * boost);
       regularise(alpha, x);
       const bool solved = newton(std::max(.1 * now, .3 * tolerance), 50, with_surfaces.empty() ? 15 : 4, x);
       now = here();
       if (solved)
         boost = std::max(1., .1 * boost);
-      else if (alpha < 1.)
+      else if (with_surfaces.empty() ? ++failures < 4 : alpha < 1.)
         boost *= 10.;
-      else if (steps_left() > 0) // go on from the swept iterate, better or not
+      else if (steps_left() > 0)
       {
+        failures = 0;
+        if (with_surfaces.empty())
+          set_force(x, best);
         sweep(n_sweeps, x);
         refresh_gap(x);
         n_sweeps = std::min(2 * n_sweeps, 2000u);
@@ -104,15 +108,15 @@ namespace Voussoir
     {
       // With surfaces that share a force a Newton step that gains nothing is rarely followed by one that
       // does.
-      const unsigned int first = with_surfaces.empty() ? 12 : 4, second = with_surfaces.empty() ? 8 : 4;
+      const unsigned int patience = with_surfaces.empty() ? 15 : 4;
       sweep(parameters.sweeps, x);
-      bool converged = newton(tolerance, steps_left(), first, x);
+      bool converged = newton(tolerance, steps_left(), patience, x);
       remember(x);
       if (!converged)
       {
         result.path = std::max(result.path, ContactPath::sweeps);
         sweep(20, x);
-        converged = newton(tolerance, steps_left(), second, x);
+        converged = newton(tolerance, steps_left(), patience, x);
         remember(x);
       }
       if (converged)

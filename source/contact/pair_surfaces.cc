@@ -55,56 +55,47 @@ namespace Voussoir
     return force;
   }
 
+  namespace
+  {
+    /** Gives a surface the compliance @p more besides its own, around the force @p centre. */
+    void soften(ContactSurface &s, const double more, const Vector3 &centre)
+    {
+      const double total = s.compliance + more;
+      for (unsigned int c = 0; c < 3; ++c)
+        s.rest[c] = (s.compliance * s.rest[c] + more * centre[c]) / total;
+      s.compliance = total;
+    }
+  } // namespace
+
   void PairSurfaces::start(PresentSurfaces surfaces, const double new_rho, const double proximal)
   {
     present = std::move(surfaces);
     rho = new_rho;
     other.assign(n_beside(), {});
-    is_rigid.assign(n_beside(), false);
-    regularised = false;
-    for (std::size_t k = 0; k < n_beside(); ++k)
-    {
-      ContactSurface &s = present.surfaces[k + 1];
-      is_rigid[k] = s.compliance == 0.;
-      if (is_rigid[k])
-        s.compliance = proximal;
-      regularised = regularised || is_rigid[k];
-    }
-    regular = present.surfaces;
-    set_compliances();
-  }
-
-  void PairSurfaces::set_compliances()
-  {
-    for (std::size_t k = 0; k < n_beside(); ++k)
-      other[k].rho = rho / (1. + rho * regular[k + 1].compliance);
+    const Forces none{};
+    recentre(none.data(), proximal);
   }
 
   void PairSurfaces::recentre(const double *beside, const double proximal)
   {
+    seats = present.surfaces;
+    regularised = false;
     for (std::size_t k = 0; k < n_beside(); ++k)
-      if (is_rigid[k])
+      if (ContactSurface &s = seats[k + 1]; s.compliance < proximal)
       {
-        present.surfaces[k + 1].rest = get(beside, k);
-        present.surfaces[k + 1].compliance = proximal;
+        soften(s, proximal - s.compliance, get(beside, k));
+        regularised = true;
       }
-    regular = present.surfaces;
-    set_compliances();
+    regularise(0., {}, beside);
   }
 
   void PairSurfaces::regularise(const double proximal, const Vector3 &force, const double *beside)
   {
-    regular = present.surfaces;
+    regular = seats;
     for (std::size_t k = 0; k < regular.size() && proximal > 0.; ++k)
-    {
-      ContactSurface &s = regular[k];
-      const Vector3   centre = k == 0 ? s.axes * face_force(force, beside) : get(beside, k - 1);
-      const double    total = s.compliance + proximal;
-      for (unsigned int c = 0; c < 3; ++c)
-        s.rest[c] = (s.compliance * s.rest[c] + proximal * centre[c]) / total;
-      s.compliance = total;
-    }
-    set_compliances();
+      soften(regular[k], proximal, k == 0 ? seats[0].axes * face_force(force, beside) : get(beside, k - 1));
+    for (std::size_t k = 0; k < n_beside(); ++k)
+      other[k].rho = rho / (1. + rho * regular[k + 1].compliance);
   }
 
   Vector3 PairSurfaces::face_force(Vector3 force, const double *beside) const
@@ -149,8 +140,8 @@ namespace Voussoir
     const double size = norm(gap) + norm(present.start);
     for (std::size_t k = 0; k < present.surfaces.size() && carrying != 0; ++k)
     {
-      const bool   rigid = k > 0 && is_rigid[k - 1]; // its gap is what the last proximal step was
-      const double left = rigid ? 1e-6 * present.surfaces[k].compliance * norm(force) : 0.;
+      // The gap of a stiff seat is what the last proximal step was.
+      const double left = 1e-6 * (seats[k].compliance - present.surfaces[k].compliance) * norm(force);
       if (present.surfaces[k].distance(gap) <= 1e-10 * size + left)
         carrying |= present.bits[k];
     }
@@ -241,13 +232,9 @@ namespace Voussoir
     {
       const ContactSurface &s = list[k + 1];
       const Vector3         r = get(beside, k);
-      const double          compliance = rigid && is_rigid[k] ? 0. : s.compliance;
-      if (r == Vector3{} && s.distance(gap) > compliance * s.rest[0])
+      if (r == Vector3{} && s.distance(gap) > s.compliance * s.rest[0])
         continue;
-      Vector3 moved = s.movement(gap, present.start, s.rest);
-      for (unsigned int c = 0; c < 3; ++c)
-        moved[c] += compliance * (r[c] - s.rest[c]);
-      const Vector3 e = natural_map(r, moved, s.friction, mean_rho);
+      const Vector3 e = natural_map(r, s.movement(gap, present.start, r), s.friction, mean_rho);
       square += dot(e, e);
     }
     return square;

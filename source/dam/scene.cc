@@ -126,6 +126,15 @@ namespace Voussoir
               << " m, or 0 for a joint without keys, and is " << keys.height << " m.";
       throw InputError(message.str());
     }
+    // Steps begin where the one before was solved to; a stiffer seat is not told from that.
+    constexpr double stiffest = 1e-12;
+    if (seat_compliance > 0. && seat_compliance < stiffest)
+    {
+      std::ostringstream message;
+      message << "Entry \"Joints/Keys/Seat compliance\" must be at least " << stiffest
+              << " m/Pa, or 0 for rigid seats, or -1, and is " << seat_compliance << " m/Pa.";
+      throw InputError(message.str());
+    }
   }
 
   void StaticParameters::add_parameters(ParameterHandler &prm)

@@ -43,18 +43,19 @@ namespace Voussoir
    *
    *  The seats' compliance c_k makes the r_k unique, since the surfaces are more than the pair's three
    *  displacements: with it each r_k follows from g alone. So they are eliminated pair by pair, and the
-   *  linear systems have three unknowns per pair, as those of other laws. A rigid seat has a compliance that
-   *  the solver gives and takes away again: proximal points (Rockafellar 1976), rest_k: the force before. */
+   *  linear systems have three unknowns per pair, as those of other laws. A seat that is rigid, or
+   *  nearly, has a compliance that the solver gives and takes away again: proximal points (Rockafellar 1976),
+   * rest_k: the force before. */
   class PairSurfaces
   {
   public:
-    /** Starts a step. @p proximal: compliance of the seats that are rigid [m/N]. */
+    /** Starts a step. @p proximal: compliance that seats are given which have less [m/N]. */
     void start(PresentSurfaces surfaces, double rho, double proximal);
 
     /** Number of surfaces beside the face. */
     std::size_t n_beside() const { return present.surfaces.empty() ? 0 : present.surfaces.size() - 1; }
 
-    /** Is a seat rigid, its compliance for the solution only? */
+    /** Is a seat stiffer, its compliance for the solution only? */
     bool is_regularised() const { return regularised; }
 
     /** The next proximal point of the rigid seats is @p beside: the forces of the surfaces beside the face.
@@ -78,8 +79,8 @@ namespace Voussoir
      * per force [m/N]. */
     void expand(const PairEquations &e, const Vector3 &d_force, const Vector3 &d_gap, double *d_beside) const;
 
-    /** What the surfaces miss, in forces [N], squared: natural maps. @p rigid: without the proximal
-     * compliance. */
+    /** What the surfaces miss, in forces [N], squared: natural maps. @p rigid: without what the
+     *  solver gave. */
     double error_square(const Vector3 &force, const Vector3 &gap, const double *beside, double rho,
                         bool rigid) const;
 
@@ -106,14 +107,13 @@ namespace Voussoir
       Vector3       constant; ///< change of the force where the gap stays
     };
     Vector3 face_force(Vector3 force, const double *beside) const;
-    void    set_compliances();
     double  newton(const Matrix3 &H, const Vector3 &b, double scale, double accuracy, Vector3 &force,
                    Forces &beside);
     bool    face_alone(const Matrix3 &H, const Vector3 &b, Vector3 &force) const;
 
     PresentSurfaces             present;
-    std::vector<ContactSurface> regular;  ///< with the compliances of the solver
-    std::vector<bool>           is_rigid; ///< the seats
+    std::vector<ContactSurface> seats;   ///< with the compliance that stiff seats are given
+    std::vector<ContactSurface> regular; ///< with that of regularise(), too
     std::vector<Beside>         other;
     double                      rho = 0.;
     bool                        regularised = false;
