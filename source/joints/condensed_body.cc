@@ -51,7 +51,7 @@ namespace Voussoir
   {
     cholmod_sparse *upper_triangle(const Structure &structure, const Body &body, const double mass_factor,
                                    const double stiffness_factor, const double dashpot_factor,
-                                   cholmod_common &common)
+                                   const Unknowns &springs, cholmod_common &common)
     {
       const BlockSparseMatrix &K = body.stiffness;
       const unsigned int       n = 3 * K.n_rows();
@@ -75,6 +75,8 @@ namespace Voussoir
                   a += mass_factor * structure.mass[node][3 * i + j];
                 if (K.column[e] == row && i == j && !structure.dashpots.empty())
                   a += dashpot_factor * structure.dashpots[3 * node + i];
+                if (K.column[e] == row && i == j && !springs.empty())
+                  a += springs[3 * node + i];
                 index[k] = 3 * K.column[e] + j;
                 x[k++] = a;
               }
@@ -93,12 +95,13 @@ namespace Voussoir
   } // namespace
 
   CondensedBody::CondensedBody(const Structure &structure, const Body &body, const double mass_factor,
-                               const double stiffness_factor, const double dashpot_factor)
+                               const double stiffness_factor, const double dashpot_factor,
+                               const Unknowns &springs)
       : factor(std::make_unique<Factor>())
   {
     cholmod_common &common = factor->common;
     cholmod_sparse *A =
-        upper_triangle(structure, body, mass_factor, stiffness_factor, dashpot_factor, common);
+        upper_triangle(structure, body, mass_factor, stiffness_factor, dashpot_factor, springs, common);
     std::vector<bool> is_interface(A->nrow, false);
     for (const unsigned int node : body.interface)
       for (unsigned int c = 0; c < 3; ++c)
