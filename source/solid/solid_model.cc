@@ -3,12 +3,12 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q1.h>
-#include <deal.II/grid/grid_tools.h>
 
 #include <voussoir/base/error.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/solid/cell_elasticity.h>
 #include <voussoir/solid/solid_model.h>
+#include <voussoir/solid/triangulation.h>
 
 #include <algorithm>
 #include <map>
@@ -22,43 +22,14 @@ namespace Voussoir
   SolidModel::SolidModel(const HexMesh &mesh, const unsigned int degree)
       : fe(degree), dof_handler(triangulation), n_zones(mesh.zones.size())
   {
-    std::vector<Point<3>> vertices;
-    for (const auto &x : mesh.nodes)
-      vertices.emplace_back(x[0], x[1], x[2]);
-    constexpr unsigned int   lexicographic[8] = {0, 1, 3, 2, 4, 5, 7, 6};
-    std::vector<CellData<3>> cells(mesh.cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i)
-    {
-      cells[i].material_id = mesh.cells[i].volume;
-      zone.push_back(mesh.cells[i].zone); // deal.II keeps the order of the cells
-      for (unsigned int v = 0; v < 8; ++v)
-        cells[i].vertices[lexicographic[v]] = mesh.cells[i].nodes[v];
-    }
-    GridTools::consistently_order_cells(cells);
-    triangulation.create_triangulation(vertices, cells, SubCellData());
-
-    std::map<std::array<unsigned int, 4>, int> surface_of;
-    for (const HexMesh::Face &face : mesh.faces)
-    {
-      auto key = face.nodes;
-      std::sort(key.begin(), key.end());
-      surface_of[key] = face.surface;
-    }
+    std::vector<unsigned int> all(mesh.cells.size());
+    std::iota(all.begin(), all.end(), 0);
+    make_triangulation(mesh, all, triangulation);
+    for (const HexMesh::Cell &cell : mesh.cells)
+      zone.push_back(cell.zone); // deal.II keeps the order of the cells
     std::set<int> numbers;
     for (const auto &cell : triangulation.active_cell_iterators())
-    {
       numbers.insert(cell->material_id());
-      for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary())
-        {
-          std::array<unsigned int, 4> key;
-          for (unsigned int v = 0; v < 4; ++v)
-            key[v] = cell->face(f)->vertex_index(v);
-          std::sort(key.begin(), key.end());
-          const auto found = surface_of.find(key);
-          cell->face(f)->set_boundary_id(found == surface_of.end() ? 0 : found->second);
-        }
-    }
     body_numbers.assign(numbers.begin(), numbers.end());
 
     dof_handler.distribute_dofs(fe);

@@ -3,12 +3,13 @@
 #define voussoir_rock_model_h
 
 #include <voussoir/mesh/mesh.h>
-#include <voussoir/rock/rock_grid.h>
 #include <voussoir/rock/rock_parameters.h>
 #include <voussoir/solid/structure.h>
 
 namespace Voussoir
 {
+  constexpr unsigned int no_node = static_cast<unsigned int>(-1);
+
   /** A grid line from the artificial boundary inward. The first node's motion follows from the others'. */
   struct BoundaryLine
   {
@@ -21,9 +22,10 @@ namespace Voussoir
   /** A face of the artificial boundary. */
   struct BoundaryFace
   {
-    std::array<unsigned int, 4> nodes;
+    std::array<unsigned int, 4> nodes;  ///< counter-clockwise seen from outside
     Vector3                     normal; ///< outward
     double                      area;   ///< [m^2]
+    int                         volume; ///< of the cell behind it
     Material                    material;
   };
 
@@ -32,17 +34,17 @@ namespace Voussoir
   {
     std::vector<unsigned int> nodes;    ///< of the region
     std::vector<double>       z;        ///< of the nodes, ascending [m]
-    std::vector<Material>     material; ///< between the nodes
+    std::vector<Material>     material; ///< between the nodes; between two rocks the mean of their moduli
+                                        ///< and densities by the areas of the cells, as they move together
   };
 
-  /** The finite element model of the rock. Node numbers are the region's own unless said otherwise. */
+  /** The finite element model of the rock. Nodes are numbered in the mesh's order of those of the rock. */
   struct RockModel
   {
     std::vector<unsigned int>          node;      ///< of each mesh node, no_node if it is not in the rock
     std::vector<std::array<double, 3>> points;    ///< places of the nodes [m]
     BlockSparseMatrix                  stiffness; ///< [N/m]
     std::vector<double>                mass;      ///< lumped, of each node [kg]
-    std::vector<unsigned int>          layer;     ///< of each mesh cell from the artificial boundary, from 1
     std::vector<BoundaryLine>          lines;     ///< one for each node of the artificial boundary
     std::vector<BoundaryFace>          faces;     ///< of the artificial boundary
     std::vector<RockColumn>            columns;   ///< along side faces; at least one
@@ -59,8 +61,11 @@ namespace Voussoir
   /** Model of the cells of @p mesh whose volumes have a material. @p master: mesh nodes with the same master
    * move as one (a two-dimensional problem is one layer of cells, tied); empty if there are none.
    *
+   * Trilinear elements of deal.II; masses are row sums of 2x2x2 Gauss points.
+   *
    * Lines: side faces come before the bottom, and those across x before those across y, so a node on an edge
-   * has the line that is normal to the first of its faces. InputError if the grid has no lines. */
+   * has the line that is normal to the first of its faces, and that face's rock. Of stacks of cells that
+   * begin with the same edge, lines and columns follow the longest. */
   RockModel make_rock_model(const HexMesh &mesh, const RockParameters &parameters,
                             const std::vector<unsigned int> &master = {});
 } // namespace Voussoir
