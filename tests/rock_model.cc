@@ -182,6 +182,10 @@ namespace
         std::reverse(mesh.cells.begin(), mesh.cells.end());
       const RockModel model = make_rock_model(mesh, p);
       expect(model.columns.size() == 3, "three columns");
+      for (const BoundaryLine &line : model.lines)
+        if (const Vector3 &x = model.points[line.nodes[0]]; x[0] == 1. && x[1] == 0. && x[2] == 1.)
+          expect_close(line.c_s, std::sqrt((.25 * 1. + .75 * 4. / 2.2) / (.25 * 1. + .75 * 5.)), 1e-13,
+                       "speed between two rocks");
       for (const RockColumn &column : model.columns)
       {
         const double    x = model.points[column.nodes[0]][0];

@@ -118,46 +118,11 @@ namespace Voussoir
       model.stiffness.symmetrise();
     }
 
-    void find_lines(const RockGrid &grid, const std::vector<ArtificialFace> &faces,
-                    const RockParameters &parameters, RockModel &model)
-    {
-      constexpr std::size_t     longest = 9; // nodes, for order 4
-      std::vector<unsigned int> line_of(grid.n_nodes(), no_node);
-      for (const ArtificialFace &face : faces)
-        for (const unsigned int corner : face.corners)
-        {
-          const InwardLine found = inward_line(grid, face, corner, longest);
-          unsigned int    &k = line_of[found.nodes[0]];
-          if (k == no_node)
-          {
-            k = model.lines.size();
-            const Material &material = parameters.materials.at(face.cell->material_id());
-            BoundaryLine    line;
-            line.c_p = p_wave_speed(material);
-            line.c_s = s_wave_speed(material);
-            line.distance = norm(model.points[found.nodes[0]] - parameters.centre);
-            model.lines.push_back(line);
-          }
-          BoundaryLine &line = model.lines[k];
-          if (!line.nodes.empty() &&
-              (found.nodes[1] != line.nodes[1] || found.nodes.size() <= line.nodes.size()))
-            continue;
-          line.nodes = found.nodes;
-          line.position.assign(1, 0.);
-          for (std::size_t i = 1; i < found.places.size(); ++i)
-            line.position.push_back(line.position.back() + found.places[i].distance(found.places[i - 1]));
-        }
-    }
+    /** Rocks side by side, with the areas of their cells [m^2]. */
+    using Rocks = std::vector<std::pair<Material, double>>;
 
-    /** A stack of cells on a face of the bottom, seen at one of its lines. */
-    struct Stack
-    {
-      InwardLine line;
-      double     area; ///< of the face [m^2]
-    };
-
-    /** That of several rocks side by side which move together. */
-    Material mean(const std::vector<std::pair<Material, double>> &materials)
+    /** That of several rocks which move together: moduli and density by area. */
+    Material mean(const Rocks &materials)
     {
       const Material &first = materials[0].first;
       bool            is_one = true;
@@ -181,6 +146,51 @@ namespace Voussoir
       return result;
     }
 
+    void find_lines(const RockGrid &grid, const std::vector<ArtificialFace> &faces,
+                    const RockParameters &parameters, RockModel &model)
+    {
+      constexpr std::size_t     longest = 9; // nodes, for order 4
+      std::vector<unsigned int> line_of(grid.n_nodes(), no_node);
+      std::vector<Rocks>        rocks; // around each line
+      const dealii::Point<3>    centre(parameters.centre[0], parameters.centre[1], parameters.centre[2]);
+      for (const ArtificialFace &face : faces)
+        for (const unsigned int corner : face.corners)
+        {
+          const InwardLine found = inward_line(grid, face, corner, longest);
+          unsigned int    &k = line_of[found.nodes[0]];
+          if (k == no_node)
+          {
+            k = model.lines.size();
+            model.lines.emplace_back();
+            rocks.emplace_back();
+          }
+          BoundaryLine &line = model.lines[k];
+          line.distance = std::max(line.distance, found.places[0].distance(centre));
+          if (line.nodes.empty() || found.nodes[1] == line.nodes[1])
+            rocks[k].emplace_back(parameters.materials.at(face.cell->material_id()), face.area);
+          if (!line.nodes.empty() &&
+              (found.nodes[1] != line.nodes[1] || found.nodes.size() <= line.nodes.size()))
+            continue;
+          line.nodes = found.nodes;
+          line.position.assign(1, 0.);
+          for (std::size_t i = 1; i < found.places.size(); ++i)
+            line.position.push_back(line.position.back() + found.places[i].distance(found.places[i - 1]));
+        }
+      for (unsigned int k = 0; k < rocks.size(); ++k)
+      {
+        const Material material = mean(rocks[k]);
+        model.lines[k].c_p = p_wave_speed(material);
+        model.lines[k].c_s = s_wave_speed(material);
+      }
+    }
+
+    /** A stack of cells on a face of the bottom, seen at one of its lines. */
+    struct Stack
+    {
+      InwardLine line;
+      double     area; ///< of the face [m^2]
+    };
+
     RockColumn column_of(const std::vector<Stack> &stacks, const RockParameters &parameters)
     {
       const auto by_length = [](const Stack &a, const Stack &b)
@@ -193,7 +203,7 @@ namespace Voussoir
         column.z.push_back(longest.places[k][2]);
         if (k == 0)
           continue;
-        std::vector<std::pair<Material, double>> beside;
+        Rocks beside;
         for (const Stack &stack : stacks)
           if (const auto &nodes = stack.line.nodes;
               k < nodes.size() && nodes[k - 1] == longest.nodes[k - 1] && nodes[k] == longest.nodes[k])

@@ -53,6 +53,7 @@ namespace Voussoir
     for (const unsigned int q : mass_values.quadrature_point_indices())
       for (unsigned int i = 0; i < n; ++i)
         mass[i] += material.density * mass_values.shape_value(i, q) * mass_values.JxW(q);
+    const Tensor<1, 3>        zero;
     std::vector<Tensor<1, 3>> gradient(n_all);
     for (const unsigned int q : values.quadrature_point_indices())
     {
@@ -65,7 +66,9 @@ namespace Voussoir
         for (unsigned int j = 0; j <= i; ++j)
         {
           const Tensor<1, 3> &g = gradient[i], &h = gradient[j];
-          const double        gh = mu * (g * h);
+          if (g == zero || h == zero) // most are at nodes
+            continue;
+          const double gh = mu * (g * h);
           for (unsigned int a = 0; a < 3; ++a)
             for (unsigned int b = 0; b < 3; ++b)
               stiffness[i * n_all + j][3 * a + b] +=

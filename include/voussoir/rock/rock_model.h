@@ -10,13 +10,14 @@ namespace Voussoir
 {
   constexpr unsigned int no_node = static_cast<unsigned int>(-1);
 
-  /** A grid line from the artificial boundary inward. The first node's motion follows from the others'. */
+  /** A grid line from the artificial boundary inward. The first node's motion follows from the others'. The
+   * source is where the scattered waves come from (RockParameters::centre). */
   struct BoundaryLine
   {
     std::vector<unsigned int> nodes;              ///< of the region; nodes[0] lies on the boundary
     std::vector<double>       position;           ///< of the nodes, distance from nodes[0] along the line [m]
     double                    c_p = 0., c_s = 0.; ///< wave speeds of the rock at nodes[0] [m/s]
-    double                    distance = 0.;      ///< of nodes[0] from the source of the scattered waves [m]
+    double                    distance = 0.;      ///< of nodes[0], tied: the farthest, from the source [m]
   };
 
   /** A face of the artificial boundary. */
@@ -34,8 +35,7 @@ namespace Voussoir
   {
     std::vector<unsigned int> nodes;    ///< of the region
     std::vector<double>       z;        ///< of the nodes, ascending [m]
-    std::vector<Material>     material; ///< between the nodes; between two rocks the mean of their moduli
-                                        ///< and densities by the areas of the cells, as they move together
+    std::vector<Material>     material; ///< between the nodes
   };
 
   /** The finite element model of the rock. Nodes are numbered in the mesh's order of those of the rock. */
@@ -64,8 +64,9 @@ namespace Voussoir
    * Trilinear elements of deal.II; masses are row sums of 2x2x2 Gauss points.
    *
    * Lines: side faces come before the bottom, and those across x before those across y, so a node on an edge
-   * has the line that is normal to the first of its faces, and that face's rock. Of stacks of cells that
-   * begin with the same edge, lines and columns follow the longest. */
+   * has the line that is normal to the first of its faces. Of stacks of cells that begin with the same edge,
+   * lines and columns follow the longest. Between two rocks they have the mean of their moduli and densities,
+   * by the areas of the faces behind which the stacks lie. */
   RockModel make_rock_model(const HexMesh &mesh, const RockParameters &parameters,
                             const std::vector<unsigned int> &master = {});
 } // namespace Voussoir
