@@ -64,7 +64,7 @@ namespace
         const RockModel model = make_rock_model(mesh, p.rock);
         auto            region = make_region(model, p);
         shake(
-            *region, mesh, model, p,
+            *region, model, p,
             [](const double t) -> Vector3 {
               return {{ricker(t, .05, 30.), 0., 0.}};
             },

@@ -216,7 +216,7 @@ namespace Benchmarks
       p.boundary_maker = plane_viscous_spring;
     const auto region = make_region(model, p);
     shake(
-        *region, grid.mesh, model, p,
+        *region, model, p,
         [=](const double t)
         {
           Vector3 u{};

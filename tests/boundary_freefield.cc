@@ -46,11 +46,11 @@ namespace
   {
     const RockModel model = make_rock_model(mesh, p.rock);
     auto            region = make_region(model, p);
-    shake(*region, mesh, model, p, pulse, n_steps);
+    shake(*region, model, p, pulse, n_steps);
     region->keep_energy();
 
     // The same free field once more, at all nodes.
-    const auto                field = make_free_field(mesh, model, p, pulse, n_steps);
+    const auto                field = make_free_field(model, p, pulse, n_steps);
     std::vector<unsigned int> all(model.points.size());
     for (unsigned int i = 0; i < all.size(); ++i)
       all[i] = i;
@@ -233,7 +233,7 @@ namespace
     const HexMesh   mesh = box({12, 20, 14}, open_box, valley);
     const RockModel model = make_rock_model(mesh, p.rock);
     auto            region = make_region(model, p);
-    shake(*region, mesh, model, p, pulse, 900);
+    shake(*region, model, p, pulse, 900);
     // Prismatic: the motion depends on y and z only.
     double error = 0., peak = 0.;
     for (unsigned int i = 0; i < 900; ++i)

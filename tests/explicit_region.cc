@@ -40,11 +40,10 @@ namespace
     return {{ricker(t, .1, 15.), .5 * ricker(t, .08, 16.), ricker(t, .07, 17.)}};
   }
 
-  std::unique_ptr<ExplicitRegion> shaken(const RockModel &model, const HexMesh &mesh,
-                                         const RockRegionParameters &p)
+  std::unique_ptr<ExplicitRegion> shaken(const RockModel &model, const RockRegionParameters &p)
   {
     auto region = make_region(model, p);
-    shake(*region, mesh, model, p, pulse, 400);
+    shake(*region, model, p, pulse, 400);
     region->keep_energy();
     return region;
   }
@@ -64,7 +63,7 @@ namespace
     const HexMesh             mesh = cube();
     const auto                p = parameters();
     const RockModel           model = make_rock_model(mesh, p.rock);
-    auto                      leader = shaken(model, mesh, p), region = shaken(model, mesh, p);
+    auto                      leader = shaken(model, p), region = shaken(model, p);
     std::vector<unsigned int> nodes;
     for (unsigned int i = 0; i < model.points.size(); ++i)
     {
@@ -168,7 +167,7 @@ namespace
       {
         p.boundary = boundary;
         p.free_field = field;
-        auto first = shaken(model, mesh, p), second = shaken(model, mesh, p);
+        auto first = shaken(model, p), second = shaken(model, p);
         second->advance(); // it is to forget this
         for (unsigned int step = 0; step < 150; ++step)
           first->advance();

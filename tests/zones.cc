@@ -107,17 +107,22 @@ namespace
     expect(joints_of(opened).size() == 3, "joints between monoliths only, not between zones");
     expect_same_zones(mesh, opened, "opened");
     expect_same_zones(mesh, close_joints(opened), "closed");
-    RockParameters rock;
-    rock.materials[PhysicalId::first_rock] = Material();
-    const HexMesh section = extruded_section(zoned_rock(), rock, 0, 1);
+    HexMesh        rock = zoned_rock(); // a volume for each zone, as FoundationParameters makes them
+    RockParameters parameters;
+    for (auto &cell : rock.cells)
+    {
+      cell.volume = PhysicalId::first_rock + cell.zone;
+      parameters.materials[cell.volume].density = 1. + cell.zone;
+    }
+    const HexMesh section = extruded_section(make_rock_model(rock, parameters), 0, 1);
     expect(section.cells.size() == 12, "a section of 3 x 4 cells");
     for (const auto &cell : section.cells)
     {
       const auto middle = centre(section, cell.nodes);
-      expect(section.zones.at(cell.zone) == (middle[2] > 3.   ? "weak layer"
-                                             : middle[1] > 2. ? "fault"
-                                                              : ""),
-             "zones of a section");
+      expect(rock.zones.at(cell.volume - PhysicalId::first_rock) == (middle[2] > 3.   ? "weak layer"
+                                                                     : middle[1] > 2. ? "fault"
+                                                                                      : ""),
+             "rocks of a section");
     }
   }
 

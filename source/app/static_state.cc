@@ -14,10 +14,9 @@ namespace Voussoir
     const Structure  &structure = dam->structure;
     const std::size_t n_pairs = structure.pairs.size();
     const Unknowns    springs = dam->foundation->static_springs(structure);
-    dam->structure.dashpots = springs; // for the static iteration only
-    JointSystem system(structure, dam->laws, contact_parameters("static"), 0., 1., 1.);
-    dam->structure.dashpots.clear();
-    Unknowns gap(3 * n_pairs, 0.), start, offset(3 * n_pairs, 0.);
+    JointSystem       system(structure, dam->laws, contact_parameters("static"), 0., 1., 0., ForceMeaning(),
+                             springs);
+    Unknowns          gap(3 * n_pairs, 0.), start, offset(3 * n_pairs, 0.);
     statics.force.assign(3 * n_pairs, 0.);
     statics.u.assign(3 * structure.n_nodes(), 0.);
     statics.memory = dam->laws.initial_memory();

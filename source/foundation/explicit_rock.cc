@@ -50,6 +50,7 @@ namespace Voussoir
     for (double &c : centre)
       c /= count;
     model = make_rock_model(mesh, region_parameters(parameters, centre, 0.).rock);
+    mesh = HexMesh(); // the model has all of it
     foot = find_feet(dam, model.points, source);
     RayleighDamping damping;
     damping.mass = parameters.mass_damping;
@@ -96,7 +97,7 @@ namespace Voussoir
     const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
     region = make_region(model, p);
     if (grid.n > 0) // else without an earthquake
-      shake(*region, mesh, model, p, incident_wave(outcrop), grid.n_substeps() + 2);
+      shake(*region, model, p, incident_wave(outcrop), grid.n_substeps() + 2);
     std::vector<unsigned int> nodes;
     for (const Foot &f : foot)
       nodes.push_back(f.rock);

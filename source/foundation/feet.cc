@@ -1,42 +1,57 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/foundation/feet.h>
+#include <voussoir/mesh/coincident.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
+#include <set>
 
 namespace Voussoir
 {
   namespace
   {
-    using Key = std::array<long long, 3>;
+    /** Largest distance of a node of the base from its node of rock, of the size of the base. */
+    constexpr double coincidence = 1e-6;
 
-    template <class Point> Key key_of(const Point &p)
+    double size_of(const std::vector<std::array<double, 3>> &points)
     {
-      return {{std::llround(1e4 * p[0]), std::llround(1e4 * p[1]), std::llround(1e4 * p[2])}};
+      double size = 0.;
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        const auto by_component = [d](const auto &a, const auto &b) { return a[d] < b[d]; };
+        const auto ends = std::minmax_element(points.begin(), points.end(), by_component);
+        size = std::max(size, (*ends.second)[d] - (*ends.first)[d]);
+      }
+      return size;
     }
   } // namespace
 
   std::vector<Foot> find_feet(const SolidModel &dam, const std::vector<std::array<double, 3>> &points,
                               const std::string &source)
   {
-    std::map<Key, std::vector<unsigned int>> base;
+    std::vector<unsigned int>          equations;
+    std::vector<std::array<double, 3>> base;
     for (unsigned int i = 0; i < dam.n_nodes(); ++i)
       if (dam.on_surface(i, PhysicalId::base))
-        base[key_of(dam.points[i])].push_back(dam.equation[i]);
-    std::vector<Foot> feet;
-    for (unsigned int i = 0; i < points.size(); ++i)
-      if (const auto found = base.find(key_of(points[i])); found != base.end())
       {
-        std::vector<unsigned int> &nodes = found->second;
-        std::sort(nodes.begin(), nodes.end());
-        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-        feet.push_back({i, nodes});
+        equations.push_back(dam.equation[i]);
+        base.push_back({{dam.points[i][0], dam.points[i][1], dam.points[i][2]}});
       }
-    if (feet.size() != base.size())
+    std::map<unsigned int, std::set<unsigned int>> on_rock;
+    const PointFinder finder(points, base.empty() ? 0. : coincidence * size_of(base));
+    unsigned int      n_lost = 0;
+    for (std::size_t i = 0; i < base.size(); ++i)
+      if (const unsigned int rock = finder.find(base[i]); rock != PointFinder::none)
+        on_rock[rock].insert(equations[i]);
+      else
+        ++n_lost;
+    if (n_lost > 0)
       throw InputError(source + ": the dam's base and the rock must share their nodes; " +
-                       std::to_string(base.size() - feet.size()) + " nodes of the base are not in the rock.");
+                       std::to_string(n_lost) + " nodes of the base are not in the rock.");
+    std::vector<Foot> feet;
+    for (const auto &foot : on_rock)
+      feet.push_back({foot.first, {foot.second.begin(), foot.second.end()}});
     return feet;
   }
 } // namespace Voussoir

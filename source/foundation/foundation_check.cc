@@ -35,31 +35,69 @@ namespace Voussoir
     }
   } // namespace
 
+  namespace
+  {
+    /** The boundary of the sections of the free field. */
+    std::string boundary_of_sections(const FoundationParameters &parameters)
+    {
+      return of_sections(region_parameters(parameters, {{0., 0., 0.}}, 0.)).boundary;
+    }
+
+    /** Has the rock sections whose boundary is another one? */
+    bool has_other_sections(const FoundationParameters &parameters)
+    {
+      return parameters.free_field == "sections" && boundary_of_sections(parameters) != parameters.boundary;
+    }
+
+    /** Which sections, for messages. */
+    std::string sections_beside(const FoundationParameters &parameters)
+    {
+      return "The sections of the free field beside the artificial boundary " + parameters.boundary +
+             " end at the boundary " + boundary_of_sections(parameters) + ". ";
+    }
+
+    const std::string without_sections = " Or set \"Foundation/Free field\" to columns.";
+
+    void check_layers(const std::string &boundary, const HexMesh &mesh, const std::string &source)
+    {
+      const unsigned int n = make_boundary(boundary)->n_layers();
+      if (n == 0)
+        return;
+      try
+      {
+        boundary_lines(mesh, n, source);
+      }
+      catch (const InputError &error)
+      {
+        const std::string needs = "The artificial boundary " + boundary + " needs " + std::to_string(n) +
+                                  " layers of equal elements along the artificial boundary";
+        const std::string  usual = FoundationParameters().boundary;
+        const unsigned int n_usual = make_boundary(usual)->n_layers();
+        const std::string  other =
+            "set \"Foundation/Boundary\" to " + usual + ", which needs " + std::to_string(n_usual) + ".";
+        if (source == "arch210")
+          throw InputError(needs +
+                           ", and the mesh arch210 has fewer: set \"Mesh/Arch210/Rock/Boundary "
+                           "layers\" to " +
+                           std::to_string(n) + (n > n_usual ? ", or " + other : "."));
+        throw InputError(error.what() + (" " + needs) + (n > n_usual ? ": mesh as many, or " + other : "."));
+      }
+    }
+  } // namespace
+
   void check_boundary_layers(const FoundationParameters &parameters, const HexMesh &mesh,
                              const std::string &source)
   {
-    const unsigned int n = make_boundary(parameters.boundary)->n_layers();
-    if (n == 0)
-      return;
-    try
-    {
-      boundary_lines(mesh, n, source);
-    }
-    catch (const InputError &error)
-    {
-      const std::string needs = "The artificial boundary " + parameters.boundary + " needs " +
-                                std::to_string(n) + " layers of equal elements along the artificial boundary";
-      const std::string  usual = FoundationParameters().boundary;
-      const unsigned int n_usual = make_boundary(usual)->n_layers();
-      const std::string  other =
-          "set \"Foundation/Boundary\" to " + usual + ", which needs " + std::to_string(n_usual) + ".";
-      if (source == "arch210")
-        throw InputError(needs +
-                         ", and the mesh arch210 has fewer: set \"Mesh/Arch210/Rock/Boundary "
-                         "layers\" to " +
-                         std::to_string(n) + (n > n_usual ? ", or " + other : "."));
-      throw InputError(error.what() + (" " + needs) + (n > n_usual ? ": mesh as many, or " + other : "."));
-    }
+    check_layers(parameters.boundary, mesh, source);
+    if (has_other_sections(parameters))
+      try
+      {
+        check_layers(boundary_of_sections(parameters), mesh, source);
+      }
+      catch (const InputError &error)
+      {
+        throw InputError(sections_beside(parameters) + error.what() + without_sections);
+      }
   }
 
   void ExplicitRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
@@ -84,6 +122,15 @@ namespace Voussoir
     const RockRegionParameters p = region_parameters(parameters, centre, steps.substep());
     const auto                 boundary = make_boundary(p);
     boundary->check(p, dt_critical);
+    if (has_other_sections(parameters))
+      try
+      {
+        make_boundary(of_sections(p))->check(of_sections(p), dt_critical);
+      }
+      catch (const InputError &error)
+      {
+        throw InputError(sections_beside(parameters) + error.what() + without_sections);
+      }
     boundary->attach(model, centre, steps.substep());
     std::vector<unsigned int> nodes;
     for (const Foot &f : foot)

@@ -86,7 +86,8 @@ namespace Voussoir
   {
     /** A of the class, its lower triangle, in the matrix @p A. */
     void fill(const Structure &structure, const Body &body, const double mass_factor,
-              const double stiffness_factor, const double dashpot_factor, cholmod_sparse *A)
+              const double stiffness_factor, const double dashpot_factor, const Unknowns &springs,
+              cholmod_sparse *A)
     {
       const BlockSparseMatrix &K = body.stiffness;
       const unsigned int       n = 3 * K.n_rows();
@@ -108,6 +109,8 @@ namespace Voussoir
                   a += mass_factor * structure.mass[node][3 * i + j];
                 if (K.column[e] == row && i == j && !structure.dashpots.empty())
                   a += dashpot_factor * structure.dashpots[3 * node + i];
+                if (K.column[e] == row && i == j && !springs.empty())
+                  a += springs[3 * node + i];
                 index[k] = 3 * K.column[e] + j;
                 x[k++] = a;
               }
@@ -126,14 +129,15 @@ namespace Voussoir
   } // namespace
 
   CondensedBody::CondensedBody(const Structure &structure, const Body &body, const double mass_factor,
-                               const double stiffness_factor, const double dashpot_factor)
+                               const double stiffness_factor, const double dashpot_factor,
+                               const Unknowns &springs)
       : factor(std::make_unique<Factor>())
   {
     AssertIndexRange(body.first_node + body.n_nodes(), structure.n_nodes() + 1);
     const std::size_t  n = 3 * body.n_nodes();
     cholmod_common    &common = factor->common;
     const SparseMatrix A(n, 9 * body.stiffness.value.size() / 2 + 3 * n, CHOLMOD_REAL, common);
-    fill(structure, body, mass_factor, stiffness_factor, dashpot_factor, A.matrix);
+    fill(structure, body, mass_factor, stiffness_factor, dashpot_factor, springs, A.matrix);
     std::vector<bool> is_interface(n, false);
     for (const unsigned int node : body.interface)
       for (unsigned int c = 0; c < 3; ++c)

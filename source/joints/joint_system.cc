@@ -47,7 +47,7 @@ namespace Voussoir
   JointSystem::JointSystem(const Structure &structure, const PairLaws &laws,
                            const ContactParameters &parameters, const double mass_factor,
                            const double stiffness_factor, const double dashpot_factor,
-                           const ForceMeaning meaning)
+                           const ForceMeaning meaning, const Unknowns &springs)
       : structure(structure), parameters(parameters), laws(laws), meaning(meaning),
         sides(structure.pairs.size()), W(pairs_per_joint(structure)), n_solved(parameters.first_problem)
   {
@@ -59,9 +59,10 @@ namespace Voussoir
     const int                                 n_bodies = structure.bodies.size();
     std::vector<std::optional<CondensedBody>> condensed(n_bodies);
     for_each_parallel(n_bodies,
-                      [&](const int i) {
+                      [&](const int i)
+                      {
                         condensed[i].emplace(structure, structure.bodies[i], mass_factor, stiffness_factor,
-                                             dashpot_factor);
+                                             dashpot_factor, springs);
                       });
     for (auto &body : condensed)
     {

@@ -4,6 +4,7 @@
 #include <voussoir/mesh/coincident.h>
 
 #include <iterator>
+#include <limits>
 
 namespace Voussoir
 {
@@ -26,11 +27,19 @@ namespace Voussoir
 
   PointFinder::~PointFinder() = default;
 
-  unsigned int PointFinder::find(const std::array<double, 3> &place) const
+  PointFinder::Nearest PointFinder::nearest(const std::array<double, 3> &place) const
   {
     const Point<3>           wanted(place[0], place[1], place[2]);
-    std::vector<Tree::Entry> nearest;
-    tree->entries.query(boost::geometry::index::nearest(wanted, 1), std::back_inserter(nearest));
-    return nearest.empty() || nearest[0].first.distance(wanted) > tolerance ? none : nearest[0].second;
+    std::vector<Tree::Entry> found;
+    tree->entries.query(boost::geometry::index::nearest(wanted, 1), std::back_inserter(found));
+    if (found.empty())
+      return {none, std::numeric_limits<double>::infinity()};
+    return {found[0].second, found[0].first.distance(wanted)};
+  }
+
+  unsigned int PointFinder::find(const std::array<double, 3> &place) const
+  {
+    const Nearest found = nearest(place);
+    return found.distance <= tolerance ? found.number : none;
   }
 } // namespace Voussoir

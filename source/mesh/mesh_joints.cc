@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/mesh/coincident.h>
 #include <voussoir/mesh/mesh_joints.h>
 
 #include <algorithm>
@@ -68,40 +69,31 @@ namespace Voussoir
       }
     }
 
-    /** Unites every node of @p side with those of @p other in the same place. */
+    /** Unites every node of @p side with the one of @p other in the same place. */
     void match(const HexMesh &mesh, const int joint, const int side_number, const Side &side,
                const Side &other, UnionFind &merged)
     {
-      // Sorted along a direction in which the nodes of regular meshes do not line up.
-      const auto along = [&](const unsigned int node)
-      { return 0.4123 * mesh.nodes[node][0] + 0.5651 * mesh.nodes[node][1] + 0.7146 * mesh.nodes[node][2]; };
-      std::vector<std::pair<double, unsigned int>> sorted;
+      std::vector<unsigned int> numbers;
+      std::vector<Vector>       points;
       for (const auto &candidate : other)
-        sorted.emplace_back(along(candidate.first), candidate.first);
-      std::sort(sorted.begin(), sorted.end());
-
+      {
+        numbers.push_back(candidate.first);
+        points.push_back(mesh.nodes[candidate.first]);
+      }
+      const PointFinder finder(points);
       for (const auto &node : side)
       {
-        const Vector &point = mesh.nodes[node.first];
-        const double  tolerance = coincidence * node.second, position = along(node.first);
-        bool          found = false;
-        for (auto candidate =
-                 std::lower_bound(sorted.begin(), sorted.end(), std::make_pair(position - 2 * tolerance, 0u));
-             candidate != sorted.end() && candidate->first <= position + 2 * tolerance; ++candidate)
-          if (distance(point, mesh.nodes[candidate->second]) <= tolerance)
-          {
-            merged.unite(node.first, candidate->second);
-            found = true;
-          }
-        if (found)
+        const Vector              &point = mesh.nodes[node.first];
+        const double               tolerance = coincidence * node.second;
+        const PointFinder::Nearest partner = finder.nearest(point);
+        if (partner.distance <= tolerance)
+        {
+          merged.unite(node.first, numbers[partner.number]);
           continue;
-
-        double nearest = std::numeric_limits<double>::infinity();
-        for (const auto &candidate : other)
-          nearest = std::min(nearest, distance(point, mesh.nodes[candidate.first]));
+        }
         std::ostringstream text;
         text << "the node of side " << side_number << " at " << place(point) << " has no partner on side "
-             << 3 - side_number << ", whose nearest node is " << nearest << " m away (" << tolerance
+             << 3 - side_number << ", whose nearest node is " << partner.distance << " m away (" << tolerance
              << " m are allowed). Mesh both sides alike, with their nodes in the same places.";
         fail(joint, text.str());
       }

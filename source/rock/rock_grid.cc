@@ -1,135 +1,120 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
 #include <voussoir/rock/rock_grid.h>
+#include <voussoir/solid/triangulation.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Voussoir
 {
-  RockGrid::RockGrid(const HexMesh &mesh, const RockParameters &parameters)
-      : mesh(mesh), in_region(mesh.cells.size()), cells_of_node(mesh.nodes.size())
+  using namespace dealii;
+
+  RockGrid::RockGrid(const HexMesh &mesh, const RockParameters &parameters,
+                     const std::vector<unsigned int> &master)
+      : fe(1), dof_handler(triangulation)
   {
+    std::vector<unsigned int> cells;
     for (unsigned int k = 0; k < mesh.cells.size(); ++k)
+      if (parameters.materials.count(mesh.cells[k].volume))
+        cells.push_back(k);
+    mesh_node = make_triangulation(mesh, cells, triangulation);
+
+    dof_handler.distribute_dofs(fe);
+    std::vector<types::global_dof_index> vertex_of_dof(dof_handler.n_dofs());
+    for (const Cell &cell : dof_handler.active_cell_iterators())
+      for (const unsigned int v : cell->vertex_indices())
+        vertex_of_dof[cell->vertex_dof_index(v, 0)] = cell->vertex_index(v);
+    dof_handler.renumber_dofs(vertex_of_dof);
+
+    constexpr unsigned int    none = static_cast<unsigned int>(-1);
+    std::vector<unsigned int> of_master(mesh.nodes.size(), none);
+    for (const unsigned int i : mesh_node)
     {
-      in_region[k] = parameters.materials.count(mesh.cells[k].volume) > 0;
-      if (in_region[k])
-        for (const unsigned int node : mesh.cells[k].nodes)
-          cells_of_node[node].push_back(k);
-    }
-  }
-
-  unsigned int RockGrid::corner(const unsigned int cell, const unsigned int node) const
-  {
-    const auto &nodes = mesh.cells[cell].nodes;
-    return std::find(nodes.begin(), nodes.end(), node) - nodes.begin();
-  }
-
-  bool RockGrid::share_a_cell(const unsigned int a, const unsigned int b) const
-  {
-    for (const unsigned int k : cells_of_node[a])
-      if (corner(k, b) < 8)
-        return true;
-    return false;
-  }
-
-  unsigned int RockGrid::next(const unsigned int a, const unsigned int b) const
-  {
-    unsigned int found = no_node;
-    for (const unsigned int k : cells_of_node[b])
-      for (const unsigned int v : corners_beside[corner(k, b)])
+      unsigned int &number = of_master[master.empty() ? i : master[i]];
+      if (number == none)
       {
-        const unsigned int node = mesh.cells[k].nodes[v];
-        if (node == found || share_a_cell(a, node))
-          continue;
-        if (found != no_node)
-          return no_node; // not a regular node
-        found = node;
+        number = points.size();
+        points.push_back(mesh.nodes[i]);
       }
-    return found;
-  }
-
-  std::vector<unsigned int> RockGrid::line(const unsigned int a, const unsigned int b,
-                                           const std::size_t n) const
-  {
-    std::vector<unsigned int> nodes = {a, b};
-    while (nodes.size() < n)
-    {
-      const unsigned int node = next(nodes[nodes.size() - 2], nodes.back());
-      if (node == no_node)
-        break;
-      nodes.push_back(node);
+      node_of_dof.push_back(number);
     }
-    return nodes;
   }
 
   std::vector<ArtificialFace> artificial_faces(const RockGrid &grid)
   {
-    const HexMesh              &mesh = grid.mesh;
-    const FaceTable             table(mesh);
+    constexpr unsigned int      around[4] = {0, 1, 3, 2}; // a face, seen against its axis
+    FEFaceValues<3>             values(grid.fe, QGauss<2>(2), update_normal_vectors | update_JxW_values);
     std::vector<ArtificialFace> faces;
-    for (const HexMesh::Face &face : mesh.faces)
-      if (face.surface == PhysicalId::artificial)
-      {
-        const auto owners = table.owners(face.nodes);
-        for (const auto *owner : {owners.first, owners.second})
-          if (owner != nullptr && grid.in_region[owner->cell])
-          {
-            ArtificialFace f;
-            f.cell = owner->cell;
-            for (unsigned int i = 0; i < 4; ++i)
-              f.nodes[i] = mesh.cells[f.cell].nodes[hex_faces[owner->cell_face][i]];
-            const Vector3 p = mesh.nodes[f.nodes[2]] - mesh.nodes[f.nodes[0]],
-                          q = mesh.nodes[f.nodes[3]] - mesh.nodes[f.nodes[1]];
-            f.normal = {{p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]}};
-            const double size = norm(f.normal);
-            for (double &x : f.normal)
-              x /= size;
-            f.area = .5 * size;
-            faces.push_back(f);
-          }
-      }
+    for (const RockGrid::Cell &cell : grid.dof_handler.active_cell_iterators())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == PhysicalId::artificial)
+        {
+          values.reinit(cell, f);
+          Tensor<1, 3> area;
+          for (const unsigned int q : values.quadrature_point_indices())
+            area += values.JxW(q) * values.normal_vector(q);
+          ArtificialFace face{cell, f, {}, {}, area.norm()};
+          for (unsigned int d = 0; d < 3; ++d)
+            face.normal[d] = area[d] / face.area;
+          const bool is_lower = f % 2 == 0; // its axis points inward
+          for (unsigned int i = 0; i < 4; ++i)
+            face.corners[is_lower ? 3 - i : i] = GeometryInfo<3>::face_to_cell_vertices(f, around[i]);
+          faces.push_back(face);
+        }
     std::stable_sort(faces.begin(), faces.end(),
                      [](const ArtificialFace &a, const ArtificialFace &b) { return a.rank() < b.rank(); });
     return faces;
   }
 
-  std::vector<unsigned int> layers_of_cells(const RockGrid &grid, const std::vector<ArtificialFace> &faces)
+  InwardLine inward_line(const RockGrid &grid, const ArtificialFace &face, const unsigned int corner,
+                         const std::size_t n)
   {
-    const HexMesh            &mesh = grid.mesh;
-    std::vector<unsigned int> layer(mesh.cells.size(), no_node);
-    std::vector<bool>         reached(mesh.nodes.size(), false);
-    std::vector<unsigned int> front;
-    const auto                reach = [&](const unsigned int node)
+    RockGrid::Cell cell = face.cell;
+    unsigned int   f = face.face, v = corner;
+    InwardLine     line{{grid.node(cell, v)}, {cell->vertex(v)}, {}};
+    while (line.nodes.size() < n)
     {
-      if (!reached[node])
-        front.push_back(node);
-      reached[node] = true;
-    };
-    for (const ArtificialFace &face : faces)
-      for (const unsigned int node : face.nodes)
-        reach(node);
-    for (unsigned int number = 1; !front.empty(); ++number)
-    {
-      const std::vector<unsigned int> nodes = std::move(front);
-      front.clear();
-      for (const unsigned int node : nodes)
-        for (const unsigned int k : grid.cells_of_node[node])
-          if (layer[k] == no_node)
-          {
-            layer[k] = number;
-            for (const unsigned int other : mesh.cells[k].nodes)
-              reach(other);
-          }
+      v ^= 1u << f / 2; // the other end of the edge that leaves the face
+      line.nodes.push_back(grid.node(cell, v));
+      line.places.push_back(cell->vertex(v));
+      line.cells.push_back(cell);
+      const unsigned int opposite = GeometryInfo<3>::opposite_face[f], vertex = cell->vertex_index(v);
+      if (cell->at_boundary(opposite))
+        break;
+      f = cell->neighbor_of_neighbor(opposite);
+      cell = cell->neighbor(opposite);
+      for (v = 0; cell->vertex_index(v) != vertex;)
+        ++v;
     }
-    return layer;
+    return line;
   }
 
-  unsigned int node_behind(const RockGrid &grid, const ArtificialFace &face, const unsigned int node)
+  std::vector<bool> cells_at_boundary(const RockGrid &grid, const std::vector<ArtificialFace> &faces,
+                                      const unsigned int n_layers)
   {
-    const auto &nodes = grid.mesh.cells[face.cell].nodes;
-    for (const unsigned int v : corners_beside[grid.corner(face.cell, node)])
-      if (std::find(face.nodes.begin(), face.nodes.end(), nodes[v]) == face.nodes.end())
-        return nodes[v];
-    return no_node;
+    std::vector<bool> found(grid.triangulation.n_active_cells(), false),
+        reached(grid.triangulation.n_vertices(), false);
+    for (const ArtificialFace &face : faces)
+      for (const unsigned int v : face.corners)
+        reached[face.cell->vertex_index(v)] = true;
+    for (unsigned int layer = 0; layer < n_layers; ++layer)
+    {
+      const std::vector<bool> before = reached;
+      for (const auto &cell : grid.triangulation.active_cell_iterators())
+        if (const auto vertices = cell->vertex_indices();
+            !found[cell->active_cell_index()] &&
+            std::any_of(vertices.begin(), vertices.end(),
+                        [&](const unsigned int v) { return before[cell->vertex_index(v)]; }))
+        {
+          found[cell->active_cell_index()] = true;
+          for (const unsigned int v : vertices)
+            reached[cell->vertex_index(v)] = true;
+        }
+      if (reached == before)
+        break; // there are no more
+    }
+    return found;
   }
 } // namespace Voussoir

@@ -1,203 +1,214 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/quadrature_lib.h>
+
+#include <voussoir/base/parallel.h>
+#include <voussoir/rock/rock_grid.h>
 #include <voussoir/rock/rock_model.h>
+#include <voussoir/solid/cell_elasticity.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 
 namespace Voussoir
 {
+  using dealii::QGaussLobatto;
+
   namespace
   {
-    /** Gradients of the eight shape functions at a point of the unit cell [1/m]; returns det J [m^3]. */
-    double gradients(const HexMesh &mesh, const HexMesh::Cell &cell, const Vector3 &xi,
-                     std::array<Vector3, 8> &gradient)
-    {
-      Matrix3                jacobian{};
-      std::array<Vector3, 8> reference;
-      for (unsigned int v = 0; v < 8; ++v)
-        for (unsigned int a = 0; a < 3; ++a)
-        {
-          double derivative = 2. * unit_cube[v][a] - 1.;
-          for (unsigned int b = 0; b < 3; ++b)
-            if (b != a)
-              derivative *= unit_cube[v][b] ? xi[b] : 1. - xi[b];
-          reference[v][a] = derivative;
-          for (unsigned int c = 0; c < 3; ++c)
-            jacobian[3 * a + c] += derivative * mesh.nodes[cell.nodes[v]][c];
-        }
-      const Matrix3 inverted = inverse(jacobian); // d xi_a / d x_c at 3 c + a
-      for (unsigned int v = 0; v < 8; ++v)
-        gradient[v] = inverted * reference[v];
-      const Matrix3 &j = jacobian;
-      return j[0] * (j[4] * j[8] - j[5] * j[7]) - j[1] * (j[3] * j[8] - j[5] * j[6]) +
-             j[2] * (j[3] * j[7] - j[4] * j[6]);
-    }
-
-    void number_nodes(const RockGrid &grid, const std::vector<unsigned int> &master, RockModel &model)
-    {
-      const auto &nodes = grid.mesh.nodes;
-      model.node.assign(nodes.size(), no_node);
-      std::vector<unsigned int> of_master(nodes.size(), no_node);
-      for (unsigned int i = 0; i < nodes.size(); ++i)
-        if (!grid.cells_of_node[i].empty())
-        {
-          unsigned int &number = of_master[master.empty() ? i : master[i]];
-          if (number == no_node)
-          {
-            number = model.points.size();
-            model.points.push_back(nodes[i]);
-          }
-          model.node[i] = number;
-        }
-    }
-
-    /** For each node of the region its (cell, corner) pairs. */
-    using Corners = std::vector<std::vector<std::pair<unsigned int, unsigned int>>>;
-
-    Corners corners_of_nodes(const RockGrid &grid, const RockModel &model)
-    {
-      Corners corners(model.points.size());
-      for (unsigned int k = 0; k < grid.mesh.cells.size(); ++k)
-        if (grid.in_region[k])
-          for (unsigned int v = 0; v < 8; ++v)
-            corners[model.node[grid.mesh.cells[k].nodes[v]]].emplace_back(k, v);
-      return corners;
-    }
-
     /** Nodal quadrature does not couple the two ends of a cell's diagonal. */
-    BlockSparseMatrix pattern(const HexMesh &mesh, const RockModel &model, const Corners &corners,
-                              const std::vector<bool> &nodal)
+    bool are_coupled(const unsigned int v, const unsigned int w, const bool nodal)
     {
-      std::vector<std::vector<unsigned int>> columns(corners.size());
-      const int                              n = corners.size();
+      return !nodal || w != (v ^ 7u);
+    }
+
+    std::array<unsigned int, 8> nodes_of(const RockGrid &grid, const RockGrid::Cell &cell)
+    {
+      std::array<unsigned int, 8> nodes;
+      for (unsigned int v = 0; v < 8; ++v)
+        nodes[v] = grid.node(cell, v);
+      return nodes;
+    }
+
+    BlockSparseMatrix pattern(const RockGrid &grid, const std::vector<bool> &nodal)
+    {
+      std::vector<std::vector<unsigned int>> columns(grid.n_nodes());
+      for (const RockGrid::Cell &cell : grid.dof_handler.active_cell_iterators())
+      {
+        const auto nodes = nodes_of(grid, cell);
+        for (unsigned int v = 0; v < 8; ++v)
+          for (unsigned int w = 0; w < 8; ++w)
+            if (are_coupled(v, w, nodal[cell->active_cell_index()]))
+              columns[nodes[v]].push_back(nodes[w]);
+      }
+      const int n = columns.size();
 #pragma omp parallel for schedule(static)
       for (int row = 0; row < n; ++row)
       {
-        for (const auto &corner : corners[row])
-          for (unsigned int v = 0; v < 8; ++v)
-            if (!nodal[corner.first] || v != opposite_corner[corner.second])
-              columns[row].push_back(model.node[mesh.cells[corner.first].nodes[v]]);
         std::sort(columns[row].begin(), columns[row].end());
         columns[row].erase(std::unique(columns[row].begin(), columns[row].end()), columns[row].end());
       }
       return BlockSparseMatrix(columns);
     }
 
-    /** Adds the stiffness and the mass that corner @p v of a cell has. */
-    void add_corner(const HexMesh &mesh, const HexMesh::Cell &cell, const Material &material,
-                    const bool nodal, const unsigned int v, const unsigned int row, RockModel &model)
+    /** Element matrices of some cells, one behind the other. */
+    struct Chunk
     {
-      const double           e = material.young, nu = material.poisson;
-      const double           lambda = e * nu / ((1. + nu) * (1. - 2. * nu)), mu = e / (2. * (1. + nu));
-      const double           gauss[2] = {.5 - .5 / std::sqrt(3.), .5 + .5 / std::sqrt(3.)};
-      std::array<Vector3, 8> gradient;
-      for (unsigned int q = 0; q < 8; ++q)
+      static constexpr unsigned int most = 256; // cells
+
+      std::vector<RockGrid::Cell> cells;
+      std::vector<Matrix3>        stiffness; ///< 64 of each
+      std::vector<double>         mass;      ///< 8 of each
+
+      void integrate(const RockGrid &grid, const std::map<int, Material> &materials,
+                     const std::vector<bool> &nodal)
       {
-        Vector3 xi;
-        for (unsigned int d = 0; d < 3; ++d)
-          xi[d] = gauss[unit_cube[q][d]];
-        double shape = 1.;
-        for (unsigned int d = 0; d < 3; ++d)
-          shape *= unit_cube[v][d] ? xi[d] : 1. - xi[d];
-        double jacobian = gradients(mesh, cell, xi, gradient);
-        model.mass[row] += material.density * shape * jacobian / 8.;
-        if (nodal)
+        if (cells.empty())
+          return;
+        CellElasticity gauss(grid.fe, false), at_nodes(grid.fe, false, QGaussLobatto<3>(2));
+        stiffness.clear();
+        mass.clear();
+        for (const RockGrid::Cell &cell : cells)
         {
-          if (q != v && std::find(corners_beside[q], corners_beside[q] + 3, v) == corners_beside[q] + 3)
-            continue; // the gradient vanishes there
-          for (unsigned int d = 0; d < 3; ++d)
-            xi[d] = unit_cube[q][d];
-          jacobian = gradients(mesh, cell, xi, gradient);
-        }
-        const double   weight = jacobian / 8.;
-        const Vector3 &g = gradient[v];
-        for (unsigned int w = 0; w < 8; ++w)
-        {
-          const Vector3 &h = gradient[w];
-          const double   gh = mu * (g[0] * h[0] + g[1] * h[1] + g[2] * h[2]);
-          if (nodal && w == opposite_corner[v])
-            continue;
-          Matrix3 block;
-          for (unsigned int a = 0; a < 3; ++a)
-            for (unsigned int b = 0; b < 3; ++b)
-              block[3 * a + b] = weight * (lambda * g[a] * h[b] + mu * g[b] * h[a] + (a == b ? gh : 0.));
-          model.stiffness.add(row, model.node[cell.nodes[w]], block);
+          CellElasticity &element = nodal[cell->active_cell_index()] ? at_nodes : gauss;
+          element.reinit(cell, materials.at(cell->material_id()));
+          stiffness.insert(stiffness.end(), element.stiffness.begin(), element.stiffness.end());
+          mass.insert(mass.end(), element.mass.begin(), element.mass.end());
         }
       }
+
+      void add_to(RockModel &model, const RockGrid &grid, const std::vector<bool> &nodal) const
+      {
+        const Matrix3 *block = stiffness.data();
+        const double  *m = mass.data();
+        for (const RockGrid::Cell &cell : cells)
+        {
+          const auto nodes = nodes_of(grid, cell);
+          for (unsigned int v = 0; v < 8; ++v)
+          {
+            model.mass[nodes[v]] += *m++;
+            for (unsigned int w = 0; w < 8; ++w, ++block)
+              if (are_coupled(v, w, nodal[cell->active_cell_index()]))
+                model.stiffness.add(nodes[v], nodes[w], *block);
+          }
+        }
+      }
+    };
+
+    /** Threads integrate some chunks of cells at a time, which are added in the cells' order: sums do not
+     * depend on the number of threads. */
+    void assemble(const RockGrid &grid, const std::vector<bool> &nodal, const RockParameters &parameters,
+                  RockModel &model)
+    {
+      model.stiffness = pattern(grid, nodal);
+      model.mass.assign(grid.n_nodes(), 0.);
+      std::vector<Chunk> chunks(16);
+      auto               cell = grid.dof_handler.begin_active();
+      const auto         end = grid.dof_handler.end();
+      while (cell != end)
+      {
+        for (Chunk &chunk : chunks)
+          for (chunk.cells.clear(); chunk.cells.size() < Chunk::most && cell != end; ++cell)
+            chunk.cells.push_back(cell);
+        for_each_parallel(chunks.size(),
+                          [&](const int c) { chunks[c].integrate(grid, parameters.materials, nodal); });
+        for (const Chunk &chunk : chunks)
+          chunk.add_to(model, grid, nodal);
+      }
+      model.stiffness.symmetrise();
     }
 
-    void assemble(const RockGrid &grid, const RockParameters &parameters, RockModel &model)
+    /** Rocks side by side, with the areas of their cells [m^2]. */
+    using Rocks = std::vector<std::pair<Material, double>>;
+
+    /** That of several rocks which move together: moduli and density by area. */
+    Material mean(const Rocks &materials)
     {
-      const HexMesh    &mesh = grid.mesh;
-      std::vector<bool> nodal(mesh.cells.size());
-      for (unsigned int k = 0; k < mesh.cells.size(); ++k)
-        nodal[k] = parameters.nodal_everywhere ||
-                   (model.layer[k] != no_node && model.layer[k] <= parameters.nodal_layers);
-      const Corners corners = corners_of_nodes(grid, model);
-      model.stiffness = pattern(mesh, model, corners, nodal);
-      model.mass.assign(model.points.size(), 0.);
-      const int n = corners.size();
-#pragma omp parallel for schedule(dynamic, 256)
-      for (int row = 0; row < n; ++row)
-        for (const auto &corner : corners[row])
-        {
-          const HexMesh::Cell &cell = mesh.cells[corner.first];
-          add_corner(mesh, cell, parameters.materials.at(cell.volume), nodal[corner.first], corner.second,
-                     row, model);
-        }
-      model.stiffness.symmetrise();
+      const Material &first = materials[0].first;
+      bool            is_one = true;
+      double          area = 0., shear = 0., axial = 0., density = 0.; // moduli
+      for (const auto &part : materials)
+      {
+        const Material &m = part.first;
+        is_one = is_one && m.young == first.young && m.poisson == first.poisson && m.density == first.density;
+        const double mu = m.young / (2. * (1. + m.poisson));
+        area += part.second;
+        density += part.second * m.density;
+        shear += part.second * mu;
+        axial += part.second * mu * 2. * (1. - m.poisson) / (1. - 2. * m.poisson);
+      }
+      if (is_one)
+        return first;
+      Material result = first;
+      result.density = density / area;
+      result.poisson = .5 * (axial - 2. * shear) / (axial - shear);
+      result.young = 2. * (1. + result.poisson) * shear / area;
+      return result;
     }
 
     void find_lines(const RockGrid &grid, const std::vector<ArtificialFace> &faces,
                     const RockParameters &parameters, RockModel &model)
     {
-      const HexMesh         &mesh = grid.mesh;
-      std::set<unsigned int> done;
-      constexpr std::size_t  longest = 9; // nodes, for order 4
+      constexpr std::size_t     longest = 9; // nodes, for order 4
+      std::vector<unsigned int> line_of(grid.n_nodes(), no_node);
+      std::vector<Rocks>        rocks; // around each line
+      const dealii::Point<3>    centre(parameters.centre[0], parameters.centre[1], parameters.centre[2]);
       for (const ArtificialFace &face : faces)
-        for (const unsigned int node : face.nodes)
-          if (done.insert(model.node[node]).second)
+        for (const unsigned int corner : face.corners)
+        {
+          const InwardLine found = inward_line(grid, face, corner, longest);
+          unsigned int    &k = line_of[found.nodes[0]];
+          if (k == no_node)
           {
-            BoundaryLine line;
-            double       along = 0.;
-            unsigned int last = node;
-            for (const unsigned int i : grid.line(node, node_behind(grid, face, node), longest))
-            {
-              along += norm(mesh.nodes[i] - mesh.nodes[last]);
-              line.nodes.push_back(model.node[i]);
-              line.position.push_back(along);
-              last = i;
-            }
-            const Material &material = parameters.materials.at(mesh.cells[face.cell].volume);
-            line.c_p = p_wave_speed(material);
-            line.c_s = s_wave_speed(material);
-            line.distance = norm(mesh.nodes[node] - parameters.centre);
-            model.lines.push_back(line);
+            k = model.lines.size();
+            model.lines.emplace_back();
+            rocks.emplace_back();
           }
+          BoundaryLine &line = model.lines[k];
+          line.distance = std::max(line.distance, found.places[0].distance(centre));
+          if (line.nodes.empty() || found.nodes[1] == line.nodes[1])
+            rocks[k].emplace_back(parameters.materials.at(face.cell->material_id()), face.area);
+          if (!line.nodes.empty() &&
+              (found.nodes[1] != line.nodes[1] || found.nodes.size() <= line.nodes.size()))
+            continue;
+          line.nodes = found.nodes;
+          line.position.assign(1, 0.);
+          for (std::size_t i = 1; i < found.places.size(); ++i)
+            line.position.push_back(line.position.back() + found.places[i].distance(found.places[i - 1]));
+        }
+      for (unsigned int k = 0; k < rocks.size(); ++k)
+      {
+        const Material material = mean(rocks[k]);
+        model.lines[k].c_p = p_wave_speed(material);
+        model.lines[k].c_s = s_wave_speed(material);
+      }
     }
 
-    /** The vertical grid line that begins behind a face of the bottom. */
-    RockColumn column_above(const RockGrid &grid, const ArtificialFace &face, const unsigned int foot,
-                            const RockParameters &parameters, const RockModel &model)
+    /** A stack of cells on a face of the bottom, seen at one of its lines. */
+    struct Stack
     {
-      RockColumn   column;
-      unsigned int last = no_node;
-      for (const unsigned int i :
-           grid.line(foot, node_behind(grid, face, foot), std::numeric_limits<std::size_t>::max()))
+      InwardLine line;
+      double     area; ///< of the face [m^2]
+    };
+
+    RockColumn column_of(const std::vector<Stack> &stacks, const RockParameters &parameters)
+    {
+      const auto by_length = [](const Stack &a, const Stack &b)
+      { return a.line.nodes.size() < b.line.nodes.size(); };
+      const InwardLine &longest = std::max_element(stacks.begin(), stacks.end(), by_length)->line;
+      RockColumn        column;
+      column.nodes = longest.nodes;
+      for (std::size_t k = 0; k < longest.nodes.size(); ++k)
       {
-        column.nodes.push_back(model.node[i]);
-        column.z.push_back(grid.mesh.nodes[i][2]);
-        if (last != no_node)
-          for (const unsigned int k : grid.cells_of_node[last])
-            if (grid.corner(k, i) < 8)
-            {
-              column.material.push_back(parameters.materials.at(grid.mesh.cells[k].volume));
-              break;
-            }
-        last = i;
+        column.z.push_back(longest.places[k][2]);
+        if (k == 0)
+          continue;
+        Rocks beside;
+        for (const Stack &stack : stacks)
+          if (const auto &nodes = stack.line.nodes;
+              k < nodes.size() && nodes[k - 1] == longest.nodes[k - 1] && nodes[k] == longest.nodes[k])
+            beside.emplace_back(parameters.materials.at(stack.line.cells[k - 1]->material_id()), stack.area);
+        column.material.push_back(mean(beside));
       }
       return column;
     }
@@ -206,27 +217,38 @@ namespace Voussoir
     void find_columns(const RockGrid &grid, const std::vector<ArtificialFace> &faces,
                       const RockParameters &parameters, RockModel &model)
     {
-      std::set<unsigned int> side, done;
+      std::vector<bool> side(grid.n_nodes(), false);
+      bool              has_sides = false;
       for (const ArtificialFace &face : faces)
         if (face.rank() < 2)
-          for (const unsigned int node : face.nodes)
-            side.insert(model.node[node]);
+          for (const unsigned int corner : face.corners)
+            side[grid.node(face.cell, corner)] = has_sides = true;
+      std::vector<std::vector<Stack>>      columns;
+      std::map<unsigned int, unsigned int> column_at; // foot
       for (const ArtificialFace &face : faces)
         if (face.rank() == 2)
-          for (const unsigned int node : face.nodes)
-            if ((side.count(model.node[node]) || (side.empty() && model.columns.empty())) &&
-                done.insert(model.node[node]).second)
-              model.columns.push_back(column_above(grid, face, node, parameters, model));
+          for (const unsigned int corner : face.corners)
+          {
+            const unsigned int foot = grid.node(face.cell, corner);
+            if (!side[foot] && (has_sides || (!columns.empty() && !column_at.count(foot))))
+              continue;
+            const unsigned int c = column_at.insert({foot, columns.size()}).first->second;
+            columns.resize(std::max<std::size_t>(columns.size(), c + 1));
+            columns[c].push_back(
+                {inward_line(grid, face, corner, std::numeric_limits<std::size_t>::max()), face.area});
+          }
       std::map<unsigned int, RockModel::Place> place;
-      for (unsigned int c = 0; c < model.columns.size(); ++c)
+      for (unsigned int c = 0; c < columns.size(); ++c)
+      {
+        model.columns.push_back(column_of(columns[c], parameters));
         for (unsigned int k = 0; k < model.columns[c].nodes.size(); ++k)
           place.insert({model.columns[c].nodes[k], {c, k}});
+      }
       for (const BoundaryLine &line : model.lines)
       {
         const auto found = place.find(line.nodes[0]);
-        const bool on_side = side.count(line.nodes[0]) > 0;
-        model.place.push_back(on_side && found != place.end() ? found->second
-                                                              : RockModel::Place{no_node, no_node});
+        model.place.push_back(
+            side[line.nodes[0]] && found != place.end() ? found->second : RockModel::Place{no_node, no_node});
       }
     }
   } // namespace
@@ -234,19 +256,25 @@ namespace Voussoir
   RockModel make_rock_model(const HexMesh &mesh, const RockParameters &parameters,
                             const std::vector<unsigned int> &master)
   {
-    const RockGrid                    grid(mesh, parameters);
+    const RockGrid                    grid(mesh, parameters, master);
     const std::vector<ArtificialFace> faces = artificial_faces(grid);
     RockModel                         model;
-    number_nodes(grid, master, model);
-    model.layer = layers_of_cells(grid, faces);
-    assemble(grid, parameters, model);
+    model.points = grid.points;
+    model.node.assign(mesh.nodes.size(), no_node);
+    for (unsigned int d = 0; d < grid.mesh_node.size(); ++d)
+      model.node[grid.mesh_node[d]] = grid.node_of_dof[d];
+    const std::vector<bool> nodal = parameters.nodal_everywhere
+                                        ? std::vector<bool>(grid.triangulation.n_active_cells(), true)
+                                        : cells_at_boundary(grid, faces, parameters.nodal_layers);
+    assemble(grid, nodal, parameters, model);
     find_lines(grid, faces, parameters, model);
     find_columns(grid, faces, parameters, model);
     for (const ArtificialFace &face : faces)
     {
-      BoundaryFace f{{}, face.normal, face.area, parameters.materials.at(mesh.cells[face.cell].volume)};
+      const int    volume = face.cell->material_id();
+      BoundaryFace f{{}, face.normal, face.area, volume, parameters.materials.at(volume)};
       for (unsigned int i = 0; i < 4; ++i)
-        f.nodes[i] = model.node[face.nodes[i]];
+        f.nodes[i] = grid.node(face.cell, face.corners[i]);
       model.faces.push_back(f);
     }
     return model;

@@ -60,27 +60,32 @@ namespace Voussoir
     }
   } // namespace
 
-  std::unique_ptr<FreeField> make_free_field(const HexMesh &mesh, const RockModel &model,
-                                             const RockRegionParameters &parameters, const IncidentWave &wave,
-                                             const unsigned int n_steps)
+  RockRegionParameters of_sections(const RockRegionParameters &parameters)
+  {
+    RockRegionParameters result = parameters;
+    if (!make_boundary(parameters)->absorbs())
+    {
+      result.boundary = RockRegionParameters().boundary;
+      result.boundary_maker = nullptr;
+    }
+    return result;
+  }
+
+  std::unique_ptr<FreeField> make_free_field(const RockModel &model, const RockRegionParameters &parameters,
+                                             const IncidentWave &wave, const unsigned int n_steps)
   {
     auto field = std::make_unique<FreeField>(model, parameters.damping, parameters.dt, n_steps, wave);
     if (parameters.free_field == "sections")
       for (const int sense : {-1, 1})
       {
-        const HexMesh section = extruded_section(mesh, parameters.rock, 0, sense);
+        const HexMesh section = extruded_section(model, 0, sense);
         if (section.cells.empty())
           continue;
-        RockRegionParameters plane = parameters; // its waves come from its own middle
-        plane.rock.centre[0] = section.nodes[0][0];
-        if (!make_boundary(plane)->absorbs()) // the valley's own waves leave
-        {
-          plane.boundary = RockRegionParameters().boundary;
-          plane.boundary_maker = nullptr;
-        }
+        RockRegionParameters plane = of_sections(parameters);
+        plane.rock.centre[0] = section.nodes[0][0]; // its waves come from its own middle
         RockModel slice = make_rock_model(section, plane.rock, tie_layer(section, 0));
         auto      motion = make_region(slice, plane);
-        shake(*motion, section, slice, plane, wave, n_steps); // has no such faces itself
+        shake(*motion, slice, plane, wave, n_steps); // has no such faces itself
         field->add_section(std::move(slice), std::move(motion), 0);
       }
     else if (parameters.free_field != "columns")
@@ -88,10 +93,10 @@ namespace Voussoir
     return field;
   }
 
-  void shake(ExplicitRegion &region, const HexMesh &mesh, const RockModel &model,
-             const RockRegionParameters &parameters, const IncidentWave &wave, const unsigned int n_steps)
+  void shake(ExplicitRegion &region, const RockModel &model, const RockRegionParameters &parameters,
+             const IncidentWave &wave, const unsigned int n_steps)
   {
-    auto field = make_free_field(mesh, model, parameters, wave, n_steps);
+    auto field = make_free_field(model, parameters, wave, n_steps);
     add_points(*field, *region.artificial_boundary(), model);
     region.set_free_field(std::move(field));
   }

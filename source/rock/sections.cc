@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/rock/rock_grid.h>
 #include <voussoir/rock/sections.h>
 
 #include <algorithm>
@@ -16,7 +15,7 @@ namespace Voussoir
       master[i] = i;
     for (const HexMesh::Cell &cell : mesh.cells)
       for (unsigned int v = 0; v < 8; ++v)
-        for (const unsigned int w : corners_beside[v])
+        for (const unsigned int w : {v / 4 * 4 + (v + 1) % 4, (v + 4) % 8})
         {
           // The edge that is most nearly along the direction joins the two copies.
           const unsigned int a = cell.nodes[v], b = cell.nodes[w];
@@ -27,50 +26,44 @@ namespace Voussoir
     return master;
   }
 
-  HexMesh extruded_section(const HexMesh &mesh, const RockParameters &parameters,
-                           const unsigned int direction, const int sense)
+  HexMesh extruded_section(const RockModel &model, const unsigned int direction, const int sense)
   {
-    const RockGrid                    grid(mesh, parameters);
-    const std::vector<ArtificialFace> all = artificial_faces(grid);
-    std::vector<ArtificialFace>       cut;
-    double                            thickness = 0.;
-    for (const ArtificialFace &face : all)
+    std::vector<BoundaryFace> cut;
+    double                    thickness = 0.;
+    for (const BoundaryFace &face : model.faces)
       if (sense * face.normal[direction] > .7)
       {
         cut.push_back(face);
         thickness = std::max(thickness, std::sqrt(face.area));
       }
 
-    HexMesh section;
-    section.zones = mesh.zones;
-    std::map<unsigned int, unsigned int> copy; // mesh node -> its place in the section, in pairs
-    for (const ArtificialFace &face : cut)
+    HexMesh                              section;
+    std::map<unsigned int, unsigned int> copy; // node -> its place in the section, in pairs
+    for (const BoundaryFace &face : cut)
       for (const unsigned int node : face.nodes)
         if (copy.try_emplace(node, section.nodes.size()).second)
         {
-          section.nodes.push_back(mesh.nodes[node]);
-          section.nodes.push_back(mesh.nodes[node]);
+          section.nodes.push_back(model.points[node]);
+          section.nodes.push_back(model.points[node]);
           section.nodes.back()[direction] -= sense * thickness;
         }
-    for (const ArtificialFace &face : cut) // seen from outside, the corners are counter-clockwise
+    for (const BoundaryFace &face : cut)
     {
-      HexMesh::Cell cell;
+      HexMesh::Cell cell{{}, face.volume};
       for (unsigned int i = 0; i < 4; ++i)
       {
         cell.nodes[i] = copy[face.nodes[i]] + 1;
         cell.nodes[i + 4] = copy[face.nodes[i]];
       }
-      cell.volume = mesh.cells[face.cell].volume;
-      cell.zone = mesh.cells[face.cell].zone;
       section.cells.push_back(cell);
     }
     // Edges of the cut that other artificial faces share.
     std::set<std::pair<unsigned int, unsigned int>> edges;
-    for (const ArtificialFace &face : all)
+    for (const BoundaryFace &face : model.faces)
       if (sense * face.normal[direction] <= .7)
         for (unsigned int i = 0; i < 4; ++i)
           edges.insert(std::minmax(face.nodes[i], face.nodes[(i + 1) % 4]));
-    for (const ArtificialFace &face : cut)
+    for (const BoundaryFace &face : cut)
       for (unsigned int i = 0; i < 4; ++i)
       {
         const unsigned int a = face.nodes[i], b = face.nodes[(i + 1) % 4];

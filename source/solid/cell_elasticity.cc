@@ -11,10 +11,16 @@ namespace Voussoir
   using namespace dealii;
 
   CellElasticity::CellElasticity(const FiniteElement<3> &fe, const bool incompatible_modes)
+      : CellElasticity(fe, incompatible_modes, QGauss<3>(fe.degree + 1))
+  {
+  }
+
+  CellElasticity::CellElasticity(const FiniteElement<3> &fe, const bool incompatible_modes,
+                                 const Quadrature<3> &of_stiffness)
       : fe(fe), modes(incompatible_modes && fe.degree == 1),
-        values(fe, QGauss<3>(fe.degree + 1),
-               update_values | update_gradients | update_JxW_values | update_inverse_jacobians |
-                   update_jacobians),
+        values(fe, of_stiffness,
+               update_gradients | update_JxW_values | (modes ? update_jacobians : update_default)),
+        mass_values(fe, QGauss<3>(fe.degree + 1), update_values | update_JxW_values),
         stress_values(fe, QGauss<3>(2), update_gradients | update_inverse_jacobians | update_jacobians),
         centre(fe, QMidpoint<3>(), update_inverse_jacobians | update_jacobians)
   {
@@ -38,27 +44,31 @@ namespace Voussoir
     lambda = e * nu / ((1 + nu) * (1 - 2 * nu));
     mu = e / (2 * (1 + nu));
     values.reinit(cell);
+    mass_values.reinit(cell);
     if (modes)
       centre.reinit(cell);
     const unsigned int n = fe.n_dofs_per_cell(), n_all = n + (modes ? 3 : 0);
     stiffness.assign(n_all * n_all, Matrix3{});
     mass.assign(n, 0.);
+    for (const unsigned int q : mass_values.quadrature_point_indices())
+      for (unsigned int i = 0; i < n; ++i)
+        mass[i] += material.density * mass_values.shape_value(i, q) * mass_values.JxW(q);
+    const Tensor<1, 3>        zero;
     std::vector<Tensor<1, 3>> gradient(n_all);
     for (const unsigned int q : values.quadrature_point_indices())
     {
       const double JxW = values.JxW(q);
       for (unsigned int i = 0; i < n; ++i)
-      {
         gradient[i] = values.shape_grad(i, q);
-        mass[i] += material.density * values.shape_value(i, q) * JxW;
-      }
       for (unsigned int m = n; m < n_all; ++m)
         gradient[m] = mode_gradient(values, q, m - n);
       for (unsigned int i = 0; i < n_all; ++i)
         for (unsigned int j = 0; j <= i; ++j)
         {
           const Tensor<1, 3> &g = gradient[i], &h = gradient[j];
-          const double        gh = mu * (g * h);
+          if (g == zero || h == zero) // most are at nodes
+            continue;
+          const double gh = mu * (g * h);
           for (unsigned int a = 0; a < 3; ++a)
             for (unsigned int b = 0; b < 3; ++b)
               stiffness[i * n_all + j][3 * a + b] +=

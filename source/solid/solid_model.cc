@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/mapping_q1.h>
-#include <deal.II/grid/grid_tools.h>
 
 #include <voussoir/base/error.h>
 #include <voussoir/solid/cell_elasticity.h>
 #include <voussoir/solid/solid_model.h>
+#include <voussoir/solid/triangulation.h>
 
 #include <algorithm>
 #include <map>
@@ -15,55 +15,12 @@ namespace Voussoir
 {
   using namespace dealii;
 
-  namespace
-  {
-    /** The cells of a mesh, their volumes as material ids. */
-    void make_cells(const HexMesh &mesh, Triangulation<3> &triangulation)
-    {
-      std::vector<Point<3>> vertices;
-      for (const auto &x : mesh.nodes)
-        vertices.emplace_back(x[0], x[1], x[2]);
-      constexpr unsigned int   lexicographic[8] = {0, 1, 3, 2, 4, 5, 7, 6};
-      std::vector<CellData<3>> cells(mesh.cells.size());
-      for (std::size_t i = 0; i < cells.size(); ++i)
-      {
-        cells[i].material_id = mesh.cells[i].volume;
-        for (unsigned int v = 0; v < 8; ++v)
-          cells[i].vertices[lexicographic[v]] = mesh.cells[i].nodes[v];
-      }
-      GridTools::consistently_order_cells(cells);
-      triangulation.create_triangulation(vertices, cells, SubCellData());
-    }
-
-    /** The surfaces of a mesh as boundary ids, 0 for the other outer faces. */
-    void mark_surfaces(const HexMesh &mesh, Triangulation<3> &triangulation)
-    {
-      std::map<std::array<unsigned int, 4>, int> surface_of;
-      for (const HexMesh::Face &face : mesh.faces)
-      {
-        auto key = face.nodes;
-        std::sort(key.begin(), key.end());
-        surface_of[key] = face.surface;
-      }
-      for (const auto &cell : triangulation.active_cell_iterators())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary())
-          {
-            std::array<unsigned int, 4> key;
-            for (unsigned int v = 0; v < 4; ++v)
-              key[v] = cell->face(f)->vertex_index(v);
-            std::sort(key.begin(), key.end());
-            const auto found = surface_of.find(key);
-            cell->face(f)->set_boundary_id(found == surface_of.end() ? 0 : found->second);
-          }
-    }
-  } // namespace
-
   SolidModel::SolidModel(const HexMesh &mesh, const unsigned int degree)
       : fe(degree), dof_handler(triangulation), n_zones(mesh.zones.size())
   {
-    make_cells(mesh, triangulation);
-    mark_surfaces(mesh, triangulation);
+    std::vector<unsigned int> all(mesh.cells.size());
+    std::iota(all.begin(), all.end(), 0);
+    make_triangulation(mesh, all, triangulation);
     std::set<int> numbers;
     for (const HexMesh::Cell &cell : mesh.cells)
     {

@@ -10,9 +10,9 @@ namespace Voussoir
 {
   /** A body seen through its interface.
    *
-   *  The operator A = mass_factor M + stiffness_factor K + dashpot_factor D is factorised once, A = L L^T,
-   * with the interface unknowns ordered last, so that the trailing block of L is the factor of the condensed
-   *  operator: S = L_GG L_GG^T. A step is then
+   *  The operator A = mass_factor M + stiffness_factor K + dashpot_factor D + springs is factorised once,
+   * A = L L^T, with the interface unknowns ordered last, so that the trailing block of L is the factor of the
+   * condensed operator: S = L_GG L_GG^T. A step is then
    *
    *    forward(b)               y = L^-1 b, in which y_G is the condensed load
    *    interface_displacement() u_G = L_GG^-T y_G, without joint forces
@@ -23,10 +23,11 @@ namespace Voussoir
   class CondensedBody
   {
   public:
-    /** Throws ComputationError when A is not positive definite (a body that nothing holds, or bad elements),
-     * and std::bad_alloc. */
+    /** @p springs: to the ground, per component of the structure [N/m], or empty.
+     *  Throws ComputationError when A is not positive definite (a body that nothing holds, or bad elements),
+     *  and std::bad_alloc. */
     CondensedBody(const Structure &structure, const Body &body, double mass_factor, double stiffness_factor,
-                  double dashpot_factor);
+                  double dashpot_factor, const Unknowns &springs = Unknowns());
     ~CondensedBody();
     CondensedBody(CondensedBody &&) noexcept;
 

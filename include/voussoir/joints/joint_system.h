@@ -15,16 +15,17 @@ namespace Voussoir
     double sweeps = 0., joints = 0.;
   };
 
-  /** The bodies condensed for one operator A = mass_factor M + stiffness_factor K + dashpot_factor D, and the
-   * joints between them: solves A u = load + G^T force, gap = G u + offset, with the joint laws between force
-   * and gap. */
+  /** The bodies condensed for one operator A = mass_factor M + stiffness_factor K + dashpot_factor D +
+   * springs, and the joints between them: solves A u = load + G^T force, gap = G u + offset, with the joint
+   * laws between force and gap. */
   class JointSystem
   {
   public:
-    /** @p meaning: of the forces of this system, for the laws. */
+    /** @p meaning: of the forces of this system, for the laws; @p springs: to the ground, per component
+     * [N/m], or empty. */
     JointSystem(const Structure &structure, const PairLaws &laws, const ContactParameters &parameters,
                 double mass_factor, double stiffness_factor, double dashpot_factor,
-                ForceMeaning meaning = ForceMeaning());
+                ForceMeaning meaning = ForceMeaning(), const Unknowns &springs = Unknowns());
     JointSystem(const JointSystem &) = delete; // the solver knows the joint operator by its place
 
     /** @p start: gap at the start of the step, 3 per pair [m]; @p memory: of the pairs, as committed before

@@ -15,11 +15,18 @@ namespace Voussoir
     static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
     /** @p tolerance: largest distance of two places that are the same [m]. */
-    PointFinder(const std::vector<std::array<double, 3>> &points, double tolerance);
+    explicit PointFinder(const std::vector<std::array<double, 3>> &points, double tolerance = 0.);
     ~PointFinder();
 
     /** Number of the point at @p place; none if there is none. */
     unsigned int find(const std::array<double, 3> &place) const;
+
+    struct Nearest
+    {
+      unsigned int number;   ///< none in an empty set
+      double       distance; ///< [m]
+    };
+    Nearest nearest(const std::array<double, 3> &place) const; ///< however far it is
 
   private:
     struct Tree;

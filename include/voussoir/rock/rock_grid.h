@@ -2,6 +2,10 @@
 #ifndef voussoir_rock_grid_h
 #define voussoir_rock_grid_h
 
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/grid/tria.h>
+
 #include <voussoir/base/tensor3.h>
 #include <voussoir/mesh/mesh.h>
 #include <voussoir/rock/rock_parameters.h>
@@ -10,43 +14,39 @@
 
 namespace Voussoir
 {
-  constexpr unsigned int no_node = static_cast<unsigned int>(-1);
-
-  /** Corners of the unit cell in the order of a cell's nodes, and the three corners next to each. */
-  constexpr int          unit_cube[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                            {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-  constexpr unsigned int corners_beside[8][3] = {{1, 3, 4}, {0, 2, 5}, {3, 1, 6}, {2, 0, 7},
-                                                 {5, 7, 0}, {4, 6, 1}, {7, 5, 2}, {6, 4, 3}};
-  constexpr unsigned int opposite_corner[8] = {6, 7, 4, 5, 2, 3, 0, 1};
-
-  /** What is needed of the mesh's topology. */
+  /** The rock as deal.II's mesh, which is needed only while a RockModel is made of it. */
   struct RockGrid
   {
-    const HexMesh                         &mesh;
-    std::vector<bool>                      in_region;     ///< of each cell
-    std::vector<std::vector<unsigned int>> cells_of_node; ///< of the region
+    using Cell = dealii::DoFHandler<3>::active_cell_iterator;
 
-    RockGrid(const HexMesh &mesh, const RockParameters &parameters);
+    /** The cells of @p mesh whose volumes have a material. @p master: mesh nodes with the same one are one
+     * node of the region; empty if there are none. */
+    RockGrid(const HexMesh &mesh, const RockParameters &parameters, const std::vector<unsigned int> &master);
 
-    /** Of @p node in @p cell; 8 if it has none there. */
-    unsigned int corner(unsigned int cell, unsigned int node) const;
+    /** Node of the region at corner @p v of a cell, in deal.II's order of corners. */
+    unsigned int node(const Cell &cell, const unsigned int v) const
+    {
+      return node_of_dof[cell->vertex_dof_index(v, 0)];
+    }
 
-    bool share_a_cell(unsigned int a, unsigned int b) const;
+    unsigned int n_nodes() const { return static_cast<unsigned int>(points.size()); }
 
-    /** The node after @p b on the grid line that comes from @p a; no_node at its end. */
-    unsigned int next(unsigned int a, unsigned int b) const;
-
-    /** The grid line from @p a over @p b to its end, or @p n nodes of it. */
-    std::vector<unsigned int> line(unsigned int a, unsigned int b, std::size_t n) const;
+    dealii::Triangulation<3>  triangulation; ///< material ids are volumes, boundary ids surfaces
+    dealii::FE_Q<3>           fe;
+    dealii::DoFHandler<3>     dof_handler; ///< its degrees of freedom are the vertices, in the mesh's order
+    std::vector<unsigned int> mesh_node;   ///< of each degree of freedom
+    std::vector<unsigned int> node_of_dof; ///< of the region
+    std::vector<Vector3>      points;      ///< of the region's nodes [m]
   };
 
-  /** A face of the artificial boundary, by mesh nodes, with its cell. */
+  /** A face of the artificial boundary. */
   struct ArtificialFace
   {
-    std::array<unsigned int, 4> nodes;
-    unsigned int                cell;
-    Vector3                     normal; ///< outward
-    double                      area;
+    RockGrid::Cell              cell;
+    unsigned int                face;    ///< of the cell
+    std::array<unsigned int, 4> corners; ///< of the cell, counter-clockwise seen from outside
+    Vector3                     normal;  ///< outward
+    double                      area;    ///< [m^2]
 
     unsigned int rank() const ///< in the order in which lines are chosen
     {
@@ -54,14 +54,25 @@ namespace Voussoir
     }
   };
 
-  /** The faces of the artificial boundary of the region: those across x first, the bottom last. */
+  /** The faces of the artificial boundary: those across x first, the bottom last. */
   std::vector<ArtificialFace> artificial_faces(const RockGrid &grid);
 
-  /** Number of layers between each cell and the artificial boundary, 1 at the boundary. */
-  std::vector<unsigned int> layers_of_cells(const RockGrid &grid, const std::vector<ArtificialFace> &faces);
+  /** A grid line from the artificial boundary inward: edges one behind the other, each from a cell of the
+   * stack of cells behind a face. */
+  struct InwardLine
+  {
+    std::vector<unsigned int>     nodes;
+    std::vector<dealii::Point<3>> places; ///< of the nodes [m]
+    std::vector<RockGrid::Cell>   cells;  ///< between the nodes
+  };
 
-  /** The node of the cell behind @p face that is joined to @p node. */
-  unsigned int node_behind(const RockGrid &grid, const ArtificialFace &face, unsigned int node);
+  /** The line from @p corner of the cell behind @p face, one of the face's; at most @p n nodes of it. */
+  InwardLine inward_line(const RockGrid &grid, const ArtificialFace &face, unsigned int corner,
+                         std::size_t n);
+
+  /** Of each active cell: is it one of the @p n_layers of cells at the artificial boundary? */
+  std::vector<bool> cells_at_boundary(const RockGrid &grid, const std::vector<ArtificialFace> &faces,
+                                      unsigned int n_layers);
 } // namespace Voussoir
 
 #endif

@@ -3,27 +3,30 @@
 #define voussoir_rock_model_h
 
 #include <voussoir/mesh/mesh.h>
-#include <voussoir/rock/rock_grid.h>
 #include <voussoir/rock/rock_parameters.h>
 #include <voussoir/solid/structure.h>
 
 namespace Voussoir
 {
-  /** A grid line from the artificial boundary inward. The first node's motion follows from the others'. */
+  constexpr unsigned int no_node = static_cast<unsigned int>(-1);
+
+  /** A grid line from the artificial boundary inward. The first node's motion follows from the others'. The
+   * source is where the scattered waves come from (RockParameters::centre). */
   struct BoundaryLine
   {
     std::vector<unsigned int> nodes;              ///< of the region; nodes[0] lies on the boundary
     std::vector<double>       position;           ///< of the nodes, distance from nodes[0] along the line [m]
     double                    c_p = 0., c_s = 0.; ///< wave speeds of the rock at nodes[0] [m/s]
-    double                    distance = 0.;      ///< of nodes[0] from the source of the scattered waves [m]
+    double                    distance = 0.;      ///< of nodes[0], tied: the farthest, from the source [m]
   };
 
   /** A face of the artificial boundary. */
   struct BoundaryFace
   {
-    std::array<unsigned int, 4> nodes;
+    std::array<unsigned int, 4> nodes;  ///< counter-clockwise seen from outside
     Vector3                     normal; ///< outward
     double                      area;   ///< [m^2]
+    int                         volume; ///< of the cell behind it
     Material                    material;
   };
 
@@ -35,14 +38,13 @@ namespace Voussoir
     std::vector<Material>     material; ///< between the nodes
   };
 
-  /** The finite element model of the rock. Node numbers are the region's own unless said otherwise. */
+  /** The finite element model of the rock. Nodes are numbered in the mesh's order of those of the rock. */
   struct RockModel
   {
     std::vector<unsigned int>          node;      ///< of each mesh node, no_node if it is not in the rock
     std::vector<std::array<double, 3>> points;    ///< places of the nodes [m]
     BlockSparseMatrix                  stiffness; ///< [N/m]
     std::vector<double>                mass;      ///< lumped, of each node [kg]
-    std::vector<unsigned int>          layer;     ///< of each mesh cell from the artificial boundary, from 1
     std::vector<BoundaryLine>          lines;     ///< one for each node of the artificial boundary
     std::vector<BoundaryFace>          faces;     ///< of the artificial boundary
     std::vector<RockColumn>            columns;   ///< along side faces; at least one
@@ -59,8 +61,12 @@ namespace Voussoir
   /** Model of the cells of @p mesh whose volumes have a material. @p master: mesh nodes with the same master
    * move as one (a two-dimensional problem is one layer of cells, tied); empty if there are none.
    *
+   * Trilinear elements of deal.II; masses are row sums of 2x2x2 Gauss points.
+   *
    * Lines: side faces come before the bottom, and those across x before those across y, so a node on an edge
-   * has the line that is normal to the first of its faces. InputError if the grid has no lines. */
+   * has the line that is normal to the first of its faces. Of stacks of cells that begin with the same edge,
+   * lines and columns follow the longest. Between two rocks they have the mean of their moduli and densities,
+   * by the areas of the faces behind which the stacks lie. */
   RockModel make_rock_model(const HexMesh &mesh, const RockParameters &parameters,
                             const std::vector<unsigned int> &master = {});
 } // namespace Voussoir

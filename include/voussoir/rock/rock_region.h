@@ -18,14 +18,17 @@ namespace Voussoir
   double noise_growth(const RockModel &model, const RockRegionParameters &parameters,
                       unsigned int n_steps = 2000);
 
-  /** The motion without dam, as yet without points. */
-  std::unique_ptr<FreeField> make_free_field(const HexMesh &mesh, const RockModel &model,
-                                             const RockRegionParameters &parameters, const IncidentWave &wave,
-                                             unsigned int n_steps);
+  /** Those of the sections of the free field: as the region's, but what a boundary that does not absorb would
+   * throw back must leave them; they have the default boundary then. */
+  RockRegionParameters of_sections(const RockRegionParameters &parameters);
 
-  /** Lets the earthquake in. @p mesh: that of the model; @p n_steps: as many as will be made at most. */
-  void shake(ExplicitRegion &region, const HexMesh &mesh, const RockModel &model,
-             const RockRegionParameters &parameters, const IncidentWave &wave, unsigned int n_steps);
+  /** The motion without dam, as yet without points. InputError for an unknown kind of free field. */
+  std::unique_ptr<FreeField> make_free_field(const RockModel &model, const RockRegionParameters &parameters,
+                                             const IncidentWave &wave, unsigned int n_steps);
+
+  /** Lets the earthquake in. @p n_steps: as many as will be made at most. */
+  void shake(ExplicitRegion &region, const RockModel &model, const RockRegionParameters &parameters,
+             const IncidentWave &wave, unsigned int n_steps);
 } // namespace Voussoir
 
 #endif

@@ -12,12 +12,17 @@ namespace Voussoir
 {
   /** Stiffness, mass and stress of one cell, node by node, the incompatible modes condensed out.
    *
+   *  The stiffness of the dam is integrated at Gauss points. Nodal quadrature (QGaussLobatto(degree + 1)) is
+   * for explicit wave propagation; the lumped mass is the same.
+   *
    *  Modes 1 - xi^2 (Wilson), with the Jacobian of the centre and the factor j_0/j (Taylor, Beresford and
    * Wilson 1976), so that a constant stress does no work on them and the patch test holds. */
   class CellElasticity
   {
   public:
     CellElasticity(const dealii::FiniteElement<3> &fe, bool incompatible_modes);
+    CellElasticity(const dealii::FiniteElement<3> &fe, bool incompatible_modes,
+                   const dealii::Quadrature<3> &of_stiffness);
 
     void reinit(const dealii::DoFHandler<3>::active_cell_iterator &cell, const Material &material);
 
@@ -36,7 +41,7 @@ namespace Voussoir
 
     const dealii::FiniteElement<3>             &fe;
     const bool                                  modes;
-    dealii::FEValues<3>                         values, stress_values, centre;
+    dealii::FEValues<3>                         values, mass_values, stress_values, centre;
     dealii::FullMatrix<double>                  mode_of_displacement; ///< 9 x 3n
     dealii::DoFHandler<3>::active_cell_iterator cell;
     double                                      lambda = 0., mu = 0.;
