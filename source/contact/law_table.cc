@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/base/error.h>
+#include <voussoir/base/names.h>
 #include <voussoir/contact/cohesive_law.h>
 #include <voussoir/contact/fja_law.h>
 #include <voussoir/contact/fjb_law.h>
@@ -29,25 +29,16 @@ namespace Voussoir
 
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters)
   {
-    for (const LawRow &law : laws)
-      if (name == law.name)
-        return law.make(parameters);
-    throw InputError("There is no joint law \"" + name + "\". The laws are: " + joint_law_names() + ".");
+    return row_of(laws, name, "is no joint law", "The laws are:").make(parameters);
   }
 
   std::string joint_law_names()
   {
-    std::string names;
-    for (const LawRow &law : laws)
-      names += (names.empty() ? "" : "|") + std::string(law.name);
-    return names;
+    return names_of(laws);
   }
 
   std::string joint_law_docs()
   {
-    std::string text;
-    for (const LawRow &law : laws)
-      text += (text.empty() ? "" : "; ") + std::string(law.name) + ": " + law.doc;
-    return text;
+    return docs_of(laws);
   }
 } // namespace Voussoir

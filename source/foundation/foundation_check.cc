@@ -106,8 +106,7 @@ namespace Voussoir
     if (!(rock_dt <= dt_critical)) // or not a number
     {
       std::ostringstream message;
-      message << "The time step " << rock_dt << " s is too large for the rock: its critical time step is "
-              << dt_critical << " s. Raise \"Dynamics/Steps per sample\" to "
+      message << beyond_critical_step(rock_dt, dt_critical) << " Raise \"Dynamics/Steps per sample\" to "
               << std::ceil(steps_per_sample * rock_dt / dt_critical) << " or \"Foundation/Substeps\" to "
               << std::ceil(steps.dt / dt_critical)
               << ", take larger rock elements, or less \"Foundation/Stiffness damping\".";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/base/error.h>
+#include <voussoir/base/names.h>
 #include <voussoir/rock/boundary_table.h>
 #include <voussoir/rock/fixed_boundary.h>
 #include <voussoir/rock/transmitting_boundary.h>
@@ -49,10 +49,7 @@ namespace Voussoir
 
   std::string boundary_names(const std::string &between)
   {
-    std::string text;
-    for (const BoundaryRow &row : boundary_table())
-      text += (text.empty() ? "" : between) + row.name;
-    return text;
+    return names_of(boundary_table(), between);
   }
 
   std::string boundary_help()

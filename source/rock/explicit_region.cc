@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <sstream>
 
 namespace Voussoir
 {
@@ -54,21 +54,24 @@ namespace Voussoir
     return 2. * (std::sqrt(1. + xi * xi) - xi) / w;
   }
 
+  std::string beyond_critical_step(const double dt, const double critical)
+  {
+    std::ostringstream text;
+    text << "The time step " << dt
+         << " s is too large for the rock, which is integrated explicitly: its critical time step is "
+         << critical << " s.";
+    return text.str();
+  }
+
   ExplicitRegion::ExplicitRegion(BlockSparseMatrix matrix, std::vector<double> masses,
                                  const RayleighDamping &damping, const double dt)
       : stiffness(std::move(matrix)), mass(std::move(masses)), damping(damping), dt(dt)
   {
     dt_critical = Voussoir::critical_time_step(largest_frequency(stiffness, mass), damping);
-    if (dt > dt_critical)
-    {
-      char text[300];
-      std::snprintf(text, sizeof(text),
-                    "the time step %g s is too large for the rock, which is integrated explicitly: its "
-                    "critical time step is %g s; use a smaller time step, larger cells of rock, or less "
-                    "stiffness-proportional damping",
-                    dt, dt_critical);
-      throw InputError(text);
-    }
+    if (!(dt <= dt_critical)) // or not a number
+      throw InputError(beyond_critical_step(dt, dt_critical) +
+                       " Use a smaller time step, larger cells of rock, or less stiffness-proportional "
+                       "damping.");
     u.assign(3 * std::size_t(n_nodes()), 0.);
     w = K_x = u;
     x = u;

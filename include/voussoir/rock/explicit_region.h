@@ -120,6 +120,9 @@ namespace Voussoir
   /** Critical time step of the explicit scheme with damping lagged [s]: w dt = 2 (sqrt(1 + xi^2) - xi), xi
    * the damping ratio at the frequency @p w (Hughes and Liu 1978). */
   double critical_time_step(double w, const RayleighDamping &damping);
+
+  /** The message for a time step beyond the critical one, to which the mend is added. */
+  std::string beyond_critical_step(double dt, double critical);
 } // namespace Voussoir
 
 #endif
