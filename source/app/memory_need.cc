@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/memory_need.h>
-#include <voussoir/joints/condensed_body.h>
+#include <voussoir/joints/body_factor.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/mesh/mesh_source.h>
 
@@ -100,7 +100,8 @@ namespace Voussoir
     struct Factors
     {
       double entries = 0.;   ///< of the factors
-      double dense = 0.;     ///< of the interfaces' dense ones
+      double dense = 0.;     ///< of the interfaces' flexibilities, until W is there
+      double kept = 0.;      ///< of these afterwards
       double operators = 0.; ///< of W
       double diagonal = 0.;  ///< of W's own blocks of the joints
     };
@@ -172,9 +173,10 @@ namespace Voussoir
             held, in_pair);
         if (massless)
           couple(on_base, graph);
-        const double m = 3. * std::count(graph.is_interface.begin(), graph.is_interface.end(), true);
-        factors.entries += entries_2 * entries_of_factor(graph.neighbours, graph.is_interface);
-        factors.dense += surface_2 * m * m;
+        const FactorSize size = factor_size(graph.neighbours, graph.is_interface);
+        factors.entries += entries_2 * size.entries;
+        factors.dense += surface_2 * size.interface;
+        factors.kept += surface_2 * size.kept;
         n_nodes += nodes_2 * graph.neighbours.size();
         n_blocks += blocks_2 * graph.n_blocks();
       }
@@ -190,10 +192,9 @@ namespace Voussoir
     {
       const auto nodes = [&](const int id)
       { return nodes_on(mesh, [&](const int surface) { return surface == id; }); };
-      const Graph  rock = graph_of(mesh, is_rock, nodes(PhysicalId::artificial), nodes(PhysicalId::base));
-      const double m = 3. * std::count(rock.is_interface.begin(), rock.is_interface.end(), true);
-      return block * rock.n_blocks() +
-             8. * (entries_of_factor(rock.neighbours, rock.is_interface) + 2. * m * m);
+      const Graph      rock = graph_of(mesh, is_rock, nodes(PhysicalId::artificial), nodes(PhysicalId::base));
+      const FactorSize size = factor_size(rock.neighbours, rock.is_interface);
+      return block * rock.n_blocks() + 8. * (size.entries + 2. * size.interface);
     }
 
     /** Rock with mass: its stiffness, and at the peak, the static state, multigrid levels. */
@@ -215,7 +216,8 @@ namespace Voussoir
     const double dam = of_dam(scene, mesh, factors);
     // Of the operator also single precision; LU factors of the joints' blocks in single precision.
     need.halved_step =
-        8. * (factors.entries + factors.dense) + 12. * factors.operators + 4. * factors.diagonal;
+        8. * factors.entries +
+        std::max(8. * factors.dense, 8. * factors.kept + 12. * factors.operators + 4. * factors.diagonal);
     need.run = program + dam + need.halved_step;
     if (scene.foundation.model == "rock")
       need.run += of_rock(scene, mesh);

@@ -2,7 +2,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/foundation/feet.h>
 #include <voussoir/foundation/massless_rock.h>
-#include <voussoir/joints/condensed_body.h>
+#include <voussoir/joints/body_factor.h>
 
 #include <algorithm>
 
@@ -34,8 +34,7 @@ namespace Voussoir
 
     /** The matrix with a dense block for the @p nodes added, S by node and component. */
     BlockSparseMatrix with_dense_block(const BlockSparseMatrix &matrix, std::vector<unsigned int> nodes,
-                                       const std::vector<double>       &S,
-                                       const std::vector<unsigned int> &position)
+                                       const std::vector<double> &S)
     {
       std::vector<unsigned int> sorted = nodes;
       std::sort(sorted.begin(), sorted.end());
@@ -54,14 +53,14 @@ namespace Voussoir
       for (unsigned int row = 0; row < matrix.n_rows(); ++row)
         for (std::size_t k = matrix.start[row]; k < matrix.start[row + 1]; ++k)
           result.add(row, matrix.column[k], matrix.value[k]);
-      const std::size_t m = position.size();
+      const std::size_t m = 3 * nodes.size();
       for (unsigned int i = 0; i < nodes.size(); ++i)
         for (unsigned int j = 0; j < nodes.size(); ++j)
         {
           Matrix3 block;
           for (unsigned int c = 0; c < 3; ++c)
             for (unsigned int d = 0; d < 3; ++d)
-              block[3 * c + d] = S[position[3 * i + c] * m + position[3 * j + d]];
+              block[3 * c + d] = S[(3 * i + c) * m + 3 * j + d];
           result.add(nodes[i], nodes[j], block);
         }
       return result;
@@ -86,11 +85,14 @@ namespace Voussoir
     Body &body = ground.bodies[0];
     for (const Foot &foot : feet) // ascending
       body.interface.push_back(foot.rock);
-    const CondensedBody condensed = [&]
+    const std::vector<double> S = [&]
     {
       try
       {
-        return CondensedBody(ground, body, 0., 1., 0.);
+        BodyFactor factor(ground, body, 0., 1., 0.);
+        factor.analyse(BodyFactor::Order::interface_last);
+        factor.factorise();
+        return factor.condensed_stiffness();
       }
       catch (const ComputationError &)
       {
@@ -100,17 +102,15 @@ namespace Voussoir
                                "too large for this method.");
       }
     }();
-    std::vector<unsigned int> nodes, position;
+    std::vector<unsigned int> nodes;
     for (unsigned int i = 0; i < feet.size(); ++i)
     {
       if (feet[i].nodes.size() != 1)
         throw InputError(source + ": two nodes of one monolith share a place at the dam's base.");
       nodes.push_back(feet[i].nodes[0]);
-      for (unsigned int c = 0; c < 3; ++c)
-        position.push_back(condensed.position(i, c));
     }
     BlockSparseMatrix &K = structure.bodies[0].stiffness;
-    K = with_dense_block(K, nodes, condensed.stiffness(), position);
+    K = with_dense_block(K, nodes, S);
     K.symmetrise();
   }
 

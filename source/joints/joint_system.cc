@@ -101,7 +101,7 @@ namespace Voussoir
       W.block(j, j); // joints without pairs have one, too: an empty one
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
-      const std::vector<double> F = bodies[b].flexibility();
+      const std::vector<double> F = bodies[b].take_flexibility();
       const std::size_t         m = bodies[b].n_interface();
       for (const auto &q : of_body[b]) // columns
         for (const auto &p : of_body[b])
@@ -113,8 +113,9 @@ namespace Voussoir
           const double sign = p.second == q.second ? 1. : -1.;
           for (unsigned int j = 0; j < 3; ++j)
             for (unsigned int i = 0; i < 3; ++i)
-              f[3 * i + j] = sign * F[bodies[b].position(sides[q.first][q.second].node, j) * m +
-                                      bodies[b].position(sides[p.first][p.second].node, i)];
+              f[3 * i + j] =
+                  sign *
+                  F[(3 * sides[q.first][q.second].node + j) * m + 3 * sides[p.first][p.second].node + i];
           const Matrix3        w = rotate(pair_p.frame, f, pair_q.frame);
           std::vector<double> &block = W.block(pair_p.joint, pair_q.joint);
           const std::size_t    rows = W.size(pair_p.joint), row = 3 * p.first - W.begin(pair_p.joint),
@@ -139,8 +140,8 @@ namespace Voussoir
     for_each_parallel(n_bodies,
                       [&](const int i)
                       {
-                        bodies[i].forward(load.data() + 3 * std::size_t(structure.bodies[i].first_node));
-                        bodies[i].interface_displacement(interface[i].data());
+                        bodies[i].apply_load(load.data() + 3 * std::size_t(structure.bodies[i].first_node),
+                                             interface[i].data());
                       });
 
     const double  middle = now();
@@ -154,7 +155,7 @@ namespace Voussoir
           if (const Side &s = sides[p][side]; s.body != rigid_ground)
             for (unsigned int c = 0; c < 3; ++c)
             {
-              const double x = (side == 0 ? -1. : 1.) * interface[s.body][bodies[s.body].position(s.node, c)];
+              const double x = (side == 0 ? -1. : 1.) * interface[s.body][3 * s.node + c];
               for (unsigned int i = 0; i < 3; ++i)
                 b[3 * p + i] += structure.pairs[p].frame[i][c] * x;
             }
@@ -168,7 +169,7 @@ namespace Voussoir
           if (const Side &s = sides[p][side]; s.body != rigid_ground)
             for (unsigned int c = 0; c < 3; ++c)
               for (unsigned int i = 0; i < 3; ++i)
-                interface[s.body][bodies[s.body].position(s.node, c)] +=
+                interface[s.body][3 * s.node + c] +=
                     (side == 0 ? -1. : 1.) * structure.pairs[p].frame[i][c] * force[3 * p + i];
     }
 
@@ -176,8 +177,8 @@ namespace Voussoir
     for_each_parallel(n_bodies,
                       [&](const int i)
                       {
-                        bodies[i].add_interface_forces(interface[i].data());
-                        bodies[i].backward(u.data() + 3 * std::size_t(structure.bodies[i].first_node));
+                        bodies[i].apply_joint_forces(
+                            interface[i].data(), u.data() + 3 * std::size_t(structure.bodies[i].first_node));
                       });
     times.sweeps += middle - begin + now() - after;
     times.joints += after - middle;
@@ -225,8 +226,10 @@ namespace Voussoir
     u.resize(load.size());
     for (unsigned int i = 0; i < bodies.size(); ++i)
     {
-      bodies[i].forward(load.data() + 3 * std::size_t(structure.bodies[i].first_node));
-      bodies[i].backward(u.data() + 3 * std::size_t(structure.bodies[i].first_node));
+      const std::size_t first = 3 * std::size_t(structure.bodies[i].first_node);
+      bodies[i].apply_load(load.data() + first, interface[i].data());
+      std::fill(interface[i].begin(), interface[i].end(), 0.);
+      bodies[i].apply_joint_forces(interface[i].data(), u.data() + first);
     }
   }
 

@@ -2,24 +2,18 @@
 #ifndef voussoir_condensed_body_h
 #define voussoir_condensed_body_h
 
-#include <voussoir/solid/structure.h>
-
-#include <memory>
+#include <voussoir/joints/body_factor.h>
 
 namespace Voussoir
 {
-  /** A body seen through its interface.
+  /** A body seen through its interface: solves A u = b + G^T f with the joint forces f known only when the
+   *  displacement u_G of the interface without them is.
    *
-   *  The operator A = mass_factor M + stiffness_factor K + dashpot_factor D + springs is factorised once,
-   * A = L L^T, with the interface unknowns ordered last, so that the trailing block of L is the factor of the
-   * condensed operator: S = L_GG L_GG^T. A step is then
-   *
-   *    forward(b)               y = L^-1 b, in which y_G is the condensed load
-   *    interface_displacement() u_G = L_GG^-T y_G, without joint forces
-   *    add_interface_forces(f)  y_G += L_GG^-1 f, the joint forces
-   *    backward()               u = L^-T y
-   *
-   *  so one forward and one backward sweep per step, whatever the joints do. */
+   *  Where the interface is a large part of the body (thin monoliths), an order of elimination that fills
+   *  little is worth more than one that keeps the interface apart, and A is solved twice: for b, which gives
+   * u_G, and for b + G^T f. Otherwise the interface comes last, a forward sweep condenses the load on it, the
+   * flexibility S^-1 gives u_G, and after the joint forces a backward sweep gives u. Whichever reads less is
+   * chosen. */
   class CondensedBody
   {
   public:
@@ -28,43 +22,32 @@ namespace Voussoir
      *  and std::bad_alloc. */
     CondensedBody(const Structure &structure, const Body &body, double mass_factor, double stiffness_factor,
                   double dashpot_factor, const Unknowns &springs = Unknowns());
-    ~CondensedBody();
-    CondensedBody(CondensedBody &&) noexcept;
 
-    void forward(const double *b);                ///< b: 3 n_nodes, the body's part of the load
-    void interface_displacement(double *u) const; ///< u: n_interface()
-    void add_interface_forces(const double *f);   ///< f: n_interface()
-    void backward(double *u);                     ///< u: 3 n_nodes
+    /** @p b: 3 n_nodes, the body's part of the load; @p u_G: receives n_interface() entries, the displacement
+     * without joint forces. */
+    void apply_load(const double *b, double *u_G);
 
-    unsigned int n_interface() const { return static_cast<unsigned int>(tail.size()); }
+    /** @p f: n_interface() joint forces; @p u: receives 3 n_nodes. After apply_load(). */
+    void apply_joint_forces(const double *f, double *u);
 
-    /** Where component c of the interface node number i (in body.interface) stands in the interface arrays.
-     */
-    unsigned int position(const unsigned int i, const unsigned int c) const { return slot[3 * i + c]; }
+    /** Unknowns; component c of node number i of body.interface is number 3 i + c. */
+    unsigned int n_interface() const { return static_cast<unsigned int>(interface_row.size()); }
 
-    /** S itself, in the same order [N/m]. */
-    std::vector<double> stiffness() const;
-
-    /** S^-1, n_interface() x n_interface(), column by column (it is symmetric) [m/N]. */
-    std::vector<double> flexibility() const;
+    /** S^-1 of the condensed operator S, n_interface() x n_interface(), column by column (it is symmetric)
+     *  [m/N]; once. */
+    std::vector<double> take_flexibility();
 
     double memory() const; ///< [bytes]
 
   private:
-    struct Factor;
-    void find_interface(const Body &body, const std::vector<bool> &is_interface);
-    void copy_interface_factor();
-
-    std::unique_ptr<Factor>   factor;
-    std::vector<unsigned int> tail;  ///< local unknown at each interface position
-    std::vector<unsigned int> slot;  ///< the inverse, by interface node and component
-    std::vector<double>       dense; ///< L_GG, column by column
+    std::vector<unsigned int> permutation;   ///< unknown of the body at each row of the factor
+    std::vector<unsigned int> interface_row; ///< row of each unknown of the interface
+    PackedFactor              factor;
+    bool                      free_order;  ///< else the interface comes last
+    std::vector<double>       flexibility; ///< column by column
+    std::vector<double>       load, x;     ///< work space, in the order of the factor
+    std::vector<double>       condensed_load;
   };
-
-  /** Entries that the factor of a body would have, without making it: @p neighbours of each node, ascending,
-   * the node itself included; @p is_interface: nodes that come last. To a tenth. */
-  double entries_of_factor(const std::vector<std::vector<unsigned int>> &neighbours,
-                           const std::vector<bool>                      &is_interface);
 } // namespace Voussoir
 
 #endif

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
+
+#include <voussoir/base/error.h>
+#include <voussoir/joints/body_factor.h>
+
+#include <cholmod.h>
+
+#include <algorithm>
+#include <new>
+#include <numeric>
+#include <string>
+
+extern "C"
+{
+  void dsyrk_(const char *, const char *, const int *, const int *, const double *, const double *,
+              const int *, const double *, double *, const int *);
+  void dpotri_(const char *, const int *, double *, const int *, int *);
+}
+
+namespace Voussoir
+{
+  namespace
+  {
+    /** What CHOLMOD says of its memory as an exception. */
+    void check_memory(const cholmod_common &common)
+    {
+      if (common.status == CHOLMOD_OUT_OF_MEMORY)
+        throw std::bad_alloc();
+      if (common.status == CHOLMOD_TOO_LARGE)
+        throw ComputationError("A monolith is too large: its factors have more than 2^31 entries. Use fewer "
+                               "elements, or more joints.");
+    }
+
+    /** A matrix of CHOLMOD that frees itself. */
+    class SparseMatrix
+    {
+    public:
+      SparseMatrix(const std::size_t n, const std::size_t n_entries, const int type, cholmod_common &common)
+          : matrix(cholmod_allocate_sparse(n, n, n_entries, 1, 1, -1, type, &common)), common(common)
+      {
+        check_memory(common);
+      }
+      SparseMatrix(const SparseMatrix &) = delete;
+      ~SparseMatrix() { cholmod_free_sparse(&matrix, &common); }
+
+      cholmod_sparse *matrix;
+
+    private:
+      cholmod_common &common;
+    };
+    /** A of the class, its lower triangle, in the matrix @p A. */
+    void fill(const Structure &structure, const Body &body, const double mass_factor,
+              const double stiffness_factor, const double dashpot_factor, const Unknowns &springs,
+              cholmod_sparse *A)
+    {
+      const BlockSparseMatrix &K = body.stiffness;
+      const unsigned int       n = 3 * K.n_rows();
+      int                     *p = static_cast<int *>(A->p), *index = static_cast<int *>(A->i);
+      double                  *x = static_cast<double *>(A->x);
+      int                      k = 0;
+      // The matrix is symmetric: row by row of K's upper part is column by column of its lower part.
+      for (unsigned int row = 0; row < K.n_rows(); ++row)
+        for (unsigned int i = 0; i < 3; ++i)
+        {
+          p[3 * row + i] = k;
+          for (std::size_t e = K.start[row]; e < K.start[row + 1]; ++e)
+            for (unsigned int j = 0; j < 3; ++j)
+              if (3 * K.column[e] + j >= 3 * row + i)
+              {
+                double            a = stiffness_factor * K.value[e][3 * i + j];
+                const std::size_t node = body.first_node + row;
+                if (K.column[e] == row)
+                  a += mass_factor * structure.mass[node][3 * i + j];
+                if (K.column[e] == row && i == j && !structure.dashpots.empty())
+                  a += dashpot_factor * structure.dashpots[3 * node + i];
+                if (K.column[e] == row && i == j && !springs.empty())
+                  a += springs[3 * node + i];
+                index[k] = 3 * K.column[e] + j;
+                x[k++] = a;
+              }
+        }
+      p[n] = k;
+    }
+
+    /** A fill-reducing order in which the interface comes last. */
+    std::vector<int> order(cholmod_sparse *A, const std::vector<bool> &is_interface, cholmod_common &common)
+    {
+      std::vector<int> group(is_interface.begin(), is_interface.end()), permutation(is_interface.size());
+      cholmod_camd(A, nullptr, 0, group.data(), permutation.data(), &common);
+      check_memory(common);
+      return permutation;
+    }
+    /** Chooses the order of elimination of @p A: the interface last, or, where @p is_interface is empty, any.
+     */
+    cholmod_factor *analysed(cholmod_sparse *A, const std::vector<bool> &is_interface, cholmod_common &common)
+    {
+      common.supernodal = CHOLMOD_SUPERNODAL;
+      if (is_interface.empty())
+      {
+        common.nmethods = 0; // CHOLMOD's own choice
+        return cholmod_analyze(A, &common);
+      }
+      std::vector<int> permutation = order(A, is_interface, common);
+      common.nmethods = 1;
+      common.method[0].ordering = CHOLMOD_GIVEN;
+      return cholmod_analyze_p(A, permutation.data(), nullptr, 0, &common);
+    }
+
+    /** Numbers in the first @p n_columns of a supernodal factor. */
+    double entries_of(const cholmod_factor *L, const std::size_t n_columns)
+    {
+      const int *super = static_cast<const int *>(L->super), *pi = static_cast<const int *>(L->pi);
+      double     sum = 0.;
+      for (std::size_t s = 0; s < L->nsuper && static_cast<std::size_t>(super[s]) < n_columns; ++s)
+      {
+        const double rows = pi[s + 1] - pi[s],
+                     columns = std::min<std::size_t>(super[s + 1], n_columns) - super[s];
+        sum += columns * (rows - .5 * (columns - 1.));
+      }
+      return sum;
+    }
+  } // namespace
+
+  struct BodyFactor::Cholmod
+  {
+    cholmod_common  common;
+    cholmod_sparse *A = nullptr;
+    cholmod_factor *L = nullptr;
+
+    Cholmod()
+    {
+      cholmod_start(&common);
+      common.print = 0;
+    }
+    ~Cholmod()
+    {
+      cholmod_free_sparse(&A, &common);
+      cholmod_free_factor(&L, &common);
+      cholmod_finish(&common);
+    }
+  };
+
+  BodyFactor::BodyFactor(const Structure &structure, const Body &body, const double mass_factor,
+                         const double stiffness_factor, const double dashpot_factor, const Unknowns &springs)
+      : body(body), cholmod(std::make_unique<Cholmod>())
+  {
+    AssertIndexRange(body.first_node + body.n_nodes(), structure.n_nodes() + 1);
+    cholmod->A = cholmod_allocate_sparse(n(), n(), 9 * body.stiffness.value.size() / 2 + 3 * n(), 1, 1, -1,
+                                         CHOLMOD_REAL, &cholmod->common);
+    check_memory(cholmod->common);
+    fill(structure, body, mass_factor, stiffness_factor, dashpot_factor, springs, cholmod->A);
+  }
+
+  BodyFactor::~BodyFactor() = default;
+
+  void BodyFactor::analyse(const Order which)
+  {
+    order = which;
+    std::vector<bool> is_interface;
+    if (order == Order::interface_last)
+    {
+      is_interface.assign(n(), false);
+      for (const unsigned int node : body.interface)
+        for (unsigned int c = 0; c < 3; ++c)
+          is_interface[3 * node + c] = true;
+    }
+    cholmod_free_factor(&cholmod->L, &cholmod->common);
+    cholmod->L = analysed(cholmod->A, is_interface, cholmod->common);
+    check_memory(cholmod->common);
+  }
+
+  void BodyFactor::factorise()
+  {
+    cholmod_factorize(cholmod->A, cholmod->L, &cholmod->common);
+    check_memory(cholmod->common);
+    const cholmod_factor *L = cholmod->L;
+    if (cholmod->common.status != CHOLMOD_OK || L == nullptr || L->minor < L->n)
+      throw ComputationError(
+          "The stiffness of monolith " + std::to_string(body.number) +
+          " is not positive definite: nothing holds it (does its foot lie on the surface \"base\"?), or "
+          "its elements are badly shaped.");
+    if (order == Order::interface_last)
+      check_interface_is_last();
+  }
+
+  /** The elimination tree is a chain there, so its postorder keeps it so. */
+  void BodyFactor::check_interface_is_last() const
+  {
+    const std::vector<unsigned int> unknown = permutation();
+    for (unsigned int i = n() - n_interface(); i < n(); ++i)
+      if (!std::binary_search(body.interface.begin(), body.interface.end(), unknown[i] / 3))
+        throw ComputationError("Monolith " + std::to_string(body.number) +
+                               " is not in one piece: the elements of a monolith must be connected.");
+  }
+
+  double BodyFactor::n_entries() const
+  {
+    return entries_of(cholmod->L, order == Order::interface_last ? n() - n_interface() : n());
+  }
+
+  PackedFactor BodyFactor::leading_columns() const
+  {
+    return PackedFactor(cholmod->L, order == Order::interface_last ? n() - n_interface() : n());
+  }
+
+  std::vector<unsigned int> BodyFactor::permutation() const
+  {
+    const int *p = static_cast<const int *>(cholmod->L->Perm);
+    return {p, p + n()};
+  }
+
+  /** L_GG out of the supernodes, by column. */
+  std::vector<double> BodyFactor::trailing_block() const
+  {
+    const cholmod_factor *L = cholmod->L;
+    const unsigned int    m = n_interface(), first = n() - m;
+    std::vector<double>   dense(std::size_t(m) * m, 0.);
+    const int            *super = static_cast<const int *>(L->super), *pi = static_cast<const int *>(L->pi),
+              *px = static_cast<const int *>(L->px), *rows = static_cast<const int *>(L->s);
+    const double *values = static_cast<const double *>(L->x);
+    for (std::size_t s = 0; s < L->nsuper; ++s)
+      for (int column = std::max<int>(super[s], first); column < super[s + 1]; ++column)
+      {
+        const int n_rows = pi[s + 1] - pi[s], j = column - super[s];
+        for (int i = j; i < n_rows; ++i)
+          dense[std::size_t(column - first) * m + (rows[pi[s] + i] - first)] =
+              values[px[s] + std::size_t(j) * n_rows + i];
+      }
+    return dense;
+  }
+
+  /** A symmetric matrix, of which the lower triangle is given, from the order of the factor. */
+  std::vector<double> BodyFactor::in_natural_order(const std::vector<double> &S) const
+  {
+    const unsigned int              m = n_interface();
+    const std::vector<unsigned int> unknown = permutation();
+    std::vector<unsigned int>       place(m); // in natural order, of each row
+    for (unsigned int i = 0; i < m; ++i)
+    {
+      const unsigned int k = unknown[n() - m + i];
+      const auto         at = std::lower_bound(body.interface.begin(), body.interface.end(), k / 3);
+      place[i] = 3 * (at - body.interface.begin()) + k % 3;
+    }
+    std::vector<double> result(S.size());
+    for (std::size_t j = 0; j < m; ++j)
+      for (std::size_t i = j; i < m; ++i)
+        result[std::size_t(place[j]) * m + place[i]] = result[std::size_t(place[i]) * m + place[j]] =
+            S[j * m + i];
+    return result;
+  }
+
+  std::vector<double> BodyFactor::condensed_stiffness() const
+  {
+    const std::vector<double> L = trailing_block();
+    std::vector<double>       S(L.size());
+    const int                 m = n_interface();
+    const double              one = 1., zero = 0.;
+    if (m > 0)
+      dsyrk_("L", "N", &m, &m, &one, L.data(), &m, &zero, S.data(), &m);
+    return in_natural_order(S);
+  }
+
+  std::vector<double> BodyFactor::flexibility() const
+  {
+    std::vector<double> S = trailing_block();
+    const int           m = n_interface();
+    int                 info = 0;
+    if (m > 0)
+      dpotri_("L", &m, S.data(), &m, &info);
+    return in_natural_order(S);
+  }
+
+  bool prefer_free_order(const double free, const double leading, const double n_interface)
+  {
+    return 4. * free < 2. * leading + n_interface * n_interface;
+  }
+
+  namespace
+  {
+    /** Entries of the factor of a graph. */
+    double fill_in(cholmod_sparse *A, const std::vector<bool> &is_interface, cholmod_common &common)
+    {
+      cholmod_factor *L = analysed(A, is_interface, common);
+      check_memory(common);
+      const double entries = entries_of(L, L->n);
+      cholmod_free_factor(&L, &common);
+      return entries;
+    }
+
+    /** The lower triangle of the matrix of a graph. */
+    cholmod_sparse *matrix_of(const std::vector<std::vector<unsigned int>> &neighbours,
+                              cholmod_common                               &common)
+    {
+      std::size_t n_entries = 0;
+      for (const auto &row : neighbours)
+        n_entries += row.size();
+      const std::size_t n = neighbours.size();
+      cholmod_sparse   *A = cholmod_allocate_sparse(n, n, n_entries, 1, 1, -1, CHOLMOD_PATTERN, &common);
+      check_memory(common);
+      int        *p = static_cast<int *>(A->p), *index = static_cast<int *>(A->i);
+      std::size_t k = 0;
+      for (std::size_t row = 0; row < n; ++row)
+      {
+        p[row] = k;
+        for (const unsigned int column : neighbours[row])
+          if (column >= row)
+            index[k++] = column;
+      }
+      p[n] = k;
+      return A;
+    }
+  } // namespace
+
+  FactorSize factor_size(const std::vector<std::vector<unsigned int>> &neighbours,
+                         const std::vector<bool>                      &is_interface)
+  {
+    cholmod_common common;
+    cholmod_start(&common);
+    common.print = 0;
+    cholmod_sparse *A = matrix_of(neighbours, common);
+    const double    m = std::count(is_interface.begin(), is_interface.end(), true);
+    FactorSize      size;
+    size.entries = 9. * fill_in(A, {}, common); // of 3 x 3
+    if (m > 0.)
+    {
+      const double leading = 9. * (fill_in(A, is_interface, common) - .5 * m * (m + 1.));
+      size.interface = 9. * m * m;
+      if (!prefer_free_order(size.entries, leading, 3. * m))
+      {
+        size.entries = leading;
+        size.kept = size.interface;
+      }
+    }
+    cholmod_free_sparse(&A, &common);
+    cholmod_finish(&common);
+    return size;
+  }
+} // namespace Voussoir

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/joints/packed_factor.h>
+
+#include <cholmod.h>
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+
+// One binary for all processors: the widest kernels that the processor has are chosen when it starts.
+#define VOUSSOIR_KERNEL __attribute__((target_clones("avx512f", "fma", "avx", "default")))
+#define VOUSSOIR_INLINE inline __attribute__((always_inline))
+
+namespace Voussoir
+{
+  namespace
+  {
+    constexpr std::size_t width = 8; // rows
+    constexpr std::size_t triangle =
+        16; // numbers: up to six below the diagonal, four inverted ones from 8 on
+    typedef double Pack __attribute__((vector_size(8 * width)));
+
+    std::size_t round_down(const std::size_t n)
+    {
+      return n / width * width;
+    }
+    std::size_t round_up(const std::size_t n)
+    {
+      return (n + width - 1) / width * width;
+    }
+
+    /** Numbers that the panel of @p n columns from @p column of a supernode takes: rows from the first whole
+     * pack that it needs. */
+    std::size_t panel_size(const std::size_t n_rows, const std::size_t column, const std::size_t n)
+    {
+      return triangle + n * (round_up(n_rows) - round_down(column + n));
+    }
+
+    std::size_t panel_width(const std::size_t n_columns, const std::size_t column)
+    {
+      return std::min<std::size_t>(4, n_columns - column);
+    }
+
+    VOUSSOIR_INLINE const Pack &load(const double *x)
+    {
+      return *reinterpret_cast<const Pack *>(x);
+    }
+
+    /** @p t: rows of the supernode; @p column: first one of the panel, of @p n columns. */
+    template <std::size_t n>
+    VOUSSOIR_INLINE void forward_panel(const double *panel, const std::size_t column,
+                                       const std::size_t n_rows, double *t)
+    {
+      double y[n];
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        double sum = t[column + i];
+        for (std::size_t j = 0; j < i; ++j)
+          sum -= panel[i * (i - 1) / 2 + j] * y[j];
+        t[column + i] = y[i] = sum * panel[8 + i];
+      }
+      const std::size_t begin = round_down(column + n), height = round_up(n_rows) - begin;
+      const double     *L = panel + triangle;
+      for (std::size_t i = 0; i < height; i += width)
+      {
+        Pack &below = *reinterpret_cast<Pack *>(t + begin + i);
+        Pack  sum = below;
+        for (std::size_t j = 0; j < n; ++j)
+          sum -= y[j] * load(L + j * height + i);
+        below = sum;
+      }
+    }
+
+    template <std::size_t n>
+    VOUSSOIR_INLINE void backward_panel(const double *panel, const std::size_t column,
+                                        const std::size_t n_rows, double *t)
+    {
+      const std::size_t begin = round_down(column + n), height = round_up(n_rows) - begin;
+      const double     *L = panel + triangle;
+      Pack              sums[n] = {};
+      for (std::size_t i = 0; i < height; i += width)
+      {
+        const Pack x = load(t + begin + i);
+        for (std::size_t j = 0; j < n; ++j)
+          sums[j] += x * load(L + j * height + i);
+      }
+      for (std::size_t i = n; i-- > 0;)
+      {
+        double sum = t[column + i];
+        for (std::size_t k = 0; k < width; ++k)
+          sum -= sums[i][k];
+        for (std::size_t j = i + 1; j < n; ++j)
+          sum -= panel[j * (j - 1) / 2 + i] * t[column + j];
+        t[column + i] = sum * panel[8 + i];
+      }
+    }
+
+    using Supernode = PackedFactor::Supernode;
+
+    VOUSSOIR_INLINE void gather(const Supernode &s, const unsigned int *rows, const double *x, double *t)
+    {
+      for (unsigned int i = 0; i < s.n_columns; ++i)
+        t[i] = x[s.first + i];
+      for (unsigned int i = s.n_columns; i < s.n_rows; ++i)
+        t[i] = x[rows[i - s.n_columns]];
+      for (std::size_t i = s.n_rows; i < round_up(s.n_rows); ++i)
+        t[i] = 0.;
+    }
+
+    VOUSSOIR_INLINE void forward_supernode(const Supernode &s, const unsigned int *rows, const double *values,
+                                           double *t, double *x)
+    {
+      gather(s, rows, x, t);
+      for (std::size_t column = 0; column < s.n_columns;)
+      {
+        const std::size_t n = panel_width(s.n_columns, column);
+        if (n == 4)
+          forward_panel<4>(values, column, s.n_rows, t);
+        else if (n == 3)
+          forward_panel<3>(values, column, s.n_rows, t);
+        else if (n == 2)
+          forward_panel<2>(values, column, s.n_rows, t);
+        else
+          forward_panel<1>(values, column, s.n_rows, t);
+        values += round_up(panel_size(s.n_rows, column, n));
+        column += n;
+      }
+      for (unsigned int i = 0; i < s.n_columns; ++i)
+        x[s.first + i] = t[i];
+      for (unsigned int i = s.n_columns; i < s.n_rows; ++i)
+        x[rows[i - s.n_columns]] = t[i];
+    }
+
+    /** @p values: the end of the supernode's. */
+    VOUSSOIR_INLINE void backward_supernode(const Supernode &s, const unsigned int *rows,
+                                            const double *values, double *t, double *x)
+    {
+      gather(s, rows, x, t);
+      for (std::size_t column = s.n_columns; column > 0;)
+      {
+        const std::size_t n = column % 4 == 0 ? 4 : column % 4;
+        column -= n;
+        values -= round_up(panel_size(s.n_rows, column, n));
+        if (n == 4)
+          backward_panel<4>(values, column, s.n_rows, t);
+        else if (n == 3)
+          backward_panel<3>(values, column, s.n_rows, t);
+        else if (n == 2)
+          backward_panel<2>(values, column, s.n_rows, t);
+        else
+          backward_panel<1>(values, column, s.n_rows, t);
+      }
+      for (unsigned int i = 0; i < s.n_columns; ++i)
+        x[s.first + i] = t[i];
+    }
+
+    struct Factor ///< as the kernels see it
+    {
+      const Supernode    *supernodes;
+      std::size_t         n_supernodes;
+      const unsigned int *rows;
+      const double       *values, *end;
+      double             *work;
+    };
+
+    VOUSSOIR_INLINE void forward_all(const Factor &L, double *x)
+    {
+      for (std::size_t i = 0; i < L.n_supernodes; ++i)
+        forward_supernode(L.supernodes[i], L.rows + L.supernodes[i].rows, L.values + L.supernodes[i].values,
+                          L.work, x);
+    }
+
+    VOUSSOIR_INLINE void backward_all(const Factor &L, double *x)
+    {
+      for (std::size_t i = L.n_supernodes; i-- > 0;)
+        backward_supernode(L.supernodes[i], L.rows + L.supernodes[i].rows,
+                           i + 1 == L.n_supernodes ? L.end : L.values + L.supernodes[i + 1].values, L.work,
+                           x);
+    }
+
+    VOUSSOIR_KERNEL void forward_fast(const Factor &L, double *x)
+    {
+      forward_all(L, x);
+    }
+    VOUSSOIR_KERNEL void backward_fast(const Factor &L, double *x)
+    {
+      backward_all(L, x);
+    }
+    void forward_plain(const Factor &L, double *x)
+    {
+      forward_all(L, x);
+    }
+    void backward_plain(const Factor &L, double *x)
+    {
+      backward_all(L, x);
+    }
+  } // namespace
+
+  bool PackedFactor::plain_kernels = false;
+
+  PackedFactor::Aligned PackedFactor::allocate(const std::size_t n)
+  {
+    const std::size_t bytes = 8 * std::max(width, round_up(n));
+    auto             *x = static_cast<double *>(std::aligned_alloc(8 * width, bytes));
+    if (!x)
+      throw std::bad_alloc();
+    std::memset(x, 0, bytes);
+    return Aligned(x);
+  }
+
+  PackedFactor::PackedFactor(const cholmod_factor_struct *L, const std::size_t n_columns)
+  {
+    const int *super = static_cast<const int *>(L->super), *pi = static_cast<const int *>(L->pi),
+              *px = static_cast<const int *>(L->px), *s = static_cast<const int *>(L->s);
+    std::size_t most_rows = 0;
+    for (std::size_t i = 0; i < L->nsuper && static_cast<std::size_t>(super[i]) < n_columns; ++i)
+    {
+      Supernode node;
+      node.first = super[i];
+      node.n_columns = std::min<std::size_t>(super[i + 1], n_columns) - node.first;
+      node.n_rows = pi[i + 1] - pi[i];
+      node.rows = row_list.size();
+      node.values = n_values;
+      row_list.insert(row_list.end(), s + pi[i] + node.n_columns, s + pi[i + 1]);
+      for (std::size_t column = 0; column < node.n_columns; column += 4)
+        n_values += round_up(panel_size(node.n_rows, column, panel_width(node.n_columns, column)));
+      most_rows = std::max<std::size_t>(most_rows, node.n_rows);
+      supernodes.push_back(node);
+    }
+    row_list.shrink_to_fit();
+    supernodes.shrink_to_fit();
+    values = allocate(n_values);
+    work = allocate(most_rows);
+    for (std::size_t i = 0; i < supernodes.size(); ++i)
+      pack(supernodes[i], static_cast<const double *>(L->x) + px[i], supernodes[i].n_rows);
+  }
+
+  void PackedFactor::pack(const Supernode &s, const double *L, const std::size_t leading_dimension)
+  {
+    double *panel = values.get() + s.values;
+    for (std::size_t column = 0; column < s.n_columns; column += 4)
+    {
+      const std::size_t n = panel_width(s.n_columns, column), begin = round_down(column + n),
+                        height = round_up(s.n_rows) - begin;
+      for (std::size_t j = 0; j < n; ++j)
+      {
+        const double *from = L + (column + j) * leading_dimension;
+        for (std::size_t i = j + 1; i < n; ++i)
+          panel[i * (i - 1) / 2 + j] = from[column + i];
+        panel[8 + j] = 1. / from[column + j];
+        for (std::size_t row = column + n; row < s.n_rows; ++row)
+          panel[triangle + j * height + row - begin] = from[row];
+      }
+      panel += round_up(panel_size(s.n_rows, column, n));
+    }
+  }
+
+  void PackedFactor::forward(double *x) const
+  {
+    const Factor L = {supernodes.data(), supernodes.size(),       row_list.data(),
+                      values.get(),      values.get() + n_values, work.get()};
+    (plain_kernels ? forward_plain : forward_fast)(L, x);
+  }
+
+  void PackedFactor::backward(double *x) const
+  {
+    const Factor L = {supernodes.data(), supernodes.size(),       row_list.data(),
+                      values.get(),      values.get() + n_values, work.get()};
+    (plain_kernels ? backward_plain : backward_fast)(L, x);
+  }
+
+  double PackedFactor::memory() const
+  {
+    return 8. * n_values + 4. * row_list.size() + sizeof(Supernode) * supernodes.size();
+  }
+} // namespace Voussoir
