@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-extern "C" float sdot_(const int *, const float *, const int *, const float *, const int *);
-
 namespace Voussoir
 {
   namespace
@@ -24,7 +22,7 @@ namespace Voussoir
   } // namespace
 
   JointJacobian::JointJacobian(const InterfaceOperator &W)
-      : W(W), factors(W.n_groups()), groups_of_colour(W.colours()), colour(W.n_groups(), 0)
+      : W(W), joints(W.n_groups()), groups_of_colour(W.colours()), colour(W.n_groups(), 0)
   {
     for (unsigned int c = 0; c < groups_of_colour.size(); ++c)
       for (const unsigned int g : groups_of_colour[c])
@@ -36,26 +34,7 @@ namespace Voussoir
           keys.push_back({g, k});
           is_chain = is_chain && k <= g + 1;
         }
-  }
-
-  bool JointJacobian::needs_factor(const unsigned int group) const
-  {
-    // Stale factors still precondition well when only directions of slip have turned a little.
-    constexpr double tolerated = .3;
-    const Factor    &factor = factors[group];
-    if (factor.equations.empty())
-      return true;
-    for (std::size_t i = 0; i < factor.equations.size(); ++i)
-    {
-      const PairEquations &a = factor.equations[i], &b = present(group)[i];
-      for (unsigned int k = 0; k < 3; ++k)
-        if (row_is_trivial(a, k) != row_is_trivial(b, k))
-          return true;
-      for (unsigned int k = 0; k < 9; ++k)
-        if (std::abs(a.d_force[k] - b.d_force[k]) > tolerated)
-          return true;
-    }
-    return false;
+    for_each_parallel(W.n_groups(), [&](const int g) { joints[g].initialise(W, g); });
   }
 
   unsigned int JointJacobian::update(const std::vector<PairEquations> &new_equations)
@@ -66,43 +45,15 @@ namespace Voussoir
       if (!chain)
       {
         chain = std::make_unique<JointChain>(W);
-        factors.clear();
+        joints.clear();
       }
       chain->factorise(new_equations);
       return W.n_groups();
     }
     std::vector<unsigned int> made(W.n_groups(), 0);
     for_each_parallel(W.n_groups(),
-                      [&](const int g)
-                      {
-                        if (W.size(g) > 0)
-                        {
-                          if (needs_factor(g))
-                          {
-                            factors[g].assemble(W, g, present(g));
-                            factors[g].factorise();
-                            made[g] = 1;
-                          }
-                          Factor &factor = factors[g];
-                          factor.exact =
-                              std::equal(factor.equations.begin(), factor.equations.end(), present(g),
-                                         [](const PairEquations &a, const PairEquations &b)
-                                         { return a.d_force == b.d_force && a.d_gap == b.d_gap; });
-                        }
-                      });
+                      [&](const int g) { made[g] = W.size(g) > 0 && joints[g].update(present(g)); });
     return std::accumulate(made.begin(), made.end(), 0u);
-  }
-
-  void JointJacobian::apply_factor(const unsigned int group, float *x) const
-  {
-    const Factor &factor = factors[group];
-    const int     n = factor.size();
-    Floats        z(n);
-    for (int i = 0; i < n; ++i)
-      z[i] = x[factor.active[i]];
-    factor.solve(z.data(), 1);
-    for (int i = 0; i < n; ++i)
-      x[factor.active[i]] = z[i];
   }
 
   /** y += factor * d_gap x, in the rows of a group. */
@@ -159,7 +110,7 @@ namespace Voussoir
       groups.push_back(k);
       for (const unsigned int j : groups)
       {
-        const Floats     &block = coupling(j, k);
+        const Floats     &block = W.single_block(std::min(j, k), std::max(j, k));
         const std::size_t along = j <= k ? 1 : W.size(k), across = j <= k ? W.size(j) : 1; // strides
         float            *out = y.data() + W.begin(j);
         for (const unsigned int i : entries)
@@ -173,17 +124,17 @@ namespace Voussoir
     }
   }
 
-  /** z = P^-1 v and w = J z. */
-  void JointJacobian::apply(const Floats &v, Floats &z, Floats &w) const
+  /** z = P^-1 v, and W z. */
+  void JointJacobian::precondition(const Floats &v, Floats &z, Floats &Wz) const
   {
     z = v;
     if (chain)
     {
       chain->solve(v, z);
-      multiply_J(z, w);
+      multiply_W(z, Wz);
       return;
     }
-    w = v;
+    Wz.assign(W.n(), 0.f);
     std::vector<std::vector<Floats>> back(W.n_groups()); // W_kg z_g for the earlier neighbours k of g
     const auto                       for_earlier = [this](const unsigned int g, const auto &action)
     {
@@ -196,12 +147,16 @@ namespace Voussoir
                         [&](const int i)
                         {
                           const unsigned int g = groups[i];
-                          float             *z_g = z.data() + W.begin(g);
-                          Floats             sum(W.size(g), 0.f);
+                          if (W.size(g) == 0)
+                            return;
+                          float *z_g = z.data() + W.begin(g), *Wz_g = Wz.data() + W.begin(g);
                           for_earlier(g, [&](const unsigned int k)
-                                      { W.add_single(g, k, z.data() + W.begin(k), sum.data()); });
-                          multiply_by_d_gap(g, -1.f, sum.data(), z_g);
-                          apply_factor(g, z_g);
+                                      { W.add_single(g, k, z.data() + W.begin(k), Wz_g); });
+                          Floats r(z_g, z_g + W.size(g)), own(W.size(g));
+                          multiply_by_d_gap(g, -1.f, Wz_g, r.data());
+                          joints[g].solve(r.data(), z_g, own.data());
+                          for (unsigned int j = 0; j < W.size(g); ++j)
+                            Wz_g[j] += own[j];
                           for_earlier(g,
                                       [&](const unsigned int k)
                                       {
@@ -212,50 +167,30 @@ namespace Voussoir
     for (unsigned int g = 0; g < W.n_groups(); ++g)
     {
       auto product = back[g].begin();
-      for_earlier(g, [&](const unsigned int k)
-                  { multiply_by_d_gap(k, 1.f, (product++)->data(), w.data() + W.begin(k)); });
+      for_earlier(g,
+                  [&](const unsigned int k)
+                  {
+                    for (unsigned int j = 0; j < W.size(k); ++j)
+                      Wz[W.begin(k) + j] += (*product)[j];
+                    ++product;
+                  });
     }
-    for_each_parallel(W.n_groups(),
-                      [&](const int g)
-                      {
-                        if (!factors[g].exact && W.size(g) > 0)
-                          correct_stale(g, z, w);
-                      });
   }
 
   /** w = J z. */
-  void JointJacobian::multiply_J(const Floats &z, Floats &w) const
+  void JointJacobian::multiply_J(const Floats &z, const Floats &Wz, Floats &w) const
   {
-    Floats Wz;
-    multiply_W(z, Wz);
-    w.assign(W.n(), 0.f);
-    for (unsigned int g = 0; g < W.n_groups(); ++g)
+    w.resize(W.n());
+    for (std::size_t i = 0; i < equations->size(); ++i)
     {
-      multiply_by_d_gap(g, 1.f, Wz.data() + W.begin(g), w.data() + W.begin(g));
-      for (unsigned int i = 0; i < W.size(g); ++i)
-        for (unsigned int c = 0; c < 3; ++c)
-          w[W.begin(g) + i] +=
-              static_cast<float>(present(g)[i / 3].d_force[3 * (i % 3) + c] * z[W.begin(g) + i - i % 3 + c]);
-    }
-  }
-
-  /** w += (J - D - L - U) z in the rows of a group whose factors are of older equations. */
-  void JointJacobian::correct_stale(const unsigned int g, const Floats &z, Floats &w) const
-  {
-    const Floats &block = coupling(g, g);
-    const float  *z_g = z.data() + W.begin(g);
-    const int     m = W.size(g), stride = 1;
-    for (int i = 0; i < m; i += 3)
-    {
-      const PairEquations &a = factors[g].equations[i / 3], &b = present(g)[i / 3];
-      if (a.d_force == b.d_force && a.d_gap == b.d_gap)
-        continue;
-      float Wz[3]; // rows are columns
+      const PairEquations &e = (*equations)[i];
+      const float         *f = z.data() + 3 * i, *g = Wz.data() + 3 * i;
       for (unsigned int c = 0; c < 3; ++c)
-        Wz[c] = sdot_(&m, block.data() + std::size_t(i + c) * m, &stride, z_g, &stride);
-      for (unsigned int c = 0; c < 9; ++c)
-        w[W.begin(g) + i + c / 3] += static_cast<float>((b.d_force[c] - a.d_force[c]) * z_g[i + c % 3] +
-                                                        (b.d_gap[c] - a.d_gap[c]) * Wz[c % 3]);
+      {
+        const double *a = e.d_force.data() + 3 * c, *b = e.d_gap.data() + 3 * c;
+        w[3 * i + c] = static_cast<float>(a[0] * f[0] + a[1] * f[1] + a[2] * f[2] + b[0] * g[0] +
+                                          b[1] * g[1] + b[2] * g[2]);
+      }
     }
   }
 
@@ -291,11 +226,11 @@ namespace Voussoir
           r[3 * i + c] -= f[c] + g[c];
       }
     }
-    const unsigned int iterations = gmres(r, tolerance * std::sqrt(all), step);
+    d_gap.assign(w.begin(), w.end());
+    d_gap.resize(n);
+    const unsigned int iterations = gmres(r, tolerance * std::sqrt(all), step, d_gap);
     if (iterations > 20)
       use_chain = is_chain; // from the next equations on
-    multiply_W(Floats(step.begin(), step.end()), w);
-    d_gap.assign(w.begin(), w.end());
     return iterations;
   }
 
@@ -325,8 +260,8 @@ namespace Voussoir
     }
   } // namespace
 
-  /** step += J^-1 r, until the residual is below @p target. */
-  unsigned int JointJacobian::gmres(const Unknowns &r, double target, Unknowns &step) const
+  /** step += J^-1 r, until the residual is below @p target; d_gap += W of that. */
+  unsigned int JointJacobian::gmres(const Unknowns &r, double target, Unknowns &step, Unknowns &d_gap) const
   {
     const unsigned int n = W.n(), max_iterations = 100;
     double             norm = 0.;
@@ -336,7 +271,7 @@ namespace Voussoir
     target = std::max(target, 1e-6 * norm); // what single precision can do
     if (!(norm > target))
       return 0;
-    std::vector<Floats>              v(1, Floats(n)), z;
+    std::vector<Floats>              v(1, Floats(n)), z, Wz;
     std::vector<std::vector<double>> h; // columns of the Hessenberg matrix, made triangular by rotations
     std::vector<double>              cosine, sine, g(1, norm);
     for (unsigned int i = 0; i < n; ++i)
@@ -345,8 +280,10 @@ namespace Voussoir
     for (bool breakdown = false; k < max_iterations && std::abs(g[k]) > target && !breakdown; ++k)
     {
       z.emplace_back();
+      Wz.emplace_back();
       Floats w;
-      apply(v[k], z[k], w);
+      precondition(v[k], z[k], Wz[k]);
+      multiply_J(z[k], Wz[k], w);
       std::vector<double> column(k + 2);
       for (unsigned int i = 0; i <= k; ++i)
       {
@@ -373,7 +310,10 @@ namespace Voussoir
     }
     for (unsigned int i = 0; i < k; ++i)
       for (unsigned int j = 0; j < n; ++j)
+      {
         step[j] += y[i] * z[i][j];
+        d_gap[j] += y[i] * Wz[i][j];
+      }
     return k;
   }
 

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_dense_kernels_h
+#define voussoir_dense_kernels_h
+
+#include <cstddef>
+#include <vector>
+
+namespace Voussoir
+{
+  // Products with dense blocks of joints, compiled for AVX-512, AVX and plain x86-64 and chosen at run time.
+
+  /** @p n numbers of single precision in whole SIMD registers: a leading dimension. */
+  constexpr std::size_t padded(const std::size_t n)
+  {
+    return (n + 15) / 16 * 16;
+  }
+
+  /** y += sum of x[k] A_k over the @p columns k of A, by column, of @p n entries @p leading apart; @p y: n
+   * entries. */
+  void add_columns(const float *A, std::size_t leading, std::size_t n,
+                   const std::vector<unsigned int> &columns, const float *x, float *y);
+} // namespace Voussoir
+
+#endif
