@@ -131,7 +131,10 @@ namespace Voussoir
       refresh_gap(x);
     }
     if (parameters.method == "proximal")
+    {
       sweep(parameters.sweeps, x);
+      refresh_gap(x); // the sweeps are in single precision
+    }
     return proximal_point(x);
   }
 

@@ -13,7 +13,19 @@ namespace Voussoir
       for (std::size_t i = 0; i < n; ++i)
         y[i] += x[0] * a[i] + x[1] * b[i] + x[2] * c[i] + x[3] * d[i];
     }
+
+    VOUSSOIR_KERNEL void add_three(const float *a, const float *b, const float *c, const float *x,
+                                   const std::size_t n, float *__restrict y)
+    {
+      for (std::size_t i = 0; i < n; ++i)
+        y[i] += x[0] * a[i] + x[1] * b[i] + x[2] * c[i];
+    }
   } // namespace
+
+  void add_three_columns(const float *A, const std::size_t n, const float *x, float *y)
+  {
+    add_three(A, A + n, A + 2 * n, x, n, y);
+  }
 
   void add_columns(const float *A, const std::size_t leading, const std::size_t n,
                    const std::vector<unsigned int> &columns, const float *x, float *y)

@@ -2,6 +2,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <voussoir/base/parallel.h>
+#include <voussoir/joints/dense_kernels.h>
 #include <voussoir/joints/interface_operator.h>
 
 #include <algorithm>
@@ -83,10 +84,10 @@ namespace Voussoir
       }
   }
 
-  std::vector<std::vector<unsigned int>> InterfaceOperator::colours() const
+  void InterfaceOperator::find_colours()
   {
-    std::vector<std::vector<unsigned int>> result;
-    std::vector<unsigned int>              colour(n_groups(), 0);
+    colour.assign(n_groups(), 0);
+    groups_of_colour.clear();
     for (unsigned int g = 0; g < n_groups(); ++g)
     {
       std::vector<bool> taken(n_groups() + 1, false);
@@ -94,10 +95,9 @@ namespace Voussoir
         if (k < g)
           taken[colour[k]] = true;
       colour[g] = std::find(taken.begin(), taken.end(), false) - taken.begin();
-      result.resize(std::max<std::size_t>(result.size(), colour[g] + 1));
-      result[colour[g]].push_back(g);
+      groups_of_colour.resize(std::max<std::size_t>(groups_of_colour.size(), colour[g] + 1));
+      groups_of_colour[colour[g]].push_back(g);
     }
-    return result;
   }
 
   void InterfaceOperator::finish()
@@ -105,6 +105,7 @@ namespace Voussoir
     single.clear();
     for (const auto &b : blocks)
       single[b.first].assign(b.second.begin(), b.second.end());
+    find_colours();
   }
 
   void InterfaceOperator::add_single(const unsigned int j, const unsigned int k, const float *x,
@@ -121,59 +122,51 @@ namespace Voussoir
   {
     AssertDimension(force.size(), n());
     AssertDimension(gap.size(), n());
-    std::vector<float> change(n());
-    for (const auto &groups : colours())
-    {
-      for_each_parallel(groups.size(),
-                        [&](const int index) { sweep_group(groups[index], solve_pair, force, gap, change); });
-      // What the change does to the other groups; each of them is the work of one thread.
-      for_each_parallel(n_groups(),
-                        [&](const int k)
-                        {
-                          std::vector<float> sum(size(k), 0.f);
-                          bool               any = false;
-                          for (const unsigned int j : coupled[k])
-                            if (std::binary_search(groups.begin(), groups.end(), j))
-                            {
-                              add_single(k, j, change.data() + begin(j), sum.data());
-                              any = true;
-                            }
-                          for (unsigned int i = 0; any && i < size(k); ++i)
-                            gap[begin(k) + i] += sum[i];
-                        });
-    }
+    Floats change(n(), 0.f), moved(n(), 0.f); // of force and gap
+    gauss_seidel(
+        [&](const unsigned int g)
+        {
+          const unsigned int first = begin(g);
+          sweep_group(g, solve_pair, force.data() + first, gap.data() + first, moved.data() + first,
+                      change.data() + first);
+        },
+        change, moved);
+    for (unsigned int i = 0; i < n(); ++i)
+      gap[i] += moved[i];
   }
 
-  /** The pairs of one group, one after the other; @p change: of their forces. */
-  void InterfaceOperator::sweep_group(const unsigned int j, const PairSolver &solve_pair, Unknowns &force,
-                                      Unknowns &gap, std::vector<float> &change) const
+  /** The pairs of group @p j, one after the other, several times; @p gap is to be taken with what has
+   * @p moved; @p change: receives that of @p force. */
+  void InterfaceOperator::sweep_group(const unsigned int j, const PairSolver &solve_pair, double *force,
+                                      const double *gap, float *moved, float *change) const
   {
+    constexpr unsigned int     n_passes = 3; // while the block is in the cache
     const unsigned int         m = size(j);
     const std::vector<double> &exact = blocks.at({j, j});
     const std::vector<float>  &w = single.at({j, j});
-    double                    *d = gap.data() + begin(j);
-    for (unsigned int i = 0; i < m; i += 3)
-    {
-      double *f = force.data() + begin(j) + i;
-      Matrix3 H;
-      for (unsigned int r = 0; r < 3; ++r)
-        for (unsigned int c = 0; c < 3; ++c)
-          H[3 * r + c] = exact[std::size_t(i + c) * m + i + r];
-      const Vector3 Hf = H * Vector3{{f[0], f[1], f[2]}};
-      const Vector3 solution =
-          solve_pair((begin(j) + i) / 3, H, {{d[i] - Hf[0], d[i + 1] - Hf[1], d[i + 2] - Hf[2]}});
-      float *delta = change.data() + begin(j) + i;
-      for (unsigned int c = 0; c < 3; ++c)
+    for (unsigned int pass = 0; pass < n_passes; ++pass)
+      for (unsigned int i = 0; i < m; i += 3)
       {
-        delta[c] = static_cast<float>(solution[c] - f[c]);
-        f[c] = solution[c];
+        double *f = force + i;
+        Matrix3 H;
+        for (unsigned int r = 0; r < 3; ++r)
+          for (unsigned int c = 0; c < 3; ++c)
+            H[3 * r + c] = exact[std::size_t(i + c) * m + i + r];
+        const Vector3 Hf = H * Vector3{{f[0], f[1], f[2]}};
+        Vector3       free;
+        for (unsigned int c = 0; c < 3; ++c)
+          free[c] = gap[i + c] + moved[i + c] - Hf[c];
+        const Vector3 solution = solve_pair((begin(j) + i) / 3, H, free);
+        float         delta[3];
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          delta[c] = static_cast<float>(solution[c] - f[c]);
+          change[i + c] += delta[c];
+          f[c] = solution[c];
+        }
+        if (delta[0] != 0.f || delta[1] != 0.f || delta[2] != 0.f)
+          add_three_columns(w.data() + std::size_t(i) * m, m, delta, moved);
       }
-      if (delta[0] == 0.f && delta[1] == 0.f && delta[2] == 0.f)
-        continue;
-      const float *w0 = w.data() + std::size_t(i) * m, *w1 = w0 + m, *w2 = w1 + m;
-      for (unsigned int row = 0; row < m; ++row)
-        d[row] += delta[0] * w0[row] + delta[1] * w1[row] + delta[2] * w2[row];
-    }
   }
 
   Matrix3 InterfaceOperator::diagonal(const unsigned int pair) const

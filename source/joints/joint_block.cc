@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 extern "C"
 {
@@ -68,6 +69,34 @@ namespace Voussoir
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t i = j; i < n; ++i)
         F[j * leading + i] = F[i * leading + j] = static_cast<float>(inverse[j * n + i]);
+    check_inverse();
+  }
+
+  /** Is y = W_jj F y to single precision? Tried with vectors of both signs. */
+  void JointBlock::check_inverse()
+  {
+    constexpr double          enough = 1e-6; // what the solver reckons with
+    std::vector<float>        y(n), z(n);
+    std::vector<double>       exact(n);
+    std::vector<unsigned int> all(n);
+    std::iota(all.begin(), all.end(), 0);
+    is_accurate = true;
+    for (unsigned int trial = 0; trial < 3; ++trial)
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        y[i] = static_cast<float>(std::cos((1. + 1.7 * trial) * i * i));
+      std::fill(z.begin(), z.end(), 0.f);
+      add_columns(F.data(), leading, n, all, y.data(), z.data());
+      std::fill(exact.begin(), exact.end(), 0.);
+      W->add_coupling(group, group, 1., std::vector<double>(z.begin(), z.end()).data(), exact.data());
+      double error = 0., square = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        error += (exact[i] - y[i]) * (exact[i] - y[i]);
+        square += double(y[i]) * y[i];
+      }
+      is_accurate = is_accurate && error <= enough * enough * square;
+    }
   }
 
   /** Factors of equations with the same unknowns still precondition well when only directions of slip have
@@ -178,6 +207,15 @@ namespace Voussoir
     add_columns(F.data(), leading, n, rows, y, z);
     for (const unsigned int i : given_force)
       z[i] = r[i];
+    if (!is_accurate)
+      multiply_by_W(z, y);
+  }
+
+  /** y = W_jj z. */
+  void JointBlock::multiply_by_W(const float *z, float *y) const
+  {
+    std::fill(y, y + n, 0.f);
+    W->add_single(group, group, z, y);
   }
 
   void JointBlock::solve_for_force(const float *r, float *z, float *y) const
@@ -190,7 +228,6 @@ namespace Voussoir
     factor.solve(x.data(), 1);
     for (std::size_t k = 0; k < rows.size(); ++k)
       z[rows[k]] = x[k];
-    std::fill(y, y + n, 0.f);
-    W->add_single(group, group, z, y);
+    multiply_by_W(z, y);
   }
 } // namespace Voussoir

@@ -21,12 +21,8 @@ namespace Voussoir
     }
   } // namespace
 
-  JointJacobian::JointJacobian(const InterfaceOperator &W)
-      : W(W), joints(W.n_groups()), groups_of_colour(W.colours()), colour(W.n_groups(), 0)
+  JointJacobian::JointJacobian(const InterfaceOperator &W) : W(W), joints(W.n_groups())
   {
-    for (unsigned int c = 0; c < groups_of_colour.size(); ++c)
-      for (const unsigned int g : groups_of_colour[c])
-        colour[g] = c;
     for (unsigned int g = 0; g < W.n_groups(); ++g)
       for (unsigned int k = g; k < W.n_groups(); ++k)
         if (const std::vector<double> *block = W.find_block(g, k); block && !block->empty())
@@ -135,46 +131,17 @@ namespace Voussoir
       return;
     }
     Wz.assign(W.n(), 0.f);
-    std::vector<std::vector<Floats>> back(W.n_groups()); // W_kg z_g for the earlier neighbours k of g
-    const auto                       for_earlier = [this](const unsigned int g, const auto &action)
-    {
-      for (const unsigned int k : W.neighbours(g))
-        if (colour[k] < colour[g] && W.size(k) > 0 && W.size(g) > 0)
-          action(k);
-    };
-    for (const auto &groups : groups_of_colour)
-      for_each_parallel(groups.size(),
-                        [&](const int i)
-                        {
-                          const unsigned int g = groups[i];
-                          if (W.size(g) == 0)
-                            return;
-                          float *z_g = z.data() + W.begin(g), *Wz_g = Wz.data() + W.begin(g);
-                          for_earlier(g, [&](const unsigned int k)
-                                      { W.add_single(g, k, z.data() + W.begin(k), Wz_g); });
-                          Floats r(z_g, z_g + W.size(g)), own(W.size(g));
-                          multiply_by_d_gap(g, -1.f, Wz_g, r.data());
-                          joints[g].solve(r.data(), z_g, own.data());
-                          for (unsigned int j = 0; j < W.size(g); ++j)
-                            Wz_g[j] += own[j];
-                          for_earlier(g,
-                                      [&](const unsigned int k)
-                                      {
-                                        back[g].emplace_back(W.size(k), 0.f);
-                                        W.add_single(k, g, z_g, back[g].back().data());
-                                      });
-                        });
-    for (unsigned int g = 0; g < W.n_groups(); ++g)
-    {
-      auto product = back[g].begin();
-      for_earlier(g,
-                  [&](const unsigned int k)
-                  {
-                    for (unsigned int j = 0; j < W.size(k); ++j)
-                      Wz[W.begin(k) + j] += (*product)[j];
-                    ++product;
-                  });
-    }
+    W.gauss_seidel(
+        [&](const unsigned int g)
+        {
+          float *z_g = z.data() + W.begin(g), *Wz_g = Wz.data() + W.begin(g);
+          Floats r(z_g, z_g + W.size(g)), own(W.size(g));
+          multiply_by_d_gap(g, -1.f, Wz_g, r.data());
+          joints[g].solve(r.data(), z_g, own.data());
+          for (unsigned int j = 0; j < W.size(g); ++j)
+            Wz_g[j] += own[j];
+        },
+        z, Wz);
   }
 
   /** w = J z. */

@@ -30,6 +30,9 @@ namespace Voussoir
     /** @p f: n_interface() joint forces; @p u: receives 3 n_nodes. After apply_load(). */
     void apply_joint_forces(const double *f, double *u);
 
+    /** Is A solved twice, in an order without regard to the interface? */
+    bool has_free_order() const { return free_order; }
+
     /** Unknowns; component c of node number i of body.interface is number 3 i + c. */
     unsigned int n_interface() const { return static_cast<unsigned int>(interface_row.size()); }
 

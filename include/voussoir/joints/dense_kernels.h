@@ -19,6 +19,9 @@ namespace Voussoir
    * entries. */
   void add_columns(const float *A, std::size_t leading, std::size_t n,
                    const std::vector<unsigned int> &columns, const float *x, float *y);
+
+  /** y += x[0] A_0 + x[1] A_1 + x[2] A_2 for the first three columns of A, @p n entries each. */
+  void add_three_columns(const float *A, std::size_t n, const float *x, float *y);
 } // namespace Voussoir
 
 #endif

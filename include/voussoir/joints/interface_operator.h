@@ -2,6 +2,7 @@
 #ifndef voussoir_interface_operator_h
 #define voussoir_interface_operator_h
 
+#include <voussoir/base/parallel.h>
 #include <voussoir/contact/contact_operator.h>
 
 #include <map>
@@ -14,6 +15,8 @@ namespace Voussoir
   class InterfaceOperator : public ContactOperator
   {
   public:
+    using Floats = std::vector<float>;
+
     /** @p n_pairs: pairs in each group. */
     explicit InterfaceOperator(const std::vector<unsigned int> &n_pairs);
 
@@ -37,13 +40,17 @@ namespace Voussoir
 
     Matrix3 diagonal(unsigned int pair) const override;
 
-    /** Groups of one colour run in parallel. In single precision: @p gap is off by round-off of that size. */
+    /** The pairs of a group are visited three times at once. In single precision: @p gap is off by round-off
+     * of that size. */
     void sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const override;
 
     std::unique_ptr<ContactJacobian> make_jacobian() const override;
 
-    /** The groups by colour: coupled groups have different ones. Once all blocks are there. */
-    std::vector<std::vector<unsigned int>> colours() const;
+    /** One block Gauss-Seidel pass in single precision: @p own(g) for each group g, those of one colour (not
+     * coupled) by all threads. Before it, W x of the groups that have been visited is added to those rows of
+     * @p Wx; it writes those of @p x. Afterwards @p Wx has the couplings' part of W x, besides what @p own
+     * has added in its rows. finish() must have been called. */
+    template <class Own> void gauss_seidel(const Own &own, const Floats &x, Floats &Wx) const;
 
     unsigned int n_pairs() const override { return n() / 3; }
 
@@ -54,7 +61,7 @@ namespace Voussoir
     const std::vector<unsigned int> &neighbours(const unsigned int group) const { return coupled[group]; }
     double                           memory() const; ///< [bytes]
 
-    /** Make the copy in single precision, once all blocks are filled in. */
+    /** Make the copy in single precision, and choose the colours, once all blocks are filled in. */
     void                      finish();
     const std::vector<float> &single_block(unsigned int j, unsigned int k) const { return single.at({j, k}); }
 
@@ -62,14 +69,58 @@ namespace Voussoir
     void add_single(unsigned int j, unsigned int k, const float *x, float *y) const;
 
   private:
-    void sweep_group(unsigned int j, const PairSolver &solve_pair, Unknowns &force, Unknowns &gap,
-                     std::vector<float> &change) const;
+    void sweep_group(unsigned int j, const PairSolver &solve_pair, double *force, const double *gap,
+                     float *moved, float *change) const;
+    void find_colours();
 
     std::vector<unsigned int>                                            offset;
     std::vector<std::vector<unsigned int>>                               coupled;
     std::map<std::pair<unsigned int, unsigned int>, std::vector<double>> blocks;
     std::map<std::pair<unsigned int, unsigned int>, std::vector<float>>  single; ///< the same
+    std::vector<unsigned int>              colour; ///< of the groups; coupled ones have different ones
+    std::vector<std::vector<unsigned int>> groups_of_colour;
   };
+
+  template <class Own> void InterfaceOperator::gauss_seidel(const Own &own, const Floats &x, Floats &Wx) const
+  {
+    std::vector<std::vector<Floats>> back(n_groups()); // W_kg x_g for the earlier neighbours k of g
+    const auto                       for_earlier = [this](const unsigned int g, const auto &action)
+    {
+      for (const unsigned int k : coupled[g])
+        if (colour[k] < colour[g] && size(k) > 0)
+          action(k);
+    };
+    for (const auto &groups : groups_of_colour)
+      for_each_parallel(groups.size(),
+                        [&](const int i)
+                        {
+                          const unsigned int g = groups[i];
+                          if (size(g) == 0)
+                            return;
+                          for_earlier(g, [&](const unsigned int k)
+                                      { add_single(g, k, x.data() + begin(k), Wx.data() + begin(g)); });
+                          own(g);
+                          for_earlier(g,
+                                      [&](const unsigned int k) // the coupling is in the cache
+                                      {
+                                        back[g].emplace_back(size(k), 0.f);
+                                        add_single(k, g, x.data() + begin(g), back[g].back().data());
+                                      });
+                        });
+    for (unsigned int g = 0; g < n_groups(); ++g)
+    {
+      auto product = back[g].begin();
+      for_earlier(g,
+                  [&](const unsigned int k)
+                  {
+                    if (size(g) == 0)
+                      return;
+                    for (unsigned int j = 0; j < size(k); ++j)
+                      Wx[begin(k) + j] += (*product)[j];
+                    ++product;
+                  });
+    }
+  }
 } // namespace Voussoir
 
 #endif

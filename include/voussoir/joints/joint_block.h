@@ -30,15 +30,18 @@ namespace Voussoir
   private:
     bool is_similar(const PairEquations *present) const;
     void find_rows();
+    void check_inverse();
+    void multiply_by_W(const float *z, float *y) const;
     void factorise();
     void solve_for_gap(const float *r, float *z, float *y) const;
     void solve_for_force(const float *r, float *z, float *y) const;
 
     const InterfaceOperator  *W = nullptr;
     unsigned int              group = 0, n = 0;
-    std::size_t               leading = 0; ///< dimension of F
-    std::vector<float>        F;           ///< by column; empty: of no use
-    JointFactor               factor;      ///< of either system; its equations are those of the factor
+    std::size_t               leading = 0;         ///< dimension of F
+    std::vector<float>        F;                   ///< by column; empty: of no use
+    bool                      is_accurate = false; ///< is W_jj F = I to single precision?
+    JointFactor               factor; ///< of either system; its equations are those of the factor
     bool                      for_gap = false;
     std::vector<unsigned int> given_force; ///< rows in which the equations give the force
     std::vector<unsigned int> given_gap;   ///< rows in which they give the gap

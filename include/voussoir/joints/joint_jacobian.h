@@ -42,8 +42,6 @@ namespace Voussoir
     std::vector<std::pair<unsigned int, unsigned int>> keys; ///< of the blocks
     const std::vector<PairEquations>                  *equations = nullptr;
     std::vector<JointBlock>                            joints;
-    std::vector<std::vector<unsigned int>>             groups_of_colour;
-    std::vector<unsigned int>                          colour;
     bool                        is_chain = true;   ///< is each joint coupled to its neighbours only?
     bool                        use_chain = false; ///< from the next equations on
     std::unique_ptr<JointChain> chain;             ///< instead of the joints' blocks, once GMRES was slow
