@@ -39,6 +39,7 @@ CASES = {"3.2_fja": ("paper_3_2_fja", {}), "3.2_fjb": ("paper_3_2_fjb", {}), "3.
          "3.1_fja": ("paper_3_1_fja", REDUCED), "3.1_fjb": ("paper_3_1_fjb", REDUCED),
          "3.1_tied": ("paper_3_1_fja", {**REDUCED, "Joints/Model": "tied"}),
          "3.2_ksm_play": ("paper_3_2_ksm", {KEYS + "Clearance": 0.02}),
+         "3.2_ksm_friction": ("paper_3_2_ksm", {KEYS + "Friction": -1}),
          "3.2_ksm_radial": ("paper_3_2_ksm", {KEYS + "Direction": "radial"}),
          "3.2_ksm_vertical": ("paper_3_2_ksm", {KEYS + "Direction": "vertical"})}
 NAMES = {"3.2_fja": "FJA", "3.2_fjb": "FJB", "3.2_ksm": "KSM", "3.1_fja": "FJA", "3.1_fjb": "FJB"}

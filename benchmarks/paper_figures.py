@@ -19,6 +19,7 @@ import figures  # noqa: E402
 from figures import plt, LineCollection  # noqa: E402
 
 COLOURS = {"FJA": "#0b5394", "FJB": "#cc4125", "KSM": "#6aa84f"}
+BENEATH = {"color": "#e6a194", "linewidth": 3.2}  # FJB where KSM is drawn over it, and may cover it
 OTHERS = ["#7f7f7f", "#b45f06", "#674ea7"]
 LEVELS = [0., .5, 1., 1.5, 2., 3., 4., 6., 8., 12.]  # MPa, in all figures
 LIMIT = 1.5  # MPa, the paper's: a heavy line
@@ -48,8 +49,8 @@ class Envelope:
         axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=LEVELS, colors="0.35", linewidths=0.2)
         axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=[LIMIT], colors="k", linewidths=0.9)
         outline, joints = figures.edges(drawn, np.stack([self.x, self.y, self.z], axis=1), self.quads)
-        axes.add_collection(LineCollection(joints, colors="k", linewidths=0.5))
-        axes.add_collection(LineCollection(outline, colors="k", linewidths=1.1))
+        axes.add_collection(LineCollection(joints, colors="k", linewidths=0.5, capstyle="projecting"))
+        axes.add_collection(LineCollection(outline, colors="k", linewidths=1.1, capstyle="projecting"))
         axes.set(aspect="equal", xlim=(self.s.min() - 8, self.s.max() + 8), ylim=(-6, 216))
         axes.grid(False)
         return contours
@@ -122,11 +123,11 @@ def profiles(directories, title, path):
         axes.set_visible(False)
     for axes, joint, name in zip(grid.ravel(), joints, names):
         for k, (law, table) in enumerate(tables.items()):
+            style = BENEATH if law == "FJB" and "KSM" in tables else {"color": colour_of(law, k), "linewidth": 1.2}
             for face, line in zip(FACES, ("-", "--")):
                 mine = (table["joint"] == joint) & (table["face"] == face)
                 order = np.argsort(table["z"][mine])
-                axes.plot(1e3 * table["opening"][mine][order], table["z"][mine][order], line, color=colour_of(law, k),
-                          linewidth=1.2, label=f"{law}, {face}")
+                axes.plot(1e3 * table["opening"][mine][order], table["z"][mine][order], line, label=f"{law}, {face}", **style)
         axes.set_title(name, fontsize=10)
     grid[0, 0].set_xlim(left=0)
     for axes in grid[:, 0]:
