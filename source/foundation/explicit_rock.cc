@@ -55,7 +55,7 @@ namespace Voussoir
     RayleighDamping damping;
     damping.mass = parameters.mass_damping;
     damping.stiffness = parameters.stiffness_damping;
-    dt_critical = Voussoir::critical_time_step(largest_frequency(model.stiffness, model.mass), damping);
+    dt_critical = Voussoir::critical_time_step(largest_frequency(make_operator(model), model.mass), damping);
   }
 
   void ExplicitRock::add_mass(Structure &structure) const

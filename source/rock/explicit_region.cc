@@ -8,44 +8,57 @@
 
 namespace Voussoir
 {
-  double largest_frequency(const BlockSparseMatrix &stiffness, const std::vector<double> &mass)
+  namespace
   {
-    const int n = 3 * static_cast<int>(stiffness.n_rows());
-    Unknowns  scaled(n), x(n), y(n); // of D K D with D = M^(-1/2), which is symmetric
-    double    norm = 0.;
-    for (int i = 0; i < n; ++i)
+    template <class Matrix> double power_iteration(const Matrix &stiffness, const std::vector<double> &mass)
     {
-      scaled[i] = mass[i / 3] > 0. ? 1. / std::sqrt(mass[i / 3]) : 0.;
-      x[i] = 1. + .5 * std::sin(12.9898 * i); // smooth and rough parts
-      norm += x[i] * x[i];
-    }
-    for (double &value : x)
-      value /= std::sqrt(norm);
-    double           value = 0., residual = 0.;
-    constexpr double enough = 1e-2;
-    for (unsigned int iteration = 0; iteration < 1000; ++iteration)
-    {
-      Unknowns z(n);
-      for (int i = 0; i < n; ++i)
-        z[i] = scaled[i] * x[i];
-      stiffness.multiply(z.data(), y.data());
-      double product = 0., square = 0.;
+      const int n = 3 * static_cast<int>(stiffness.n_rows());
+      Unknowns  scaled(n), x(n), y(n); // of D K D with D = M^(-1/2), which is symmetric
+      double    norm = 0.;
       for (int i = 0; i < n; ++i)
       {
-        y[i] *= scaled[i];
-        product += x[i] * y[i];
-        square += y[i] * y[i];
+        scaled[i] = mass[i / 3] > 0. ? 1. / std::sqrt(mass[i / 3]) : 0.;
+        x[i] = 1. + .5 * std::sin(12.9898 * i); // smooth and rough parts
+        norm += x[i] * x[i];
       }
-      value = product;
-      residual = std::sqrt(std::max(0., square - value * value));
-      if (square == 0.)
-        return 0.;
-      for (int i = 0; i < n; ++i)
-        x[i] = y[i] / std::sqrt(square);
-      if (residual < enough * value)
-        break;
+      for (double &value : x)
+        value /= std::sqrt(norm);
+      double           value = 0., residual = 0.;
+      constexpr double enough = 1e-2;
+      for (unsigned int iteration = 0; iteration < 1000; ++iteration)
+      {
+        Unknowns z(n);
+        for (int i = 0; i < n; ++i)
+          z[i] = scaled[i] * x[i];
+        stiffness.multiply(z.data(), y.data());
+        double product = 0., square = 0.;
+        for (int i = 0; i < n; ++i)
+        {
+          y[i] *= scaled[i];
+          product += x[i] * y[i];
+          square += y[i] * y[i];
+        }
+        value = product;
+        residual = std::sqrt(std::max(0., square - value * value));
+        if (square == 0.)
+          return 0.;
+        for (int i = 0; i < n; ++i)
+          x[i] = y[i] / std::sqrt(square);
+        if (residual < enough * value)
+          break;
+      }
+      return std::sqrt(value + residual);
     }
-    return std::sqrt(value + residual);
+  } // namespace
+
+  double largest_frequency(const RockOperator &stiffness, const std::vector<double> &mass)
+  {
+    return power_iteration(stiffness, mass);
+  }
+
+  double largest_frequency(const BlockSparseMatrix &stiffness, const std::vector<double> &mass)
+  {
+    return power_iteration(stiffness, mass);
   }
 
   double critical_time_step(const double w, const RayleighDamping &damping)
@@ -63,7 +76,7 @@ namespace Voussoir
     return text.str();
   }
 
-  ExplicitRegion::ExplicitRegion(BlockSparseMatrix matrix, std::vector<double> masses,
+  ExplicitRegion::ExplicitRegion(RockOperator matrix, std::vector<double> masses,
                                  const RayleighDamping &damping, const double dt)
       : stiffness(std::move(matrix)), mass(std::move(masses)), damping(damping), dt(dt)
   {
@@ -231,8 +244,8 @@ namespace Voussoir
 
   RegionStep ExplicitRegion::step_of_region()
   {
-    return {dt,    damping,    stiffness,    mass,  is_fixed,   u, K_x, K_u,
-            force, boundary_w, field_before, field, field_next, w, work};
+    return {dt,    damping,    mass,         is_fixed, u,          K_x, K_u,
+            force, boundary_w, field_before, field,    field_next, w,   work};
   }
 
   RegionStep ExplicitRegion::step_of_boundary()
