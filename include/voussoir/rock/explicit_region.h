@@ -83,6 +83,12 @@ namespace Voussoir
     void start(const Unknowns &displacement, const Unknowns &velocity);
 
   private:
+    /** Kinetic energy and strain energy, twice; losses and work of forces over dt/2. Chunks of nodes are
+     * added in their order, so that sums do not depend on the number of threads. */
+    using Sums = std::array<double, 4>;
+    static constexpr int             per_chunk = 256; ///< nodes
+    template <bool with_energy> Sums step_nodes(int first, int last);
+
     void                             move_prescribed(const Unknowns &u_new, const Unknowns &v_new);
     template <bool with_energy> void step_explicit_nodes();
     RegionStep                       step_of_region();
