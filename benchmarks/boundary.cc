@@ -23,7 +23,7 @@ namespace
     return values[values.size() / 2];
   }
 
-  /** Time of each of some actions, in short turns, one after the other [ms]: median and least. */
+  /** Times of some actions, in short turns, one after the other [ms]: median and least. */
   struct Times
   {
     static constexpr unsigned int turns = 25, repeat = 4;
@@ -32,12 +32,12 @@ namespace
     {
       for (unsigned int turn = 0; turn < turns; ++turn)
         for (std::size_t k = 0; k < actions.size(); ++k)
-        {
-          const Stopwatch watch;
           for (unsigned int i = 0; i < repeat; ++i)
+          {
+            const Stopwatch watch;
             actions[k]();
-          times[k].push_back(1e3 * watch.seconds() / repeat);
-        }
+            times[k].push_back(1e3 * watch.seconds());
+          }
     }
 
     double middle(const std::size_t k) const { return median(times[k]); }

@@ -96,7 +96,9 @@ namespace Voussoir
     grid = steps;
     const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
     region = make_region(model, p);
-    if (grid.n > 0) // else without an earthquake
+    if (grid.substeps == 1)
+      model.stiffness = BlockSparseMatrix(); // its memory: the region has what it needs
+    if (grid.n > 0)                          // else without an earthquake
       shake(*region, model, p, incident_wave(outcrop), grid.n_substeps() + 2);
     std::vector<unsigned int> nodes;
     for (const Foot &f : foot)
