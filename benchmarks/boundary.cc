@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The artificial boundary against extended meshes and analytic solutions: the rows of doc/boundary.md.
-// Usage: benchmark_boundary [speed|halfspace|canyon|psv|lamb|hemisphere]...; all without an argument.
-// A = must, M = wish.
+// Usage: benchmark_boundary [products|speed|halfspace|canyon|psv|lamb|hemisphere]...; all without an
+// argument. A = must, M = wish.
 
 #include "boundary_canyon.h"
 
@@ -23,25 +23,93 @@ namespace
     return values[values.size() / 2];
   }
 
-  /** Step of a region against the bare product with its stiffness: medians of short turns, one after the
-   * other, with one thread and with two; and the ratio of the shortest turns, for busy machines. */
+  /** Times of some actions, in short turns, one after the other [ms]: median and least. */
+  struct Times
+  {
+    static constexpr unsigned int turns = 25, repeat = 4;
+
+    explicit Times(const std::vector<std::function<void()>> &actions) : times(actions.size())
+    {
+      for (unsigned int turn = 0; turn < turns; ++turn)
+        for (std::size_t k = 0; k < actions.size(); ++k)
+          for (unsigned int i = 0; i < repeat; ++i)
+          {
+            const Stopwatch watch;
+            actions[k]();
+            times[k].push_back(1e3 * watch.seconds());
+          }
+    }
+
+    double middle(const std::size_t k) const { return median(times[k]); }
+    double least(const std::size_t k) const { return *std::min_element(times[k].begin(), times[k].end()); }
+
+    std::vector<std::vector<double>> times;
+  };
+
+  /** With one thread, and with two where there are as many. */
+  void with_threads(const std::function<void(int)> &action)
+  {
+#ifdef _OPENMP
+    const int all_threads = omp_get_max_threads();
+    for (int n = 1; n <= std::min(2, omp_get_num_procs()); ++n)
+    {
+      omp_set_num_threads(n);
+      action(n);
+    }
+    omp_set_num_threads(all_threads);
+#else
+    action(1);
+#endif
+  }
+
+  /** A box of cubes of the size of prm/rock28.prm. */
+  constexpr unsigned int cells_of_speed = 46;
+
+  HexMesh mesh_of_speed()
+  {
+    constexpr unsigned int n = cells_of_speed;
+    return box({n, n, n}, {"x-", "x+", "y-", "y+", "z-"},
+               [](const double i, const double j, const double k) -> Vector3 {
+                 return {{i, j, k}};
+               });
+  }
+
+  /** Products with the stiffness of nodal quadrature: each kernel against the matrix. */
+  void products()
+  {
+    auto p = parameters("mtf3", .3);
+    p.rock.nodal_everywhere = true;
+    const RockModel model = make_rock_model(mesh_of_speed(), p.rock);
+    Unknowns        x(3 * model.points.size(), 1.), y(x);
+    std::printf("\nProducts: %zu nodes, nodal quadrature everywhere; matrix %.0f MB\n", model.points.size(),
+                1e-6 * (sizeof(Matrix3) + sizeof(unsigned int)) * model.stiffness.value.size());
+    std::printf("%-10s %8s %14s %14s %8s %8s %14s\n", "kernel", "threads", "matrix [ms]", "kernel [ms]",
+                "ratio", "least", "kernel's MB");
+    with_threads(
+        [&](const int n_threads)
+        {
+          for (const char *name : nodal_kernels())
+          {
+            const RockOperator K = make_operator(model, nodal_kernel(name));
+            const Times        t({[&] { model.stiffness.multiply(x.data(), y.data()); },
+                                  [&] { K.multiply(x.data(), y.data()); }});
+            std::printf("%-10s %8d %14.2f %14.2f %8.2f %8.2f %14.1f\n", name, n_threads, t.middle(0),
+                        t.middle(1), t.middle(0) / t.middle(1), t.least(0) / t.least(1), 1e-6 * K.memory());
+            std::fflush(stdout);
+          }
+        });
+  }
+
+  /** Step of a region against the bare product with the matrix of its stiffness: with one thread and with
+   * two; and the ratio of the shortest turns, for busy machines. */
   void speed()
   {
-    constexpr unsigned int n = 46, turns = 25, repeat = 4;
-    const HexMesh          mesh = box({n, n, n}, {"x-", "x+", "y-", "y+", "z-"},
-                                      [](const double i, const double j, const double k) -> Vector3 {
-                               return {{i, j, k}};
-                             });
+    constexpr unsigned int n = cells_of_speed;
+    const HexMesh          mesh = mesh_of_speed();
     std::printf("\nSpeed: box of %u x %u x %u cells, %u nodes, earthquake, damping\n", n, n, n,
                 (n + 1) * (n + 1) * (n + 1));
     std::printf("%-46s %8s %8s %14s %12s %8s %4s %8s\n", "boundary, quadrature, free field", "threads",
                 "energy", "product [ms]", "step [ms]", "ratio", "A", "least");
-    std::vector<int> threads = {1};
-#ifdef _OPENMP
-    const int all_threads = omp_get_max_threads();
-    if (omp_get_num_procs() > 1)
-      threads.push_back(2);
-#endif
     struct Row
     {
       std::string boundary, free_field;
@@ -72,36 +140,19 @@ namespace
         if (energy)
           region->keep_energy();
         Unknowns x(3 * model.points.size(), 1.), y(x);
-        for (const int n_threads : threads)
-        {
-#ifdef _OPENMP
-          omp_set_num_threads(n_threads);
-#endif
-          std::vector<double> product, step;
-          for (unsigned int turn = 0; turn < turns; ++turn)
-          {
-            const Stopwatch first;
-            for (unsigned int i = 0; i < repeat; ++i)
-              model.stiffness.multiply(x.data(), y.data());
-            product.push_back(1e3 * first.seconds() / repeat);
-            const Stopwatch second;
-            for (unsigned int i = 0; i < repeat; ++i)
-              region->advance();
-            step.push_back(1e3 * second.seconds() / repeat);
-          }
-          std::printf(
-              "%-46s %8d %8s %14.2f %12.2f %8.2f %4s %8.2f\n",
-              (row.boundary + (row.nodal ? ", nodal, " : ", Gauss inside, ") + row.free_field).c_str(),
-              n_threads, energy ? "yes" : "no", median(product), median(step), median(step) / median(product),
-              "2",
-              *std::min_element(step.begin(), step.end()) /
-                  *std::min_element(product.begin(), product.end()));
-          std::fflush(stdout);
-        }
+        with_threads(
+            [&](const int n_threads)
+            {
+              const Times t(
+                  {[&] { model.stiffness.multiply(x.data(), y.data()); }, [&] { region->advance(); }});
+              std::printf(
+                  "%-46s %8d %8s %14.2f %12.2f %8.2f %4s %8.2f\n",
+                  (row.boundary + (row.nodal ? ", nodal, " : ", Gauss inside, ") + row.free_field).c_str(),
+                  n_threads, energy ? "yes" : "no", t.middle(0), t.middle(1), t.middle(1) / t.middle(0),
+                  "0.5", t.least(1) / t.least(0));
+              std::fflush(stdout);
+            });
       }
-#ifdef _OPENMP
-    omp_set_num_threads(all_threads);
-#endif
   }
 
   /** Plane strain half-space in x and z, one layer of cells: nx by nz cells, the ground at z = 0. */
@@ -512,7 +563,8 @@ namespace
 
 int main(const int argc, char **argv)
 {
-  const std::vector<std::pair<std::string, void (*)()>> all = {{"speed", speed},
+  const std::vector<std::pair<std::string, void (*)()>> all = {{"products", products},
+                                                               {"speed", speed},
                                                                {"halfspace",
                                                                 []
                                                                 {

@@ -55,7 +55,7 @@ namespace Voussoir
     RayleighDamping damping;
     damping.mass = parameters.mass_damping;
     damping.stiffness = parameters.stiffness_damping;
-    dt_critical = Voussoir::critical_time_step(largest_frequency(model.stiffness, model.mass), damping);
+    dt_critical = Voussoir::critical_time_step(largest_frequency(make_operator(model), model.mass), damping);
   }
 
   void ExplicitRock::add_mass(Structure &structure) const
@@ -96,7 +96,9 @@ namespace Voussoir
     grid = steps;
     const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
     region = make_region(model, p);
-    if (grid.n > 0) // else without an earthquake
+    if (grid.substeps == 1)
+      model.stiffness = BlockSparseMatrix(); // its memory: the region has what it needs
+    if (grid.n > 0)                          // else without an earthquake
       shake(*region, model, p, incident_wave(outcrop), grid.n_substeps() + 2);
     std::vector<unsigned int> nodes;
     for (const Foot &f : foot)

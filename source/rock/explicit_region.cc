@@ -8,44 +8,57 @@
 
 namespace Voussoir
 {
-  double largest_frequency(const BlockSparseMatrix &stiffness, const std::vector<double> &mass)
+  namespace
   {
-    const int n = 3 * static_cast<int>(stiffness.n_rows());
-    Unknowns  scaled(n), x(n), y(n); // of D K D with D = M^(-1/2), which is symmetric
-    double    norm = 0.;
-    for (int i = 0; i < n; ++i)
+    template <class Matrix> double power_iteration(const Matrix &stiffness, const std::vector<double> &mass)
     {
-      scaled[i] = mass[i / 3] > 0. ? 1. / std::sqrt(mass[i / 3]) : 0.;
-      x[i] = 1. + .5 * std::sin(12.9898 * i); // smooth and rough parts
-      norm += x[i] * x[i];
-    }
-    for (double &value : x)
-      value /= std::sqrt(norm);
-    double           value = 0., residual = 0.;
-    constexpr double enough = 1e-2;
-    for (unsigned int iteration = 0; iteration < 1000; ++iteration)
-    {
-      Unknowns z(n);
-      for (int i = 0; i < n; ++i)
-        z[i] = scaled[i] * x[i];
-      stiffness.multiply(z.data(), y.data());
-      double product = 0., square = 0.;
+      const int n = 3 * static_cast<int>(stiffness.n_rows());
+      Unknowns  scaled(n), x(n), y(n); // of D K D with D = M^(-1/2), which is symmetric
+      double    norm = 0.;
       for (int i = 0; i < n; ++i)
       {
-        y[i] *= scaled[i];
-        product += x[i] * y[i];
-        square += y[i] * y[i];
+        scaled[i] = mass[i / 3] > 0. ? 1. / std::sqrt(mass[i / 3]) : 0.;
+        x[i] = 1. + .5 * std::sin(12.9898 * i); // smooth and rough parts
+        norm += x[i] * x[i];
       }
-      value = product;
-      residual = std::sqrt(std::max(0., square - value * value));
-      if (square == 0.)
-        return 0.;
-      for (int i = 0; i < n; ++i)
-        x[i] = y[i] / std::sqrt(square);
-      if (residual < enough * value)
-        break;
+      for (double &value : x)
+        value /= std::sqrt(norm);
+      double           value = 0., residual = 0.;
+      constexpr double enough = 1e-2;
+      for (unsigned int iteration = 0; iteration < 1000; ++iteration)
+      {
+        Unknowns z(n);
+        for (int i = 0; i < n; ++i)
+          z[i] = scaled[i] * x[i];
+        stiffness.multiply(z.data(), y.data());
+        double product = 0., square = 0.;
+        for (int i = 0; i < n; ++i)
+        {
+          y[i] *= scaled[i];
+          product += x[i] * y[i];
+          square += y[i] * y[i];
+        }
+        value = product;
+        residual = std::sqrt(std::max(0., square - value * value));
+        if (square == 0.)
+          return 0.;
+        for (int i = 0; i < n; ++i)
+          x[i] = y[i] / std::sqrt(square);
+        if (residual < enough * value)
+          break;
+      }
+      return std::sqrt(value + residual);
     }
-    return std::sqrt(value + residual);
+  } // namespace
+
+  double largest_frequency(const RockOperator &stiffness, const std::vector<double> &mass)
+  {
+    return power_iteration(stiffness, mass);
+  }
+
+  double largest_frequency(const BlockSparseMatrix &stiffness, const std::vector<double> &mass)
+  {
+    return power_iteration(stiffness, mass);
   }
 
   double critical_time_step(const double w, const RayleighDamping &damping)
@@ -63,7 +76,7 @@ namespace Voussoir
     return text.str();
   }
 
-  ExplicitRegion::ExplicitRegion(BlockSparseMatrix matrix, std::vector<double> masses,
+  ExplicitRegion::ExplicitRegion(RockOperator matrix, std::vector<double> masses,
                                  const RayleighDamping &damping, const double dt)
       : stiffness(std::move(matrix)), mass(std::move(masses)), damping(damping), dt(dt)
   {
@@ -192,47 +205,67 @@ namespace Voussoir
     return prescribed_force;
   }
 
-  template <bool with_energy> void ExplicitRegion::step_explicit_nodes()
+  template <bool with_energy> ExplicitRegion::Sums ExplicitRegion::step_nodes(const int first, const int last)
   {
-    const int    n = u.size();
-    const bool   loaded = !force.empty();
-    const double ratio = damping.stiffness / dt;
+    const int n = 3 * (last - first), offset = 3 * first;
+    double    zeros[3 * per_chunk] = {}, masses[3 * per_chunk], is_free[3 * per_chunk]; // of components
+    for (int i = 0; i < n; ++i)
+      is_free[i] = inverse_mass[offset + i] != 0.;
+    for (int i = 0; with_energy && i < n; ++i)
+      masses[i] = mass[first + i / 3];
+    const double *load = force.empty() ? zeros : force.data() + offset, *K = K_x.data() + offset,
+                 *inverse = inverse_mass.data() + offset, *at = u.data() + offset;
+    double      *velocity = w.data() + offset, *stress = with_energy ? K_u.data() + offset : zeros;
+    const double step = dt, drag = damping.mass, ratio = damping.stiffness / dt, share = 1. / (1. + ratio);
     double       kinetic = 0., strain = 0., lost = 0., external = 0.;
-#pragma omp parallel for simd schedule(static) reduction(+ : kinetic, strain, lost, external)
+#pragma omp simd reduction(+ : kinetic, strain, lost, external)
     for (int i = 0; i < n; ++i)
     {
-      const double f = loaded ? force[i] : 0., old = w[i];
-      const double free = inverse_mass[i] != 0. ? 1. : 0.;
-      w[i] += dt * (inverse_mass[i] * (f - K_x[i]) - free * damping.mass * old);
+      const double f = load[i], old = velocity[i], free = is_free[i];
+      const double now = old + step * (inverse[i] * (f - K[i]) - free * drag * old);
+      velocity[i] = now;
       if (with_energy)
       {
-        const double m = mass[i / 3];
-        K_u[i] = (K_x[i] + ratio * K_u[i]) / (1. + ratio);
-        const double damped = damping.mass * m * old + K_x[i] - K_u[i], twice = old + free * w[i];
+        const double m = masses[i], elastic = share * (K[i] + ratio * stress[i]);
+        stress[i] = elastic;
+        const double damped = drag * m * old + K[i] - elastic, twice = old + free * now;
         kinetic += m * old * old;
-        strain += (u[i] - dt * old) * K_u[i];
+        strain += (at[i] - step * old) * elastic;
         lost += damped * twice;
         external += f * twice;
       }
     }
-    if (with_energy)
-    {
-      // Until now; what follows belongs to the next half step.
-      account.damping = work[lost_in_damping];
-      account.external = work[done_by_forces];
-      account.transmitted = work[gone_through_boundary];
-      account.prescribed = work[done_by_prescribed];
-      account.kinetic = .5 * kinetic;
-      account.strain = .5 * strain;
-      work[lost_in_damping] += .5 * dt * lost;
-      work[done_by_forces] += .5 * dt * external;
-    }
+    return {{kinetic, strain, lost, external}};
+  }
+
+  template <bool with_energy> void ExplicitRegion::step_explicit_nodes()
+  {
+    const int         n = n_nodes(), n_chunks = (n + per_chunk - 1) / per_chunk;
+    std::vector<Sums> sums(n_chunks);
+#pragma omp parallel for schedule(static)
+    for (int c = 0; c < n_chunks; ++c)
+      sums[c] = step_nodes<with_energy>(c * per_chunk, std::min(n, (c + 1) * per_chunk));
+    if (!with_energy)
+      return;
+    Sums total{};
+    for (const Sums &part : sums)
+      for (unsigned int k = 0; k < 4; ++k)
+        total[k] += part[k];
+    // Until now; what follows belongs to the next half step.
+    account.damping = work[lost_in_damping];
+    account.external = work[done_by_forces];
+    account.transmitted = work[gone_through_boundary];
+    account.prescribed = work[done_by_prescribed];
+    account.kinetic = .5 * total[0];
+    account.strain = .5 * total[1];
+    work[lost_in_damping] += .5 * dt * total[2];
+    work[done_by_forces] += .5 * dt * total[3];
   }
 
   RegionStep ExplicitRegion::step_of_region()
   {
-    return {dt,    damping,    stiffness,    mass,  is_fixed,   u, K_x, K_u,
-            force, boundary_w, field_before, field, field_next, w, work};
+    return {dt,    damping,    mass,         is_fixed, u,          K_x, K_u,
+            force, boundary_w, field_before, field,    field_next, w,   work};
   }
 
   RegionStep ExplicitRegion::step_of_boundary()

@@ -118,6 +118,31 @@ namespace Voussoir
       model.stiffness.symmetrise();
     }
 
+    /** Which cells need no matrix. */
+    void sort_cells(const RockGrid &grid, const std::vector<bool> &nodal, const RockParameters &parameters,
+                    RockModel &model)
+    {
+      model.in_other_cell.assign(grid.n_nodes(), false);
+      for (const RockGrid::Cell &cell : grid.dof_handler.active_cell_iterators())
+      {
+        const auto nodes = nodes_of(grid, cell);
+        bool       is_plain = nodal[cell->active_cell_index()];
+        for (unsigned int v = 0; v < 8; ++v)
+          for (unsigned int c = 0; c < 3; ++c)
+            is_plain = is_plain && grid.points[nodes[v]][c] == cell->vertex(v)[c]; // else tied to another
+        if (is_plain)
+        {
+          const Material &m = parameters.materials.at(cell->material_id());
+          model.nodal_cells.push_back({nodes,
+                                       m.young * m.poisson / ((1. + m.poisson) * (1. - 2. * m.poisson)),
+                                       m.young / (2. * (1. + m.poisson))});
+        }
+        else
+          for (const unsigned int i : nodes)
+            model.in_other_cell[i] = true;
+      }
+    }
+
     /** Rocks side by side, with the areas of their cells [m^2]. */
     using Rocks = std::vector<std::pair<Material, double>>;
 
@@ -267,6 +292,7 @@ namespace Voussoir
                                         ? std::vector<bool>(grid.triangulation.n_active_cells(), true)
                                         : cells_at_boundary(grid, faces, parameters.nodal_layers);
     assemble(grid, nodal, parameters, model);
+    sort_cells(grid, nodal, parameters, model);
     find_lines(grid, faces, parameters, model);
     find_columns(grid, faces, parameters, model);
     for (const ArtificialFace &face : faces)
@@ -278,5 +304,10 @@ namespace Voussoir
       model.faces.push_back(f);
     }
     return model;
+  }
+
+  RockOperator make_operator(const RockModel &model, const NodalKernel kernel)
+  {
+    return {model.stiffness, model.points, model.nodal_cells, model.in_other_cell, kernel};
   }
 } // namespace Voussoir

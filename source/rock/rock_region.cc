@@ -18,7 +18,7 @@ namespace Voussoir
   std::unique_ptr<ExplicitRegion> make_region(const RockModel &model, const RockRegionParameters &parameters)
   {
     auto region =
-        std::make_unique<ExplicitRegion>(model.stiffness, model.mass, parameters.damping, parameters.dt);
+        std::make_unique<ExplicitRegion>(make_operator(model), model.mass, parameters.damping, parameters.dt);
     auto boundary = make_boundary(parameters);
     boundary->attach(model, parameters.rock.centre, parameters.dt);
     region->set_boundary(std::move(boundary));

@@ -154,44 +154,50 @@ namespace Voussoir
         weights.insert(weights.end(), row.begin(), row.end());
     }
     history.assign(formula.order(), Unknowns(3 * node.size(), 0.));
-    next.assign(3 * model.lines.size(), 0.);
   }
 
-  void TransmittingBoundary::find_next(const Unknowns &u, const Unknowns &free_field,
-                                       const Unknowns &next_free_field)
+  template <unsigned int known> void TransmittingBoundary::move_nodes(const RegionStep &step)
   {
+    const Unknowns &u = step.u, &free_field = step.field, &next_free_field = step.field_next;
     if (!history.empty())
       std::rotate(history.begin(), history.end() - 1, history.end());
-    const bool incident = !free_field.empty();
-    const int  lines = static_cast<int>(boundary_node.size());
+    const bool         incident = !free_field.empty();
+    const int          lines = static_cast<int>(boundary_node.size());
+    const unsigned int n = known == 0 ? n_points : known;
+    constexpr int      ahead = 4; // lines whose displacements are on their way
 #pragma omp parallel for schedule(static)
     for (int line = 0; line < lines; ++line)
     {
-      const std::size_t first = std::size_t(line) * n_points;
-      for (std::size_t i = first; !history.empty() && i < first + n_points; ++i)
+      const std::size_t   first = std::size_t(line) * n;
+      const unsigned int *soon = node.data() + n * std::size_t(std::min(line + ahead, lines - 1));
+      for (unsigned int k = 0; k < n; ++k)
+        __builtin_prefetch(u.data() + 3 * std::size_t(soon[k]));
+      double       *latest = history.empty() ? nullptr : history.front().data() + 3 * first;
+      const double *field = incident ? free_field.data() + 3 * first : nullptr;
+      for (unsigned int k = 0; latest != nullptr && k < n; ++k)
         for (unsigned int c = 0; c < 3; ++c)
-          history.front()[3 * i + c] =
-              u[3 * std::size_t(node[i]) + c] - (incident ? free_field[3 * i + c] : 0.);
+          latest[3 * k + c] = u[3 * std::size_t(node[first + k]) + c] - (incident ? field[3 * k + c] : 0.);
       const double *w = weights.data() + first * history.size();
       Vector3       sum{};
       for (const Unknowns &scattered : history)
-        for (unsigned int k = 0; k < n_points; ++k, ++w)
+        for (unsigned int k = 0; k < n; ++k, ++w)
           for (unsigned int c = 0; c < 3; ++c)
             sum[c] += *w * scattered[3 * (first + k) + c];
       for (unsigned int c = 0; c < 3; ++c)
-        next[3 * line + c] = sum[c] + (incident ? next_free_field[3 * first + c] : 0.);
+      {
+        const std::size_t k = 3 * std::size_t(boundary_node[line]) + c;
+        const double      next = sum[c] + (incident ? next_free_field[3 * first + c] : 0.);
+        step.w[k] = (next - u[k]) / step.dt;
+      }
     }
   }
 
   void TransmittingBoundary::advance(const RegionStep &step)
   {
-    find_next(step.u, step.field, step.field_next);
-    for (std::size_t i = 0; i < boundary_node.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        const std::size_t k = 3 * std::size_t(boundary_node[i]) + c;
-        step.w[k] = (next[3 * i + c] - step.u[k]) / step.dt;
-      }
+    if (n_points == 7) // of the default
+      move_nodes<7>(step);
+    else
+      move_nodes<0>(step);
     if (!step.K_u.empty())
       step.work[gone_through_boundary] -= work_of_motion(step, boundary_node, step.w_before);
   }

@@ -63,15 +63,18 @@ namespace Voussoir
       own_number.push_back(number(dashpot.node));
       first_neighbour.push_back(neighbour_number.size());
       for (std::size_t k = stiffness.start[dashpot.node]; k < stiffness.start[dashpot.node + 1]; ++k)
+      {
         neighbour_number.push_back(number(stiffness.column[k]));
+        row.push_back(stiffness.value[k]);
+      }
     }
+    first_neighbour.push_back(neighbour_number.size());
   }
 
   Vector3 ViscousBoundary::free_field_force(const RegionStep &step, const unsigned int d) const
   {
-    const BlockSparseMatrix &stiffness = step.stiffness;
-    const RayleighDamping   &damping = step.damping;
-    const double             dt = step.dt;
+    const RayleighDamping &damping = step.damping;
+    const double           dt = step.dt;
     const Unknowns &field_before = step.field_before, &field = step.field, &field_next = step.field_next;
     const Dashpot  &dashpot = dashpots[d];
     const auto      at = [&](const Unknowns &values, const std::size_t i) {
@@ -84,14 +87,13 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
         f[c] += ab[c];
     };
-    std::size_t neighbour = first_neighbour[d];
-    for (std::size_t k = stiffness.start[dashpot.node]; k < stiffness.start[dashpot.node + 1]; ++k)
+    for (std::size_t k = first_neighbour[d]; k < first_neighbour[d + 1]; ++k)
     {
-      const unsigned int i = neighbour_number[neighbour++];
+      const unsigned int i = neighbour_number[k];
       Vector3            stress = at(field, i), before = at(field_before, i);
       for (unsigned int c = 0; c < 3; ++c)
         stress[c] += damping.stiffness / dt * (stress[c] - before[c]);
-      add(stiffness.value[k], stress);
+      add(row[k], stress);
     }
     const std::size_t own = own_number[d];
     const Vector3     before = at(field_before, own), now = at(field, own), next = at(field_next, own);

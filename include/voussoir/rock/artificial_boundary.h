@@ -23,7 +23,6 @@ namespace Voussoir
   {
     double                     dt; ///< [s]
     const RayleighDamping     &damping;
-    const BlockSparseMatrix   &stiffness;
     const std::vector<double> &mass;     ///< one value per node [kg]
     const std::vector<bool>   &is_fixed; ///< components that must not move
     const Unknowns            &u;        ///< displacement at t [m]

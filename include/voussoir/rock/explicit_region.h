@@ -33,7 +33,7 @@ namespace Voussoir
   {
   public:
     /** @p mass: of each node [kg]. At rest. InputError if @p dt exceeds the critical time step. */
-    ExplicitRegion(BlockSparseMatrix stiffness, std::vector<double> mass, const RayleighDamping &damping,
+    ExplicitRegion(RockOperator stiffness, std::vector<double> mass, const RayleighDamping &damping,
                    double dt);
 
     /** @p boundary: attached to the region's model. */
@@ -82,15 +82,19 @@ namespace Voussoir
     /** Any start: displacement at t = 0, and velocity half a step later. Without a free field. */
     void start(const Unknowns &displacement, const Unknowns &velocity);
 
-    const BlockSparseMatrix &matrix() const { return stiffness; }
-
   private:
+    /** Kinetic energy and strain energy, twice; losses and work of forces over dt/2. Chunks of nodes are
+     * added in their order, so that sums do not depend on the number of threads. */
+    using Sums = std::array<double, 4>;
+    static constexpr int             per_chunk = 256; ///< nodes
+    template <bool with_energy> Sums step_nodes(int first, int last);
+
     void                             move_prescribed(const Unknowns &u_new, const Unknowns &v_new);
     template <bool with_energy> void step_explicit_nodes();
     RegionStep                       step_of_region();
     RegionStep                       step_of_boundary(); ///< the motion of its nodes kept
 
-    BlockSparseMatrix   stiffness;
+    RockOperator        stiffness;
     std::vector<double> mass, inverse_mass; ///< of nodes; of components, zero where not explicit
     std::vector<bool>   is_fixed;           ///< components
     RayleighDamping     damping;
@@ -115,6 +119,7 @@ namespace Voussoir
   };
 
   /** Largest circular frequency of M^-1 K [1/s], from above: power iteration, with the residual added. */
+  double largest_frequency(const RockOperator &stiffness, const std::vector<double> &mass);
   double largest_frequency(const BlockSparseMatrix &stiffness, const std::vector<double> &mass);
 
   /** Critical time step of the explicit scheme with damping lagged [s]: w dt = 2 (sqrt(1 + xi^2) - xi), xi

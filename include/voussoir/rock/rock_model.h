@@ -3,6 +3,7 @@
 #define voussoir_rock_model_h
 
 #include <voussoir/mesh/mesh.h>
+#include <voussoir/rock/rock_operator.h>
 #include <voussoir/rock/rock_parameters.h>
 #include <voussoir/solid/structure.h>
 
@@ -44,10 +45,12 @@ namespace Voussoir
     std::vector<unsigned int>          node;      ///< of each mesh node, no_node if it is not in the rock
     std::vector<std::array<double, 3>> points;    ///< places of the nodes [m]
     BlockSparseMatrix                  stiffness; ///< [N/m]
-    std::vector<double>                mass;      ///< lumped, of each node [kg]
-    std::vector<BoundaryLine>          lines;     ///< one for each node of the artificial boundary
-    std::vector<BoundaryFace>          faces;     ///< of the artificial boundary
-    std::vector<RockColumn>            columns;   ///< along side faces; at least one
+    std::vector<NodalCell>    nodal_cells;   ///< those with nodal quadrature, unless their nodes are tied
+    std::vector<bool>         in_other_cell; ///< of each node: is it one of a cell of another kind?
+    std::vector<double>       mass;          ///< lumped, of each node [kg]
+    std::vector<BoundaryLine> lines;         ///< one for each node of the artificial boundary
+    std::vector<BoundaryFace> faces;         ///< of the artificial boundary
+    std::vector<RockColumn>   columns;       ///< along side faces; at least one
 
     /** For each line, where its free field is to be taken: side lines have a column and the place of their
      * node in it; lines of the bottom have column no_node. */
@@ -69,6 +72,9 @@ namespace Voussoir
    * by the areas of the faces behind which the stacks lie. */
   RockModel make_rock_model(const HexMesh &mesh, const RockParameters &parameters,
                             const std::vector<unsigned int> &master = {});
+
+  /** For products with the model's stiffness; @p kernel: of nodal_kernel(). */
+  RockOperator make_operator(const RockModel &model, NodalKernel kernel = nodal_kernel());
 } // namespace Voussoir
 
 #endif

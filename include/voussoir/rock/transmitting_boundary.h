@@ -45,15 +45,14 @@ namespace Voussoir
     const TransmittingFormula &transmitting_formula() const { return formula; }
 
   private:
-    /** Displacement of the boundary nodes at t + dt [m]. */
-    void find_next(const Unknowns &u, const Unknowns &free_field, const Unknowns &next_free_field);
+    /** @p known: n_points where the compiler may know it, or 0. */
+    template <unsigned int known> void move_nodes(const RegionStep &step);
 
     TransmittingFormula       formula;
     unsigned int              n_points;            ///< per line
     std::vector<unsigned int> boundary_node, node; ///< of each line the first, and all
     std::vector<double>       weights;             ///< by line, step back and point
     std::vector<Unknowns>     history;             ///< scattered field of all nodes, the latest first
-    Unknowns                  next;                ///< displacement of the boundary nodes at t + dt [m]
   };
 } // namespace Voussoir
 

@@ -47,6 +47,7 @@ namespace Voussoir
     std::vector<unsigned int> own_number;       ///< of the dashpots' nodes among them
     std::vector<unsigned int> neighbour_number; ///< of the entries of the dashpots' rows among them,
     std::vector<std::size_t>  first_neighbour;  ///< beginning here
+    std::vector<Matrix3>      row;              ///< these entries
   };
 } // namespace Voussoir
 
