@@ -3,11 +3,14 @@
 """Seconds of wall time per second of earthquake of the benchmark dam, jointed and tied, in one run.
 
 Usage: benchmarks/speed.py [--voussoir build/voussoir] [SCENE.prm ...]     (default: rigid28 with FJA, FJB, tied)
-Prints a table for doc/performance.md. Take a quiet machine: stages are wall times.
+       benchmarks/speed.py --before OTHER/voussoir [--repeat 3] [--duration 1.28] SCENE.prm ...
+Prints a table for doc/performance.md; with --before the medians of both programs, run in turn, and their ratios.
+Take a quiet machine: stages are wall times.
 """
 import argparse
 import json
 import os
+import statistics
 import subprocess
 import tempfile
 
@@ -22,11 +25,44 @@ def run(voussoir, scene, settings):
             return json.load(file)
 
 
+STAGES = ("sweeps", "joints", "rock", "stepping", "stresses", "output")
+
+
+def compare(programs, scene, settings, repeat):
+    """Rows of a table: the medians of each program, and what the second one's are of the first one's."""
+    measured = [[], []]
+    for _ in range(repeat):
+        for program, runs in zip(programs, measured):
+            s = run(program, scene, settings)
+            seconds = s["seconds"]
+            runs.append([seconds["per_second_of_earthquake"], seconds["setup"] + seconds["static"]]
+                        + [1e3 * seconds.get(stage, 0) / s["steps"] for stage in STAGES]
+                        + [s["newton_iterations"]["mean"], s["memory_bytes"] / 2**30])
+    medians = [[statistics.median(column) for column in zip(*runs)] for runs in measured]
+    name = os.path.splitext(os.path.basename(scene))[0]
+    for label, row in zip(("before", "now"), medians):
+        print(f"| {name}, {label} | " + " | ".join(f"{x:.2f}" for x in row) + " |")
+    print(f"| {name}, ratio | " + " | ".join(f"{b / a:.2f}" if a else "" for a, b in zip(*medians)) + " |", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("--voussoir", default=os.path.join(ROOT, "build", "voussoir"))
+    parser.add_argument("--before", help="another program to compare with")
+    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--duration", default="1.28", help="of the motion, with --before [s]")
+    parser.add_argument("--set", action="append", default=[], metavar="ENTRY=VALUE", help="with --before")
     parser.add_argument("scenes", nargs="*")
     arguments = parser.parse_args()
+    if arguments.before:
+        print("| medians of " + str(arguments.repeat) + " | s per s | set-up and static [s] | "
+              + " | ".join(("ms per step: " if stage == STAGES[0] else "") + stage for stage in STAGES)
+              + " | Newton | memory [GiB] |")
+        print("|" + "---|" * (len(STAGES) + 5))
+        for scene in arguments.scenes:
+            compare((arguments.before, arguments.voussoir), scene,
+                    ["Motion/Duration=" + arguments.duration, *arguments.set], arguments.repeat)
+        return
     cases = [(scene, []) for scene in arguments.scenes]
     if not cases:
         dam = os.path.join(ROOT, "prm", "rigid28.prm")
