@@ -151,6 +151,7 @@ namespace
       check_body("one node" + kernels, box(1, 1, 1, false), true);
     }
     PackedFactor::plain_kernels = false;
+    check_body("large body, packed in place", box(6, 30, 60, false), true);
   }
 
   /** A joint of @p n pairs whose W is smooth, with a small part of its own at each pair. */

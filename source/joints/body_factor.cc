@@ -95,10 +95,12 @@ namespace Voussoir
      */
     cholmod_factor *analysed(cholmod_sparse *A, const std::vector<bool> &is_interface, cholmod_common &common)
     {
+      constexpr std::size_t large = 20000; // unknowns: worth trying METIS, too
       common.supernodal = CHOLMOD_SUPERNODAL;
       if (is_interface.empty())
       {
-        common.nmethods = 0; // CHOLMOD's own choice
+        common.nmethods = A->nrow < large ? 1 : 0; // 0: CHOLMOD's own choice
+        common.method[0].ordering = A->nrow < large ? CHOLMOD_AMD : CHOLMOD_GIVEN;
         return cholmod_analyze(A, &common);
       }
       std::vector<int> permutation = order(A, is_interface, common);

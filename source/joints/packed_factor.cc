@@ -4,6 +4,7 @@
 #include <cholmod.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <new>
 
@@ -208,7 +209,7 @@ namespace Voussoir
     return Aligned(x);
   }
 
-  PackedFactor::PackedFactor(const cholmod_factor_struct *L, const std::size_t n_columns)
+  PackedFactor::PackedFactor(cholmod_factor_struct *L, const std::size_t n_columns)
   {
     const int *super = static_cast<const int *>(L->super), *pi = static_cast<const int *>(L->pi),
               *px = static_cast<const int *>(L->px), *s = static_cast<const int *>(L->s);
@@ -229,19 +230,67 @@ namespace Voussoir
     }
     row_list.shrink_to_fit();
     supernodes.shrink_to_fit();
-    values = allocate(n_values);
     work = allocate(most_rows);
+    if (pack_in_place(L))
+      return;
+    values = allocate(n_values);
+    first_value = values.get();
     for (std::size_t i = 0; i < supernodes.size(); ++i)
       pack(supernodes[i], static_cast<const double *>(L->x) + px[i], supernodes[i].n_rows);
   }
 
+  /** Takes the numbers of @p L over and packs them where they are, if that is worth it and they fit. */
+  bool PackedFactor::pack_in_place(cholmod_factor_struct *L)
+  {
+    constexpr std::size_t large = 1000000; // numbers
+    constexpr std::size_t line = 8;        // numbers in 64 bytes
+    const int            *px = static_cast<const int *>(L->px);
+    std::size_t           shift = 0; // by which the numbers must be moved back, so that none is overwritten
+    for (std::size_t i = 0; i < supernodes.size(); ++i)
+    {
+      const std::size_t packed_end = line + (i + 1 < supernodes.size() ? supernodes[i + 1].values : n_values),
+                        end = px[i] + std::size_t(supernodes[i].n_rows) * supernodes[i].n_columns;
+      shift = std::max(shift, packed_end - std::min(packed_end, end));
+    }
+    if (L->xsize < large || shift > L->xsize / 20)
+      return false;
+    auto *x = static_cast<double *>(std::realloc(L->x, 8 * (L->xsize + shift)));
+    if (!x)
+      return false;
+    L->x = nullptr; // ours from now on
+    values.reset(x);
+    std::memmove(x + shift, x, 8 * L->xsize);
+    first_value = x + (line - reinterpret_cast<std::uintptr_t>(x) / 8 % line) % line;
+    std::vector<double> original;
+    for (const Supernode &s : supernodes)
+    {
+      const double *from = x + shift + px[&s - supernodes.data()];
+      original.assign(from, from + std::size_t(s.n_rows) * s.n_columns);
+      pack(s, original.data(), s.n_rows);
+    }
+    // Such a block shrinks where it is; should it move all the same, its numbers must not be out of line.
+    const std::size_t used = first_value - x + n_values, before = first_value - x;
+    if (void *smaller = std::realloc(values.release(), 8 * used))
+      values.reset(static_cast<double *>(smaller));
+    first_value = values.get() + before;
+    if (reinterpret_cast<std::uintptr_t>(first_value) % 64 != 0)
+    {
+      Aligned copy = allocate(n_values);
+      std::copy_n(first_value, n_values, copy.get());
+      values = std::move(copy);
+      first_value = values.get();
+    }
+    return true;
+  }
+
   void PackedFactor::pack(const Supernode &s, const double *L, const std::size_t leading_dimension)
   {
-    double *panel = values.get() + s.values;
+    double *panel = first_value + s.values;
     for (std::size_t column = 0; column < s.n_columns; column += 4)
     {
       const std::size_t n = panel_width(s.n_columns, column), begin = round_down(column + n),
-                        height = round_up(s.n_rows) - begin;
+                        height = round_up(s.n_rows) - begin, size = round_up(panel_size(s.n_rows, column, n));
+      std::fill(panel, panel + size, 0.);
       for (std::size_t j = 0; j < n; ++j)
       {
         const double *from = L + (column + j) * leading_dimension;
@@ -251,21 +300,21 @@ namespace Voussoir
         for (std::size_t row = column + n; row < s.n_rows; ++row)
           panel[triangle + j * height + row - begin] = from[row];
       }
-      panel += round_up(panel_size(s.n_rows, column, n));
+      panel += size;
     }
   }
 
   void PackedFactor::forward(double *x) const
   {
-    const Factor L = {supernodes.data(), supernodes.size(),       row_list.data(),
-                      values.get(),      values.get() + n_values, work.get()};
+    const Factor L = {supernodes.data(), supernodes.size(),      row_list.data(),
+                      first_value,       first_value + n_values, work.get()};
     (plain_kernels ? forward_plain : forward_fast)(L, x);
   }
 
   void PackedFactor::backward(double *x) const
   {
-    const Factor L = {supernodes.data(), supernodes.size(),       row_list.data(),
-                      values.get(),      values.get() + n_values, work.get()};
+    const Factor L = {supernodes.data(), supernodes.size(),      row_list.data(),
+                      first_value,       first_value + n_values, work.get()};
     (plain_kernels ? backward_plain : backward_fast)(L, x);
   }
 

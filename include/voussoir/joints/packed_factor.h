@@ -21,8 +21,9 @@ namespace Voussoir
   public:
     PackedFactor() = default;
 
-    /** The first @p n_columns of the supernodal factor @p L, which is not needed afterwards. */
-    PackedFactor(const cholmod_factor_struct *L, std::size_t n_columns);
+    /** The first @p n_columns of the supernodal factor @p L, whose numbers are gone afterwards: a large
+     * factor is packed where it is, so that there are never two of it. */
+    PackedFactor(cholmod_factor_struct *L, std::size_t n_columns);
 
     /** The columns' part of x = L^-1 x, and what it does to the rows below; @p x: all rows, in the order of
      * L.
@@ -53,12 +54,14 @@ namespace Voussoir
     using Aligned = std::unique_ptr<double[], Free>; ///< to 64 bytes
     static Aligned allocate(std::size_t n);
     void           pack(const Supernode &supernode, const double *L, std::size_t leading_dimension);
+    bool           pack_in_place(cholmod_factor_struct *L);
 
     std::vector<Supernode>    supernodes;
     std::vector<unsigned int> row_list;
     std::size_t               n_values = 0;
     Aligned                   values;
-    Aligned                   work; ///< the rows of one supernode
+    double                   *first_value = nullptr; ///< of values, at a multiple of 64 bytes
+    Aligned                   work;                  ///< the rows of one supernode
   };
 } // namespace Voussoir
 
