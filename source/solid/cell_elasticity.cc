@@ -10,13 +10,13 @@ namespace Voussoir
 {
   using namespace dealii;
 
-  CellElasticity::CellElasticity(const FiniteElement<3> &fe, const bool incompatible_modes)
+  CellElasticity::CellElasticity(const dealii::FiniteElement<3> &fe, const bool incompatible_modes)
       : CellElasticity(fe, incompatible_modes, QGauss<3>(fe.degree + 1))
   {
   }
 
-  CellElasticity::CellElasticity(const FiniteElement<3> &fe, const bool incompatible_modes,
-                                 const Quadrature<3> &of_stiffness)
+  CellElasticity::CellElasticity(const dealii::FiniteElement<3> &fe, const bool incompatible_modes,
+                                 const dealii::Quadrature<3> &of_stiffness)
       : fe(fe), modes(incompatible_modes && fe.degree == 1),
         values(fe, of_stiffness,
                update_gradients | update_JxW_values | (modes ? update_jacobians : update_default)),
