@@ -196,6 +196,7 @@ namespace Voussoir
       result.push_back({"avx512", Avx512::multiply, avx2 && __builtin_cpu_supports("avx512f")});
       result.push_back({"avx2", Avx2::multiply, avx2});
 #endif
+      result.push_back({"matrix", nullptr, true});
       result.push_back({"plain", Plain::multiply, true});
       return result;
     }

@@ -92,10 +92,11 @@ namespace Voussoir
   };
 
   RockOperator::RockOperator(const BlockSparseMatrix &stiffness, const std::vector<Vector3> &points,
-                             const std::vector<NodalCell> &cells, const std::vector<bool> &has_row,
+                             const std::vector<NodalCell> &cells, const std::vector<bool> &keeps_row,
                              const NodalKernel kernel)
       : kernel(kernel), n_nodes(stiffness.n_rows())
   {
+    const std::vector<bool> has_row = kernel ? keeps_row : std::vector<bool>(n_nodes, true);
     keep_rows(stiffness, has_row);
     std::vector<unsigned int> order;
     std::vector<Vector3>      centre(cells.size(), Vector3{}); // times eight

@@ -29,7 +29,8 @@ namespace Voussoir
    * stress puts the force stress c_d / 8 on the upper node of edge d, and the opposite one on the lower. */
   using NodalKernel = void (*)(const NodalPacks &);
 
-  /** Names of the kernels that this processor can run, the fastest first. The last is "plain", for any
+  /** Names of the kernels that this processor can run, the fastest first. The last are "matrix", which is
+   * none (nullptr): the rows of the matrix are faster than what comes after it, and "plain", for any
    * processor. Results differ by round-off. */
   std::vector<const char *> nodal_kernels();
 

@@ -25,7 +25,8 @@ namespace Voussoir
   {
   public:
     /** @p stiffness: the whole matrix [N/m]; @p points: places of its nodes [m]; @p has_row: of each node,
-     * does it keep its row? @p cells: at least all cells of the nodes that do not. */
+     * does it keep its row? (All do without a @p kernel.) @p cells: at least all cells of the nodes that do
+     * not. */
     RockOperator(const BlockSparseMatrix &stiffness, const std::vector<Vector3> &points,
                  const std::vector<NodalCell> &cells, const std::vector<bool> &has_row,
                  NodalKernel kernel = nodal_kernel());
