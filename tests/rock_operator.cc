@@ -91,8 +91,9 @@ namespace
     {
       const RockOperator K = make_operator(model, nodal_kernel(kernel));
       expect(K.n_rows() == model.points.size(), "a row for each node");
+      const bool all = nodal_kernel(kernel) == nullptr; // "matrix"
       between(name + ", " + kernel + ": rows of the matrix / nodes", double(K.n_matrix_rows()) / K.n_rows(),
-              least, most);
+              all ? 1. : least, all ? 1. : most);
       below("  product against the matrix", difference(product(K, x), y), 1e-13);
     }
   }
@@ -104,7 +105,8 @@ namespace
     const RockModel model = make_rock_model(mesh, parameters());
     compare("bent cells", model, 0., 0.);
     below("  memory over that of the matrix",
-          double(make_operator(model).memory()) / (76. * model.stiffness.value.size()), .2);
+          double(make_operator(model, nodal_kernel("plain")).memory()) / (76. * model.stiffness.value.size()),
+          .2);
     compare("less than a pack", make_rock_model(bent({1, 3, 1}), parameters()), 0., 0.);
     RockParameters p = parameters();
     p.nodal_everywhere = false;
@@ -124,9 +126,10 @@ namespace
   {
     const RockModel model = make_rock_model(bent({17, 13, 11}), parameters());
     for (const char *kernel : nodal_kernels())
-      for (const double f :
-           product(make_operator(model, nodal_kernel(kernel)), Unknowns(3 * model.points.size(), 1.234567)))
-        expect(f == 0., std::string(kernel) + ": force of a translation");
+      if (const NodalKernel cells = nodal_kernel(kernel)) // the matrix has round-off
+        for (const double f :
+             product(make_operator(model, cells), Unknowns(3 * model.points.size(), 1.234567)))
+          expect(f == 0., std::string(kernel) + ": force of a translation");
   }
 
   /** The same bits from any number of threads, and each time. */
