@@ -194,7 +194,7 @@ namespace Voussoir
       { return nodes_on(mesh, [&](const int surface) { return surface == id; }); };
       const Graph      rock = graph_of(mesh, is_rock, nodes(PhysicalId::artificial), nodes(PhysicalId::base));
       const FactorSize size = factor_size(rock.neighbours, rock.is_interface);
-      return block * rock.n_blocks() + 8. * (size.entries + 2. * size.interface);
+      return block * rock.n_blocks() + 8. * (size.leading + 3. * size.interface);
     }
 
     /** Rock with mass: its stiffness, and at the peak, the static state, multigrid levels. */
@@ -214,10 +214,10 @@ namespace Voussoir
     Factors      factors;
     MemoryNeed   need;
     const double dam = of_dam(scene, mesh, factors);
-    // Of the operator also single precision; LU factors of the joints' blocks in single precision.
+    // Of the operator also single precision; inverses and LU factors of the joints' blocks in that, too.
     need.halved_step =
         8. * factors.entries +
-        std::max(8. * factors.dense, 8. * factors.kept + 12. * factors.operators + 4. * factors.diagonal);
+        std::max(8. * factors.dense, 8. * factors.kept + 12. * factors.operators + 8. * factors.diagonal);
     need.run = program + dam + need.halved_step;
     if (scene.foundation.model == "rock")
       need.run += of_rock(scene, mesh);

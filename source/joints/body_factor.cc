@@ -93,14 +93,15 @@ namespace Voussoir
     }
     /** Chooses the order of elimination of @p A: the interface last, or, where @p is_interface is empty, any.
      */
-    cholmod_factor *analysed(cholmod_sparse *A, const std::vector<bool> &is_interface, cholmod_common &common)
+    cholmod_factor *analysed(cholmod_sparse *A, const std::size_t n_unknowns,
+                             const std::vector<bool> &is_interface, cholmod_common &common)
     {
-      constexpr std::size_t large = 20000; // unknowns: worth trying METIS, too
+      constexpr std::size_t large = 20000; // worth trying METIS, too
       common.supernodal = CHOLMOD_SUPERNODAL;
       if (is_interface.empty())
       {
-        common.nmethods = A->nrow < large ? 1 : 0; // 0: CHOLMOD's own choice
-        common.method[0].ordering = A->nrow < large ? CHOLMOD_AMD : CHOLMOD_GIVEN;
+        common.nmethods = n_unknowns < large ? 1 : 0; // 0: CHOLMOD's own choice
+        common.method[0].ordering = n_unknowns < large ? CHOLMOD_AMD : CHOLMOD_GIVEN;
         return cholmod_analyze(A, &common);
       }
       std::vector<int> permutation = order(A, is_interface, common);
@@ -168,7 +169,7 @@ namespace Voussoir
           is_interface[3 * node + c] = true;
     }
     cholmod_free_factor(&cholmod->L, &cholmod->common);
-    cholmod->L = analysed(cholmod->A, is_interface, cholmod->common);
+    cholmod->L = analysed(cholmod->A, n(), is_interface, cholmod->common);
     check_memory(cholmod->common);
   }
 
@@ -201,7 +202,7 @@ namespace Voussoir
     return entries_of(cholmod->L, order == Order::interface_last ? n() - n_interface() : n());
   }
 
-  PackedFactor BodyFactor::leading_columns() const
+  PackedFactor BodyFactor::take_leading_columns()
   {
     return PackedFactor(cholmod->L, order == Order::interface_last ? n() - n_interface() : n());
   }
@@ -254,12 +255,15 @@ namespace Voussoir
 
   std::vector<double> BodyFactor::condensed_stiffness() const
   {
-    const std::vector<double> L = trailing_block();
-    std::vector<double>       S(L.size());
-    const int                 m = n_interface();
-    const double              one = 1., zero = 0.;
-    if (m > 0)
-      dsyrk_("L", "N", &m, &m, &one, L.data(), &m, &zero, S.data(), &m);
+    std::vector<double> S;
+    {
+      const std::vector<double> L = trailing_block();
+      const int                 m = n_interface();
+      const double              one = 1., zero = 0.;
+      S.resize(L.size());
+      if (m > 0)
+        dsyrk_("L", "N", &m, &m, &one, L.data(), &m, &zero, S.data(), &m);
+    }
     return in_natural_order(S);
   }
 
@@ -283,7 +287,7 @@ namespace Voussoir
     /** Entries of the factor of a graph. */
     double fill_in(cholmod_sparse *A, const std::vector<bool> &is_interface, cholmod_common &common)
     {
-      cholmod_factor *L = analysed(A, is_interface, common);
+      cholmod_factor *L = analysed(A, 3 * A->nrow, is_interface, common);
       check_memory(common);
       const double entries = entries_of(L, L->n);
       cholmod_free_factor(&L, &common);
@@ -326,11 +330,11 @@ namespace Voussoir
     size.entries = 9. * fill_in(A, {}, common); // of 3 x 3
     if (m > 0.)
     {
-      const double leading = 9. * (fill_in(A, is_interface, common) - .5 * m * (m + 1.));
+      size.leading = 9. * (fill_in(A, is_interface, common) - .5 * m * (m + 1.));
       size.interface = 9. * m * m;
-      if (!prefer_free_order(size.entries, leading, 3. * m))
+      if (!prefer_free_order(size.entries, size.leading, 3. * m))
       {
-        size.entries = leading;
+        size.entries = size.leading;
         size.kept = size.interface;
       }
     }

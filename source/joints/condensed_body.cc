@@ -41,7 +41,7 @@ namespace Voussoir
     }
     if (free_order)
       A.factorise();
-    factor = A.leading_columns();
+    factor = A.take_leading_columns();
     permutation = A.permutation();
     std::vector<unsigned int> row(A.n());
     for (unsigned int i = 0; i < row.size(); ++i)

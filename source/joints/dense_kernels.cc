@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/joints/dense_kernels.h>
 
-#define VOUSSOIR_KERNEL __attribute__((target_clones("avx512f", "fma", "avx", "default"), optimize("O3")))
+#define VOUSSOIR_CLONES __attribute__((target_clones("avx512f", "fma", "avx", "default"), optimize("O3")))
 
 namespace Voussoir
 {
   namespace
   {
-    VOUSSOIR_KERNEL void add_four(const float *a, const float *b, const float *c, const float *d,
+    VOUSSOIR_CLONES void add_four(const float *a, const float *b, const float *c, const float *d,
                                   const float *x, const std::size_t n, float *__restrict y)
     {
       for (std::size_t i = 0; i < n; ++i)
         y[i] += x[0] * a[i] + x[1] * b[i] + x[2] * c[i] + x[3] * d[i];
     }
 
-    VOUSSOIR_KERNEL void add_three(const float *a, const float *b, const float *c, const float *x,
+    VOUSSOIR_CLONES void add_three(const float *a, const float *b, const float *c, const float *x,
                                    const std::size_t n, float *__restrict y)
     {
       for (std::size_t i = 0; i < n; ++i)

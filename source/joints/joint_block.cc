@@ -113,7 +113,7 @@ namespace Voussoir
         if (kind_of(a, k) != kind_of(b, k))
           return false;
       for (unsigned int k = 0; k < 9; ++k)
-        if (std::abs(a.d_force[k] - b.d_force[k]) > tolerated)
+        if (!(std::abs(a.d_force[k] - b.d_force[k]) <= tolerated)) // or not a number
           return false;
     }
     return true;

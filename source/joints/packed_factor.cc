@@ -9,7 +9,7 @@
 #include <new>
 
 // One binary for all processors: the widest kernels that the processor has are chosen when it starts.
-#define VOUSSOIR_KERNEL __attribute__((target_clones("avx512f", "fma", "avx", "default")))
+#define VOUSSOIR_CLONES __attribute__((target_clones("avx512f", "fma", "avx", "default")))
 #define VOUSSOIR_INLINE inline __attribute__((always_inline))
 
 namespace Voussoir
@@ -179,11 +179,11 @@ namespace Voussoir
                            x);
     }
 
-    VOUSSOIR_KERNEL void forward_fast(const Factor &L, double *x)
+    VOUSSOIR_CLONES void forward_fast(const Factor &L, double *x)
     {
       forward_all(L, x);
     }
-    VOUSSOIR_KERNEL void backward_fast(const Factor &L, double *x)
+    VOUSSOIR_CLONES void backward_fast(const Factor &L, double *x)
     {
       backward_all(L, x);
     }
@@ -270,8 +270,11 @@ namespace Voussoir
     }
     // Such a block shrinks where it is; should it move all the same, its numbers must not be out of line.
     const std::size_t used = first_value - x + n_values, before = first_value - x;
-    if (void *smaller = std::realloc(values.release(), 8 * used))
+    if (void *smaller = std::realloc(x, 8 * std::max<std::size_t>(used, 1)))
+    {
+      values.release(); // by realloc
       values.reset(static_cast<double *>(smaller));
+    }
     first_value = values.get() + before;
     if (reinterpret_cast<std::uintptr_t>(first_value) % 64 != 0)
     {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
 #include <voussoir/rock/rock_operator.h>
 
 #include <algorithm>
@@ -149,6 +150,9 @@ namespace Voussoir
       nodes.insert(nodes.end(), cells[k].nodes.begin(), cells[k].nodes.end());
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    if (4 * nodes.size() > 65536) // NodalPacks::corner has 16 bits; cells of a mesh share their nodes
+      throw ComputationError("The rock's cells share too few nodes for the kernel of nodal cells: set the "
+                             "environment variable VOUSSOIR_KERNEL to matrix.");
     std::stable_sort(nodes.begin(), nodes.end(),
                      [&](const unsigned int i, const unsigned int j) { return kind[i] < kind[j]; });
     const auto count = [&](const Numbering::Kind wanted) -> unsigned int

@@ -104,6 +104,7 @@ namespace Voussoir
     std::vector<std::size_t>            number; ///< of each pair in with_surfaces, or none
     std::vector<PairState>              state;
     std::vector<unsigned char>          touch;
+    std::vector<double>                 of_pair; ///< work space
 
     Unknowns                     multiplied, product; ///< product = W multiplied, of the last refresh
     const Unknowns              *b = nullptr;         ///< of the present problem, as the next

@@ -35,8 +35,10 @@ namespace Voussoir
      * or bad elements), or, with the interface last, the body is not in one piece. */
     void factorise();
 
-    double       n_entries() const; ///< of L in leading columns (Order::interface_last) or all, once analysed
-    PackedFactor leading_columns() const; ///< those of n_entries()
+    double n_entries() const; ///< of L in leading columns (Order::interface_last) or all, once analysed
+
+    /** Those of n_entries(). The factor is gone afterwards, but for its permutation. */
+    PackedFactor take_leading_columns();
 
     /** Unknown of the body at each row of L. */
     std::vector<unsigned int> permutation() const;
@@ -63,6 +65,7 @@ namespace Voussoir
   struct FactorSize
   {
     double entries = 0.;   ///< of the factor
+    double leading = 0.;   ///< of that with the interface last, before it
     double interface = 0.; ///< of the interface's flexibility, until it is taken
     double kept = 0.;      ///< of that afterwards
   };
