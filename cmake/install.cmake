@@ -21,7 +21,9 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/cmake/VoussoirConfigVersion
 install(FILES ${CMAKE_BINARY_DIR}/cmake/VoussoirConfig.cmake ${CMAKE_BINARY_DIR}/cmake/VoussoirConfigVersion.cmake
   DESTINATION ${VOUSSOIR_CMAKE_DIR})
 
-# The program looks for its scripts in ../share/voussoir/scripts (source/output/figures.cc).
-install(PROGRAMS scripts/figures.py scripts/picture.py scripts/vtu.py DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts)
+# The program looks for its scripts in ../share/voussoir/scripts (source/output/python_script.cc).
+foreach(script command figures picture vtu)
+  install(PROGRAMS scripts/${script}.py DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts)
+endforeach()
 install(DIRECTORY prm meshes DESTINATION ${VOUSSOIR_SHARE_DIR} PATTERN __pycache__ EXCLUDE)
 install(FILES README.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -15,6 +15,7 @@
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
+#include <voussoir/output/python_script.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -151,7 +152,9 @@ namespace Voussoir
       prm.print_parameters(text, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
       if (command.empty())
         return run_scene(scene, text.str(), arguments);
-      if (command == "modes")
+      if (command == "scene")
+        std::cout << text.str();
+      else if (command == "modes")
         print_modes(scene, arguments.value("--count", "10"));
       else if (command == "mesh")
         write_mesh(scene, arguments);
@@ -189,6 +192,8 @@ namespace Voussoir
       options.solutions = arguments.value("--write-solutions");
       run_contact(arguments.words, options);
     }
+    else if (!script_of(arguments.command).empty())
+      become_script(script_of(arguments.command), words_of(arguments));
     else if (arguments.command.empty() && arguments.words.empty())
     {
       std::cout << help_about_all();

@@ -19,6 +19,7 @@ namespace Voussoir
     {
       const char         *name, *words, *summary;
       std::vector<Option> options;
+      const char         *script = ""; ///< in Python, that does it
     };
 
     const Option set = {"--set", "'Section/Entry=value'",
@@ -34,6 +35,10 @@ namespace Voussoir
           {"--overwrite", "", "replace what is in the directory"},
           {"--validate", "", "check scene, mesh and motion, print what would be run, and stop"},
           {"--quiet", "", "print nothing but errors"}}},
+        {"scene",
+         "SCENE.prm",
+         "The scene as it would be run, with what it includes and every default.",
+         {set}},
         {"mesh",
          "SCENE.prm",
          "The scene's mesh, for gmsh.",
@@ -57,6 +62,35 @@ namespace Voussoir
            "newton (the default, with its fallbacks), proximal, sweeps, paper, fischer-burmeister"},
           {"--max-seconds", "X", "for each problem, by default 10"},
           {"--write-solutions", "DIR", "write the contact forces into this directory"}}},
+        {"accuracy",
+         "SCENE.prm",
+         "Error against cost of the scene over its strongest seconds, and the cheapest setting that meets a "
+         "wish.",
+         {{"--for", "X%", "the error that is wished, by default 1%"},
+          {"--seconds", "X", "of the strongest motion, by default 5"},
+          {"--output", "DIR",
+           "directory for the runs, the table and the chart, by default output/SCENE-accuracy"},
+          set},
+         "accuracy.py"},
+        {"view",
+         "SCENE.prm",
+         "Pictures of what would be run: mesh, groups, joints, water, axes, rock.",
+         {{"--output", "DIR", "directory for the pictures, by default output/SCENE-view"}, set},
+         "view.py"},
+        {"report",
+         "DIR...",
+         "One self-contained page for one run, or for several side by side.",
+         {{"--output", "FILE.html", "the file to write, by default DIR/report.html"},
+          {"--pdf", "", "the same as PDF beside it, by headless Chromium"}},
+         "report.py"},
+        {"study",
+         "STUDY.prm",
+         "Many scenes under Snakemake, one table of their results, and figures.",
+         {{"--jobs", "N", "scenes at a time, by default as many as there are cores"},
+          {"--output", "DIR", "directory for the runs and results, by default output/STUDY"},
+          {"--keep-going", "", "run the other scenes where one fails"},
+          {"--dry-run", "", "say what would be run"}},
+         "study.py"},
         {"parameters",
          "[prm|json|markdown] [SECTION]",
          "All entries of a scene file, or those of a section, with their defaults and meaning.",
@@ -219,6 +253,24 @@ namespace Voussoir
       text += synopsis(command);
     return text + "voussoir --help, voussoir --version, voussoir COMMAND --help\n\n" +
            "--set overrides an entry of the scene, and may be given several times.\n" + status;
+  }
+
+  std::string script_of(const std::string &command)
+  {
+    return find_command(command)->script;
+  }
+
+  std::vector<std::string> words_of(const Arguments &arguments)
+  {
+    std::vector<std::string> words;
+    for (const auto &[option, value] : arguments.values)
+      words.insert(words.end(), {option, value});
+    words.insert(words.end(), arguments.flags.begin(), arguments.flags.end());
+    for (const std::string &entry : arguments.overrides)
+      words.insert(words.end(), {set.name, entry});
+    words.push_back("--");
+    words.insert(words.end(), arguments.words.begin(), arguments.words.end());
+    return words;
   }
 
   std::string nearest_command(const std::string &word)

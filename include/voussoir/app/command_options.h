@@ -37,6 +37,12 @@ namespace Voussoir
   /** All commands in short. */
   std::string help_about_all();
 
+  /** The script in Python that does what the command asks for; empty: the program itself does. */
+  std::string script_of(const std::string &command);
+
+  /** The words that read_arguments() would sort out like this, without the command. */
+  std::vector<std::string> words_of(const Arguments &arguments);
+
   /** What to say of a first word that is no scene when there are others: the nearest command. */
   std::string nearest_command(const std::string &word);
 } // namespace Voussoir
