@@ -22,7 +22,7 @@ install(FILES ${CMAKE_BINARY_DIR}/cmake/VoussoirConfig.cmake ${CMAKE_BINARY_DIR}
   DESTINATION ${VOUSSOIR_CMAKE_DIR})
 
 # The program looks for its scripts in ../share/voussoir/scripts (source/output/python_script.cc).
-foreach(script command figures picture vtu)
+foreach(script accuracy command figures picture vtu)
   install(PROGRAMS scripts/${script}.py DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts)
 endforeach()
 install(DIRECTORY prm meshes DESTINATION ${VOUSSOIR_SHARE_DIR} PATTERN __pycache__ EXCLUDE)

@@ -56,6 +56,11 @@ namespace Voussoir
         pairs.push_back(static_cast<int>(state));
       archive << provenance << step << pairs << n_steps << motion.dt << samples << wall << cpu << state
               << first << largest << count << history << energy << *joints << *envelope << solutions;
+      if (companion)
+      {
+        const DynamicState beside = companion->newmark.state();
+        archive << beside << *companion;
+      }
       for (const std::vector<double> *array : dam->foundation->state())
         archive << *array;
     }
@@ -164,6 +169,12 @@ namespace Voussoir
           "from the beginning. Set \"Motion/Duration\" as it was, or run without --resume.");
     archive >> clock_before >> cpu_before >> state >> first >> largest >> count >> history >> energy >>
         *joints >> *envelope >> solutions;
+    if (companion)
+    {
+      DynamicState beside;
+      archive >> beside >> *companion;
+      companion->newmark.resume(beside, first, largest, Unknowns(beside.force.size(), 0.));
+    }
     for (std::vector<double> *array : dam->foundation->state())
     {
       std::vector<double> saved;

@@ -218,7 +218,7 @@ namespace Voussoir
     need.halved_step =
         8. * factors.entries +
         std::max(8. * factors.dense, 8. * factors.kept + 12. * factors.operators + 8. * factors.diagonal);
-    need.run = program + dam + need.halved_step;
+    need.run = program + dam + need.halved_step * (scene.error_estimate ? 2. : 1.);
     if (scene.foundation.model == "rock")
       need.run += of_rock(scene, mesh);
     else if (scene.foundation.model == "massless") // before the dam has factors

@@ -196,12 +196,21 @@ namespace Voussoir
     joints->reach = JointReach(*dam->model, structure.pairs);
     stress = std::make_unique<StressRecovery>(*dam->model, dam->materials, scene.elements.incompatible_modes);
     envelope = std::make_unique<EnvelopeRecorder>(*stress, dam->initial_stress);
+    if (scene.error_estimate && n_steps > 0)
+    {
+      ContactParameters parameters = scene.contact;
+      parameters.write_problems = false;
+      companion = std::make_unique<TimeErrorEstimate>(
+          *dam, parameters, motion.dt, impact_rule(scene.impact_rule),
+          scene.output.envelope_interval > 0 ? stress.get() : nullptr, newmark->state());
+    }
     declare_tables();
     count.seconds_static += watch.seconds();
     if (n_steps > 0)
     {
       log.line("Shaking   %.2f s in %u steps of %g s; joints and factors hold %.2f GiB", grid().duration(),
-               n_steps, motion.dt, newmark->memory() / std::pow(2., 30));
+               n_steps, motion.dt,
+               (newmark->memory() + (companion ? companion->newmark.memory() : 0.)) / std::pow(2., 30));
       log.line("\n   time  newton  open  slip  opening [mm]  slip [mm]  tension [MPa]  elapsed     left");
     }
   }
@@ -224,6 +233,8 @@ namespace Voussoir
           "          smaller steps from t = %.4g s on, where joints ask for them: factors of %.2f GiB more",
           newmark->state().time, more / std::pow(2., 30));
     dam->foundation->follow(newmark->state());
+    if (companion)
+      companion->advance(step + 1, load, base_velocity);
     ++count.path[static_cast<unsigned int>(result.path)];
     ++step;
     const double rock_seconds = dam->foundation->seconds() - rock_before;

@@ -96,6 +96,15 @@ namespace Voussoir
     write_summary();
     log.line("Joints    largest opening %.2f mm, largest slip %.2f mm", 1e3 * joints->opening.value,
              1e3 * joints->slip.value);
+    if (companion)
+    {
+      const TimeError error = companion->of(*joints, *envelope);
+      log.line(
+          "          error by the time step, by estimate: %.2g %% of the joints' openings; %.2g mm of the "
+          "largest, %.2g and %.2g MPa of the largest tension upstream and downstream",
+          100. * error.opening, 1e3 * error.largest_opening, 1e-6 * error.tension_upstream,
+          1e-6 * error.tension_downstream);
+    }
     if (n_steps > 0)
       log.line("Speed     %.2f s of wall time per second of shaking; per step %.1f ms: sweeps %.1f, joints "
                "%.1f, stepping "

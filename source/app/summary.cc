@@ -107,6 +107,17 @@ namespace Voussoir
     return json;
   }
 
+  Json Simulation::json_of_time_error() const
+  {
+    const TimeError error = companion->of(*joints, *envelope);
+    Json            json;
+    json.add("openings", error.opening)
+        .add("largest_opening", error.largest_opening)
+        .add("tension_upstream", error.tension_upstream)
+        .add("tension_downstream", error.tension_downstream);
+    return json;
+  }
+
   void Simulation::write_summary()
   {
     Json path, zones, summary;
@@ -138,6 +149,8 @@ namespace Voussoir
         .add("static", json_of_statics())
         .add("extremes", json_of_extremes())
         .add_texts("warnings", log.warnings());
+    if (companion)
+      summary.add("error_estimate", json_of_time_error());
     dam->foundation->add_to_summary(summary, grid());
     OutputFile out(directory + "/summary.json");
     out << summary.text() << "\n";

@@ -234,6 +234,9 @@ namespace Voussoir
         "Time steps in each sampling interval of the ground motion, which is linear between its samples. "
         "With rock the time step must be below the critical one (--validate prints it).",
         Patterns::Integer(1));
+    prm.add_parameter("Error estimate", error_estimate,
+                      "Estimate the error that the time step makes in the extremes, by a companion of twice "
+                      "the step beside the run: half as much work more. Not on rock with mass.");
     prm.add_parameter(
         "Impact", impact_rule,
         "Joint forces and velocities of touching faces: mean-force (forces are means over the step, so that "
@@ -289,6 +292,11 @@ namespace Voussoir
     zone_materials(concrete_zones, "Concrete/Zones");
     foundation.zone_materials();
     damping.check();
+    if (foundation.model == "rock" && error_estimate)
+      throw InputError(
+          "Entry \"Dynamics/Error estimate\" is for a dam on a rigid base or on massless rock: rock "
+          "with mass moves at steps of its own. Leave it out; `voussoir accuracy` estimates the "
+          "error there.");
     joints.check();
     motion.check();
     output.check();

@@ -46,13 +46,24 @@ namespace Voussoir
   }
 
   JointRecorder::JointRecorder(const Structure &structure, const DamGeometry &geometry)
-      : structure(structure), geometry(geometry)
+      : largest(geometry.joints.size()), structure(structure), geometry(geometry)
   {
     history.columns = {"time"};
     for (std::size_t j = 0; j < geometry.joints.size(); ++j)
       for (const char *quantity :
            {"opening_upstream", "opening_downstream", "slip_upstream", "slip_downstream"})
         history.columns.push_back(quantity + ("_" + std::to_string(j + 1)));
+  }
+
+  /** Openings, then slips, upstream and downstream [m]. */
+  std::array<double, 4> JointRecorder::at_crest(const Newmark &newmark, const std::size_t joint) const
+  {
+    const auto &pairs = geometry.joints[joint];
+    if (pairs.upstream >= structure.pairs.size()) // no pairs, or a tied dam
+      return {};
+    const Vector3 up = newmark.opening_and_slip(pairs.upstream),
+                  down = newmark.opening_and_slip(pairs.downstream);
+    return {{up[0], down[0], std::hypot(up[1], up[2]), std::hypot(down[1], down[2])}};
   }
 
   void JointRecorder::record(const Newmark &newmark)
@@ -69,12 +80,15 @@ namespace Voussoir
         slip = {s, time, structure.pairs[p].place};
     }
     std::vector<double> row = {time};
-    for (const auto &joint : geometry.joints)
+    for (std::size_t j = 0; j < largest.size(); ++j)
     {
-      const bool    empty = joint.upstream >= structure.pairs.size(); // no pairs, or a tied dam
-      const Vector3 up = empty ? Vector3{} : newmark.opening_and_slip(joint.upstream),
-                    down = empty ? Vector3{} : newmark.opening_and_slip(joint.downstream);
-      row.insert(row.end(), {up[0], down[0], std::hypot(up[1], up[2]), std::hypot(down[1], down[2])});
+      const auto now = at_crest(newmark, j);
+      row.insert(row.end(), now.begin(), now.end());
+      Largest &most = largest[j];
+      if (std::max(now[0], now[1]) > most.opening())
+        most.time = time;
+      most = {std::max(most.opening_upstream, now[0]), std::max(most.opening_downstream, now[1]),
+              std::max(most.slip_upstream, now[2]), std::max(most.slip_downstream, now[3]), most.time};
     }
     history.rows.push_back(row);
   }
@@ -89,18 +103,11 @@ namespace Voussoir
                      "slip_upstream",
                      "slip_downstream",
                      "time_of_max_opening"};
-    for (std::size_t j = 0; j < geometry.joints.size(); ++j)
+    for (std::size_t j = 0; j < largest.size(); ++j)
     {
-      std::vector<double> row = {double(j + 1), geometry.joints[j].arc_length, 0., 0., 0., 0., 0.};
-      double              widest = -1.;
-      for (const auto &at : history.rows)
-      {
-        for (unsigned int k = 0; k < 4; ++k)
-          row[2 + k] = std::max(row[2 + k], at[1 + 4 * j + k]);
-        if (const double o = std::max(at[1 + 4 * j], at[2 + 4 * j]); o > widest)
-          widest = o, row[6] = at[0];
-      }
-      table.rows.push_back(row);
+      const Largest &most = largest[j];
+      table.rows.push_back({double(j + 1), geometry.joints[j].arc_length, most.opening_upstream,
+                            most.opening_downstream, most.slip_upstream, most.slip_downstream, most.time});
     }
     return table;
   }

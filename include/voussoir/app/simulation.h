@@ -10,6 +10,7 @@
 #include <voussoir/output/recorder.h>
 #include <voussoir/output/run_directory.h>
 #include <voussoir/output/stability_watch.h>
+#include <voussoir/output/time_error.h>
 
 #include <optional>
 
@@ -62,6 +63,7 @@ namespace Voussoir
     Json              json_of_newton() const;
     Json              json_of_statics() const;
     Json              json_of_extremes() const;
+    Json              json_of_time_error() const;
     double            largest_energy() const; ///< of the dam, that has gone through [J]
     double            balance_error() const;  ///< largest |balance| of its energies, over largest_energy()
     void              check_balance() const;  ///< ComputationError where an account does not close
@@ -127,6 +129,7 @@ namespace Voussoir
     std::unique_ptr<StressRecovery>             stress;
     std::unique_ptr<EnvelopeRecorder>           envelope;
     std::unique_ptr<JointRecorder>              joints;
+    std::unique_ptr<TimeErrorEstimate>          companion; ///< if the scene asks for it
     Table                                       history, energy;
     std::unique_ptr<Recorder>                   history_columns, energy_columns;
     TableFile                                   history_file, energy_file, joint_file;

@@ -88,7 +88,8 @@ namespace Voussoir
     ContactParameters    contact;
     StaticParameters     statics;
     FoundationParameters foundation;
-    unsigned int         steps_per_sample = 1; ///< of the ground motion
+    unsigned int         steps_per_sample = 1;   ///< of the ground motion
+    bool                 error_estimate = false; ///< of the time step
     MotionParameters     motion;
     OutputParameters     output;
 

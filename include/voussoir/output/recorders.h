@@ -8,6 +8,8 @@
 #include <voussoir/joints/joint_reach.h>
 #include <voussoir/solid/stress.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 
@@ -55,19 +57,34 @@ namespace Voussoir
   public:
     JointRecorder(const Structure &structure, const DamGeometry &geometry);
 
+    /** Of one joint at the crest over time, upstream and downstream [m]; when it was open most [s]. */
+    struct Largest
+    {
+      double opening_upstream = 0., opening_downstream = 0., slip_upstream = 0., slip_downstream = 0.,
+             time = 0.;
+      double                        opening() const { return std::max(opening_upstream, opening_downstream); }
+      template <class Archive> void serialize(Archive &archive, unsigned int)
+      {
+        archive &opening_upstream &opening_downstream &slip_upstream &slip_downstream &time;
+      }
+    };
+
     void  record(const Newmark &newmark);
     Table maxima() const; ///< joints.csv
 
-    Table      history; ///< joint_history.csv
-    Extreme    opening, slip;
-    JointReach reach; ///< counts from when it is set
+    Table                history; ///< joint_history.csv
+    Extreme              opening, slip;
+    JointReach           reach;   ///< counts from when it is set
+    std::vector<Largest> largest; ///< per joint
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
-      archive &history &opening &slip &reach;
+      archive &history &opening &slip &reach &largest;
     }
 
   private:
+    std::array<double, 4> at_crest(const Newmark &newmark, std::size_t joint) const;
+
     const Structure   &structure;
     const DamGeometry &geometry;
   };

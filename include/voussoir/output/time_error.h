@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_time_error_h
+#define voussoir_time_error_h
+
+#include <voussoir/dam/dam.h>
+#include <voussoir/output/recorders.h>
+
+#include <optional>
+
+namespace Voussoir
+{
+  /** What the time step does to the extremes of a run, by estimate. */
+  struct TimeError
+  {
+    /** Of the joints' largest openings at the crest: root of the sum of squares over the joints, over that of
+     * the openings [-]. */
+    double opening = 0.;
+    double largest_opening = 0.;                           ///< of the largest anywhere [m]
+    double tension_upstream = 0., tension_downstream = 0.; ///< of the largest principal stresses [Pa]
+  };
+
+  /** The same dam on its moving base at twice the time step, beside the run. The estimate is 0.4 of the
+   * difference between both: an error that falls with the step's power p is 1/(2^p - 1) of it, so that the
+   * estimate is right within a factor of 2 for p = 1.2 to 2.6 (doc/accuracy.md: what was measured). */
+  class TimeErrorEstimate
+  {
+  public:
+    /** @p dt: of the run. @p start: its state then. @p stress: nullptr: no tensions. All are kept. */
+    TimeErrorEstimate(const Dam &dam, const ContactParameters &parameters, double dt, ImpactRule rule,
+                      const StressRecovery *stress, const DynamicState &start);
+
+    /** After each step of the run, under @p load at its end; every second one is a step here. */
+    void advance(unsigned int step, const Unknowns &load, const Vector3 &base_velocity);
+
+    TimeError of(const JointRecorder &joints, const EnvelopeRecorder &envelope) const;
+
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &joints;
+      if (envelope)
+        archive &*envelope;
+    }
+
+    Newmark newmark;
+
+  private:
+    const Dam                      &dam;
+    JointRecorder                   joints;
+    std::optional<EnvelopeRecorder> envelope;
+  };
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/mesh/mesh.h>
+#include <voussoir/output/time_error.h>
+
+#include <cmath>
+
+namespace Voussoir
+{
+  TimeErrorEstimate::TimeErrorEstimate(const Dam &dam, const ContactParameters &parameters, const double dt,
+                                       const ImpactRule rule, const StressRecovery *stress,
+                                       const DynamicState &start)
+      : newmark(dam.structure, dam.laws, parameters, 2. * dt, rule), dam(dam),
+        joints(dam.structure, *dam.geometry)
+  {
+    joints.reach = JointReach(*dam.model, dam.structure.pairs);
+    newmark.start(start.u, start.v, start.force, start.load, Unknowns(start.force.size(), 0.), start.memory);
+    joints.record(newmark);
+    if (stress == nullptr)
+      return;
+    envelope.emplace(*stress, dam.initial_stress);
+    envelope->record(start.time, start.u);
+  }
+
+  void TimeErrorEstimate::advance(const unsigned int step, const Unknowns &load, const Vector3 &base_velocity)
+  {
+    if (step % 2 == 1)
+      return;
+    newmark.advance(load, base_velocity);
+    joints.record(newmark);
+    if (envelope)
+      envelope->record(newmark.state().time, newmark.state().u);
+  }
+
+  TimeError TimeErrorEstimate::of(const JointRecorder &of_run, const EnvelopeRecorder &stresses) const
+  {
+    constexpr double part = .4; // of the difference
+    TimeError        error;
+    double           difference = 0., sum = 0.;
+    for (std::size_t j = 0; j < joints.largest.size(); ++j)
+    {
+      const double fine = of_run.largest[j].opening(), coarse = joints.largest[j].opening();
+      difference += (fine - coarse) * (fine - coarse);
+      sum += fine * fine;
+    }
+    error.opening = sum > 0. ? part * std::sqrt(difference / sum) : 0.;
+    error.largest_opening = part * std::abs(of_run.opening.value - joints.opening.value);
+    if (!envelope)
+      return error;
+    const auto of_face = [&](const int face)
+    {
+      return part * std::abs(stresses.extreme(*dam.model, face, true).value -
+                             envelope->extreme(*dam.model, face, true).value);
+    };
+    error.tension_upstream = of_face(PhysicalId::upstream);
+    error.tension_downstream = of_face(PhysicalId::downstream);
+    return error;
+  }
+} // namespace Voussoir
