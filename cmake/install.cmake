@@ -22,8 +22,9 @@ install(FILES ${CMAKE_BINARY_DIR}/cmake/VoussoirConfig.cmake ${CMAKE_BINARY_DIR}
   DESTINATION ${VOUSSOIR_CMAKE_DIR})
 
 # The program looks for its scripts in ../share/voussoir/scripts (source/output/python_script.cc).
-foreach(script accuracy command figures picture vtu)
+foreach(script accuracy command drawing figures picture report report_figures report_tables runs view vtu)
   install(PROGRAMS scripts/${script}.py DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts)
 endforeach()
+install(FILES scripts/report.css DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts)
 install(DIRECTORY prm meshes DESTINATION ${VOUSSOIR_SHARE_DIR} PATTERN __pycache__ EXCLUDE)
 install(FILES README.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -32,6 +32,7 @@ from vtu import read_vtu  # noqa: E402
 FACES = np.array([[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]])
 COLOURS = LinearSegmentedColormap.from_list(
     "concrete", ["#5b8fb9", "#a9c4d6", "#e9e4da", "#f0c27b", "#dd7a3b", "#a92b1f"])
+CONCRETE = [(.90, .88, .83), (.76, .79, .82)]  # monoliths in turn
 FINE = 3  # each side of a face is painted in so many parts
 
 
@@ -54,13 +55,18 @@ def time_of(solution):
     return float(found[1]) if found else None
 
 
-def outer_faces(points, moved, cells):
-    """The faces that are not between two cells that move as one: (face, corner) of points."""
+def outer(points, moved, cells):
+    """Which faces are not between two cells that move as one: numbers into the six faces of each cell, one cell after the other."""
     faces = cells[:, FACES].reshape(-1, 4)
     key = np.concatenate([np.round(points * 1e3), np.round(moved * 1e7)], axis=1).astype(np.int64)
     _, same = np.unique(key, axis=0, return_inverse=True)
     _, where, count = np.unique(np.sort(same.reshape(-1)[faces], axis=1), axis=0, return_index=True, return_counts=True)
-    return faces[where[count == 1]]
+    return where[count == 1]
+
+
+def outer_faces(points, moved, cells):
+    """These faces: (face, corner) of points."""
+    return cells[:, FACES].reshape(-1, 4)[outer(points, moved, cells)]
 
 
 def bilinear(values, n):
@@ -138,6 +144,51 @@ def paint(axes, view, quads, values, lines, limits):
     _, shapes, rgb, widths = zip(*items)
     axes.add_collection(PolyCollection(shapes, facecolors=rgb, edgecolors=rgb, linewidths=widths, joinstyle="round",
                                        capstyle="round"))
+
+
+def mesh_lines(corners, monolith):
+    """Edges between two faces of different monoliths, or where the surface bends; as creases() gives them."""
+    n, owners = normals(corners), {}
+    for f, face in enumerate(corners):
+        for k in range(4):
+            ends = np.round(face[[k, (k + 1) % 4]] * 1e3).astype(np.int64)
+            owners.setdefault(tuple(sorted(map(tuple, ends))), []).append((f, k))
+    return [(corners[sides[0][0], [sides[0][1], (sides[0][1] + 1) % 4]], n[[side[0] for side in sides[:2]]])
+            for sides in owners.values() if len({monolith[side[0]] for side in sides}) > 1
+            or n[sides[0][0]] @ n[sides[-1][0]] < np.cos(np.radians(35.))]
+
+
+def draw_mesh(axes, points, cells, monolith, view, tones=None):
+    """The undeformed mesh, edges of the elements thin and joints heavy, neighbouring monoliths in two tones. `monolith`: of each cell;
+    `tones`: None, or a function of the numbers of the faces (six of each cell) and their corners that gives their colours."""
+    which = outer(points, 0. * points, cells)
+    corners = points[cells[:, FACES].reshape(-1, 4)[which]]
+    number = monolith[which // 6]
+    n, eye = normals(corners), view.centre + view.distance * view.back
+    place, depth = view(corners)
+    light = .5 * view.back + .75 * view.up - .5 * view.right
+    brightness = .72 + .34 * np.clip(n @ (light / np.linalg.norm(light)), 0, 1)
+    tints = np.array(CONCRETE)[number % 2] if tones is None else tones(which, corners)
+    colours = np.clip(tints * brightness[:, None], 0, 1)
+    visible = np.einsum("ij,ij->i", n, eye - corners.mean(axis=1)) > 0
+    items = [(d, p, (*c, 1.), (.45, .47, .5, .55), .25) for d, p, c, v in zip(depth.mean(axis=1), place, colours, visible) if v]
+    reach = .02 * max(np.ptp(points, axis=0))
+    for ends, sides in mesh_lines(corners, number):
+        if any(side @ (eye - ends[0]) > 0 for side in sides):
+            path, far = view(ends)
+            items.append((far.mean() + reach, path, (0, 0, 0, 0), (.13, .14, .17, 1.), .8))
+    items.sort(key=lambda item: item[0])
+    _, shapes, fills, lines, widths = zip(*items)
+    axes.add_collection(PolyCollection(shapes, facecolors=fills, edgecolors=lines, linewidths=widths, joinstyle="round",
+                                       capstyle="round"))
+    axes.set_aspect("equal")
+    axes.autoscale_view()
+    axes.axis("off")
+
+
+def view_of(points, azimuth=-12., elevation=34.):
+    """A camera for these points."""
+    return View(azimuth, elevation, .5 * (points.max(axis=0) + points.min(axis=0)), 3.2 * max(np.ptp(points, axis=0)))
 
 
 def main():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads the .vtu files that voussoir writes; needs nothing but Python."""
+"""Reads the .vtu files that voussoir writes, and writes such files; needs nothing but Python."""
 
 import base64
 import re
@@ -33,3 +33,24 @@ def read_vtu(path):
             begin += size
         result[name] = array(kind, b"".join(blocks))
     return result
+
+
+def write_vtu(path, points, cells, kind, point_data=(), cell_data=()):
+    """An unstructured grid of cells of one kind (of VTK: 9 quadrilateral, 12 hexahedron), as text. The data: name -> values, of each
+    point or cell one number or three."""
+    def array_of(name, values, type_name):
+        rows = [row if hasattr(row, "__len__") else (row,) for row in values]
+        width = f' NumberOfComponents="{len(rows[0])}"' if rows and len(rows[0]) > 1 else ""
+        text = "\n".join(" ".join(f"{x:.7g}" if type_name == "Float32" else str(int(x)) for x in row) for row in rows)
+        return f'<DataArray type="{type_name}" Name="{name}"{width} format="ascii">\n{text}\n</DataArray>\n'
+
+    with open(path, "w", encoding="ascii") as file:
+        file.write('<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">\n<UnstructuredGrid>\n'
+                   f'<Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(cells)}">\n')
+        file.write("<Points>\n" + array_of("Points", points, "Float32") + "</Points>\n<Cells>\n")
+        file.write(array_of("connectivity", cells, "Int32"))
+        file.write(array_of("offsets", [sum(map(len, cells[:1])) * (i + 1) for i in range(len(cells))], "Int32"))
+        file.write(array_of("types", [kind] * len(cells), "UInt8") + "</Cells>\n")
+        for tag, data in (("PointData", point_data), ("CellData", cell_data)):
+            file.write(f"<{tag}>\n" + "".join(array_of(name, values, "Float32") for name, values in dict(data).items()) + f"</{tag}>\n")
+        file.write("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")

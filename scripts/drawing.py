@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the figures of runs are drawn with, an axes at a time, for figures.py and report.py: the same colours, signs and
+words everywhere. Stresses in MPa, tension positive; openings and slips in mm."""
+
+from collections import Counter
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402 (after the choice of the backend)
+from matplotlib.collections import LineCollection  # noqa: E402
+from matplotlib.ticker import MaxNLocator, NullFormatter  # noqa: E402
+from runs import Skip  # noqa: E402
+
+UPSTREAM, DOWNSTREAM = "#0b5394", "#cc4125"
+FACES = {"upstream": UPSTREAM, "downstream": DOWNSTREAM}
+COLOURS = ["#0b5394", "#cc4125", "#38761d", "#b45f06", "#674ea7", "#45818e", "#7f6000"]
+DIRECTIONS = {"x": "stream", "y": "cross", "z": "vertical"}
+LIMIT = {"color": "#111111", "linewidth": 1., "linestyle": (0, (5, 2))}
+ENERGIES = ("input", "strain", "kinetic", "added_mass", "damping", "friction", "impact", "bond", "transmitted")
+
+plt.rcParams.update({
+    "font.size": 11, "axes.titlesize": 12, "axes.labelsize": 11, "legend.fontsize": 10, "legend.frameon": False,
+    "axes.grid": True, "grid.linewidth": 0.4, "grid.color": "0.85", "axes.axisbelow": True, "axes.linewidth": 0.7,
+    "axes.spines.top": False, "axes.spines.right": False, "savefig.dpi": 180, "savefig.bbox": "tight",
+    "svg.hashsalt": "voussoir"})  # the same file for the same data
+
+
+def minus(text):
+    """With the typographic minus of the axes."""
+    return text.replace("-", "\N{MINUS SIGN}")
+
+
+def note(axes, text, place=(0.995, 0.95)):
+    """A remark in a corner of the axes."""
+    axes.text(*place, text, transform=axes.transAxes, ha="right", va="top", fontsize="small",
+              bbox={"facecolor": "w", "edgecolor": "none", "pad": 1, "alpha": 0.8})
+
+
+# ---------------------------------------------------------------- stresses on the faces
+
+def triangles(nodes, cells):
+    """Every quadrilateral as four triangles around its centre: coordinates and corners of the triangles."""
+    n = len(nodes)
+    centres = n + np.arange(len(cells))
+    corner = [np.stack([cells[:, i], cells[:, (i + 1) % 4], centres], axis=1) for i in range(4)]
+    return np.vstack([nodes, nodes[cells].mean(axis=1)]), np.vstack(corner)
+
+
+def edges(drawn, places, cells):
+    """The face's outline, and the edges where two monoliths meet (their nodes coincide, but are not the same).
+    `drawn`: the nodes on paper; `places`: in space."""
+    count = Counter(tuple(sorted((cell[i], cell[(i + 1) % 4]))) for cell in cells for i in range(4))
+    border = [edge for edge, n in count.items() if n == 1]
+    rounded = [tuple(place) for place in np.round(places, 3) + 0.]  # no negative zeros
+    keys = [tuple(sorted(rounded[node] for node in edge)) for edge in border]
+    shared = Counter(keys)
+    outline = [drawn[list(edge)] for edge, key in zip(border, keys) if shared[key] == 1]
+    joints = [drawn[list(edge)] for edge, key in zip(border, keys) if shared[key] > 1]
+    return outline, joints
+
+
+def common_levels(runs, column):
+    """Round contour levels [MPa] for both faces of all runs, so that they can be compared: between the 1st and 99th
+    percentile (a heel is singular), and zero among them."""
+    pairs = [np.percentile(1e-6 * np.concatenate([face[column] for face in run.faces.values()]), [1, 99]) for run in runs]
+    low, high = min(0., *(pair[0] for pair in pairs)), max(0., *(pair[1] for pair in pairs))
+    if high - low < 1e-3:
+        low, high = low - 0.1, high + 0.1
+    return MaxNLocator(nbins=10, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+
+
+def aspect(run):
+    """Height over width of a developed face."""
+    face = next(iter(run.faces.values()))
+    return 1.17 * np.ptp(face["z"]) / max(1.03 * np.ptp(face["s"]), 1e-9)
+
+
+def draw_face(axes, run, name, column, levels, strength=0.):
+    """One developed face with its stress; the contour of the tensile strength [MPa] as a heavy line. The contours, for a bar."""
+    if name not in run.faces:
+        raise Skip(f"no {name} face in faces.csv")
+    face = run.faces[name]
+    s, z, cells, stress = face["s"], face["z"], face["quads"], 1e-6 * face[column]
+    points, corners = triangles(np.stack([s, z], axis=1), cells)
+    values = np.concatenate([stress, stress[cells].mean(axis=1)])
+    # Red is tension, blue compression, white zero, whatever the range; colours beyond it for `extend`.
+    step = levels[1] - levels[0]
+    middles = np.append(levels - step / 2, levels[-1] + step / 2)
+    colours = plt.get_cmap("RdBu_r")(0.5 + 0.5 * middles / np.abs(middles).max())
+    contours = axes.tricontourf(points[:, 0], points[:, 1], corners, values, levels=levels, colors=colours, extend="both")
+    axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=levels, colors="0.35", linewidths=0.25,
+                    linestyles="solid")
+    if values.min() < strength < values.max() and column == "max_principal" and strength > 0.:
+        axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=[strength], colors="k", linewidths=1.4)
+    outline, joints = edges(np.stack([s, z], axis=1), np.stack([face["x"], face["y"], z], axis=1), cells)
+    axes.add_collection(LineCollection(joints, colors="k", linewidths=0.5))
+    axes.add_collection(LineCollection(outline, colors="k", linewidths=1.1, capstyle="round"))
+    label_face(axes, face, stress, column == "max_principal")
+    return contours
+
+
+def label_face(axes, face, stress, tension):
+    """Where the worst is, the banks and the side that it is seen from."""
+    s, z = face["s"], face["z"]
+    width, height = np.ptp(s), np.ptp(z)
+    worst = np.argmax(stress) if tension else np.argmin(stress)
+    name = "max" if tension else "min"
+    axes.plot(s[worst], z[worst], marker="o", markersize=6, markerfacecolor="#ffd966", markeredgecolor="k",
+              clip_on=False, zorder=5, linestyle="none",
+              label=minus(f"{name} {stress[worst]:.2f} MPa at s = {s[worst] + 0.:.0f} m, z = {z[worst] + 0.:.0f} m").replace("\N{MINUS SIGN}0 m", "0 m"))
+    axes.legend(loc="upper center", handletextpad=0.1, borderaxespad=0)
+    right_first = np.cov(s, face["y"])[0, 1] > 0  # y points to the left bank
+    banks = ("right bank", "left bank") if right_first else ("left bank", "right bank")
+    for bank, place, side in zip(banks, (0.01, 0.99), ("left", "right")):
+        axes.text(place, 0.985, bank, transform=axes.transAxes, ha=side, va="top", color="0.35", style="italic", fontsize="small")
+    view = "downstream" if right_first else "upstream"
+    axes.set(aspect="equal", xlabel=f"developed arc length s [m], seen from {view}", ylabel="elevation z [m]",
+             xlim=(s.min() - 0.015 * width, s.max() + 0.015 * width),
+             ylim=(z.min() - 0.03 * height, z.max() + 0.14 * height))
+    axes.grid(False)
+
+
+def stress_bar(figure, contours, axes, levels, **place):
+    bar = figure.colorbar(contours, ax=axes, orientation="horizontal", ticks=levels, **place)
+    bar.set_label("principal stress, tension positive [MPa]")
+    return bar
+
+
+# ---------------------------------------------------------------- joints
+
+def crest_values(run, quantity):
+    """Face -> the largest at the crest [mm], joint by joint."""
+    return {face: 1e3 * np.abs(run.joints[f"{quantity}_{face}"]) for face in FACES}
+
+
+def common_top(runs, quantity):
+    return max(max(values.max() for values in crest_values(run, quantity).values()) for run in runs)
+
+
+def draw_crest_bars(axes, run, quantity, top, limit=0.):
+    """The largest openings or slips at the crest, bars on both faces of each joint."""
+    number = run.joints["joint"].astype(int)
+    for k, (face, values) in enumerate(crest_values(run, quantity).items()):
+        axes.bar(number + (k - 0.5) * 0.4, values, 0.38, color=FACES[face],
+                 label=f"{face}: {values.max():.1f} mm at joint {number[values.argmax()]}")
+    show_limit(axes, 1e3 * limit, "mm", top)
+    every = -(-len(number) // 15)
+    axes.set_xticks(number[::every])
+    axes.set(xlabel="joint, from the right bank to the left" if run.joints["s"][0] <= run.joints["s"][-1] else
+             "joint, from the left bank to the right", ylabel=f"maximum {quantity} [mm]")
+    axes.set_ylim(0, 1.3 * max(top, 1e3 * limit if limit < 2e-3 * top else 0.) or 1)
+    axes.grid(False, axis="x")
+    axes.legend(loc="upper left", handletextpad=0.4, borderaxespad=0.2)
+
+
+def show_limit(axes, limit, unit, top):
+    """A dashed line at a limit that there is; where it is far above, in words."""
+    if 0. < limit < 2. * top:
+        axes.axhline(limit, **LIMIT, zorder=1, label=f"limit {limit:g} {unit}")
+    elif limit > 0.:
+        axes.plot([], [], **LIMIT, label=f"limit {limit:g} {unit}, above the figure")
+
+
+def worst_joints(run, count):
+    """Numbers of the joints that open most at the crest, the worst first."""
+    table = run.joint_history
+    largest = {int(name.rsplit("_", 1)[1]): max(table[name].max(), table[name.replace("upstream", "downstream")].max())
+               for name in table if name.startswith("opening_upstream_")}
+    if not largest:
+        raise Skip("joint_history.csv names no joints")
+    return sorted(largest, key=lambda joint: -largest[joint])[:count]
+
+
+def draw_joint_history(axes, run, joint, quantity="opening"):
+    """Opening or slip of one joint at the crest, both faces."""
+    table, largest = run.joint_history, 0.
+    for face, colour in FACES.items():
+        values = 1e3 * table[f"{quantity}_{face}_{joint}"]
+        largest = max(largest, values.max())
+        axes.plot(table["time"], values, color=colour, linewidth=0.9, label=face)
+    note(axes, f"joint {joint}: {largest:.1f} mm")
+    axes.yaxis.set_major_locator(MaxNLocator(4))
+    axes.set_xlim(table["time"][0], table["time"][-1])
+    return largest
+
+
+# ---------------------------------------------------------------- histories
+
+def draw_crest(axes, runs):
+    """Displacement of the crown's crest over time, of all runs; the extremes of a single one."""
+    for run, colour in zip(runs, COLOURS * len(runs)):
+        time, crest = run.history["time"], 1e3 * run.history["crest_x"]
+        axes.plot(time, crest, color=colour, linewidth=0.9, label=run.name)
+        for peak, place in ((crest.argmax(), "bottom"), (crest.argmin(), "top")) if len(runs) == 1 else ():
+            axes.plot(time[peak], crest[peak], "o", color="k", markersize=3.5)
+            axes.annotate(minus(f"{crest[peak]:.1f} mm at {time[peak]:.2f} s"), (time[peak], crest[peak]), ha="center", va=place,
+                          xytext=(0, 4 if place == "bottom" else -4), textcoords="offset points", fontsize="small")
+    axes.margins(x=0, y=0.17)
+    axes.set_ylabel("crest [mm]")
+    if len(runs) > 1:
+        axes.legend(loc="lower right", ncol=3, bbox_to_anchor=(1, 1), borderaxespad=0.2)
+
+
+def draw_base(axes, run, direction, largest):
+    column = run.base_acceleration[direction]
+    axes.plot(run.history["time"], column, color="0.25", linewidth=0.6)
+    axes.set_ylim(-1.15 * largest, 1.15 * largest)
+    axes.set_ylabel(f"{DIRECTIONS[direction]}\n[m/s²]")
+    note(axes, f"peak {np.abs(column).max():.2f} m/s²")
+    axes.margins(x=0)
+
+
+def draw_spectrum(axes, table, direction):
+    """Response spectrum of a component of the motion, with what it was to match."""
+    period = table["period"]
+    if f"target_{direction}" in table:
+        axes.loglog(period, table[f"target_{direction}"], color="k", linewidth=1.3, linestyle=(0, (4, 2)), label="design")
+    axes.loglog(period, table[f"spectrum_{direction}"], color=UPSTREAM, linewidth=1.1, label=DIRECTIONS[direction])
+    axes.set(xlabel="period [s]", xlim=(period[0], period[-1]))
+    axes.set_xticks([0.05, 0.1, 0.2, 0.5, 1, 2], ["0.05", "0.1", "0.2", "0.5", "1", "2"])
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.legend(loc="lower left", borderaxespad=0.2)
+
+
+def energy_parts(run):
+    parts = [name for name in ENERGIES if name in run.energy]
+    return parts, max(np.abs(run.energy[name]).max() for name in parts) or 1.
+
+
+def energy_unit(largest):
+    return next((pair for pair in (("GJ", 1e9), ("MJ", 1e6), ("kJ", 1e3)) if largest >= pair[1]), ("J", 1.))
+
+
+def draw_energy(axes, run, largest):
+    """Energies over time; on rock also what has gone through the artificial boundary."""
+    unit, scale = energy_unit(largest)
+    for name, colour in zip(energy_parts(run)[0], ["k", *COLOURS, "0.5"]):
+        if np.any(run.energy[name]):
+            label = "radiated" if name == "transmitted" else name.replace("_", " ")
+            axes.plot(run.energy["time"], run.energy[name] / scale, color=colour, label=label,
+                      linewidth=1.6 if name == "input" else 1., linestyle="--" if name == "transmitted" else "-")
+    axes.set_ylabel(f"energy [{unit}]")
+    axes.margins(x=0)
+
+
+def imbalance(run):
+    """Largest |balance| over the largest energy, as the log and the summary define it."""
+    scale = run.summary.get("largest_energy") or energy_parts(run)[1]
+    return run.energy["balance"] / scale

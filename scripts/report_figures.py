@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The figures of a report, as images that stand in the page itself. All runs have the same scales."""
+
+import base64
+import io
+
+import numpy as np
+
+import picture
+from drawing import (COLOURS, DIRECTIONS, DOWNSTREAM, FACES, LIMIT, UPSTREAM, aspect, common_levels, common_top, draw_base,
+                     draw_crest, draw_crest_bars, draw_energy, draw_face, draw_joint_history, draw_spectrum, energy_parts, energy_unit,
+                     plt, stress_bar, worst_joints)
+from runs import Skip
+from vtu import read_vtu
+
+NARROW, WIDE = 4.3, 9.0  # inches: a telephone or half a page, and a whole page
+SMALL = {"font.size": 8.5, "axes.titlesize": 9, "axes.labelsize": 8.5, "legend.fontsize": 8, "xtick.labelsize": 8,
+         "ytick.labelsize": 8, "lines.linewidth": 1.}
+
+
+def image(figure, kind="svg"):
+    """The figure as an address that holds it."""
+    data = io.BytesIO()
+    options = {"metadata": {"Date": None}} if kind == "svg" else {"dpi": 190}
+    figure.savefig(data, format=kind, bbox_inches="tight", pad_inches=0.04, **options)
+    plt.close(figure)
+    mime = "image/svg+xml" if kind == "svg" else "image/png"
+    return f"data:{mime};base64,{base64.b64encode(data.getvalue()).decode()}"
+
+
+def panel(height, kind="svg", rows=1, **grid):
+    """Calls the decorated function with a narrow figure and its axes; the image."""
+    def made(draw):
+        with plt.rc_context(SMALL):
+            figure, axes = plt.subplots(rows, 1, figsize=(NARROW, height), sharex=True, squeeze=False, constrained_layout=True, **grid)
+            draw(figure, axes[:, 0])
+            return image(figure, kind)
+    return made
+
+
+def both_widths(draw, height, rows):
+    """The same drawing for a whole page and for a telephone: two images."""
+    images = []
+    with plt.rc_context(SMALL):
+        for width in (WIDE, NARROW):
+            figure, axes = plt.subplots(rows, 1, figsize=(width, height), sharex=True, squeeze=False, constrained_layout=True)
+            draw(axes[:, 0])
+            figure.align_ylabels(axes[:, 0])
+            images.append(image(figure))
+    return images
+
+
+# ---------------------------------------------------------------- the dam
+
+def dam(run):
+    """The mesh, seen from downstream, monoliths in two tones."""
+    file = next((file for file in [run.directory / "envelope.vtu", *sorted(run.directory.glob("solution-*.vtu"))] if file.exists()), None)
+    if file is None:
+        raise Skip("no envelope.vtu: Output/Envelope interval is 0")
+    with plt.rc_context(SMALL):
+        figure, axes = plt.subplots(figsize=(NARROW * 1.25, NARROW * 0.85))
+        data = {name: np.asarray(values) for name, values in read_vtu(file).items()}
+        points, cells = data["Points"].reshape(-1, 3).astype(float), data["connectivity"].reshape(-1, 8)
+        monolith = data["monolith"][cells[:, 0]].astype(int) if "monolith" in data else np.zeros(len(cells), dtype=int)
+        picture.draw_mesh(axes, points, cells, monolith, picture.view_of(points))
+        return image(figure, "png")
+
+
+# ---------------------------------------------------------------- the motion
+
+def accelerations(run):
+    """Base acceleration, on a page and on a telephone."""
+    base = run.base_acceleration
+    if not base:
+        raise Skip("the base is at rest")
+    largest = max(np.abs(column).max() for column in base.values())
+
+    def draw(rows):
+        for axes, direction in zip(rows, sorted(base)):
+            draw_base(axes, run, direction, largest)
+        rows[-1].set_xlabel("time [s]")
+    return both_widths(draw, 0.4 + 1.05 * len(base), len(base))
+
+
+def spectra(run, top):
+    """Response spectra of the components that move, each with its target: direction -> image."""
+    table = run.table("spectrum.csv")
+    images = {}
+    for direction in DIRECTIONS:
+        if np.any(table[f"spectrum_{direction}"]):
+            @panel(2.9)
+            def made(_, axes, direction=direction):
+                draw_spectrum(axes[0], table, direction)
+                axes[0].set_ylabel("pseudo-acceleration [m/s²]")
+                axes[0].set_ylim(top / 200., 1.4 * top)
+            images[direction] = made
+    return images
+
+
+def highest_spectrum(runs):
+    tables = [run.table("spectrum.csv") for run in runs]
+    return max(table[name].max() for table in tables for name in table if name.startswith(("spectrum", "target")))
+
+
+# ---------------------------------------------------------------- the response
+
+def crest(runs):
+    def draw(rows):
+        draw_crest(rows[0], runs)
+        rows[0].set(xlabel="time [s]", ylabel="downstream [mm]")
+    return both_widths(draw, 2.5, 1)
+
+
+def crest_bars(run, quantity, runs):
+    top = common_top(runs, quantity)
+
+    @panel(2.5)
+    def made(_, axes):
+        draw_crest_bars(axes[0], run, quantity, top, run.limit(quantity.capitalize()))
+    return made
+
+
+def openings_over_time(run, top):
+    worst = worst_joints(run, 3)
+
+    @panel(0.5 + 1.15 * len(worst), rows=len(worst), sharey=True)
+    def made(_, axes):
+        for row, joint in zip(axes, worst):
+            draw_joint_history(row, run, joint)
+            row.set_ylim(-0.04 * top, 1.3 * top or 1.)
+        axes[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncol=2, borderaxespad=0.1)
+        axes[len(axes) // 2].set_ylabel("opening [mm]")
+        axes[-1].set_xlabel("time [s]")
+    return made
+
+
+def highest_opening(runs):
+    return max(1e3 * run.joint_history[name].max() for run in runs for name in run.joint_history if name.startswith("opening"))
+
+
+def over_height(run, quantity, top):
+    """The largest opening or slip of each joint over the height, at the upstream face."""
+    table = run.table("joint_points.csv")
+    edge = table["depth"] < 1e-6
+    numbers = np.unique(table["joint"]).astype(int)
+    values = {j: 1e3 * table[f"max_{quantity}"][edge & (table["joint"] == j)] for j in numbers}
+    if not any(len(v) for v in values.values()):
+        raise Skip("the joints have no edge on the upstream face")
+    shown = sorted(numbers, key=lambda j: -max(values[j], default=0.))[:6]
+
+    @panel(2.9)
+    def made(_, axes):
+        for joint, colour in zip(sorted(shown), COLOURS):
+            z = table["z"][edge & (table["joint"] == joint)]
+            order = np.argsort(z)
+            axes[0].plot(values[joint][order], z[order], color=colour, marker="o", markersize=2.2, label=f"joint {joint}")
+        axes[0].set(xlabel=f"maximum {quantity} at the upstream face [mm]", ylabel="elevation z [m]", xlim=(0, 1.08 * top or 1.))
+        axes[0].legend(loc="lower right", borderaxespad=0.2)
+    return made
+
+
+def highest_point(runs, quantity):
+    return max(1e3 * run.table("joint_points.csv")[f"max_{quantity}"].max() for run in runs)
+
+
+# ---------------------------------------------------------------- stresses
+
+def face(run, name, column, runs):
+    levels = common_levels(runs, column)
+
+    @panel(1.15 + 0.98 * NARROW * aspect(run), "png")
+    def made(figure, axes):
+        contours = draw_face(axes[0], run, name, column, levels, 1e-6 * run.limit("Tensile strength"))
+        stress_bar(figure, contours, axes[0], levels, aspect=42, fraction=0.06, pad=0.02)
+    return made
+
+
+def overstress(run):
+    """Cumulative duration of overstress over the demand-capacity ratio, against what is allowed."""
+    found = run.summary.get("overstress")
+    if not found:
+        raise Skip("no tensile strength is given (Limits/Tensile strength)")
+    allowed = run.limit("Overstress duration")
+
+    @panel(2.5)
+    def made(_, axes):
+        axes = axes[0]
+        for name, colour in (("upstream", UPSTREAM), ("downstream", DOWNSTREAM)):
+            axes.plot(found["levels"], found[name]["duration"], color=colour, marker="o", markersize=3, label=name)
+        if allowed > 0.:
+            axes.plot([1., 2.], [allowed, 0.], **LIMIT, label="allowed")
+        axes.set(xlabel="principal stress over tensile strength [-]", ylabel="cumulative duration [s]", xlim=(0.98, 2.02))
+        axes.set_ylim(bottom=0.)
+        axes.legend(loc="upper right")
+    return made
+
+
+# ---------------------------------------------------------------- energy
+
+def energies(run, runs):
+    largest = max(energy_parts(one)[1] for one in runs)
+
+    @panel(2.7)
+    def made(_, axes):
+        draw_energy(axes[0], run, largest)
+        low, high = axes[0].get_ylim()
+        axes[0].set_ylim(min(low, -0.05 * largest / energy_unit(largest)[1]), max(high, 1.05 * largest / energy_unit(largest)[1]))
+        axes[0].set_xlabel("time [s]")
+        axes[0].legend(loc="upper left", ncol=2, borderaxespad=0.2, handlelength=1.4, columnspacing=1.)
+    return made

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tables of a report, as HTML: numbers with units that engineers read, limits beside them."""
+
+from html import escape
+
+from runs import Skip
+
+# Key of summary.json's extremes -> title, unit, limit's name
+EXTREMES = {
+    "max_opening": ("Opening of a joint", "mm", "opening"),
+    "max_slip": ("Slip of a joint", "mm", "slip"),
+    "max_tension_upstream": ("Tension, upstream face", "MPa", "tension_upstream"),
+    "max_tension_downstream": ("Tension, downstream face", "MPa", "tension_downstream"),
+    "max_compression": ("Compression", "MPa", "compression")}
+SCALES = {"mm": 1e3, "MPa": 1e-6, "%": 100., "s": 1., "": 1., "MN": 1e-6}
+MINUS = "\N{MINUS SIGN}"
+
+
+def number(value, unit, digits=3):
+    """The value, given in SI, in this unit."""
+    value *= SCALES[unit]
+    if value != value:
+        return "none"
+    if value == 0.:
+        return "0"
+    if abs(value) < 1e-3 or abs(value) >= 1e6:
+        mantissa, exponent = f"{value:.1e}".split("e")
+        return f"{mantissa.replace('-', MINUS)} × 10{superscript(int(exponent))}"
+    decimals = max(0, min(3, digits - len(str(int(abs(value))).lstrip("0"))))
+    return f"{value:.{decimals}f}".replace("-", MINUS)
+
+
+def superscript(exponent):
+    return str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+def with_unit(value, unit):
+    return f"{number(value, unit)}{' ' + unit if unit else ''}"
+
+
+class Item:
+    """A line of the table of results: a value in SI, perhaps with a place, a time and a limit."""
+
+    def __init__(self, title, unit, found, limit=None):
+        self.title, self.unit, self.limit = title, unit, limit
+        found = found if isinstance(found, dict) else {"value": found}
+        self.value, self.place, self.time = found["value"], found.get("place"), found.get("time")
+
+    @property
+    def magnitude(self):
+        return abs(self.value)
+
+    @property
+    def state(self):
+        return "" if self.limit is None else "kept" if self.limit["kept"] else "exceeded"
+
+    def where(self):
+        """Place and time in words."""
+        place = f"({', '.join(f'{x + 0.:.0f}'.replace('-0', '0').replace('-', MINUS) for x in self.place)})" if self.place else ""
+        return place, f"{self.time:.2f}" if self.time is not None else ""
+
+
+def limits_of(run):
+    return run.summary.get("limits", {})
+
+
+def unit_of(name):
+    """Of an extreme that this page does not know by name."""
+    if any(word in name for word in ("opening", "slip", "displacement", "gap")):
+        return "mm"
+    return "MPa" if any(word in name for word in ("tension", "compression", "stress", "pressure")) else ""
+
+
+def items(run):
+    """Key -> Item of the results of a run, in their order."""
+    limits, found = limits_of(run), {}
+    for key, value in run.summary.get("extremes", {}).items():
+        if not isinstance(value, dict) or not isinstance(value.get("value"), (int, float)) or (run.tied and key in ("max_opening", "max_slip")):
+            continue
+        title, unit, limit = EXTREMES.get(key, (key.removeprefix("max_").replace("_", " ").capitalize(), unit_of(key), key))
+        found[key] = Item(title, unit, value, limits.get(limit))
+    for key, of in (("waterstop", "at the waterstop"), ("residual", "that remains")):
+        for name in ("opening", "slip"):
+            if f"max_{name}" in run.summary.get(key, {}):
+                found[f"{key}_{name}"] = Item(f"{name.capitalize()} {of}", "mm", run.summary[key][f"max_{name}"],
+                                              limits.get(f"{key}_{name}"))
+    found.update(demands(run, limits))
+    try:
+        crest, time = run.history["crest_x"], run.history["time"]
+        for name, k in (("downstream", crest.argmax()), ("upstream", crest.argmin())):
+            found[f"crest_{name}"] = Item(f"Crest, farthest {name}", "mm", {"value": float(crest[k]), "time": float(time[k])})
+    except (Skip, KeyError):
+        pass
+    return found
+
+
+def demands(run, limits):
+    """Of the tensile strength."""
+    overstress, found = run.summary.get("overstress"), {}
+    if not overstress:
+        return found
+    faces = [overstress[name] for name in ("upstream", "downstream") if name in overstress]
+    found["demand_capacity"] = Item("Demand-capacity ratio", "", max(face["demand_capacity"] for face in faces), limits.get("demand_capacity"))
+    found["overstress_duration"] = Item("Duration of overstress at a point", "s", max(face["duration"][0] for face in faces),
+                                        limits.get("overstress_duration"))
+    for name in ("upstream", "downstream"):
+        if name in overstress:
+            found[f"share_{name}"] = Item(f"Share of the {name} face above the tensile strength", "%", overstress[name]["share"][0],
+                                          limits.get("overstressed_share"))
+    return found
+
+
+def verdict(run):
+    """kept, exceeded or nothing; and a sentence."""
+    limits = limits_of(run)
+    if not limits:
+        return "", "The scene gives no limits (section Limits), so nothing is judged here."
+    texts = []
+    for name, limit in limits.items():
+        if not limit["kept"]:
+            unit = {"Pa": "MPa", "m": "mm"}.get(limit.get("unit", ""), limit.get("unit", ""))
+            texts.append(f"{name.replace('_', ' ')} {number(limit['value'], unit)} of {with_unit(limit['limit'], unit)}")
+    if not texts:
+        return "kept", "All limits of the scene are kept."
+    return "exceeded", f"{len(texts)} of {len(limits)} limits {'is' if len(texts) == 1 else 'are'} exceeded: {'; '.join(texts)}."
+
+
+def tiles(run):
+    """The numbers that are looked for first."""
+    found, cells = items(run), []
+    for key in ("max_opening", "max_slip", "max_tension_upstream", "max_tension_downstream", "max_compression", "demand_capacity"):
+        if key in found:
+            item = found[key]
+            limit = (f'<span class="limit">{"exceeds the limit" if item.state == "exceeded" else "limit"} '
+                     f'{escape(with_unit(item.limit["limit"], item.unit))}</span>') if item.limit else ""
+            cells.append(f'<div class="tile {item.state}"><span class="what">{escape(item.title)}</span><span class="number">'
+                         f'{number(item.magnitude, item.unit)} <span class="unit">{item.unit}</span></span>{limit}</div>')
+    return f'<div class="tiles">{"".join(cells)}</div>' if cells else ""
+
+
+def extremes(runs):
+    """All results; of a single run with places and times, of several side by side."""
+    found = [items(run) for run in runs]
+    keys = list(dict.fromkeys(key for of_run in found for key in of_run))
+    limited, single, rows = any(item.limit for of_run in found for item in of_run.values()), len(runs) == 1, []
+    for key in keys:
+        item = next(of_run[key] for of_run in found if key in of_run)
+        cells = [f'<td>{escape(item.title)} <span class="unit">{"[" + item.unit + "]" if item.unit else ""}</span></td>']
+        for of_run in found:
+            one = of_run.get(key)
+            cells.append(f'<td class="n {one.state}">{number(one.value, one.unit)}</td>' if one else '<td class="n">–</td>')
+        if limited:
+            limit = next((of_run[key].limit for of_run in found if key in of_run and of_run[key].limit), None)
+            cells.append(f'<td class="n">{number(limit["limit"], item.unit) if limit else ""}</td>')
+        if single:
+            if limited:
+                cells.append(f'<td class="{item.state}">{item.state}</td>')
+            cells += [f'<td class="n">{text}</td>' for text in item.where()]
+        rows.append(f'<tr>{"".join(cells)}</tr>')
+    names = ["largest"] if single else [escape(run.name) for run in runs]
+    names += (["limit"] if limited else [])
+    head = "<th>quantity</th>" + "".join(f'<th class="n">{name}</th>' for name in names)
+    head += ("<th></th>" if limited and single else "") + ('<th class="n">place [m]</th><th class="n">time [s]</th>' if single else "")
+    return f'<div class="table"><table><thead><tr>{head}</tr></thead><tbody>{"".join(rows)}</tbody></table></div>'
+
+
+def table(head, rows):
+    """Rows of texts; a row may be marked as one in which runs differ."""
+    body = "".join(f'<tr{" class=differs" if differs else ""}>' + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>"
+                   for cells, differs in rows)
+    titles = "".join(f"<th>{escape(title)}</th>" for title in head)
+    return f'<div class="table"><table><thead><tr>{titles}</tr></thead><tbody>{body}</tbody></table></div>'
+
+
+def facts(runs):
+    """What the log said of the scenes, side by side."""
+    titles = list(dict.fromkeys(title for run in runs for title in run.facts if title not in ("Shaking", "Figures", "Results", "Speed", "Energy")))
+    rows = []
+    for title in titles:
+        texts = [run.facts.get(title, "–") for run in runs]
+        rows.append(((title, *(texts if len(set(texts)) > 1 else texts[:1] + [""] * (len(runs) - 1))), len(set(texts)) > 1))
+    if len(runs) == 1:
+        return table(["", "as the program understood it"], rows)
+    same = [((cells[0], cells[1]), False) for cells, differs in rows if not differs]
+    apart = [(cells, False) for cells, differs in rows if differs]
+    return (table(["in all runs", ""], same) if same else "") + (table(["", *(run.name for run in runs)], apart) if apart else "")
+
+
+def differences(runs):
+    """Entries whose values are not the defaults in some run; those in which runs differ are marked."""
+    names = list(dict.fromkeys(name for run in runs for name, (_, default) in run.entries.items() if default is not None))
+    if not names:
+        return "<p>Nothing: every entry has its default.</p>"
+    rows = []
+    for name in names:
+        values = [run.entries.get(name, ("–", None))[0] or "(empty)" for run in runs]
+        default = next(run.entries[name][1] for run in runs if run.entries.get(name, ("", None))[1] is not None)
+        rows.append(((name, *values, default or "(empty)"), len(set(values)) > 1))
+    marked = '<p class="sub">Shaded: the runs differ.</p>' if any(differs for _, differs in rows) and len(runs) > 1 else ""
+    return table(["entry", *([run.name for run in runs] if len(runs) > 1 else ["value"]), "default"], rows) + marked

@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The output directory of a run, read: its tables as arrays, its summary, and the entries of its scene."""
+
+import csv
+import json
+import re
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from command import InputError
+
+
+class Skip(Exception):
+    """Something that cannot be shown because its data are not there."""
+
+
+def read_table(path, text_columns=()):
+    """Columns of a .csv file by name; numbers, but for the named text columns."""
+    if not path.exists():
+        raise Skip(f"no {path.name}")
+    with open(path, newline="") as file:
+        rows = [row for row in csv.reader(file) if row]
+    if len(rows) < 2:
+        raise Skip(f"{path.name} is empty")
+    width = len(rows[0])
+    if len(rows[-1]) < width:  # a run that was stopped while it wrote
+        rows.pop()
+    columns = {name.strip(): column for name, column in zip(rows[0], zip(*rows[1:]))}
+    return {name: np.array(column) if name in text_columns else np.array(column, dtype=float)
+            for name, column in columns.items()}
+
+
+def read_history(path):
+    """The same, of a table over time."""
+    table = read_table(path)
+    if len(table["time"]) < 2:
+        raise Skip(f"{path.name} holds a single time")
+    return table
+
+
+def read_entries(text):
+    """What a scene.prm of a run says: "Section/Entry" -> (value, default), in its order; the default is None where the
+    value is the default."""
+    entries, path = {}, []
+    for line in text.splitlines():
+        words, _, remark = line.partition("#")
+        words = words.strip()
+        if words.startswith("subsection "):
+            path.append(words.split(" ", 1)[1].strip())
+        elif words == "end" and path:
+            path.pop()
+        elif words.startswith("set "):
+            name, _, value = words[4:].partition("=")
+            default = remark.strip().removeprefix("default:").strip() if "default:" in remark else None
+            entries["/".join([*path, name.strip()])] = (value.strip(), default)
+    return entries
+
+
+def scene_of(entries):
+    """A scene file that has these entries, "Section/Entry" -> value."""
+    lines, path = [], []
+    for entry, value in entries.items():
+        *sections, name = entry.split("/")
+        while path != sections[:len(path)]:
+            path.pop()
+            lines.append("  " * len(path) + "end")
+        for section in sections[len(path):]:
+            lines.append("  " * len(path) + f"subsection {section}")
+            path.append(section)
+        lines.append("  " * len(path) + f"set {name} = {value}")
+    while path:
+        path.pop()
+        lines.append("  " * len(path) + "end")
+    return "\n".join(lines) + "\n"
+
+
+class Run:
+    """One finished run. Throws InputError for a directory that is none; tables that are not there are Skip."""
+
+    def __init__(self, directory):
+        self.directory = Path(directory)
+        file = self.directory / "summary.json"
+        if not file.exists():
+            raise InputError(f"{directory} holds no summary.json, so it is not the output directory of a finished run. Give the "
+                             "directory that voussoir was told to write to with --output.")
+        try:
+            self.summary = json.loads(file.read_text())
+        except ValueError as error:
+            raise InputError(f"{file} is not valid JSON: {error}. Repeat the run.") from error
+        if not isinstance(self.summary, dict):
+            raise InputError(f"{file} does not hold an object. Repeat the run.")
+        scene = str(self.summary.get("scene", self.directory.name))
+        self.scene = Path(scene).stem if scene.endswith(".prm") else scene
+        self.law = str(self.summary.get("law", ""))
+        self.tied = self.law.lower() == "tied"
+        self.heading = f"{self.scene}, {self.law}" if self.law else self.scene
+        self.name = self.heading  # among others; see name_apart()
+
+    def table(self, name, text_columns=()):
+        return read_table(self.directory / name, text_columns)
+
+    @cached_property
+    def history(self):
+        return read_history(self.directory / "history.csv")
+
+    @cached_property
+    def joint_history(self):
+        return read_history(self.directory / "joint_history.csv")
+
+    @cached_property
+    def joints(self):
+        """joints.csv from joint 1 on."""
+        table = self.table("joints.csv")
+        order = np.argsort(table["joint"])
+        return {name: column[order] for name, column in table.items()}
+
+    @cached_property
+    def energy(self):
+        return read_history(self.directory / "energy.csv")
+
+    @cached_property
+    def faces(self):
+        """Both faces: name -> {x, y, z, s, quads, max_principal [Pa], ...}; quads are numbers on this face."""
+        nodes, cells = self.table("faces.csv", ["face"]), self.table("faces_cells.csv", ["face"])
+        quads = np.stack([cells[f"n{i}"] for i in range(4)], axis=1).astype(int)
+        result = {}
+        for name in ("upstream", "downstream"):
+            mine = nodes["face"] == name
+            if not mine.any():
+                continue
+            number = np.cumsum(mine) - 1  # line in the file -> number on this face
+            result[name] = {key: column[mine] for key, column in nodes.items()}
+            result[name]["quads"] = number[quads[cells["face"] == name]]
+            for key in ("max_principal", "min_principal"):
+                if not np.isfinite(result[name][key]).all():
+                    raise ValueError(f"faces.csv: column {key} holds values that are not numbers")
+        return result
+
+    @cached_property
+    def base_acceleration(self):
+        """Direction -> acceleration [m/s2], of those that are not zero."""
+        found = {}
+        for name, column in self.history.items():
+            match = re.fullmatch(r"(?:base_a|base_acceleration_|a_)([xyz])", name.lower())
+            if match and np.any(column):
+                found[match[1]] = column
+        return found
+
+    @cached_property
+    def entries(self):
+        file = self.directory / "scene.prm"
+        return read_entries(file.read_text()) if file.exists() else {}
+
+    def limit(self, name):
+        """Entry "Limits/NAME" of the scene in its unit, 0 if there is none."""
+        try:
+            return float(self.entries[f"Limits/{name}"][0])
+        except (KeyError, ValueError):
+            return 0.
+
+    @cached_property
+    def facts(self):
+        """What the log says before the first step: title -> text."""
+        file, facts, title = self.directory / "log.txt", {}, None
+        for line in file.read_text().splitlines() if file.exists() else []:
+            if line.startswith("   time"):
+                break
+            if match := re.match(r"([A-Z]\w+) {1,9}(?=\S)(.*)", line):
+                title = match[1]
+                facts[title] = match[2] if title not in facts else facts[title] + "; " + match[2]
+            elif title and line.startswith(" " * 10):
+                facts[title] += "; " + line.strip()
+        return facts
+
+
+def name_apart(runs):
+    """Gives every run the shortest name that tells it from the others."""
+    for names in ([run.law for run in runs], [run.scene for run in runs], [run.heading for run in runs],
+                  [run.directory.resolve().name for run in runs], [str(run.directory) for run in runs]):
+        if all(names) and len(set(names)) == len(runs):
+            for run, name in zip(runs, names):
+                run.name = name
+            return
+    for number, run in enumerate(runs, 1):
+        run.name = f"{run.heading} ({number})"
