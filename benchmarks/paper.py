@@ -27,6 +27,7 @@ from program import ROOT, add_program_argument, run as program_output
 
 sys.path.insert(0, str(ROOT / "scripts"))
 from figures import read_table  # noqa: E402
+from paper_figures import upper_part  # noqa: E402
 from vtu import read_vtu  # noqa: E402
 
 REDUCED = {"Mesh/Arch210/Elements along": 36, "Mesh/Arch210/Elements up": 14, "Mesh/Arch210/Rock/Element size": 30}
@@ -137,7 +138,7 @@ class Run:
         diagonals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
         self.area = np.zeros(len(self.face))
         np.add.at(self.area, self.quads.ravel(), np.repeat(np.linalg.norm(diagonals, axis=1) / 8, 4))
-        self.upper = (nodes["z"] >= 150) & (np.abs(nodes["s"]) <= 150)
+        self.upper = upper_part(nodes["z"], nodes["s"])
 
     def measures(self):
         result = {}

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figures laid out as the paper's, for benchmarks/paper.py; and several single runs in one figure, for doc/rock.md:
 
-    benchmarks/paper_figures.py rock 'rigid base=DIR' FJA=DIR FJB=DIR [--output doc/figures]
+    benchmarks/paper_figures.py rock 'rigid base=DIR' FJA=DIR FJB=DIR [--output output/figures]
 
 DIR are the output directories; the first word begins the names of the figures.
 """
@@ -30,6 +30,13 @@ def colour_of(law, number):
     return COLOURS.get(law[:3], OTHERS[number % len(OTHERS)])
 
 
+def upper_part(z, s):
+    """Which places are in the upper part of a face: of the paper's dam, 210 m high, those above 150 m, within 150 m of the crown; of
+    others the same shares of the height."""
+    height = np.ptp(z)
+    return (z >= z.min() + 150. / 210. * height) & (np.abs(s) <= 150. / 210. * height)
+
+
 class Envelope:
     """The largest tension [MPa] on one face."""
 
@@ -51,12 +58,13 @@ class Envelope:
         outline, joints = figures.edges(drawn, np.stack([self.x, self.y, self.z], axis=1), self.quads)
         axes.add_collection(LineCollection(joints, colors="k", linewidths=0.5, capstyle="projecting"))
         axes.add_collection(LineCollection(outline, colors="k", linewidths=1.1, capstyle="projecting"))
-        axes.set(aspect="equal", xlim=(self.s.min() - 8, self.s.max() + 8), ylim=(-6, 216))
+        margin = .03 * np.ptp(self.z)
+        axes.set(aspect="equal", xlim=(self.s.min() - margin, self.s.max() + margin), ylim=(self.z.min() - margin, self.z.max() + margin))
         axes.grid(False)
         return contours
 
     def upper(self):
-        return self.value[(self.z >= 150) & (np.abs(self.s) <= 150)].mean()
+        return self.value[upper_part(self.z, self.s)].mean()
 
 
 def envelopes(rows, title, path):
@@ -148,10 +156,12 @@ def layout(run, path):
     axes.add_collection(LineCollection(drawn[np.vstack([envelope.quads.T, envelope.quads[:, 0]]).T], colors="0.7", linewidths=.4))
     axes.add_collection(LineCollection(joints, colors=COLOURS["FJB"], linewidths=1.6))
     axes.add_collection(LineCollection(outline, colors="k", linewidths=1.3))
-    tops = sorted({round(float(edge[np.argmax(edge[:, 1]), 0]), 1) for edge in joints if edge[:, 1].max() > 209.9})
+    height, top = np.ptp(drawn[:, 1]), drawn[:, 1].max()
+    tops = sorted({round(float(edge[np.argmax(edge[:, 1]), 0]), 1) for edge in joints if edge[:, 1].max() > top - 5e-4 * height})
     for k, s in enumerate(tops):
-        axes.text(s, 216, chr(ord("A") + k), ha="center", color=COLOURS["FJB"])
-    axes.set(aspect="equal", xlim=(drawn[:, 0].min() - 8, drawn[:, 0].max() + 8), ylim=(-6, 232), ylabel="z [m]",
+        axes.text(s, top + .03 * height, chr(ord("A") + k), ha="center", color=COLOURS["FJB"])
+    axes.set(aspect="equal", xlim=(drawn[:, 0].min() - .04 * height, drawn[:, 0].max() + .04 * height),
+             ylim=(drawn[:, 1].min() - .03 * height, top + .11 * height), ylabel="z [m]",
              xlabel="developed arc length s [m], from the right bank to the left")
     axes.grid(False)
     figure.savefig(path, dpi=80)
@@ -217,7 +227,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("name")
     parser.add_argument("runs", nargs="+", metavar="LABEL=DIR")
-    parser.add_argument("--output", type=Path, default=ROOT / "doc" / "figures")
+    parser.add_argument("--output", type=Path, default=Path("output/figures"), help="directory of the figures")
     options = parser.parse_args()
     if any("=" not in run for run in options.runs):
         parser.error("give runs as LABEL=DIR")
