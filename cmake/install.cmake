@@ -22,9 +22,7 @@ install(FILES ${CMAKE_BINARY_DIR}/cmake/VoussoirConfig.cmake ${CMAKE_BINARY_DIR}
   DESTINATION ${VOUSSOIR_CMAKE_DIR})
 
 # The program looks for its scripts in ../share/voussoir/scripts (source/output/python_script.cc).
-foreach(script accuracy command drawing figures picture report report_figures report_tables runs view vtu)
-  install(PROGRAMS scripts/${script}.py DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts)
-endforeach()
-install(FILES scripts/report.css DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts)
+install(DIRECTORY scripts/ DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts USE_SOURCE_PERMISSIONS FILES_MATCHING PATTERN "*.py"
+  PATTERN "*.css" PATTERN __pycache__ EXCLUDE PATTERN mutants.py EXCLUDE PATTERN function_lengths.py EXCLUDE)
 install(DIRECTORY prm meshes DESTINATION ${VOUSSOIR_SHARE_DIR} PATTERN __pycache__ EXCLUDE)
 install(FILES README.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})

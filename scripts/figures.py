@@ -10,7 +10,7 @@ history, joint_history                         crest and base; the joints that o
 spectrum                                       of the motion, with the design spectrum
 energy                                         energies and their balance
 
-Figures whose data are missing are skipped with a message.
+Of the output directory of `voussoir modes`: modes.png. Figures whose data are missing are skipped with a message.
 Exit status: 0 done, 1 some data could not be understood, 2 not an output directory, 3 no numpy or matplotlib.
 """
 
@@ -131,6 +131,11 @@ def main():
     parser.add_argument("directories", nargs="+", metavar="DIR")
     parser.add_argument("--format", default="png", choices=("png", "svg", "pdf"))
     options = parser.parse_args()
+    modes = Path(options.directories[0])
+    if (modes / "modes.csv").exists() and not (modes / "summary.json").exists():
+        from mode_shapes import draw_modes
+        draw_modes(modes)
+        return 0
     try:
         runs = [Run(directory) for directory in options.directories]
     except InputError as error:

@@ -150,11 +150,10 @@ def response(page, runs):
         page.row("Largest openings and slips over the height, of the joints that move most.",
                  [(named(open_, run), f"{q} over the height of {run.name}",
                    lambda run=run, q=q: figures.over_height(run, q, top[q])) for run in open_ for q in ("opening", "slip") if top[q] is not None])
-        highest = page.made("openings over time", lambda: figures.highest_opening(open_))
-        if highest is not None:
-            page.row("Openings at the crest over time, of the joints that open most.",
-                     [(named(open_, run), f"openings over time of {run.name}",
-                       lambda run=run: figures.openings_over_time(run, highest)) for run in open_])
+        highest = {q: page.made(f"{q} over time", lambda q=q: figures.highest_at_crest(open_, q)) for q in ("opening", "slip")}
+        page.row("Opening and slip at the crest over time, of the joints that open most.",
+                 [(named(open_, run), f"{q} over time of {run.name}", lambda run=run, q=q: figures.over_time(run, q, highest[q]))
+                  for run in open_ for q in ("opening", "slip") if highest[q] is not None])
 
 
 def stresses(page, runs):

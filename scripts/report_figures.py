@@ -92,7 +92,7 @@ def spectra(run, top):
             def made(_, axes, direction=direction):
                 draw_spectrum(axes[0], table, direction)
                 axes[0].set_ylabel("pseudo-acceleration [m/s²]")
-                axes[0].set_ylim(top / 200., 1.4 * top)
+                axes[0].set_ylim(top / 60., 1.4 * top)
             images[direction] = made
     return images
 
@@ -120,22 +120,23 @@ def crest_bars(run, quantity, runs):
     return made
 
 
-def openings_over_time(run, top):
+def over_time(run, quantity, top):
+    """Opening or slip at the crest, of the joints that open most."""
     worst = worst_joints(run, 3)
 
     @panel(0.5 + 1.15 * len(worst), rows=len(worst), sharey=True)
     def made(_, axes):
         for row, joint in zip(axes, worst):
-            draw_joint_history(row, run, joint)
+            draw_joint_history(row, run, joint, quantity)
             row.set_ylim(-0.04 * top, 1.3 * top or 1.)
         axes[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncol=2, borderaxespad=0.1)
-        axes[len(axes) // 2].set_ylabel("opening [mm]")
+        axes[len(axes) // 2].set_ylabel(f"{quantity} [mm]")
         axes[-1].set_xlabel("time [s]")
     return made
 
 
-def highest_opening(runs):
-    return max(1e3 * run.joint_history[name].max() for run in runs for name in run.joint_history if name.startswith("opening"))
+def highest_at_crest(runs, quantity):
+    return max(1e3 * run.joint_history[name].max() for run in runs for name in run.joint_history if name.startswith(quantity))
 
 
 def over_height(run, quantity, top):

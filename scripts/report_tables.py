@@ -35,7 +35,12 @@ def superscript(exponent):
 
 
 def with_unit(value, unit):
-    return f"{number(value, unit)}{' ' + unit if unit else ''}"
+    """Of a limit: as it was given, without zeros at the end."""
+    return f"{value * SCALES[unit]:.4g}{' ' + unit if unit else ''}"
+
+
+WORDS = {"demand_capacity": "demand-capacity ratio", "overstressed_share": "share of a face above the tensile strength",
+         "overstress_duration": "duration of overstress"}
 
 
 class Item:
@@ -118,8 +123,8 @@ def verdict(run):
     texts = []
     for name, limit in limits.items():
         if not limit["kept"]:
-            unit = {"Pa": "MPa", "m": "mm"}.get(limit.get("unit", ""), limit.get("unit", ""))
-            texts.append(f"{name.replace('_', ' ')} {number(limit['value'], unit)} of {with_unit(limit['limit'], unit)}")
+            unit = {"Pa": "MPa", "m": "mm"}.get(limit.get("unit", ""), limit.get("unit", "")) or ("%" if "share" in name else "")
+            texts.append(f"{WORDS.get(name, name.replace('_', ' '))} {number(limit['value'], unit)} of {with_unit(limit['limit'], unit)}")
     if not texts:
         return "kept", "All limits of the scene are kept."
     return "exceeded", f"{len(texts)} of {len(limits)} limits {'is' if len(texts) == 1 else 'are'} exceeded: {'; '.join(texts)}."
@@ -151,7 +156,7 @@ def extremes(runs):
             cells.append(f'<td class="n {one.state}">{number(one.value, one.unit)}</td>' if one else '<td class="n">–</td>')
         if limited:
             limit = next((of_run[key].limit for of_run in found if key in of_run and of_run[key].limit), None)
-            cells.append(f'<td class="n">{number(limit["limit"], item.unit) if limit else ""}</td>')
+            cells.append(f'<td class="n">{with_unit(limit["limit"], item.unit).removesuffix(item.unit) if limit else ""}</td>')
         if single:
             if limited:
                 cells.append(f'<td class="{item.state}">{item.state}</td>')

@@ -53,7 +53,7 @@ def options():
     for arguments, parts in ((["motion", "scene.prm", *out, "--resume"], ("`voussoir motion` has no option --resume",
                                                                          "`voussoir SCENE.prm`")),
                              (["scene.prm", "--count", "3"], ("no option --count", "`voussoir modes`")),
-                             (["modes", "scene.prm", *out], ("`voussoir modes` has no option --output",)),
+                             (["modes", "scene.prm", "--format", "2.2"], ("`voussoir modes` has no option --format",)),
                              (["mesh", "scene.prm", *out, "--validate"], ("no option --validate",)),
                              (["contact", "a.hdf5", "--set", "a=b"], ("no option --set",)),
                              (["parameters", "--quiet"], ("`voussoir parameters` has no option --quiet",)),

@@ -7,9 +7,9 @@
 #include <voussoir/app/contact_command.h>
 #include <voussoir/app/declared_entries.h>
 #include <voussoir/app/memory_need.h>
+#include <voussoir/app/modes_command.h>
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/error.h>
-#include <voussoir/dynamics/modes.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/mesh_axes.h>
 #include <voussoir/mesh/mesh_joints.h>
@@ -65,23 +65,6 @@ namespace Voussoir
                     quality.smallest_height, place(quality.smallest_height_at).c_str(),
                     quality.smallest_scaled_jacobian);
       }
-    }
-
-    void print_modes(const Scene &scene, const std::string &count_text)
-    {
-      unsigned int count = 0;
-      if (count_text.find_first_not_of("0123456789") != std::string::npos ||
-          std::sscanf(count_text.c_str(), "%u", &count) != 1 || count == 0)
-        throw InputError("--count must be a positive number, not \"" + count_text + "\".");
-      if (scene.foundation.model == "rock")
-        throw InputError(
-            "`voussoir modes` finds the frequencies of a dam on a rigid base or on massless rock: rock with "
-            "mass radiates. Give --set Foundation/Model=massless or rigid.");
-      Dam dam(scene, true);
-      std::printf("mode  frequency [Hz]\n");
-      const std::vector<double> frequencies = natural_frequencies(dam.structure, count);
-      for (unsigned int i = 0; i < frequencies.size(); ++i)
-        std::printf("%4u  %10.5f\n", i + 1, frequencies[i]);
     }
   } // namespace
 
@@ -155,7 +138,7 @@ namespace Voussoir
       if (command == "scene")
         std::cout << text.str();
       else if (command == "modes")
-        print_modes(scene, arguments.value("--count", "10"));
+        print_modes(scene, arguments.value("--count", "10"), arguments.value("--output"));
       else if (command == "mesh")
         write_mesh(scene, arguments);
       else

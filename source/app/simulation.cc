@@ -194,8 +194,11 @@ namespace Voussoir
     stability = std::make_unique<StabilityWatch>(*dam, motion, *newmark);
     joints = std::make_unique<JointRecorder>(structure, *dam->geometry);
     joints->reach = JointReach(*dam->model, structure.pairs);
+    joints->points =
+        JointPoints(*dam->model, structure.pairs, structure.n_joints, scene.limits.waterstop_depth);
     stress = std::make_unique<StressRecovery>(*dam->model, dam->materials, scene.elements.incompatible_modes);
     envelope = std::make_unique<EnvelopeRecorder>(*stress, dam->initial_stress);
+    envelope->overstress = Overstress(scene.limits.tensile_strength, dam->model->n_nodes());
     if (scene.error_estimate && n_steps > 0)
     {
       ContactParameters parameters = scene.contact;

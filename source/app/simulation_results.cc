@@ -2,6 +2,8 @@
 #include <voussoir/app/simulation.h>
 #include <voussoir/output/energy_check.h>
 #include <voussoir/output/figures.h>
+#include <voussoir/output/joint_surfaces.h>
+#include <voussoir/output/spectrum_table.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +11,32 @@
 
 namespace Voussoir
 {
+  namespace
+  {
+    std::string joints_beside(const std::string &solution) // solution-NNNNN.vtu
+    {
+      return "joints" + solution.substr(8);
+    }
+
+    /** solution.pvd: the dam, and its joints beside it, at all times so far. */
+    void write_collection(const std::string                                 &directory,
+                          const std::vector<std::pair<double, std::string>> &solutions, const bool has_joints)
+    {
+      OutputFile pvd(directory + "/solution.pvd");
+      const auto add = [&](const double time, const std::string &file, const int part)
+      { pvd << "<DataSet timestep=\"" << time << "\" file=\"" << file << "\" part=\"" << part << "\"/>\n"; };
+      pvd << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+      for (const auto &[time, file] : solutions)
+      {
+        add(time, file, 0);
+        if (has_joints)
+          add(time, joints_beside(file), 1);
+      }
+      pvd << "</Collection>\n</VTKFile>\n";
+      pvd.check();
+    }
+  } // namespace
+
   void Simulation::write_solution()
   {
     std::vector<Stress> s;
@@ -51,12 +79,11 @@ namespace Voussoir
     std::snprintf(name, sizeof(name), "solution-%05u.vtu", step);
     FieldWriter(*dam->model).write_vtu(directory + "/" + name, newmark->state().u, fields);
     solutions.emplace_back(newmark->state().time, name);
-    OutputFile pvd(directory + "/solution.pvd");
-    pvd << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-    for (const auto &solution : solutions)
-      pvd << "<DataSet timestep=\"" << solution.first << "\" file=\"" << solution.second << "\"/>\n";
-    pvd << "</Collection>\n</VTKFile>\n";
-    pvd.check();
+    const bool has_joints = !dam->structure.pairs.empty();
+    if (has_joints)
+      write_joint_surfaces(directory + "/" + joints_beside(name), *dam->model, dam->structure, *newmark,
+                           pairs);
+    write_collection(directory, solutions, has_joints);
   }
 
   void Simulation::open_tables()
@@ -64,6 +91,8 @@ namespace Voussoir
     history_file.open(directory + "/history.csv", history);
     energy_file.open(directory + "/energy.csv", energy);
     joint_file.open(directory + "/joint_history.csv", joints->history);
+    if (n_steps > 0)
+      spectrum_table(motion, scene.motion).write(directory + "/spectrum.csv");
   }
 
   void Simulation::write_tables()
@@ -72,6 +101,8 @@ namespace Voussoir
     energy_file.append(energy);
     joint_file.append(joints->history);
     joints->maxima().write(directory + "/joints.csv");
+    if (!dam->structure.pairs.empty())
+      joints->points.write(directory, *dam->geometry);
   }
 
   void Simulation::write_fields()

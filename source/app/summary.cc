@@ -3,6 +3,7 @@
 
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/error.h>
+#include <voussoir/output/assessment.h>
 
 #include <sys/resource.h>
 
@@ -12,13 +13,6 @@ namespace Voussoir
 {
   namespace
   {
-    Json json_of(const Extreme &extreme)
-    {
-      Json json;
-      json.add("value", extreme.value).add_list("place", extreme.place).add("time", extreme.time);
-      return json;
-    }
-
     Json json_of(const std::vector<Zone> &zones)
     {
       Json json;
@@ -147,11 +141,17 @@ namespace Voussoir
         .add("energy_balance_error", balance_error())
         .add("largest_energy", largest_energy())
         .add("static", json_of_statics())
-        .add("extremes", json_of_extremes())
-        .add_texts("warnings", log.warnings());
+        .add("extremes", json_of_extremes());
+    const Assessment assessment(scene.limits, *dam->model,
+                                scene.output.envelope_interval > 0 ? envelope.get() : nullptr,
+                                dam->structure.pairs.empty() ? nullptr : joints.get());
+    assessment.add_to(summary);
+    summary.add_texts("warnings", log.warnings());
     if (companion)
       summary.add("error_estimate", json_of_time_error());
     dam->foundation->add_to_summary(summary, grid());
+    if (!assessment.in_words().empty())
+      log.line("Limits    %s", assessment.in_words().c_str());
     OutputFile out(directory + "/summary.json");
     out << summary.text() << "\n";
     out.check();

@@ -247,6 +247,7 @@ namespace Voussoir
         Patterns::Selection(impact_rule_names()));
     prm.leave_subsection();
     contact.add_parameters(prm);
+    limits.add_parameters(prm);
     output.add_parameters(prm);
   }
 

@@ -24,7 +24,26 @@ namespace Voussoir
     };
   } // namespace
 
-  std::vector<double> natural_frequencies(const Structure &structure, const unsigned int n_modes)
+  Vector3 NaturalMode::participation(const Structure &structure) const
+  {
+    Vector3 sum{};
+    for (unsigned int i = 0; i < structure.n_nodes(); ++i)
+      for (unsigned int d = 0; d < 3; ++d)
+        for (unsigned int c = 0; c < 3; ++c)
+          sum[d] += shape[3 * i + c] * structure.mass[i][3 * c + d];
+    return sum;
+  }
+
+  Vector3 free_mass(const Structure &structure)
+  {
+    Vector3 sum{};
+    for (const Matrix3 &mass : structure.mass)
+      for (unsigned int d = 0; d < 3; ++d)
+        sum[d] += mass[4 * d];
+    return sum;
+  }
+
+  std::vector<NaturalMode> natural_modes(const Structure &structure, const unsigned int n_modes)
   {
     const unsigned int n = 3 * structure.n_nodes();
     if (2 * n_modes + 2 > n)
@@ -62,10 +81,25 @@ namespace Voussoir
     {
       throw ComputationError("The natural frequencies did not converge.");
     }
+    std::vector<NaturalMode> modes;
+    for (unsigned int k = 0; k < n_modes; ++k)
+    {
+      Vector<double> &phi = eigenvectors[k], Mphi(n);
+      mass.vmult(Mphi, phi);
+      phi /= std::sqrt(phi * Mphi);
+      modes.push_back({std::sqrt(eigenvalues[k].real()) / (2. * 3.14159265358979323846),
+                       Unknowns(phi.begin(), phi.end())});
+    }
+    std::sort(modes.begin(), modes.end(),
+              [](const NaturalMode &a, const NaturalMode &b) { return a.frequency < b.frequency; });
+    return modes;
+  }
+
+  std::vector<double> natural_frequencies(const Structure &structure, const unsigned int n_modes)
+  {
     std::vector<double> frequencies;
-    for (const auto &lambda : eigenvalues)
-      frequencies.push_back(std::sqrt(lambda.real()) / (2. * 3.14159265358979323846));
-    std::sort(frequencies.begin(), frequencies.end());
+    for (const NaturalMode &mode : natural_modes(structure, n_modes))
+      frequencies.push_back(mode.frequency);
     return frequencies;
   }
 } // namespace Voussoir

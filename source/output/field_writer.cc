@@ -5,6 +5,7 @@
 
 #include <voussoir/base/error.h>
 #include <voussoir/output/recorders.h>
+#include <voussoir/solid/face_quads.h>
 
 #include <fstream>
 #include <map>
@@ -19,6 +20,7 @@ namespace Voussoir
                               const std::vector<NodalField> &fields) const
   {
     const FESystem<3>          system(model.fe, 3);
+    Vector<float>              monolith(model.triangulation.n_active_cells());
     DoFHandler<3>              vector_handler(model.triangulation);
     Vector<float>              displacement;
     std::vector<Vector<float>> scalars;
@@ -29,6 +31,10 @@ namespace Voussoir
       scalars.emplace_back(field.values.begin(), field.values.end());
       data_out.add_data_vector(model.dof_handler, scalars.back(), field.name);
     }
+    for (const auto &cell : model.triangulation.active_cell_iterators())
+      monolith[cell->active_cell_index()] = static_cast<float>(cell->material_id());
+    data_out.attach_triangulation(model.triangulation);
+    data_out.add_data_vector(monolith, "monolith", DataOut<3>::type_cell_data);
     if (!u.empty())
     {
       vector_handler.distribute_dofs(system);
@@ -72,43 +78,25 @@ namespace Voussoir
     nodes << "face,monolith,x,y,z,s,max_principal,min_principal\n";
     quads << "face,monolith,n0,n1,n2,n3\n";
     unsigned int n_lines = 0;
-    // Nodes of a face in lexicographic order, and the quadrilaterals between them.
-    const unsigned int                   degree = model.fe.degree, per_side = degree + 1;
-    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
     for (const int surface : {PhysicalId::upstream, PhysicalId::downstream})
     {
       const std::string                    name = surface == PhysicalId::upstream ? "upstream" : "downstream";
       std::map<unsigned int, unsigned int> line_of;
-      for (const auto &cell : model.dof_handler.active_cell_iterators())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() && static_cast<int>(cell->face(f)->boundary_id()) == surface)
+      for (const FaceQuad &quad : face_quads(model, surface))
+      {
+        for (const unsigned int i : quad.nodes)
+          if (line_of.emplace(i, n_lines).second)
           {
-            cell->get_dof_indices(dofs);
-            // the face's nodes by their two tangential reference coordinates
-            const unsigned int        normal = f / 2, t0 = (normal + 1) % 3, t1 = (normal + 2) % 3;
-            std::vector<unsigned int> lattice(per_side * per_side);
-            for (unsigned int i = 0; i < dofs.size(); ++i)
-              if (model.fe.has_support_on_face(i, f))
-              {
-                const Point<3> &x = model.fe.unit_support_point(i);
-                lattice[static_cast<unsigned int>(x[t1] * degree + .5) * per_side +
-                        static_cast<unsigned int>(x[t0] * degree + .5)] = dofs[i];
-              }
-            for (const unsigned int i : lattice)
-              if (line_of.emplace(i, n_lines).second)
-              {
-                ++n_lines;
-                const Point<3> &p = model.points[i];
-                nodes << name << ',' << cell->material_id() << ',' << p[0] << ',' << p[1] << ',' << p[2]
-                      << ',' << geometry.arc_length(p) << ',' << maximum[i] << ',' << minimum[i] << '\n';
-              }
-            for (unsigned int j = 0; j < degree; ++j)
-              for (unsigned int i = 0; i < degree; ++i)
-                quads << name << ',' << cell->material_id() << ',' << line_of[lattice[j * per_side + i]]
-                      << ',' << line_of[lattice[j * per_side + i + 1]] << ','
-                      << line_of[lattice[(j + 1) * per_side + i + 1]] << ','
-                      << line_of[lattice[(j + 1) * per_side + i]] << '\n';
+            ++n_lines;
+            const Point<3> &p = model.points[i];
+            nodes << name << ',' << quad.monolith << ',' << p[0] << ',' << p[1] << ',' << p[2] << ','
+                  << geometry.arc_length(p) << ',' << maximum[i] << ',' << minimum[i] << '\n';
           }
+        quads << name << ',' << quad.monolith;
+        for (const unsigned int i : quad.nodes)
+          quads << ',' << line_of[i];
+        quads << '\n';
+      }
     }
     nodes.check();
     quads.check();

@@ -74,11 +74,13 @@ namespace Voussoir
       const Vector3 d = newmark.opening_and_slip(p);
       const double  s = std::hypot(d[1], d[2]);
       reach.record(p, structure.pairs[p], d);
+      points.record(p, d);
       if (d[0] > opening.value)
         opening = {d[0], time, structure.pairs[p].place};
       if (s > slip.value)
         slip = {s, time, structure.pairs[p].place};
     }
+    points.end_record(time);
     std::vector<double> row = {time};
     for (std::size_t j = 0; j < largest.size(); ++j)
     {
@@ -121,12 +123,14 @@ namespace Voussoir
   void EnvelopeRecorder::record(const double time, const Unknowns &u)
   {
     recovery.apply(u, stress);
+    overstress.begin(time);
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < static_cast<int>(stress.size()); ++i)
     {
       for (unsigned int c = 0; c < 6; ++c)
         stress[i][c] += initial[i][c];
       const auto p = principal_stresses(stress[i]);
+      overstress.add(i, p[0]);
       if (p[0] > maximum[i])
         maximum[i] = p[0], time_of_maximum[i] = static_cast<float>(time);
       if (p[1] < minimum[i])

@@ -27,16 +27,19 @@ namespace Voussoir
       if (folder == "figures")
       {
         static const std::regex figure("envelope_(up|down)stream(_compression)?|openings|slips|history|"
-                                       "joint_history|energy");
-        return relative.extension() == ".png" && std::regex_match(relative.stem().string(), figure);
+                                       "joint_history|spectrum|energy");
+        const auto              format = relative.extension();
+        return (format == ".png" || format == ".svg" || format == ".pdf") &&
+               std::regex_match(relative.stem().string(), figure);
       }
       if (folder == "contact/static" || folder == "contact/shaking")
         return std::regex_match(name, std::regex("problem-[0-9]{6}\\.hdf5"));
-      static const std::regex result(
-          "scene\\.prm|log\\.txt|summary\\.json|(history|energy|joints|joint_history|faces|faces_cells)\\."
-          "csv|"
-          "envelope\\.vtu|solution\\.pvd|solution-[0-9]{5,}\\.vtu|figures\\.log|checkpoint\\.txt|"
-          "checkpoint\\.bin(\\.before|\\.new)?|\\.voussoir");
+      static const std::regex result("scene\\.prm|log\\.txt|summary\\.json|(history|energy|joints|joint_"
+                                     "history|joint_points|joint_cells|spectrum|faces|faces_cells)\\."
+                                     "csv|"
+                                     "envelope\\.vtu|solution\\.pvd|(solution|joints)-[0-9]{5,}\\.vtu|"
+                                     "report\\.(html|pdf)|figures\\.log|checkpoint\\.txt|"
+                                     "checkpoint\\.bin(\\.before|\\.new)?|\\.voussoir");
       return folder.empty() && std::regex_match(name, result);
     }
 

@@ -4,6 +4,7 @@
 
 #include <voussoir/contact/contact_solver.h>
 #include <voussoir/contact/law_parameters.h>
+#include <voussoir/dam/limits.h>
 #include <voussoir/dam/reservoir.h>
 #include <voussoir/foundation/foundation_parameters.h>
 #include <voussoir/mesh/mesh_source.h>
@@ -91,6 +92,7 @@ namespace Voussoir
     unsigned int         steps_per_sample = 1;   ///< of the ground motion
     bool                 error_estimate = false; ///< of the time step
     MotionParameters     motion;
+    LimitParameters      limits;
     OutputParameters     output;
 
     std::vector<std::string> warnings; ///< of read_scene(), about entries that the user wrote

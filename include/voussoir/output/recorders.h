@@ -6,6 +6,8 @@
 #include <voussoir/dam/dam_geometry.h>
 #include <voussoir/dynamics/newmark.h>
 #include <voussoir/joints/joint_reach.h>
+#include <voussoir/output/joint_points.h>
+#include <voussoir/output/overstress.h>
 #include <voussoir/solid/stress.h>
 
 #include <algorithm>
@@ -38,18 +40,6 @@ namespace Voussoir
     std::size_t                 n_written = 0;
   };
 
-  /** A value with its place and time. */
-  struct Extreme
-  {
-    double  value = 0., time = 0.;
-    Vector3 place = {{0., 0., 0.}};
-
-    template <class Archive> void serialize(Archive &archive, unsigned int)
-    {
-      archive &value &time &place[0] & place[1] & place[2];
-    }
-  };
-
   /** Openings and slips of the joints: at the crest over time, and the largest anywhere. Opening and slip are
    * counted from the grouted state. */
   class JointRecorder
@@ -75,11 +65,12 @@ namespace Voussoir
     Table                history; ///< joint_history.csv
     Extreme              opening, slip;
     JointReach           reach;   ///< counts from when it is set
+    JointPoints          points;  ///< the same
     std::vector<Largest> largest; ///< per joint
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
-      archive &history &opening &slip &reach &largest;
+      archive &history &opening &slip &reach &points &largest;
     }
 
   private:
@@ -103,10 +94,11 @@ namespace Voussoir
     Extreme extreme(const SolidModel &model, int surface, bool largest) const;
 
     std::vector<float> maximum, minimum, time_of_maximum, time_of_minimum; ///< per node [Pa], [s]
+    Overstress         overstress;                                         ///< counts from when it is set
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
-      archive &maximum &minimum &time_of_maximum &time_of_minimum;
+      archive &maximum &minimum &time_of_maximum &time_of_minimum &overstress;
     }
 
   private:

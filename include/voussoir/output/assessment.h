@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_assessment_h
+#define voussoir_assessment_h
+
+#include <voussoir/base/log.h>
+#include <voussoir/dam/limits.h>
+#include <voussoir/output/recorders.h>
+
+#include <optional>
+
+namespace Voussoir
+{
+  /** A result against its limit. */
+  struct Verdict
+  {
+    std::string name, unit;
+    double      value, limit;
+    bool        kept() const { return value <= limit; }
+  };
+
+  /** The numbers that reports are written with: demand and capacity with the duration of overstress and its
+   * share of the faces, openings and slips at the waterstops, what remains of them; and all against the
+   * limits. */
+  class Assessment
+  {
+  public:
+    /** @p envelope: of the stresses; null: not recorded. @p joints: null: a tied dam. */
+    Assessment(const LimitParameters &limits, const SolidModel &model, const EnvelopeRecorder *envelope,
+               const JointRecorder *joints);
+
+    /** "overstress", "waterstop", "residual", and "limits": name -> value, limit, kept. */
+    void add_to(Json &summary) const;
+
+    std::string in_words() const; ///< which limits are exceeded, by how much; empty: there are none
+
+  private:
+    void hold(const std::string &name, const std::string &unit, double value, double limit);
+    void add_stresses(const SolidModel &model, const EnvelopeRecorder &envelope);
+    void add_demand(const SolidModel &model, const EnvelopeRecorder &envelope);
+    void add_joints(const JointRecorder &joints);
+
+    const LimitParameters limits;
+    std::vector<Verdict>  verdicts;
+    std::optional<Json>   overstress, waterstop, residual;
+  };
+
+  Json json_of(const Extreme &extreme); ///< value, place, time
+} // namespace Voussoir
+
+#endif

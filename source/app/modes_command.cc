@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/app/modes_command.h>
+#include <voussoir/base/error.h>
+#include <voussoir/dam/dam.h>
+#include <voussoir/dynamics/modes.h>
+#include <voussoir/output/figures.h>
+#include <voussoir/output/recorders.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+namespace Voussoir
+{
+  namespace
+  {
+    unsigned int count_of(const std::string &text)
+    {
+      unsigned int count = 0;
+      if (text.find_first_not_of("0123456789") != std::string::npos ||
+          std::sscanf(text.c_str(), "%u", &count) != 1 || count == 0)
+        throw InputError("--count must be a positive number, not \"" + text + "\".");
+      return count;
+    }
+
+    void make_directory(const std::string &directory)
+    {
+      std::error_code error;
+      std::filesystem::create_directories(directory, error);
+      if (error)
+        throw InputError("The directory " + directory + " cannot be made: " + error.message() +
+                         ". Choose another one with --output.");
+    }
+
+    /** modes.csv: participation factors are those of modes with a modal mass of one. */
+    Table table_of(const std::vector<NaturalMode> &modes, const Structure &structure)
+    {
+      const Vector3 whole = free_mass(structure);
+      Table         table;
+      table.columns = {"mode",
+                       "frequency",
+                       "participation_x",
+                       "participation_y",
+                       "participation_z",
+                       "effective_mass_x",
+                       "effective_mass_y",
+                       "effective_mass_z",
+                       "share_x",
+                       "share_y",
+                       "share_z"};
+      for (std::size_t k = 0; k < modes.size(); ++k)
+      {
+        const Vector3       factor = modes[k].participation(structure);
+        std::vector<double> row = {double(k + 1), modes[k].frequency};
+        row.insert(row.end(), factor.begin(), factor.end());
+        for (unsigned int d = 0; d < 3; ++d)
+          row.push_back(factor[d] * factor[d]);
+        for (unsigned int d = 0; d < 3; ++d)
+          row.push_back(factor[d] * factor[d] / whole[d]);
+        table.rows.push_back(row);
+      }
+      return table;
+    }
+
+    /** The shape as a displacement, the largest of which is 1 m. */
+    void write_shape(const Dam &dam, const NaturalMode &mode, const std::string &file)
+    {
+      double largest = 0.;
+      for (std::size_t k = 0; k + 2 < mode.shape.size(); k += 3)
+        largest = std::max(largest, std::hypot(mode.shape[k], mode.shape[k + 1], mode.shape[k + 2]));
+      Unknowns u = mode.shape;
+      for (double &x : u)
+        x /= largest;
+      FieldWriter(*dam.model).write_vtu(file, u, {});
+    }
+
+    void write_modes(const Dam &dam, const std::vector<NaturalMode> &modes, const std::string &directory)
+    {
+      const Table table = table_of(modes, dam.structure);
+      table.write(directory + "/modes.csv");
+      for (std::size_t k = 0; k < modes.size(); ++k)
+      {
+        char name[30];
+        std::snprintf(name, sizeof(name), "/mode-%03zu.vtu", k + 1);
+        write_shape(dam, modes[k], directory + name);
+      }
+      std::printf("\nEffective mass, of dam and water [%%]\nmode       x       y       z\n");
+      for (const auto &row : table.rows)
+        std::printf("%4.0f  %6.2f  %6.2f  %6.2f\n", row[0], 100. * row[8], 100. * row[9], 100. * row[10]);
+      std::fflush(stdout);
+      const std::string error = draw_figures_of(directory, directory + "/figures.log");
+      if (!error.empty())
+        std::cerr << "voussoir: warning: the mode shapes could not be drawn: " << error << ".\n";
+      std::printf("Results   %s\n", directory.c_str());
+    }
+  } // namespace
+
+  void print_modes(const Scene &scene, const std::string &count_text, const std::string &directory)
+  {
+    const unsigned int count = count_of(count_text);
+    if (scene.foundation.model == "rock")
+      throw InputError(
+          "`voussoir modes` finds the frequencies of a dam on a rigid base or on massless rock: rock with "
+          "mass radiates. Give --set Foundation/Model=massless or rigid.");
+    if (!directory.empty())
+      make_directory(directory);
+    const Dam dam(scene, true);
+    std::printf("mode  frequency [Hz]\n");
+    const std::vector<NaturalMode> modes = natural_modes(dam.structure, count);
+    for (std::size_t i = 0; i < modes.size(); ++i)
+      std::printf("%4zu  %10.5f\n", i + 1, modes[i].frequency);
+    if (!directory.empty())
+      write_modes(dam, modes, directory);
+  }
+} // namespace Voussoir

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/parameter_handler.h>
+
+#include <voussoir/dam/limits.h>
+
+namespace Voussoir
+{
+  void LimitParameters::add_parameters(dealii::ParameterHandler &prm)
+  {
+    const dealii::Patterns::Double not_negative(0.);
+    prm.enter_subsection("Limits");
+    prm.add_parameter("Tensile strength", tensile_strength,
+                      "Dynamic tensile strength of the concrete [Pa], to which demand-capacity ratios, the "
+                      "cumulative duration of overstress and its share of the faces refer; 0: none.",
+                      not_negative);
+    prm.add_parameter(
+        "Demand-capacity ratio", demand_capacity,
+        "Limit of the largest principal stress on the faces over the tensile strength [-]; USACE EM "
+        "1110-2-6053 has 2; 0: none.",
+        not_negative);
+    prm.add_parameter(
+        "Overstress duration", overstress_seconds,
+        "Limit of the cumulative duration for which the stress at a point of the faces is above "
+        "the tensile strength [s]; it falls in proportion to zero at twice the strength. USACE EM "
+        "1110-2-6053 has 0.4 s for arch dams; 0: none.",
+        not_negative);
+    prm.add_parameter("Overstressed share", overstress_share,
+                      "Limit of the share of either face where the stress is ever above the tensile strength "
+                      "[-]; USACE EM 1110-2-6053 has 0.2; 0: none.",
+                      dealii::Patterns::Double(0., 1.));
+    prm.add_parameter("Tension", tension, "Limit of the largest principal stress on the faces [Pa]; 0: none.",
+                      not_negative);
+    prm.add_parameter("Compression", compression,
+                      "Limit of the magnitude of the smallest principal stress, anywhere [Pa]; 0: none.",
+                      not_negative);
+    prm.add_parameter("Opening", opening, "Limit of the openings of the joints, anywhere [m]; 0: none.",
+                      not_negative);
+    prm.add_parameter("Slip", slip, "Limit of the slips of the joints, anywhere [m]; 0: none.", not_negative);
+    prm.add_parameter("Waterstop depth", waterstop_depth,
+                      "Distance of the waterstops from the upstream face [m]; openings and slips there are "
+                      "reported.",
+                      not_negative);
+    prm.add_parameter("Waterstop opening", waterstop_opening,
+                      "Limit of the openings at the waterstops [m]; 0: none.", not_negative);
+    prm.add_parameter("Waterstop slip", waterstop_slip, "Limit of the slips at the waterstops [m]; 0: none.",
+                      not_negative);
+    prm.leave_subsection();
+  }
+} // namespace Voussoir

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/output/assessment.h>
+#include <voussoir/solid/face_quads.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace Voussoir
+{
+  namespace
+  {
+    constexpr std::array<std::pair<int, const char *>, 2> faces = {
+        {{PhysicalId::upstream, "upstream"}, {PhysicalId::downstream, "downstream"}}};
+
+    using Levels = std::array<double, Overstress::n_levels>;
+
+    /** Demand over capacity on one face. */
+    struct Demand
+    {
+      double ratio = 0.; ///< the largest
+      Levels duration{}; ///< the longest at a node above each level [s]
+      Levels share{};    ///< of the face ever above each level
+    };
+
+    Demand demand_on(const SolidModel &model, const int surface, const EnvelopeRecorder &envelope,
+                     const double strength)
+    {
+      Demand demand;
+      double whole = 0.;
+      for (const FaceQuad &quad : face_quads(model, surface))
+      {
+        const double part = area(model, quad) / 4.;
+        for (const unsigned int node : quad.nodes)
+        {
+          const double ratio = envelope.maximum[node] / strength;
+          whole += part;
+          demand.ratio = std::max(demand.ratio, ratio);
+          for (unsigned int k = 0; k < Overstress::n_levels; ++k)
+          {
+            demand.duration[k] = std::max(demand.duration[k], envelope.overstress.duration(node, k));
+            demand.share[k] += ratio > Overstress::level(k) ? part : 0.;
+          }
+        }
+      }
+      for (double &share : demand.share)
+        share /= std::max(whole, 1e-300);
+      return demand;
+    }
+  } // namespace
+
+  Json json_of(const Extreme &extreme)
+  {
+    Json json;
+    json.add("value", extreme.value).add_list("place", extreme.place).add("time", extreme.time);
+    return json;
+  }
+
+  Assessment::Assessment(const LimitParameters &limits, const SolidModel &model,
+                         const EnvelopeRecorder *envelope, const JointRecorder *joints)
+      : limits(limits)
+  {
+    if (envelope != nullptr)
+      add_stresses(model, *envelope);
+    if (envelope != nullptr && envelope->overstress.watches())
+      add_demand(model, *envelope);
+    if (joints != nullptr)
+      add_joints(*joints);
+  }
+
+  void Assessment::hold(const std::string &name, const std::string &unit, const double value,
+                        const double limit)
+  {
+    if (limit > 0.)
+      verdicts.push_back({name, unit, value, limit});
+  }
+
+  void Assessment::add_stresses(const SolidModel &model, const EnvelopeRecorder &envelope)
+  {
+    for (const auto &[surface, name] : faces)
+      hold(std::string("tension_") + name, "Pa", envelope.extreme(model, surface, true).value,
+           limits.tension);
+    hold("compression", "Pa", -envelope.extreme(model, 0, false).value, limits.compression);
+  }
+
+  void Assessment::add_demand(const SolidModel &model, const EnvelopeRecorder &envelope)
+  {
+    Demand worst;
+    Levels levels;
+    for (unsigned int k = 0; k < Overstress::n_levels; ++k)
+      levels[k] = Overstress::level(k);
+    overstress.emplace();
+    overstress->add("tensile_strength", limits.tensile_strength).add_list("levels", levels);
+    for (const auto &[surface, name] : faces)
+    {
+      const Demand demand = demand_on(model, surface, envelope, limits.tensile_strength);
+      Json         of_face;
+      of_face.add("demand_capacity", demand.ratio)
+          .add_list("duration", demand.duration)
+          .add_list("share", demand.share);
+      overstress->add(name, of_face);
+      worst.ratio = std::max(worst.ratio, demand.ratio);
+      for (unsigned int k = 0; k < Overstress::n_levels; ++k)
+      {
+        worst.duration[k] = std::max(worst.duration[k], demand.duration[k]);
+        worst.share[k] = std::max(worst.share[k], demand.share[k]);
+      }
+    }
+    hold("demand_capacity", "", worst.ratio, limits.demand_capacity);
+    hold("overstressed_share", "", worst.share[0], limits.overstress_share);
+    if (!(limits.overstress_seconds > 0.))
+      return;
+    // The level at which the duration is farthest above what is allowed there.
+    Verdict verdict{"overstress_duration", "s", worst.duration[0], limits.overstress_seconds};
+    for (unsigned int k = 1; k < Overstress::n_levels; ++k)
+    {
+      const double allowed = std::max(0., limits.overstress_seconds * (2. - levels[k]));
+      if (worst.duration[k] - allowed > std::max(0., verdict.value - verdict.limit))
+        verdict.value = worst.duration[k], verdict.limit = allowed;
+    }
+    verdicts.push_back(verdict);
+  }
+
+  void Assessment::add_joints(const JointRecorder &joints)
+  {
+    const JointPoints &points = joints.points;
+    waterstop.emplace();
+    waterstop->add("depth", limits.waterstop_depth)
+        .add("max_opening", json_of(points.waterstop_opening))
+        .add("max_slip", json_of(points.waterstop_slip));
+    residual.emplace();
+    residual->add("max_opening", json_of(points.residual(false)))
+        .add("max_slip", json_of(points.residual(true)));
+    hold("opening", "m", joints.opening.value, limits.opening);
+    hold("slip", "m", joints.slip.value, limits.slip);
+    hold("waterstop_opening", "m", points.waterstop_opening.value, limits.waterstop_opening);
+    hold("waterstop_slip", "m", points.waterstop_slip.value, limits.waterstop_slip);
+  }
+
+  void Assessment::add_to(Json &summary) const
+  {
+    if (overstress)
+      summary.add("overstress", *overstress);
+    if (waterstop)
+      summary.add("waterstop", *waterstop).add("residual", *residual);
+    if (verdicts.empty())
+      return;
+    Json all;
+    for (const Verdict &verdict : verdicts)
+    {
+      Json one;
+      one.add("value", verdict.value)
+          .add("limit", verdict.limit)
+          .add("unit", verdict.unit)
+          .add_flag("kept", verdict.kept());
+      all.add(verdict.name, one);
+    }
+    summary.add("limits", all);
+  }
+
+  std::string Assessment::in_words() const
+  {
+    std::string exceeded;
+    for (const Verdict &verdict : verdicts)
+    {
+      std::string name = verdict.name;
+      std::replace(name.begin(), name.end(), '_', ' ');
+      const bool   stress = verdict.unit == "Pa", length = verdict.unit == "m";
+      const double scale = stress ? 1e-6 : length ? 1e3 : 1.;
+      char         text[120];
+      std::snprintf(text, sizeof(text), "%s %.3g of %.3g%s%s", name.c_str(), scale * verdict.value,
+                    scale * verdict.limit, verdict.unit.empty() ? "" : " ",
+                    stress   ? "MPa"
+                    : length ? "mm"
+                             : verdict.unit.c_str());
+      if (!verdict.kept())
+        exceeded += (exceeded.empty() ? "exceeded: " : ", ") + std::string(text);
+    }
+    return verdicts.empty() ? "" : exceeded.empty() ? "all are kept" : exceeded;
+  }
+} // namespace Voussoir

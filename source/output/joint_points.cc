@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/output_file.h>
+#include <voussoir/output/joint_points.h>
+#include <voussoir/solid/face_quads.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace Voussoir
+{
+  namespace
+  {
+    constexpr double endless = std::numeric_limits<double>::infinity();
+
+    Vector3 place_of(const dealii::Point<3> &p)
+    {
+      return {{p[0], p[1], p[2]}};
+    }
+
+    double length_of_slip(const Vector3 &moved)
+    {
+      return std::hypot(moved[1], moved[2]);
+    }
+  } // namespace
+
+  JointPoints::JointPoints(const SolidModel &model, const std::vector<Pair> &pairs,
+                           const unsigned int n_joints, const double depth)
+      : pairs(pairs), rims(n_joints), now(pairs.size(), Vector3{}), opening(pairs.size(), 0.),
+        slip(pairs.size(), 0.)
+  {
+    std::map<unsigned int, unsigned int> pair_of; // equation of a node of side 1 -> pair
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      if (pairs[p].node_1 != rigid_ground)
+        pair_of[pairs[p].node_1] = p;
+    for (unsigned int j = 0; j < n_joints; ++j)
+      for (const FaceQuad &quad : face_quads(model, PhysicalId::joint_side_1 + 1 + static_cast<int>(j)))
+      {
+        Quad of_joint{{}, j};
+        bool complete = true;
+        for (unsigned int k = 0; k < 4; ++k)
+        {
+          const unsigned int from = quad.nodes[k], to = quad.nodes[(k + 1) % 4];
+          if (model.on_surface(from, PhysicalId::upstream) && model.on_surface(to, PhysicalId::upstream))
+            rims[j].push_back({{place_of(model.points[from]), place_of(model.points[to])}});
+          const auto found = pair_of.find(model.equation[from]);
+          complete = complete && found != pair_of.end();
+          of_joint.pairs[k] = complete ? found->second : 0;
+        }
+        if (complete)
+          quads.push_back(of_joint);
+      }
+    for (const Pair &pair : pairs)
+      this->depth.push_back(distance(pair.place, pair.joint));
+    find_waterstops(depth);
+  }
+
+  /** Of a point from a joint's edge on the upstream face [m]; infinite where there is none. */
+  double JointPoints::distance(const Vector3 &p, const unsigned int joint) const
+  {
+    double nearest = endless;
+    for (const auto &[a, b] : rims[joint])
+    {
+      const Vector3 along = b - a, to = p - a;
+      const double  square = along[0] * along[0] + along[1] * along[1] + along[2] * along[2];
+      const double  t = std::clamp((to[0] * along[0] + to[1] * along[1] + to[2] * along[2]) / square, 0., 1.);
+      nearest =
+          std::min(nearest, std::hypot(to[0] - t * along[0], to[1] - t * along[1], to[2] - t * along[2]));
+    }
+    return nearest;
+  }
+
+  /** Where the edges of the joint's quadrilaterals cross the depth; those along the face do not. */
+  void JointPoints::find_waterstops(const double at)
+  {
+    std::set<std::pair<unsigned int, unsigned int>> known;
+    for (const Quad &quad : quads)
+      for (unsigned int k = 0; k < 4; ++k)
+      {
+        unsigned int from = quad.pairs[k], to = quad.pairs[(k + 1) % 4];
+        if (depth[from] > depth[to])
+          std::swap(from, to);
+        if (!(depth[from] <= at && at < depth[to]) || !known.emplace(from, to).second)
+          continue;
+        waterstops.push_back({from, to, (at - depth[from]) / (depth[to] - depth[from])});
+      }
+  }
+
+  void JointPoints::record(const unsigned int pair, const Vector3 &moved)
+  {
+    if (pair >= now.size())
+      return;
+    now[pair] = moved;
+    opening[pair] = std::max(opening[pair], moved[0]);
+    slip[pair] = std::max(slip[pair], length_of_slip(moved));
+  }
+
+  void JointPoints::end_record(const double time)
+  {
+    last_time = time;
+    for (const Between &point : waterstops)
+    {
+      const Vector3 &a = now[point.from], &b = now[point.to];
+      const Vector3 &from = pairs[point.from].place, &to = pairs[point.to].place;
+      Vector3        moved, place;
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        moved[d] = a[d] + point.share * (b[d] - a[d]);
+        place[d] = from[d] + point.share * (to[d] - from[d]);
+      }
+      waterstop_opening.raise(moved[0], time, place);
+      waterstop_slip.raise(length_of_slip(moved), time, place);
+    }
+  }
+
+  Extreme JointPoints::residual(const bool of_slip) const
+  {
+    Extreme largest;
+    for (std::size_t p = 0; p < now.size(); ++p)
+      largest.raise(of_slip ? length_of_slip(now[p]) : now[p][0], last_time, pairs[p].place);
+    return largest;
+  }
+
+  void JointPoints::write(const std::string &directory, const DamGeometry &geometry) const
+  {
+    OutputFile points(directory + "/joint_points.csv"), cells(directory + "/joint_cells.csv");
+    points.precision(8);
+    points << "joint,x,y,z,s,depth,area,max_opening,max_slip,residual_opening,residual_slip\n";
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+    {
+      const Vector3 &x = pairs[p].place;
+      points << pairs[p].joint + 1 << ',' << x[0] << ',' << x[1] << ',' << x[2] << ','
+             << geometry.arc_length(dealii::Point<3>(x[0], x[1], x[2])) << ',' << depth[p] << ','
+             << pairs[p].area << ',' << opening[p] << ',' << slip[p] << ',' << std::max(now[p][0], 0.) << ','
+             << length_of_slip(now[p]) << '\n';
+    }
+    cells << "joint,n0,n1,n2,n3\n";
+    for (const Quad &quad : quads)
+      cells << quad.joint + 1 << ',' << quad.pairs[0] << ',' << quad.pairs[1] << ',' << quad.pairs[2] << ','
+            << quad.pairs[3] << '\n';
+    points.check();
+    cells.check();
+  }
+} // namespace Voussoir

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/data_out_base.h>
+
+#include <voussoir/base/error.h>
+#include <voussoir/base/output_file.h>
+#include <voussoir/output/joint_surfaces.h>
+#include <voussoir/solid/face_quads.h>
+
+#include <map>
+
+namespace Voussoir
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const std::vector<std::string> names = {
+        "joint", "displacement", "displacement", "displacement", "opening",      "slip",       "slip",
+        "slip",  "pressure",     "shear_stress", "shear_stress", "shear_stress", "joint_state"};
+
+    /** The values of a pair, in the order of the names. */
+    std::vector<double> values_of(const unsigned int p, const Structure &structure, const Newmark &newmark,
+                                  const PairState state)
+    {
+      const Pair         &pair = structure.pairs[p];
+      const Vector3       moved = newmark.opening_and_slip(p);
+      const Unknowns     &u = newmark.state().u, &force = newmark.state().force;
+      std::vector<double> values = {double(pair.joint + 1)};
+      for (unsigned int c = 0; c < 3; ++c)
+        values.push_back(pair.node_1 == rigid_ground ? 0. : u[3 * pair.node_1 + c]);
+      values.push_back(moved[0]);
+      for (unsigned int c = 0; c < 3; ++c)
+        values.push_back(moved[1] * pair.frame[1][c] + moved[2] * pair.frame[2][c]);
+      values.push_back(force[3 * p] / pair.area);
+      for (unsigned int c = 0; c < 3; ++c)
+        values.push_back((force[3 * p + 1] * pair.frame[1][c] + force[3 * p + 2] * pair.frame[2][c]) /
+                         pair.area);
+      values.push_back(static_cast<double>(state));
+      return values;
+    }
+  } // namespace
+
+  void write_joint_surfaces(const std::string &file, const SolidModel &model, const Structure &structure,
+                            const Newmark &newmark, const std::vector<PairState> &states)
+  {
+    std::map<unsigned int, unsigned int> pair_of; // equation of a node of side 1 -> pair
+    for (unsigned int p = 0; p < structure.pairs.size(); ++p)
+      if (structure.pairs[p].node_1 != rigid_ground)
+        pair_of[structure.pairs[p].node_1] = p;
+    std::vector<DataOutBase::Patch<2, 3>> patches;
+    for (unsigned int j = 0; j < structure.n_joints; ++j)
+      for (const FaceQuad &quad : face_quads(model, PhysicalId::joint_side_1 + 1 + static_cast<int>(j)))
+      {
+        DataOutBase::Patch<2, 3> patch;
+        patch.reference_cell = ReferenceCells::Quadrilateral;
+        patch.data.reinit(names.size(), 4);
+        patch.patch_index = patches.size();
+        bool complete = true;
+        for (unsigned int k = 0; k < 4 && complete; ++k)
+        {
+          const unsigned int node = quad.nodes[k < 2 ? k : 5 - k]; // lexicographic, not around it
+          const auto         found = pair_of.find(model.equation[node]);
+          complete = found != pair_of.end();
+          if (!complete)
+            continue;
+          patch.vertices[k] = model.points[node];
+          const auto values = values_of(found->second, structure, newmark, states[found->second]);
+          for (std::size_t i = 0; i < values.size(); ++i)
+            patch.data(i, k) = values[i];
+        }
+        if (complete)
+          patches.push_back(patch);
+      }
+    OutputFile out(file);
+    using Range = std::tuple<unsigned int, unsigned int, std::string,
+                             DataComponentInterpretation::DataComponentInterpretation>;
+    constexpr auto           vector = DataComponentInterpretation::component_is_part_of_vector;
+    const std::vector<Range> vectors = {
+        {1, 3, "displacement", vector}, {5, 7, "slip", vector}, {9, 11, "shear_stress", vector}};
+    try
+    {
+      DataOutBase::write_vtu(patches, names, vectors, DataOutBase::VtkFlags(), out);
+    }
+    catch (const ExceptionBase &) // deal.II has noticed
+    {
+      throw WriteError::of(file);
+    }
+    out.check();
+  }
+} // namespace Voussoir

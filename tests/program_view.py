@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tests of the pictures: `voussoir view`, `voussoir modes --output`, figures of several runs, and the joints as surfaces.
+
+    program_view.py VOUSSOIR CASE...
+"""
+
+import csv
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+from program_physics import Solution, close, settings
+from run_program import expect, refused, run_cases, runs, summary, write_scene
+
+SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
+sys.path.insert(0, str(SCRIPTS))
+from vtu import read_vtu  # noqa: E402
+
+
+def table(name):
+    with open(name) as file:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def picture_of(path):
+    """Width and height of a PNG that is one."""
+    data = Path(path).read_bytes()
+    expect(data[:8] == b"\x89PNG\r\n\x1a\n" and len(data) > 5000, f"{path} is no picture")
+    return int.from_bytes(data[16:20], "big"), int.from_bytes(data[20:24], "big")
+
+
+def view():
+    """Mesh and groups of a dam alone and with rock; the whole volume and every face are in the files."""
+    write_scene()
+    text = runs("view", "scene.prm", "--output", "dam")
+    expect("upstream 2" in text, text)
+    small = picture_of("dam/view.png")
+    mesh, surfaces = read_vtu("dam/mesh.vtu"), read_vtu("dam/surfaces.vtu")
+    volume = [set() for _ in range(4)]
+    for number in mesh["monolith"]:
+        volume[int(number)].add(number)
+    expect(len(mesh["monolith"]) == len(mesh["connectivity"]) // 8 and sum(map(bool, volume)) == 3, "three monoliths")
+    expect(set(surfaces["group"]) == {1., 2., 3., 4.}, f"groups {set(surfaces['group'])}")
+    runs("view", "scene.prm", "--output", "rock", "--set", "Mesh/Arch210/Rock/Enabled=true", "--set", "Mesh/Arch210/Rock/Element size=150")
+    expect(max(read_vtu("rock/mesh.vtu")["monolith"]) >= 1000, "no rock")
+    expect(set(read_vtu("rock/surfaces.vtu")["group"]) >= {2., 3., 4., 5., 6.}, "groups of the rock")
+    expect(picture_of("rock/view.png")[1] > small[1], "the rock has no panel of its own")
+    refused(["view", "nothing.prm"], "nothing.prm")
+    refused(["view"], "voussoir view SCENE.prm")
+    refused(["view", "scene.prm", "--set", "Mesh/Nothing=1"], "Nothing")
+
+
+def modes():
+    """Shapes and effective masses: orthogonal to each other, and in all as much as the mass."""
+    write_scene()
+    text = runs("modes", "scene.prm", "--count", "40", "--output", "modes", *settings("Reservoir/Density=0"))
+    rows = table("modes/modes.csv")
+    expect(len(rows) == 40 and "Effective mass" in text, text)
+    for row in rows:
+        for d in "xyz":
+            close(row[f"participation_{d}"] ** 2, row[f"effective_mass_{d}"], 1e-6, "effective mass")
+            expect(0. <= row[f"share_{d}"] <= 1., f"share {row}")
+    shares = {d: sum(row[f"share_{d}"] for row in rows) for d in "xyz"}
+    print("    shares of 40 modes:", {d: round(share, 4) for d, share in shares.items()})
+    expect(all(.85 < share < 1. + 1e-9 for share in shares.values()), f"shares of the mass: {shares}")
+    whole = rows[0]["effective_mass_x"] / rows[0]["share_x"]
+    expect(0. < whole < 2400. * summary_of_volume(), "the free nodes are heavier than the dam")
+    shape = read_vtu("modes/mode-001.vtu")["displacement"]
+    close(max(math.hypot(*shape[i:i + 3]) for i in range(0, len(shape), 3)), 1., 1e-5, "largest displacement of a shape")
+    picture_of("modes/modes.png")
+    frequencies = [float(line.split()[1]) for line in text.splitlines() if line.strip()[:1].isdigit() and len(line.split()) == 2]
+    close(frequencies[0], rows[0]["frequency"], 1e-4, "frequency")
+
+
+def summary_of_volume():
+    runs("scene.prm", "--output", "still", "--overwrite", *settings("Motion/Source=none", "Motion/File=", "Motion/Unit=m/s^2"))
+    return summary("still")["mesh"]["volume"]
+
+
+def joint_surfaces():
+    """joints-*.vtu beside solution-*.vtu: the same openings, slips and states; the pressure carries what friction needs."""
+    write_scene()
+    runs("scene.prm", "--output", "run", *settings("Output/Solution interval=10", "Joints/Friction=0.3"))
+    pvd = Path("run/solution.pvd").read_text()
+    expect(pvd.count("solution-") == pvd.count("joints-") == 6 and 'part="1"' in pvd, pvd)
+    checked = 0
+    for number in (0, 20, 50):
+        dam, joints = Solution(f"run/solution-{number:05d}.vtu"), Solution(f"run/joints-{number:05d}.vtu")
+        expect(set(joints.data["joint"]) == {1., 2.}, "two joints")
+        for i, place in enumerate(joints.points):
+            k = next(k for k in dam.near(place) if dam.data["joint_state"][k] >= 0)
+            slip, shear = joints.data["slip"][3 * i:3 * i + 3], joints.data["shear_stress"][3 * i:3 * i + 3]
+            expect(abs(joints.data["opening"][i] - dam.data["opening"][k]) < 1e-8, "opening")
+            expect(abs(math.hypot(*slip) - dam.data["slip"][k]) < 1e-8, "length of the slip")
+            expect(joints.data["joint_state"][i] == dam.data["joint_state"][k], "state")
+            expect(math.hypot(*shear) <= .3 * max(joints.data["pressure"][i], 0.) * (1 + 1e-4) + 1e-3, "more shear than friction gives")
+            checked += math.hypot(*shear) > 1e3
+    expect(checked > 10, "no shear anywhere: this scene tells nothing")
+    rows = table("run/joint_points.csv")
+    close(sum(row["area"] for row in rows if row["joint"] == 1), area_of(Solution("run/joints-00000.vtu"), 1.), .02, "area of joint 1")
+
+
+def area_of(surface, joint):
+    """Of the quadrilaterals of a joint, by their diagonals."""
+    total, nodes = 0., surface.data["connectivity"]
+    for i in range(0, len(nodes), 4):
+        if surface.data["joint"][nodes[i]] == joint:
+            p = [surface.points[n] for n in nodes[i:i + 4]]
+            a, b = ([y - x for x, y in zip(p[k], p[k + 2])] for k in (0, 1))
+            total += .5 * math.hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+    return total
+
+
+def figures():
+    """Of several runs on the same scales, as PNG and as PDF; a tied run beside one that is not."""
+    write_scene()
+    for name, model in (("fja", "FJA"), ("tied", "tied")):
+        runs("scene.prm", "--output", name, "--set", f"Joints/Model={model}")
+    python = "/usr/bin/python3"
+    for extra, ending in (([], "png"), (["--format", "pdf"], "pdf")):
+        result = subprocess.run([python, str(SCRIPTS / "figures.py"), "fja", "tied", *extra], capture_output=True, text=True, check=False)
+        expect(result.returncode == 0 and "error" not in result.stderr, f"{result}")
+        for name in ("envelope_upstream", "envelope_downstream_compression", "history", "spectrum", "energy"):
+            expect(all(Path(run, "figures", f"{name}.{ending}").stat().st_size > 3000 for run in ("fja", "tied")), f"{name}.{ending}")
+        expect(Path("fja/figures", f"openings.{ending}").exists() and not Path("tied/figures", f"openings.{ending}").exists(), "openings")
+    runs("scene.prm", "--output", "fja", "--overwrite")  # the figures are results, not files of others
+    expect(not Path("fja/figures/history.pdf").exists(), "figures of the run before are left")
+
+
+if __name__ == "__main__":
+    run_cases(view, modes, joint_surfaces, figures)
