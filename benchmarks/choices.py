@@ -1,0 +1,153 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Error against cost of the choices that a scene has, each against the best of its kind.
+
+    benchmarks/choices.py [GROUP...] [--seconds 3] [--voussoir PROGRAM]
+
+Groups: steps (time step and rule of impact), steps28 (28 joints), estimate, estimate28 (Dynamics/Error estimate), elements,
+solvers, boundary, free_field, rock_steps.
+The measures are those of `voussoir accuracy`: largest openings of the joints (root of the sum of squares), means of the
+tension envelope over nine zones of each face; over the strongest seconds of the scene's motion. Each group has a
+reference: the finest step, mesh or box. Prints Markdown tables, writes doc/figures/choices_GROUP.png. Cost: seconds of
+wall time of one thread per second of earthquake, without set-up; run it on a quiet machine.
+"""
+
+import argparse
+import sys
+import tempfile
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+
+from program import ROOT, add_program_argument, run, simulate
+
+sys.path.insert(0, str(ROOT / "scripts"))
+from accuracy import read, strongest, zone_means  # noqa: E402
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+RIGID, ROCK, MANY = (ROOT / "prm" / f"{name}.prm" for name in ("quickstart", "rock_fja", "rigid28"))
+STEPS = "Dynamics/Steps per sample"
+BOX = {f"Mesh/Arch210/Rock/{side}": 420 for side in ("Upstream", "Downstream", "Sides", "Depth")}
+
+
+def mesh(along, up, through):
+    return {"Mesh/Arch210/Elements along": along, "Mesh/Arch210/Elements up": up, "Mesh/Arch210/Elements through": through}
+
+
+def name(sizes):
+    return " x ".join(map(str, sizes))
+
+
+def steps_of(rules, counts):
+    return [(rule, f"{10 / n:g} ms", {STEPS: n, "Dynamics/Impact": rule}) for rule in rules for n in counts]
+
+
+def groups():
+    """Name -> scene, settings of all, rows (curve, label, settings), settings of the reference, what it is."""
+    many = mesh(58, 21, 2)
+    linear, quadratic = [(30, 8, 1), (60, 16, 2), (90, 24, 3)], [(18, 6, 1), (30, 8, 1), (48, 12, 1)]
+    modes, degree = "Elements/Incompatible modes", "Elements/Degree"
+    rock = {**mesh(30, 10, 1), STEPS: 5, "Mesh/Arch210/Rock/Boundary layers": 8}
+    told = [("with its estimate", f"{10 / n:g} ms", {STEPS: n, "Dynamics/Error estimate": "true"}) for n in (1, 2, 4)]
+    return {
+        "steps": (RIGID, {}, steps_of(("mean-force", "impulse-consistent", "paper", "none"), (1, 2, 4)), {STEPS: 8},
+                  "mean-force at 1.25 ms, on the same mesh"),
+        "steps28": (MANY, many, steps_of(("mean-force",), (1, 2, 4)), {STEPS: 8}, "1.25 ms, on the same mesh (58 x 21 x 2)"),
+        "estimate": (RIGID, {}, steps_of(("mean-force",), (1, 2, 4)) + told, {STEPS: 8}, "1.25 ms, on the same mesh"),
+        "estimate28": (MANY, many, told, {STEPS: 8}, "1.25 ms, on the same mesh (58 x 21 x 2)"),
+        "elements": (RIGID, {STEPS: 2},
+                     [("degree 1, modes", name(m), mesh(*m)) for m in linear]
+                     + [("degree 1, plain", name(m), {**mesh(*m), modes: "false"}) for m in linear]
+                     + [("degree 2", name(m), {**mesh(*m), degree: 2}) for m in quadratic],
+                     mesh(120, 32, 4), "degree 1 with modes, 120 x 32 x 4"),
+        "solvers": (RIGID, {},
+                    [("method", name, {"Contact/Method": name}) for name in ("newton", "proximal", "sweeps")]
+                    + [("equations", name, {"Joints/Equations": name}) for name in ("alart-curnier", "paper")]
+                    + [("tolerance", x, {"Contact/Tolerance": x}) for x in ("1e-4", "1e-6", "1e-8")],
+                    {"Contact/Tolerance": "1e-12"}, "the tolerance 1e-12"),
+        "boundary": (ROCK, rock, [("boundary", b, {"Foundation/Boundary": b}) for b in
+                                  ("fixed", "viscous-spring", "mtf1", "mtf2", "mtf3", "mtf4")],
+                     BOX, "mtf3 in a box that reaches twice as far"),
+        "free_field": (ROCK, rock, [("free field", f, {"Foundation/Free field": f}) for f in ("sections", "columns")],
+                       BOX, "sections in a box that reaches twice as far"),
+        "rock_steps": (ROCK, {**rock, STEPS: 1},
+                       [(coupling, f"{10 // n} ms, {5 // n if n < 5 else 1} of the rock", {STEPS: n, "Foundation/Substeps": 5 // n, "Foundation/Coupling": coupling})
+                        for coupling in ("mean traction", "partition") for n in (1,)] + [("one step", "2 ms", {STEPS: 5})],
+                       {STEPS: 20}, "one step for dam and rock, 0.5 ms"),
+    }
+
+
+class Runs:
+    def __init__(self, options, scene, common, directory):
+        self.options, self.scene, self.directory, self.n = options, scene, Path(directory), 0
+        run(options.voussoir, "motion", scene, "--output", self.directory / "whole.csv")
+        part, _ = strongest(np.loadtxt(self.directory / "whole.csv", delimiter=",", skiprows=1), options.seconds)
+        np.savetxt(self.directory / "motion.csv", part, delimiter=",")
+        self.common = {"Motion/Source": "file", "Motion/File": self.directory / "motion.csv", "Output/Checkpoint interval": 0, "Motion/Duration": -1,
+                       **common}
+        self.duration = part[-1, 0]
+
+    def measure(self, settings):
+        self.n += 1
+        directory = self.directory / str(self.n)
+        summary = simulate(self.options.voussoir, self.scene, {**self.common, **settings}, directory)
+        openings = np.array([max(float(j["opening_upstream"]), float(j["opening_downstream"]))
+                             for j in read(directory / "joints.csv")])
+        print(".", end="", file=sys.stderr, flush=True)
+        return openings, zone_means(directory), summary
+
+
+def error(value, reference):
+    return float(np.linalg.norm(value - reference) / np.linalg.norm(reference))
+
+
+def study(name, options):
+    scene, common, rows, best, what = groups()[name]
+    with tempfile.TemporaryDirectory() as directory:
+        runs = Runs(options, scene, common, directory)
+        reference = runs.measure(best)
+        results = []
+        for curve, label, settings in rows:
+            openings, tensions, summary = runs.measure(settings)
+            told = summary.get("error_estimate", {}).get("openings")
+            results.append((curve, str(label), summary["seconds"]["shaking"] / runs.duration,
+                            error(openings, reference[0]), error(tensions, reference[1]),
+                            "" if told is None else f"{100 * told:.2g} %", summary["newton_iterations"]["mean"],
+                            summary["energy_balance_error"]))
+    print(f"\n### {name}: against {what}\n\n| choice | | s per s | openings | by estimate | tension | Newton steps | energy account |\n|"
+          + "---|" * 8)
+    for curve, label, cost, o, t, told, newton, balance in results:
+        print(f"| {curve} | {label} | {cost:.2f} | {100 * o:.2g} % | {told} | {100 * t:.2g} % | {newton:.2f} | {balance:.0e} |")
+    draw(name, what, results)
+
+
+def draw(name, what, results):
+    figure, axes = plt.subplots(figsize=(6.4, 4.4))
+    for mark, curve in zip("os^vDP", dict.fromkeys(r[0] for r in results)):
+        rows = [r for r in results if r[0] == curve]
+        axes.plot([r[2] for r in rows], [100 * max(r[3:5]) for r in rows], mark + "-", label=curve)
+        for r in rows:
+            axes.annotate(r[1], (r[2], 100 * max(r[3:5])), textcoords="offset points", xytext=(5, 4), fontsize=7.5)
+    axes.set(xscale="log", yscale="log", xlabel="cost: seconds of one thread per second of earthquake",
+             ylabel="error of openings or zone tension, the larger [%]", title=f"{name}: against {what}")
+    axes.title.set_fontsize(9.5)
+    axes.grid(True, which="both", linewidth=0.4, color="0.88")
+    axes.legend(frameon=False, fontsize=9)
+    figure.savefig(ROOT / "doc" / "figures" / f"choices_{name}.png", dpi=110, bbox_inches="tight")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    add_program_argument(parser)
+    parser.add_argument("groups", nargs="*", choices=list(groups()) + [[]])
+    parser.add_argument("--seconds", type=float, default=3)
+    options = parser.parse_args()
+    for group in options.groups or groups():
+        study(group, options)
+
+
+if __name__ == "__main__":
+    main()
