@@ -21,7 +21,7 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/cmake/VoussoirConfigVersion
 install(FILES ${CMAKE_BINARY_DIR}/cmake/VoussoirConfig.cmake ${CMAKE_BINARY_DIR}/cmake/VoussoirConfigVersion.cmake
   DESTINATION ${VOUSSOIR_CMAKE_DIR})
 
-# The program looks for its scripts in ../share/voussoir/scripts (source/output/python_script.cc).
+# The program looks for its scripts in ../share/voussoir/scripts (source/base/python_script.cc).
 install(DIRECTORY scripts/ DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts USE_SOURCE_PERMISSIONS FILES_MATCHING PATTERN "*.py"
   PATTERN "*.css" PATTERN __pycache__ EXCLUDE PATTERN mutants.py EXCLUDE PATTERN function_lengths.py EXCLUDE)
 install(DIRECTORY prm meshes DESTINATION ${VOUSSOIR_SHARE_DIR} PATTERN __pycache__ EXCLUDE)

@@ -6,11 +6,11 @@ set -euo pipefail
 
 required=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev libfclib-dev libhdf5-dev
           ninja-build cmake g++ git python3-matplotlib)
-optional=()
+optional=(python3-meshio) # reads .inp and .med
 if [[ "${1:-}" != --program ]]; then
   required+=(gmsh numdiff ccache clang-format shellcheck doxygen)
   # Only benchmarks/calculix.py and contact.py, and the test that looks at the page of `voussoir report`, use them.
-  optional=(calculix-ccx python3-siconos python3-h5py chromium)
+  optional+=(calculix-ccx python3-siconos python3-h5py chromium)
 fi
 
 missing() # PACKAGE...: those that are not installed

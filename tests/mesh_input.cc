@@ -10,6 +10,7 @@
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/mesh/mesh_source.h>
+#include <voussoir/mesh/subdivide.h>
 
 #include <filesystem>
 #include <fstream>
@@ -99,7 +100,8 @@ namespace
     const std::string names = "$PhysicalNames\n1\n3 1 \"monolith 1\"\n$EndPhysicalNames\n";
     const std::string nodes = "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
     write_text("tetrahedra.msh", head + names + nodes + "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n");
-    expect_error([] { read_gmsh("tetrahedra.msh"); }, {"Tetrahedron", "monolith 1", "8-node hexahedra"});
+    expect_error([] { read_gmsh("tetrahedra.msh"); },
+                 {"Tetrahedron", "monolith 1", "hexahedra", "lock", "SubdivisionAlgorithm"});
     write_text("empty.msh", head + nodes + "$Elements\n0\n$EndElements\n");
     expect_error([] { read_gmsh("empty.msh"); }, {"no hexahedra"});
     write_text("truncated.msh", head + names + nodes + "$Elements\n3\n1 4 2 1 1 1 2");
@@ -118,8 +120,9 @@ namespace
       quadratic << " " << n;
     quadratic << "\n$EndElements\n";
     write_text("quadratic.msh", quadratic.str());
-    expect_error([] { read_gmsh("quadratic.msh"); },
-                 {"Hexahedron 20", "ElementOrder = 1", "raises the degree"});
+    const HexMesh cube = read_gmsh("quadratic.msh"); // its corners
+    expect(cube.cells.size() == 1 && cube.nodes.size() == 8, "hexahedron of 20 nodes");
+    expect_close(volume(cube), 1., 1e-12, "volume of its corners");
 
     expect_error<WriteError>([] { write_gmsh(bar(1), "no_such_directory/a.msh"); },
                              {"no_such_directory/a.msh", "cannot be written"});
@@ -128,6 +131,44 @@ namespace
     unknown.faces[0].surface = 77;
     write_gmsh(unknown, "unknown.msh");
     expect_error([] { read_gmsh("unknown.msh"); }, {"surface 77", "unknown"});
+  }
+
+  /** A cube and beside it half a cube, as a wedge or as a hexahedron with two edges collapsed. */
+  std::string wedge_file(const bool collapsed)
+  {
+    std::string text =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"monolith 1\"\n2 1 \"base\"\n"
+        "$EndPhysicalNames\n$Nodes\n10\n";
+    const double nodes[10][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},
+                                 {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {2, 0, 0}, {2, 0, 1}};
+    for (unsigned int n = 0; n < 10; ++n)
+      text += std::to_string(n + 1) + " " + std::to_string(nodes[n][0]) + " " + std::to_string(nodes[n][1]) +
+              " " + std::to_string(nodes[n][2]) + "\n";
+    text += "$EndNodes\n$Elements\n4\n1 3 2 1 1 1 2 3 4\n2 2 2 1 1 2 9 3\n3 5 2 1 2 1 2 3 4 5 6 7 8\n";
+    text += collapsed ? "4 5 2 1 2 2 9 9 3 6 10 10 7\n" : "4 6 2 1 2 2 9 3 6 10 7\n";
+    return text + "$EndElements\n";
+  }
+
+  void test_wedges()
+  {
+    for (const bool collapsed : {false, true})
+    {
+      write_text("wedge.msh", wedge_file(collapsed));
+      expect_error([] { read_gmsh("wedge.msh"); },
+                   {"element 4 of monolith 1", "wedge", "\"Mesh/Subdivide\" = true"});
+      const HexMesh mesh = read_gmsh("wedge.msh", true);
+      expect(mesh.cells.size() == 14 && mesh.faces.size() == 7, "cells and faces");
+      expect_close(volume(mesh), 1.5, 1e-12, "volume");
+      check_mesh(mesh, "wedge.msh");
+      for (const HexMesh::Cell &cell : mesh.cells)
+        expect(min_jacobian(mesh, cell) > .02, "shape");
+      double base = 0.;
+      for (const HexMesh::Face &face : mesh.faces)
+        base += centre(mesh, face.nodes)[2];
+      expect(base == 0., "faces of the base");
+    }
+    const std::vector<unsigned int> cube = {0, 1, 2, 3, 4, 5, 6, 7};
+    expect(without_double_corners(cube) == cube, "a hexahedron is one");
   }
 
   void test_bad_meshes()
@@ -185,5 +226,6 @@ int main()
               {"axes and units", test_axes_and_units},
               {"parameters", test_parameters},
               {"bad files", test_bad_files},
+              {"wedges", test_wedges},
               {"bad meshes", test_bad_meshes}});
 }

@@ -10,12 +10,12 @@
 #include <voussoir/app/modes_command.h>
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/python_script.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/mesh_axes.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
-#include <voussoir/output/python_script.h>
 
 #include <algorithm>
 #include <cstdio>

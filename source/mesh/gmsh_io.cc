@@ -5,6 +5,7 @@
 #include <voussoir/mesh/gmsh_session.h>
 #include <voussoir/mesh/mesh_groups.h>
 #include <voussoir/mesh/mesh_pipe.h>
+#include <voussoir/mesh/subdivide.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,7 +18,32 @@ namespace Voussoir
   namespace
   {
     namespace model = gmsh::model;
-    using GmshType::hexahedron_8, GmshType::quadrangle_4;
+
+    /** Gmsh's elements that are read: of higher order by their corners, which come first. */
+    struct ElementKind
+    {
+      int         dimension, type;
+      std::size_t n_corners;
+    };
+    constexpr ElementKind kinds[] = {{3, GmshType::hexahedron_8, 8},
+                                     {3, 12, 8},
+                                     {3, 17, 8}, // 8, 27, 20 nodes
+                                     {3, 6, 6},
+                                     {3, 13, 6},
+                                     {3, 18, 6}, // wedges
+                                     {2, GmshType::quadrangle_4, 4},
+                                     {2, 10, 4},
+                                     {2, 16, 4}, // 4, 9, 8 nodes
+                                     {2, 2, 3},
+                                     {2, 9, 3}}; // triangles
+
+    const ElementKind *kind_of(const int dimension, const int type)
+    {
+      const auto found = std::find_if(std::begin(kinds), std::end(kinds),
+                                      [&](const ElementKind &kind)
+                                      { return kind.dimension == dimension && kind.type == type; });
+      return found == std::end(kinds) ? nullptr : found;
+    }
 
     /** Gmsh would run anything that does not look like a mesh as a script: look first. */
     void expect_gmsh_file(const std::string &file)
@@ -46,7 +72,7 @@ namespace Voussoir
     struct Element
     {
       std::size_t              tag;
-      std::vector<std::size_t> nodes; // tags
+      std::vector<std::size_t> nodes; // tags of the corners
       int                      group; // physical id
       unsigned int             zone;
     };
@@ -54,36 +80,73 @@ namespace Voussoir
     class Reader
     {
     public:
-      explicit Reader(const std::string &file) : file(file) {}
+      Reader(const std::string &file, const bool subdivided) : file(file), subdivided(subdivided) {}
 
       HexMesh read()
       {
         gmsh::open(file);
-        const auto hexahedra = elements(3, hexahedron_8, "8-node hexahedra");
-        const auto quadrilaterals = elements(2, quadrangle_4, "4-node quadrilaterals");
-        if (hexahedra.empty())
-          fail("there are no hexahedra in physical volumes. Mesh the dam with 8-node hexahedra, give every "
+        const auto cells = elements(3, "hexahedra"), faces = elements(2, "quadrilaterals");
+        if (cells.empty())
+          fail("there are no hexahedra in physical volumes. Mesh the dam with hexahedra, give every "
                "monolith a physical volume ('monolith 1', ...), and save the volume mesh.");
         read_nodes();
-        for (const Element &element : hexahedra)
+        MixedMesh mixed;
+        for (const Element &element : cells)
         {
-          HexMesh::Cell cell{{}, element.group, element.zone};
-          for (unsigned int v = 0; v < 8; ++v)
-            cell.nodes[v] = number(element.nodes[v]);
-          mesh.cells.push_back(cell);
+          mixed.cells.push_back({without_double_corners(numbers(element)), element.group, element.zone});
+          if (mixed.cells.back().nodes.size() == 6 && !subdivided)
+            fail("element " + std::to_string(element.tag) + " of " + physical_name(3, element.group) +
+                 " is a wedge, and the elements of the program are hexahedra, which lose their bending modes "
+                 "and "
+                 "their stresses when two edges are collapsed. Set \"Mesh/Subdivide\" = true: every wedge "
+                 "then "
+                 "becomes six hexahedra and every hexahedron eight (start from a mesh twice as coarse). Or "
+                 "mesh "
+                 "without wedges: end the dam at the banks with a short vertical edge instead of a point.");
         }
-        for (const Element &element : quadrilaterals)
+        for (const Element &element : faces)
         {
-          HexMesh::Face face{{}, element.group};
-          for (unsigned int v = 0; v < 4; ++v)
-            face.nodes[v] = number(element.nodes[v]);
-          mesh.faces.push_back(face);
+          mixed.faces.push_back({numbers(element), element.group});
+          if (mixed.faces.back().nodes.size() == 3 && !subdivided)
+            fail(physical_name(2, element.group) +
+                 " has triangles, the faces of wedges or tetrahedra. Mesh with "
+                 "hexahedra (gmsh: Transfinite, Recombine), or with wedges and \"Mesh/Subdivide\" = true.");
         }
+        if (subdivided)
+        {
+          mixed.nodes = mesh.nodes;
+          subdivide(mixed, mesh);
+        }
+        else
+          take_over(mixed);
         normalize(mesh);
         return mesh;
       }
 
     private:
+      std::vector<unsigned int> numbers(const Element &element) const
+      {
+        std::vector<unsigned int> result;
+        for (const std::size_t tag : element.nodes)
+          result.push_back(number(tag));
+        return result;
+      }
+
+      /** Hexahedra and quadrilaterals only. */
+      void take_over(const MixedMesh &mixed)
+      {
+        for (const MixedMesh::Cell &from : mixed.cells)
+        {
+          mesh.cells.push_back({{}, from.volume, from.zone});
+          std::copy(from.nodes.begin(), from.nodes.end(), mesh.cells.back().nodes.begin());
+        }
+        for (const MixedMesh::Face &from : mixed.faces)
+        {
+          mesh.faces.push_back({{}, from.surface});
+          std::copy(from.nodes.begin(), from.nodes.end(), mesh.faces.back().nodes.begin());
+        }
+      }
+
       [[noreturn]] void fail(const std::string &text) const
       {
         throw InputError("mesh " + file + ": " + text);
@@ -148,8 +211,8 @@ namespace Voussoir
         return zone_index(mesh, zone_of(name));
       }
 
-      /** The elements in physical groups of this dimension, by tag; all must be of one type. */
-      std::vector<Element> elements(const int dimension, const int type, const std::string &expected)
+      /** The elements in physical groups of this dimension, by tag; all must be of kinds that are read. */
+      std::vector<Element> elements(const int dimension, const std::string &expected)
       {
         gmsh::vectorpair groups;
         model::getPhysicalGroups(groups, dimension);
@@ -162,12 +225,21 @@ namespace Voussoir
           model::getEntitiesForPhysicalGroup(dimension, group.second, entities);
           for (const int entity : entities)
           {
-            check_types(dimension, entity, type, label(dimension, group.second), expected);
-            std::vector<std::size_t> tags, nodes;
-            model::mesh::getElementsByType(type, tags, nodes, entity);
-            const std::size_t n = dimension == 3 ? 8 : 4;
-            for (std::size_t e = 0; e < tags.size(); ++e)
-              result.push_back({tags[e], {nodes.begin() + n * e, nodes.begin() + n * (e + 1)}, id, zone});
+            std::vector<int>                      types;
+            std::vector<std::vector<std::size_t>> tags, nodes;
+            model::mesh::getElements(types, tags, nodes, dimension, entity);
+            for (std::size_t t = 0; t < types.size(); ++t)
+            {
+              const ElementKind *kind = kind_of(dimension, types[t]);
+              if (kind == nullptr)
+                refuse(types[t], label(dimension, group.second), expected);
+              for (std::size_t e = 0, n = nodes[t].size() / std::max<std::size_t>(1, tags[t].size());
+                   e < tags[t].size(); ++e)
+                result.push_back({tags[t][e],
+                                  {nodes[t].begin() + n * e, nodes[t].begin() + n * e + kind->n_corners},
+                                  id,
+                                  zone});
+            }
           }
         }
         std::sort(result.begin(), result.end(),
@@ -183,36 +255,35 @@ namespace Voussoir
         return result;
       }
 
-      void check_types(const int dimension, const int entity, const int type, const std::string &group,
-                       const std::string &expected) const
+      [[noreturn]] void refuse(const int type, const std::string &group, const std::string &expected) const
       {
-        std::vector<int>                      types;
-        std::vector<std::vector<std::size_t>> tags, nodes;
-        model::mesh::getElements(types, tags, nodes, dimension, entity);
-        for (const int found : types)
-        {
-          if (found == type)
-            continue;
-          std::string         name;
-          int                 dim, order, n_nodes, n_primary;
-          std::vector<double> local;
-          model::mesh::getElementProperties(found, name, dim, order, n_nodes, local, n_primary);
-          fail(group + " has elements of type '" + name + "', not " + expected + ". " +
-               (order > 1
-                    ? "Save the mesh with linear elements (gmsh: Mesh.ElementOrder = 1): the program raises "
-                      "the degree itself."
-                    : "Use a transfinite mesh and recombine it (gmsh: Transfinite, Recombine)."));
-        }
+        std::string         name;
+        int                 dimension, order, n_nodes, n_corners;
+        std::vector<double> local;
+        model::mesh::getElementProperties(type, name, dimension, order, n_nodes, local, n_corners);
+        const bool tetrahedra = dimension == 3 && n_corners == 4;
+        fail(
+            group + " has elements of type '" + name + "', not " + expected + ". " +
+            (tetrahedra ? "Of degree 1 they lock: a dam of them is far too stiff, and so are its stresses. "
+                        : "") +
+            "Use a transfinite mesh and recombine it (gmsh: Transfinite, Recombine), or extrude a recombined "
+            "surface; gmsh's Mesh.SubdivisionAlgorithm = 2 makes hexahedra of any mesh, but poor ones.");
       }
 
       void check_all_grouped(const std::size_t n_grouped) const
       {
-        std::vector<std::size_t> tags, nodes;
-        model::mesh::getElementsByType(hexahedron_8, tags, nodes);
-        if (tags.size() > n_grouped && n_grouped > 0)
-          fail(std::to_string(tags.size() - n_grouped) + " of " + std::to_string(tags.size()) +
+        std::size_t n_all = 0;
+        for (const ElementKind &kind : kinds)
+        {
+          std::vector<std::size_t> tags, nodes;
+          if (kind.dimension == 3)
+            model::mesh::getElementsByType(kind.type, tags, nodes);
+          n_all += tags.size();
+        }
+        if (n_all > n_grouped && n_grouped > 0)
+          fail(std::to_string(n_all - n_grouped) + " of " + std::to_string(n_all) +
                " hexahedra are in no physical volume. Put every volume into 'monolith 1', ... or 'rock'.");
-        if (n_grouped == 0 && !tags.empty())
+        if (n_grouped == 0 && n_all > 0)
           fail("no hexahedron is in a physical volume. Give every monolith one, named 'monolith 1', "
                "'monolith 2', "
                "... from the right bank to the left.");
@@ -241,13 +312,14 @@ namespace Voussoir
       }
 
       const std::string                            &file;
+      const bool                                    subdivided;
       HexMesh                                       mesh;
       std::set<std::pair<int, int>>                 unnamed;     // groups: dimension and id
       std::unordered_map<std::size_t, unsigned int> node_number; // by gmsh's tag
     };
   } // namespace
 
-  HexMesh read_gmsh(const std::string &file)
+  HexMesh read_gmsh(const std::string &file, const bool subdivided)
   {
     expect_gmsh_file(file);
     check_physical_names(file);
@@ -255,7 +327,8 @@ namespace Voussoir
     run_guarded(
         "The mesh file " + file + " cannot be read",
         limits_for_file(double(std::filesystem::file_size(file))),
-        [&] { with_gmsh(file, "gmsh cannot read this file", [&] { mesh = Reader(file).read(); }); },
+        [&]
+        { with_gmsh(file, "gmsh cannot read this file", [&] { mesh = Reader(file, subdivided).read(); }); },
         [&](PipeWriter &pipe) { send(mesh, pipe); }, [&](PipeReader &pipe) { receive(pipe, mesh); });
     return mesh;
   }

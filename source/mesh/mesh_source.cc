@@ -2,6 +2,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <voussoir/base/error.h>
+#include <voussoir/mesh/foreign_mesh.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/mesh_source.h>
 
@@ -53,7 +54,9 @@ namespace Voussoir
                       Selection("arch210|file"));
     prm.add_parameter(
         "File", file,
-        "The gmsh mesh (MSH 4.1 or 2.2, 8-node hexahedra), relative to the directory of this file. "
+        "The mesh, relative to the directory of this file: gmsh (MSH 4.1 or 2.2) of hexahedra, or .inp of "
+        "Abaqus and "
+        "CalculiX, .med of Salome and others through the Python package meshio (doc/mesh.md). "
         "Its physical volumes are 'monolith 1', 'monolith 2', ... and 'rock ...'; its physical "
         "surfaces 'base', 'upstream', 'downstream', 'crest', and with rock 'free surface' and "
         "'artificial boundary'. The joints may be conforming, or doubled with their sides in 'joint 1 "
@@ -65,6 +68,10 @@ namespace Voussoir
         "once, with a minus sign if the file's axis points the other way. For example 'y -x z' for a "
         "file with x to the right bank, y downstream and z up. A left-handed choice mirrors the dam.",
         Anything());
+    prm.add_parameter("Subdivide", subdivide,
+                      "Divide all cells of the file at their middles, so that wedges are allowed: each "
+                      "becomes six hexahedra, each "
+                      "hexahedron eight.");
     prm.add_parameter("Length unit", length_unit, "Unit of the coordinates in the mesh file.",
                       Selection("m|cm|mm|km|ft|in"));
     prm.leave_subsection();
@@ -100,7 +107,8 @@ namespace Voussoir
 
     // The operator / of a path leaves absolute files as they are.
     const std::string file = (std::filesystem::path(scene_directory) / parameters.file).string();
-    HexMesh           mesh = read_gmsh(file);
+    HexMesh           mesh = is_foreign_mesh(file) ? read_foreign_mesh(file, parameters.subdivide)
+                                                   : read_gmsh(file, parameters.subdivide);
     const auto        axes = file_axes(parameters.axes);
     const double      unit = metres(parameters.length_unit);
     for (auto &node : mesh.nodes)

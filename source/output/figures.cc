@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/python_script.h>
 #include <voussoir/output/figures.h>
-#include <voussoir/output/python_script.h>
 
 namespace Voussoir
 {

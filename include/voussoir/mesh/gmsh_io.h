@@ -12,9 +12,11 @@ namespace Voussoir
    *  or 4), in the order of the file's tags. The name of a physical group decides what it is (physical_id(),
    * zone_of()); the ids of groups without names do. Coordinates are the file's: no axes or units are changed.
    * The mesh is normalized, not checked. Throws InputError: no such file, not a gmsh mesh, names that are not
-   * known, volume elements that are not 8-node hexahedra, surface elements that are not 4-node
-   * quadrilaterals, hexahedra in no or in two physical volumes, unknown ids. */
-  HexMesh read_gmsh(const std::string &file);
+   * known, volume elements that are not hexahedra, surface elements that are not
+   * quadrilaterals, hexahedra in no or in two physical volumes, unknown ids. Of elements of second order only
+   * the corners are taken.
+   *  @p subdivided: with wedges and triangles, too, all of it divided by subdivide(). */
+  HexMesh read_gmsh(const std::string &file, bool subdivided = false);
 
   /** Writes a gmsh file in MSH format @p version 4.1 or 2.2 with 16 digits; @p file ends in ".msh".
    *  Throws InputError if it cannot be written. */

@@ -16,6 +16,7 @@ namespace Voussoir
     std::string           file = "";          ///< gmsh file, relative to the scene's directory
     std::string           axes = "x y z";     ///< the file's axes downstream, to the left bank, up
     std::string           length_unit = "m";  ///< of the file: see metres()
+    bool                  subdivide = false;  ///< every cell of the file into hexahedra: wedges become three
     Arch210Parameters     arch210;
     Arch210RockParameters arch210_rock;
 

@@ -1,0 +1,209 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes a gmsh mesh (MSH 2.2, ASCII) of a mesh of Abaqus or CalculiX (.inp) or of Salome (.med).
+
+    mesh_to_msh.py FILE OUTPUT.msh      needs meshio (Debian package python3-meshio); Voussoir runs it by itself
+
+Groups become physical groups when their names are Voussoir's: "monolith 3", "MONOLITH_3_HEEL", "rock", "upstream", ... (case,
+blanks, '_' and '-' do not count); others are left out. In .inp they are ELSETs of volumes or of shells, *SURFACEs, and NSETs:
+all outer faces whose corners are in the set, for "base" also the faces between dam and rock. In .med they are groups of
+volumes, of faces and of nodes alike.
+
+Exit status: 0 done, 2 the mesh cannot be used (the last line says why), 3 meshio is missing.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+try:
+    import meshio
+    import numpy as np
+except ImportError:
+    sys.exit(3)
+
+VOLUME = re.compile(r"(monolith[ _-]*\d+|rock)")
+SURFACE = re.compile(r"(base|upstream|downstream|crest|free[ _-]*surface|artificial([ _-]*boundary)?|joint[ _-]*\d+.*)$")
+# meshio's types: dimension, gmsh's number, corners of the faces (of Abaqus' labels S1, S2, ...)
+HEXAHEDRON = ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0))
+WEDGE = ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0))
+TYPES = {"hexahedron": (3, 5, 8, HEXAHEDRON), "hexahedron20": (3, 5, 8, HEXAHEDRON), "hexahedron27": (3, 5, 8, HEXAHEDRON),
+         "wedge": (3, 6, 6, WEDGE), "wedge15": (3, 6, 6, WEDGE), "wedge18": (3, 6, 6, WEDGE),
+         "tetra": (3, 4, 4, ()), "tetra10": (3, 4, 4, ()), "pyramid": (3, 7, 5, ()), "pyramid13": (3, 7, 5, ()),
+         "quad": (2, 3, 4, ()), "quad8": (2, 3, 4, ()), "quad9": (2, 3, 4, ()),
+         "triangle": (2, 2, 3, ()), "triangle6": (2, 2, 3, ())}
+
+
+def refuse(text):
+    print(text)
+    sys.exit(2)
+
+
+def known(name, pattern):
+    return pattern.match(name.strip().lower()) is not None
+
+
+def element_ids(file):
+    """The numbers of the elements of an .inp file in its order, which meshio does not keep."""
+    ids, n_nodes, words = [], 0, []
+    for line in Path(file).read_text(errors="replace").splitlines():
+        if line.startswith("**") or not line.strip():
+            continue
+        if line.startswith("*"):
+            kind = re.search(r"TYPE\s*=\s*(\w+)", line, re.I)
+            is_element = re.match(r"\*ELEMENT\s*,", line, re.I) and kind
+            name = meshio.abaqus._abaqus.abaqus_to_meshio_type.get(kind[1].upper()) if is_element else None
+            n_nodes, words = (meshio._mesh.num_nodes_per_cell[name] if name else 0), []
+        elif n_nodes:
+            words += [word for word in line.replace(",", " ").split()]
+            if len(words) > n_nodes:
+                ids.append(int(words[0]))
+                words = []
+    return ids
+
+
+def surfaces_of_inp(file):
+    """*SURFACE, TYPE=ELEMENT: name -> (set or element, label)."""
+    surfaces, name = {}, None
+    for line in Path(file).read_text(errors="replace").splitlines():
+        if line.startswith("**"):
+            continue
+        if line.startswith("*"):
+            found = re.search(r"NAME\s*=\s*\"?([^,\"]+)", line, re.I)
+            name = found[1].strip() if re.match(r"\*SURFACE\s*,", line, re.I) and found else None
+        elif name and line.strip():
+            surfaces.setdefault(name, []).append([word.strip() for word in line.split(",")[:2]])
+    return surfaces
+
+
+class Converter:
+    def __init__(self, file):
+        self.file, self.inp = file, Path(file).suffix.lower() == ".inp"
+        self.mesh = meshio.read(file)
+        self.cells, start, self.blocks = [], 0, []  # [type, corners, group]; first number of each block
+        for block in self.mesh.cells:
+            self.blocks.append(start)
+            if block.type not in TYPES and block.type not in ("line", "line3", "vertex"):
+                refuse(f"it has elements of type '{block.type}', and the program needs hexahedra. Mesh the dam with them.")
+            for nodes in block.data:
+                self.cells.append([block.type, nodes[:TYPES[block.type][2]] if block.type in TYPES else (), None])
+            start += len(block.data)
+        self.faces = []  # of groups that are not elements: corners and group
+
+    def dimension(self, k):
+        return TYPES.get(self.cells[k][0], (0,))[0]
+
+    def sets(self):
+        """Element sets by name: numbers of cells."""
+        sets = {name: [first + int(i) for first, part in zip(self.blocks, parts) if part is not None for i in part]
+                for name, parts in self.mesh.cell_sets.items()}
+        for tags, first in zip(self.mesh.cell_data.get("cell_tags", []), self.blocks):  # of .med
+            for i, tag in enumerate(tags):
+                for name in getattr(self.mesh, "cell_tags", {}).get(int(tag), []):
+                    sets.setdefault(name, []).append(first + i)
+        return sets
+
+    def put(self, name, numbers):
+        for k in numbers:
+            group, pattern = self.cells[k][2], {3: VOLUME, 2: SURFACE}.get(self.dimension(k))
+            if pattern is None or not known(name, pattern):
+                continue
+            if group is not None and group != name:
+                refuse(f"an element is in two groups, '{group}' and '{name}'. Leave it in one.")
+            self.cells[k][2] = name
+
+    def cell_faces(self):
+        """Faces of volumes by their corners: the cells that have them."""
+        owners = {}
+        for k, (kind, nodes, _) in enumerate(self.cells):
+            for face in TYPES.get(kind, (0, 0, 0, ()))[3]:
+                corners = tuple(nodes[list(face)])
+                owners.setdefault(frozenset(corners), []).append((k, corners))
+        return owners
+
+    def is_rock(self, k):
+        return (self.cells[k][2] or "").strip().lower().startswith("rock")
+
+    def take_nodes(self, name, nodes, owners):
+        """The faces whose corners are all in the set."""
+        nodes = set(int(n) for n in nodes)
+        for corners, cells in owners.items():
+            outer = len(cells) == 1 or name.lower().startswith("base") and self.is_rock(cells[0][0]) != self.is_rock(cells[1][0])
+            if outer and corners <= nodes:
+                self.faces.append((cells[0][1], name))
+
+    def point_sets(self):
+        sets = dict(self.mesh.point_sets)
+        for n, tag in enumerate(self.mesh.point_data.get("point_tags", [])):  # of .med
+            for name in getattr(self.mesh, "point_tags", {}).get(int(tag), []):
+                sets.setdefault(name, []).append(n)
+        return sets
+
+    def take_surfaces(self, sets):
+        by_name = {name.upper(): numbers for name, numbers in sets.items()}
+        number = {}
+        for name, parts in surfaces_of_inp(self.file).items():
+            if not known(name, SURFACE):
+                continue
+            for of, label in parts:
+                if of.isdigit() and not number:
+                    number = {i: k for k, i in enumerate(element_ids(self.file))}
+                cells = [number[int(of)]] if of.isdigit() and int(of) in number else by_name.get(of.upper())
+                if cells is None or not re.fullmatch(r"S[1-6]", label.upper()):
+                    refuse(f"the surface '{name}' has the line '{of}, {label}', which is no face of a known element or set.")
+                for k in cells:
+                    kind, nodes, _ = self.cells[k]
+                    if self.dimension(k) == 3:
+                        self.faces.append((tuple(nodes[list(TYPES[kind][3][int(label[1]) - 1])]), name))
+
+    def convert(self):
+        sets = self.sets()
+        for name, numbers in sets.items():
+            self.put(name, numbers)
+        if not any(group and self.dimension(k) == 3 for k, (_, _, group) in enumerate(self.cells)):
+            refuse("no volumes are in a group 'monolith 1', 'monolith 2', ... (ELSET or group of volumes); its groups are: "
+                   + (", ".join(f"'{name}'" for name in sets) or "none") + ".")
+        if self.inp:
+            self.take_surfaces(sets)
+        there = {name.lower() for _, name in self.faces} | {group.lower() for _, _, group in self.cells if group}
+        owners = None
+        for name, nodes in self.point_sets().items():
+            if known(name, SURFACE) and name.lower() not in there:
+                owners = owners or self.cell_faces()
+                self.take_nodes(name, nodes, owners)
+
+    def write(self, file):
+        elements = [(TYPES[kind][1], nodes, TYPES[kind][0], group) for kind, nodes, group in self.cells
+                    if kind in TYPES and (group or TYPES[kind][0] == 3)]
+        elements += [(3 if len(nodes) == 4 else 2, nodes, 2, name) for nodes, name in self.faces]
+        tags = {}
+        for _, _, dimension, group in elements:
+            if group and (dimension, group) not in tags:
+                tags[dimension, group] = len(tags) + 1
+        with open(file, "w") as out:
+            print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames", len(tags), sep="\n", file=out)
+            for (dimension, group), tag in tags.items():
+                print(dimension, tag, f'"{group}"', file=out)
+            print("$EndPhysicalNames\n$Nodes", len(self.mesh.points), sep="\n", file=out)
+            for i, x in enumerate(self.mesh.points):
+                print(i + 1, *(f"{c:.17g}" for c in x), file=out)
+            print("$EndNodes\n$Elements", len(elements), sep="\n", file=out)
+            for i, (kind, nodes, dimension, group) in enumerate(elements):
+                tag = tags.get((dimension, group), 0)
+                print(i + 1, kind, 2, tag, tag or 10000, *(n + 1 for n in nodes), file=out)
+            print("$EndElements", file=out)
+
+
+def main():
+    try:
+        converter = Converter(sys.argv[1])
+        converter.convert()
+    except (meshio.ReadError, KeyError, ValueError, IndexError, AssertionError, OSError, UnicodeDecodeError) as error:
+        refuse(f"meshio cannot read it: {type(error).__name__} {error}. Write it again, or as a gmsh mesh.".replace("\n", " "))
+    converter.write(sys.argv[2])
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    main()

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
+#include <voussoir/base/output_file.h>
+#include <voussoir/base/python_script.h>
+#include <voussoir/mesh/foreign_mesh.h>
+#include <voussoir/mesh/gmsh_io.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+namespace Voussoir
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    /** A directory of its own for files that are soon gone. */
+    class Scratch
+    {
+    public:
+      Scratch()
+      {
+        std::string name = (fs::temp_directory_path() / "voussoir-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+          throw WriteError("No directory can be made in " + fs::temp_directory_path().string() +
+                           ", where a mesh is to be converted. Make room there, or set TMPDIR.");
+        path = name;
+      }
+      ~Scratch()
+      {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+      }
+      Scratch(const Scratch &) = delete;
+      Scratch &operator=(const Scratch &) = delete;
+
+      fs::path path;
+    };
+
+    constexpr int lacks_meshio = 3; ///< exit status of the script
+
+    std::string last_line(const std::string &file)
+    {
+      std::ifstream in(file);
+      std::string   last = "no reason given.";
+      for (std::string line; std::getline(in, line);)
+        if (line.find_first_not_of(" \t\r") != std::string::npos)
+          last = line;
+      return last;
+    }
+
+    std::string replaced(std::string text, const std::string &from, const std::string &to)
+    {
+      for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+        text.replace(at, from.size(), to);
+      return text;
+    }
+  } // namespace
+
+  bool is_foreign_mesh(const std::string &file)
+  {
+    std::string ending = fs::path(file).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](const unsigned char c) { return std::tolower(c); });
+    return ending == ".inp" || ending == ".med";
+  }
+
+  HexMesh read_foreign_mesh(const std::string &file, const bool subdivided)
+  {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error))
+      throw InputError(
+          "mesh " + file +
+          ": the file does not exist or cannot be read. Check the entry 'File' of subsection 'Mesh'; it "
+          "is relative to the directory of the scene file.");
+    const fs::path script = find_script("mesh_to_msh.py");
+    if (script.empty())
+      throw InputError(
+          "mesh " + file +
+          ": it is to be converted by the script mesh_to_msh.py, which was not found. "
+          "The environment variable VOUSSOIR_SCRIPTS may name its directory; or convert the mesh to MSH "
+          "4.1 yourself.");
+    const Scratch     scratch;
+    const std::string made = (scratch.path / "mesh.msh").string(), said = (scratch.path / "log").string();
+    int               status = lacks_meshio;
+    for (const std::string &python : python_interpreters())
+      if (status = run_process({python, script.string(), fs::absolute(file).string(), made}, said);
+          status != lacks_meshio)
+        break;
+    if (status == lacks_meshio)
+      throw InputError(
+          "mesh " + file +
+          ": it is to be converted by the Python package meshio, which was not found. Install it (on "
+          "Debian: apt-get install python3-meshio), name a Python that has it by the environment "
+          "variable VOUSSOIR_PYTHON, or convert the mesh to MSH 4.1 yourself.");
+    if (status != 0)
+      throw InputError("mesh " + file + ": it cannot be converted: " + last_line(said));
+    try
+    {
+      return read_gmsh(made, subdivided);
+    }
+    catch (const InputError &of_made)
+    {
+      throw InputError(replaced(of_made.what(), made, file)); // the file that the user knows
+    }
+  }
+} // namespace Voussoir
