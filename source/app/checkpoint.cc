@@ -173,7 +173,7 @@ namespace Voussoir
     {
       DynamicState beside;
       archive >> beside >> *companion;
-      companion->newmark.resume(beside, first, largest, Unknowns(beside.force.size(), 0.));
+      companion->newmark.resume(beside, first, largest, statics.closed);
     }
     for (std::vector<double> *array : dam->foundation->state())
     {
@@ -186,7 +186,7 @@ namespace Voussoir
     }
     for (std::size_t p = 0; p < pairs.size() && p < pairs_at_start.size(); ++p)
       pairs_at_start[p] = static_cast<PairState>(pairs[p]);
-    newmark->resume(state, first, largest, Unknowns(state.force.size(), 0.));
+    newmark->resume(state, first, largest, statics.closed);
     checkpoint.clear();
     log.line("Resumed   at t = %.2f s, step %u of %u", newmark->state().time, step, n_steps);
   }

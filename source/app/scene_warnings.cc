@@ -40,6 +40,13 @@ namespace Voussoir
       return scene.reservoir.density == 0.;
     }
 
+    bool nothing_is_raised(const Scene &scene)
+    {
+      const LoadParameters &loads = scene.loads;
+      return no_water(scene) && !loads.temperature.acts() && !loads.tail_water.acts() && !loads.silt.acts() &&
+             loads.concentrated.empty() && loads.crest_line.empty();
+    }
+
     /** When the condition holds, the entries have no effect, but for the exceptions. An entry that ends in a
      *  slash stands for all below it. */
     struct Rule
@@ -52,7 +59,10 @@ namespace Voussoir
     /** The first that holds is the one that is told. */
     const std::vector<Rule> rules = {
         {"Mesh/Source is file", [](const Scene &s) { return !is_arch210(s); }, {"Mesh/Arch210/"}, {}},
-        {"Mesh/Source is arch210", is_arch210, {"Mesh/File", "Mesh/Axes", "Mesh/Length unit"}, {}},
+        {"Mesh/Source is arch210",
+         is_arch210,
+         {"Mesh/File", "Mesh/Axes", "Mesh/Length unit", "Mesh/Subdivide"},
+         {}},
         {"Mesh/Arch210/Rock/Enabled is false",
          [](const Scene &s) { return !s.mesh.arch210_rock.enabled; },
          {"Mesh/Arch210/Rock/"},
@@ -61,10 +71,43 @@ namespace Voussoir
          [](const Scene &s) { return s.elements.degree == 2; },
          {"Elements/Incompatible modes"},
          {}},
-        {"Reservoir/Density is 0",
-         no_water,
-         {"Reservoir/", "Statics/Water increments"},
-         {"Reservoir/Density"}},
+        {"Reservoir/Density is 0", no_water, {"Reservoir/"}, {"Reservoir/Density"}},
+        {"no load is raised, neither water nor one of Loads",
+         nothing_is_raised,
+         {"Statics/Water increments"},
+         {}},
+        {"Loads/Temperature/Table has the temperatures of the faces",
+         [](const Scene &s) { return !s.loads.temperature.table.empty(); },
+         {"Loads/Temperature/Upstream face", "Loads/Temperature/Downstream face"},
+         {}},
+        {"there is no Loads/Temperature/Table",
+         [](const Scene &s) { return s.loads.temperature.table.empty(); },
+         {"Loads/Temperature/Day"},
+         {}},
+        {"the dam has the temperature of the grouting",
+         [](const Scene &s) { return !s.loads.temperature.acts(); },
+         {"Loads/Temperature/"},
+         {}},
+        {"Loads/Tail water/Level says that there is none",
+         [](const Scene &s) { return s.loads.tail_water.level <= no_level; },
+         {"Loads/Tail water/"},
+         {}},
+        {"Loads/Silt/Level says that there is none",
+         [](const Scene &s) { return s.loads.silt.level <= no_level; },
+         {"Loads/Silt/"},
+         {}},
+        {"Loads/Silt/Coefficient is given",
+         [](const Scene &s) { return s.loads.silt.coefficient >= 0.; },
+         {"Loads/Silt/Friction angle"},
+         {}},
+        {"Loads/Uplift/Base is false",
+         [](const Scene &s) { return !s.loads.uplift.base; },
+         {"Loads/Uplift/Drain position", "Loads/Uplift/Drain efficiency"},
+         {}},
+        {"there is no Loads/Crest line",
+         [](const Scene &s) { return s.loads.crest_line.empty(); },
+         {"Loads/Crest edge"},
+         {}},
         {"Reservoir/Added mass is none",
          [](const Scene &s) { return s.reservoir.added_mass == "none"; },
          {"Reservoir/Factor", "Reservoir/Depth"},
@@ -96,7 +139,11 @@ namespace Voussoir
          {"Contact/Write interval"},
          {}},
         {"Statics/Self-weight is none and there is no water",
-         [](const Scene &s) { return s.statics.self_weight == "none" && no_water(s); },
+         [](const Scene &s)
+         {
+           return s.statics.self_weight == "none" && no_water(s) && !s.loads.tail_water.acts() &&
+                  !s.loads.silt.acts();
+         },
          {"Statics/Gravity"},
          {}},
         {"Motion/Source is none",
@@ -171,6 +218,13 @@ namespace Voussoir
                                        {"Motion/Peak acceleration", .005, 2.},
                                        {"Motion/Vertical ratio", .2, 1.5},
                                        {"Motion/Damping", .005, .2},
+                                       {"Loads/Temperature/Upstream face", -40., 50.},
+                                       {"Loads/Temperature/Downstream face", -40., 60.},
+                                       {"Loads/Temperature/Grouting", -10., 40.},
+                                       {"Loads/Temperature/Expansion", 5e-6, 1.5e-5},
+                                       {"Loads/Silt/Density", 300., 1300., true},
+                                       {"Loads/Silt/Friction angle", 10., 45.},
+                                       {"Loads/Silt/Coefficient", .2, 1.},
                                        {"Foundation/Young's modulus", 5e8, 1.2e11},
                                        {"Foundation/Poisson's ratio", .1, .4, true},
                                        {"Foundation/Density", 1800., 3300.},

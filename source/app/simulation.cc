@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/error.h>
+#include <voussoir/dam/static_path.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
 
@@ -85,8 +86,14 @@ namespace Voussoir
   void Simulation::read_input()
   {
     motion = refined(make_motion(scene.motion, scene.directory), scene.steps_per_sample);
-    n_steps = scene.motion.source == "none" ? 0 : motion.acceleration.size() - 1;
+    const double factor = scene.loads.factor("earthquake"); // of the combination
+    for (auto &a : motion.acceleration)
+      for (unsigned int c = 0; factor != 1. && c < 3; ++c)
+        a[c] *= factor;
+    n_steps = scene.motion.source == "none" || factor == 0. ? 0 : motion.acceleration.size() - 1;
     dam = std::make_unique<Dam>(scene);
+    if (!scene.statics.stages.empty())
+      StaticPath{*dam}; // can all of them be?
     if (n_steps > 0)
       dam->foundation->check(grid(), scene.steps_per_sample);
     count.seconds_setup = clock.seconds();
@@ -188,8 +195,8 @@ namespace Voussoir
       for (unsigned int d = 0; d < 3; ++d)
         for (std::size_t k = 0; k < load.size(); ++k)
           load[k] += motion.acceleration[0][d] * dam->inertia[d][k];
-    newmark->start(statics.u, Unknowns(statics.u.size(), 0.), statics.force, load,
-                   Unknowns(3 * structure.pairs.size(), 0.), statics.memory);
+    newmark->start(statics.u, Unknowns(statics.u.size(), 0.), statics.force, load, statics.closed,
+                   statics.memory);
 
     stability = std::make_unique<StabilityWatch>(*dam, motion, *newmark);
     joints = std::make_unique<JointRecorder>(structure, *dam->geometry);
@@ -205,7 +212,7 @@ namespace Voussoir
       parameters.write_problems = false;
       companion = std::make_unique<TimeErrorEstimate>(
           *dam, parameters, motion.dt, impact_rule(scene.impact_rule),
-          scene.output.envelope_interval > 0 ? stress.get() : nullptr, newmark->state());
+          scene.output.envelope_interval > 0 ? stress.get() : nullptr, newmark->state(), statics.closed);
     }
     declare_tables();
     count.seconds_static += watch.seconds();

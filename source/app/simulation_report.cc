@@ -52,6 +52,7 @@ namespace Voussoir
     else
       log.line("Water     level %g m; added mass %s x %g, %.4g kg along x", scene.reservoir.level,
                scene.reservoir.added_mass.c_str(), scene.reservoir.factor, dam->added_mass);
+    report_loads();
     report_motion_and_warnings();
     report_motion_notes();
     if (options.validate)

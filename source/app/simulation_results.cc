@@ -93,6 +93,8 @@ namespace Voussoir
     joint_file.open(directory + "/joint_history.csv", joints->history);
     if (n_steps > 0)
       spectrum_table(motion, scene.motion).write(directory + "/spectrum.csv");
+    if (!scene.statics.stages.empty())
+      stages.write(directory + "/stages.csv");
   }
 
   void Simulation::write_tables()

@@ -141,6 +141,7 @@ namespace Voussoir
         .add("energy_balance_error", balance_error())
         .add("largest_energy", largest_energy())
         .add("static", json_of_statics())
+        .add("loads", json_of_loads())
         .add("extremes", json_of_extremes());
     const Assessment assessment(scene.limits, *dam->model,
                                 scene.output.envelope_interval > 0 ? envelope.get() : nullptr,

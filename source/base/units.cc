@@ -75,6 +75,11 @@ namespace Voussoir
         {"Hz", "frequency", 1.},
         {"kHz", "frequency", 1e3},
         {"1/s", "rate", 1.},
+        {"degC", "temperature", 1.},
+        {"\u00b0C", "temperature", 1.},
+        {"1/K", "thermal expansion", 1.},
+        {"1/degC", "thermal expansion", 1.},
+        {"1e-6/K", "thermal expansion", 1e-6},
         {"%", "ratio", 1e-2},
         {"-", "ratio", 1.},
     };

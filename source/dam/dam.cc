@@ -146,8 +146,12 @@ namespace Voussoir
 
   void Dam::add_loads()
   {
-    loads = static_loads(scene, *model, structure);
-    if (scene.reservoir.density > 0.)
+    loads = static_loads(scene, {*model, structure, materials});
+    for (const StaticLoad &load : loads)
+      for (std::size_t i = 0; i < load.stress.size(); ++i)
+        for (unsigned int c = 0; c < 6; ++c)
+          initial_stress[i][c] += load.stress[i][c];
+    if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0.)
       added_mass = add_added_mass(*model, scene.reservoir, structure);
     inertia = inertial_loads(structure);
   }
@@ -165,7 +169,8 @@ namespace Voussoir
       throw InputError("Entry \"Reservoir/Water level\" is " + std::to_string(scene.reservoir.level) +
                        " m, above the dam, which ends at " + std::to_string(top) +
                        " m. Lower the water, or check the axes and the length unit of the mesh.");
-    has_water = scene.reservoir.density > 0. && scene.reservoir.level > bottom;
+    has_water =
+        scene.reservoir.density > 0. && scene.reservoir.level > bottom && scene.loads.factor("water") != 0.;
   }
 
   void Dam::find_lowest_base()
@@ -192,20 +197,11 @@ namespace Voussoir
   void Dam::stage_self_weight()
   {
     Unknowns load(3 * structure.n_nodes(), 0.), u;
-    add_weight(structure, scene.statics.gravity, load);
+    add_weight(structure, scene.loads.factor("weight") * scene.statics.gravity, load);
     JointSystem system(structure, JointLaws(), ContactParameters(), 0., 1., 0.);
     system.solve_free(load, u);
     StressRecovery(*model, materials, scene.elements.incompatible_modes).apply(u, initial_stress);
     if (const unsigned int e = model->equation[geometry->crown]; e != rigid_ground)
       self_weight_crown = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};
-  }
-
-  Unknowns Dam::static_load(const double part) const
-  {
-    Unknowns sum(3 * structure.n_nodes(), 0.);
-    for (const StaticLoad &load : loads)
-      for (std::size_t i = 0; i < sum.size(); ++i)
-        sum[i] += load.is_raised ? part * load.force[i] : load.force[i];
-    return sum;
   }
 } // namespace Voussoir

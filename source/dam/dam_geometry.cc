@@ -89,6 +89,11 @@ namespace Voussoir
 
   unsigned int probe_node(const SolidModel &model, const std::string &name, const Point<3> &p)
   {
+    return node_at(model, "Entry \"Output/Probes\": probe \"" + name + "\"", p);
+  }
+
+  unsigned int node_at(const SolidModel &model, const std::string &what, const Point<3> &p)
+  {
     const unsigned int                   node = nearest_node(model, p);
     std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
     double                               element = 0.; // how far its elements reach
@@ -102,9 +107,8 @@ namespace Voussoir
     if (const double distance = model.points[node].distance(p); distance > element)
     {
       std::ostringstream message;
-      message << "Entry \"Output/Probes\": probe \"" << name << "\" at " << place({{p[0], p[1], p[2]}})
-              << " is " << distance << " m from the dam, more than an element (" << element
-              << " m): its nearest node is at "
+      message << what << " at " << place({{p[0], p[1], p[2]}}) << " is " << distance
+              << " m from the dam, more than an element (" << element << " m): its nearest node is at "
               << place({{model.points[node][0], model.points[node][1], model.points[node][2]}})
               << ". Give a point of the dam, in the axes of the scene.";
       throw InputError(message.str());

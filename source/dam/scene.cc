@@ -150,6 +150,15 @@ namespace Voussoir
         "Increments in which the water is raised; friction makes the result depend on the path a little.",
         Patterns::Integer(1));
     prm.add_parameter("Gravity", gravity, "Acceleration of gravity [m/s^2].", Patterns::Double(0.));
+    prm.add_parameter(
+        "Stages", stages,
+        "What comes before the water is raised to Reservoir/Water level, one after the other, as \"grout "
+        "140, "
+        "fill 100, day 90, grout 210\": fill Z, the reservoir to the level z [m]; grout Z, the joints up to "
+        "z, "
+        "which carry nothing before (without it all are grouted at first); day D, the temperatures of that "
+        "day of Loads/Temperature/Table. Each in \"Water increments\" steps.",
+        Patterns::Anything());
     prm.leave_subsection();
   }
 
@@ -226,6 +235,7 @@ namespace Voussoir
     reservoir.add_parameters(prm);
     joints.add_parameters(prm);
     statics.add_parameters(prm);
+    loads.add_parameters(prm);
     motion.add_parameters(prm);
     foundation.add_parameters(prm);
     prm.enter_subsection("Dynamics");
@@ -261,6 +271,7 @@ namespace Voussoir
     };
     if (mesh.source == "file")
       add("Mesh/File", mesh.file);
+    add("Loads/Temperature/Table", loads.temperature.table);
     if (motion.source == "file")
     {
       constexpr const char *entries[3] = {"Motion/File x", "Motion/File y", "Motion/File z"};
@@ -299,6 +310,8 @@ namespace Voussoir
           "with mass moves at steps of its own. Leave it out; `voussoir accuracy` estimates the "
           "error there.");
     joints.check();
+    loads.check();
+    static_stages(statics.stages);
     motion.check();
     output.check();
   }

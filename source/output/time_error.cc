@@ -8,12 +8,12 @@ namespace Voussoir
 {
   TimeErrorEstimate::TimeErrorEstimate(const Dam &dam, const ContactParameters &parameters, const double dt,
                                        const ImpactRule rule, const StressRecovery *stress,
-                                       const DynamicState &start)
+                                       const DynamicState &start, const Unknowns &reference_jump)
       : newmark(dam.structure, dam.laws, parameters, 2. * dt, rule), dam(dam),
         joints(dam.structure, *dam.geometry)
   {
     joints.reach = JointReach(*dam.model, dam.structure.pairs);
-    newmark.start(start.u, start.v, start.force, start.load, Unknowns(start.force.size(), 0.), start.memory);
+    newmark.start(start.u, start.v, start.force, start.load, reference_jump, start.memory);
     joints.record(newmark);
     if (stress == nullptr)
       return;

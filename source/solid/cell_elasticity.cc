@@ -86,8 +86,9 @@ namespace Voussoir
 
   void CellElasticity::condense()
   {
-    const unsigned int n = fe.n_dofs_per_cell(), n_all = n + 3;
-    FullMatrix<double> K_aa(9, 9), K_au(9, 3 * n);
+    const unsigned int  n = fe.n_dofs_per_cell(), n_all = n + 3;
+    FullMatrix<double> &K_aa = mode_of_force, K_au(9, 3 * n);
+    K_aa.reinit(9, 9);
     mode_of_displacement.reinit(9, 3 * n);
     for (unsigned int i = 0; i < 9; ++i)
     {

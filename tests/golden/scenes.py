@@ -172,6 +172,10 @@ end
 CONCRETES = ((21e9, .17, 2400.), (32e9, .2, 2550.), (9e9, .12, 2150.))
 
 
+# Faces upstream and downstream [degC].
+TEMPERATURES = {"grouting": 8., "expansion": 9e-6, "uniform": (20., 20.), "linear": (6., -10.)}
+
+
 def zones_prm(directory, plain):
     text = calculix_prm(directory, plain)
     meshes.zoned_arch(Path(directory) / "zones.msh", *CALCULIX["cells"])

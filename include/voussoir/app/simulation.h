@@ -16,6 +16,9 @@
 
 namespace Voussoir
 {
+  class JointWater;
+  class StaticPath;
+
   struct RunOptions
   {
     std::string output;            ///< directory; empty: output/NAME
@@ -76,6 +79,13 @@ namespace Voussoir
     Provenance        provenance_now() const;
     void              open_checkpoint();
     void              load_checkpoint();
+    void              report_loads();
+    Json              json_of_loads() const;
+
+    ContactResult static_step(const StaticPath &path, unsigned int i, JointSystem &system, JointWater *water,
+                              const Unknowns &springs, Unknowns &gap);
+    void          record_static_step(const StaticPath &path, unsigned int i, const JointSystem &system,
+                                     const JointWater *water, const Unknowns &gap);
 
     const Scene                   scene;
     const std::string             scene_text;
@@ -99,6 +109,7 @@ namespace Voussoir
     struct StaticState
     {
       Unknowns               u, force, load, memory;
+      Unknowns               closed; ///< jumps at which the joints were grouted, 3 per pair [m]
       std::vector<PairState> pairs;
       ContactResult          contact;
       unsigned int           n_open = 0;
@@ -129,8 +140,8 @@ namespace Voussoir
     std::unique_ptr<StressRecovery>             stress;
     std::unique_ptr<EnvelopeRecorder>           envelope;
     std::unique_ptr<JointRecorder>              joints;
-    std::unique_ptr<TimeErrorEstimate>          companion; ///< if the scene asks for it
-    Table                                       history, energy;
+    std::unique_ptr<TimeErrorEstimate>          companion;               ///< if the scene asks for it
+    Table                                       history, energy, stages; ///< stages: of the static state
     std::unique_ptr<Recorder>                   history_columns, energy_columns;
     TableFile                                   history_file, energy_file, joint_file;
     std::vector<std::pair<double, std::string>> solutions; ///< time and file of solution.pvd

@@ -28,9 +28,6 @@ namespace Voussoir
     /** Mean displacement of the lowest part of the base, zero where it is held [m]. */
     Vector3 base_motion(const Unknowns &u) const;
 
-    /** All static loads, @p part of those that are raised with the water [N]. */
-    Unknowns static_load(double part) const;
-
     const Scene          &scene;
     std::vector<Material> materials;                  ///< of the concrete, by zone of the mesh
     std::vector<Zone>     concrete_zones, rock_zones; ///< those that the mesh has
@@ -47,7 +44,7 @@ namespace Voussoir
     std::vector<StaticLoad>      loads;
     std::array<Unknowns, 3>      inertia;         ///< load per unit base acceleration
     double                       added_mass = 0.; ///< for motion along x [kg]
-    std::vector<Stress>          initial_stress;  ///< of the staged self-weight, per node of the model
+    std::vector<Stress>          initial_stress;  ///< of staged weight and temperature, per node of the model
     Vector3                      self_weight_crown = {{0., 0., 0.}}; ///< displacement of the crown by it [m]
     bool                         has_water = false; ///< does the water reach the upstream face?
     bool                         tied = false;      ///< all joints: there are no pairs

@@ -38,6 +38,9 @@ namespace Voussoir
   /** The node nearest to the probe @p name at @p p. Throws InputError if it is farther away than the elements
    *  there are large (the longest distance from that node to another one of its elements). */
   unsigned int probe_node(const SolidModel &model, const std::string &name, const dealii::Point<3> &p);
+
+  /** The same for @p what, as messages name it: "Entry ... : probe ...". */
+  unsigned int node_at(const SolidModel &model, const std::string &what, const dealii::Point<3> &p);
 } // namespace Voussoir
 
 #endif

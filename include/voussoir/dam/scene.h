@@ -5,6 +5,7 @@
 #include <voussoir/contact/contact_solver.h>
 #include <voussoir/contact/law_parameters.h>
 #include <voussoir/dam/limits.h>
+#include <voussoir/dam/load_parameters.h>
 #include <voussoir/dam/reservoir.h>
 #include <voussoir/foundation/foundation_parameters.h>
 #include <voussoir/mesh/mesh_source.h>
@@ -57,6 +58,7 @@ namespace Voussoir
     std::string  self_weight = "staged"; ///< or monolithic, none
     unsigned int water_increments = 1;
     double       gravity = 9.81; ///< [m/s^2]
+    std::string  stages;         ///< before the water is raised to its level: static_stages()
     void         add_parameters(dealii::ParameterHandler &prm);
   };
 
@@ -88,6 +90,7 @@ namespace Voussoir
     JointParameters      joints;
     ContactParameters    contact;
     StaticParameters     statics;
+    LoadParameters       loads;
     FoundationParameters foundation;
     unsigned int         steps_per_sample = 1;   ///< of the ground motion
     bool                 error_estimate = false; ///< of the time step

@@ -25,9 +25,11 @@ namespace Voussoir
   class TimeErrorEstimate
   {
   public:
-    /** @p dt: of the run. @p start: its state then. @p stress: nullptr: no tensions. All are kept. */
+    /** @p dt: of the run. @p start: its state then, @p reference_jump: jumps at which the joints are
+     * closed, 3 per pair [m]. @p stress: nullptr: no tensions. All are kept. */
     TimeErrorEstimate(const Dam &dam, const ContactParameters &parameters, double dt, ImpactRule rule,
-                      const StressRecovery *stress, const DynamicState &start);
+                      const StressRecovery *stress, const DynamicState &start,
+                      const Unknowns &reference_jump);
 
     /** After each step of the run, under @p load at its end; every second one is a step here. */
     void advance(unsigned int step, const Unknowns &load, const Vector3 &base_velocity);

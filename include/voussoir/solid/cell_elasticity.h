@@ -34,6 +34,11 @@ namespace Voussoir
      * extrapolated trilinearly. After reinit(). */
     void stress_operator(std::vector<std::array<double, 18>> &blocks);
 
+    /** Nodal forces [N], 3 per node, that hold the isotropic @p strain (of the n nodes) [-], and what it adds
+     * to the stress at the n nodes (xx yy zz xy yz zx) [Pa]: sigma = D (eps - strain). After reinit(). */
+    void initial_strain(const std::vector<double> &strain, std::vector<double> &load,
+                        std::vector<std::array<double, 6>> &stress);
+
   private:
     dealii::Tensor<1, 3> mode_gradient(const dealii::FEValues<3> &values, unsigned int q,
                                        unsigned int mode) const;
@@ -43,6 +48,7 @@ namespace Voussoir
     const bool                                  modes;
     dealii::FEValues<3>                         values, mass_values, stress_values, centre;
     dealii::FullMatrix<double>                  mode_of_displacement; ///< 9 x 3n
+    dealii::FullMatrix<double>                  mode_of_force;        ///< 9 x 9, the modes' flexibility
     dealii::DoFHandler<3>::active_cell_iterator cell;
     double                                      lambda = 0., mu = 0.;
   };

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <voussoir/dam/base_uplift.h>
+#include <voussoir/dam/face_distance.h>
+
+#include <algorithm>
+
+namespace Voussoir
+{
+  using namespace dealii;
+
+  double uplift_head(const double s, const double heel, const double toe, const UpliftParameters &uplift)
+  {
+    const double d = uplift.drain_position, rest = 1. - uplift.drain_efficiency;
+    const double at_drains = toe + rest * (1. - d) * (heel - toe);
+    if (s < d)
+      return heel + s / d * (at_drains - heel);
+    return d < 1. ? at_drains + (s - d) / (1. - d) * (toe - at_drains) : at_drains;
+  }
+
+  BaseUplift base_uplift(const Scene &scene, const SolidModel &model)
+  {
+    const std::vector<double> place = places_in_thickness(model, "Loads/Uplift/Base");
+    const double              gravity = scene.statics.gravity, tail = scene.loads.tail_water.level,
+                 of_reservoir = scene.reservoir.density * gravity * scene.loads.factor("water"),
+                 of_tail = scene.loads.tail_water.density * gravity * scene.loads.factor("tail water");
+    BaseUplift                           uplift{Unknowns(3 * std::size_t(model.n_nodes()), 0.), {}};
+    FEFaceValues<3>                      values(model.fe, QGauss<2>(8),
+                                                update_values | update_normal_vectors | update_JxW_values |
+                                                    update_quadrature_points);
+    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+    for (const auto &cell : model.dof_handler.active_cell_iterators())
+      for (const unsigned int face : cell->face_indices())
+        if (cell->face(face)->at_boundary() && cell->face(face)->boundary_id() == PhysicalId::base)
+        {
+          values.reinit(cell, face);
+          cell->get_dof_indices(dofs);
+          for (const unsigned int q : values.quadrature_point_indices())
+          {
+            const double z = values.quadrature_point(q)[2];
+            double       s = 0.;
+            for (unsigned int i = 0; i < dofs.size(); ++i)
+              s += values.shape_value(i, q) * place[dofs[i]];
+            const double p = uplift_head(s, of_reservoir * std::max(0., scene.reservoir.level - z),
+                                         of_tail * std::max(0., tail - z), scene.loads.uplift);
+            for (unsigned int c = 0; c < 3; ++c)
+            {
+              const double f = -scene.loads.factor("uplift") * p * values.normal_vector(q)[c] * values.JxW(q);
+              uplift.of_monolith[cell->material_id()][c] += f;
+              for (unsigned int i = 0; i < dofs.size(); ++i)
+                uplift.force[3 * dofs[i] + c] += f * values.shape_value(i, q);
+            }
+          }
+        }
+    return uplift;
+  }
+} // namespace Voussoir

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
+#include <voussoir/dam/dam_geometry.h>
+#include <voussoir/dam/nodal_forces.h>
+
+#include <set>
+#include <utility>
+
+namespace Voussoir
+{
+  using namespace dealii;
+
+  void add_concentrated(const SolidModel &model, const LoadParameters &loads, Unknowns &load)
+  {
+    for (const auto &entry : loads.point_loads())
+    {
+      const Vector3     &x = entry.second.place;
+      const unsigned int nearest = node_at(
+          model, "Entry \"Loads/Concentrated\": load \"" + entry.first + "\"", Point<3>(x[0], x[1], x[2]));
+      std::set<unsigned int> sharing; // the place; nodes that move as one count once
+      for (unsigned int i = 0; i < model.n_nodes(); ++i)
+        if (model.points[i].distance(model.points[nearest]) < 1e-6 * (1. + model.points[nearest].norm()))
+          sharing.insert(model.equation[i]);
+      if (sharing.count(rigid_ground) > 0)
+        throw InputError(
+            "Entry \"Loads/Concentrated\": load \"" + entry.first +
+            "\" is on the base, which is held: it would have no effect. Move it, or leave it out.");
+      for (const unsigned int e : sharing)
+        for (unsigned int c = 0; c < 3; ++c)
+          load[3 * std::size_t(e) + c] += entry.second.force[c] / sharing.size();
+    }
+  }
+
+  namespace
+  {
+    bool on_surface(const DoFHandler<3>::active_cell_iterator &cell, const unsigned int face,
+                    const int surface)
+    {
+      return cell->face(face)->at_boundary() && static_cast<int>(cell->face(face)->boundary_id()) == surface;
+    }
+  } // namespace
+
+  void add_crest_line(const SolidModel &model, const LoadParameters &loads, Unknowns &load)
+  {
+    const Vector3 q = loads.line_load();
+    const int     side = loads.crest_edge == "upstream" ? PhysicalId::upstream : PhysicalId::downstream;
+    unsigned int  n_lines = 0;
+    for (const auto &cell : model.dof_handler.active_cell_iterators())
+      for (unsigned int line = 0; line < GeometryInfo<3>::lines_per_cell; ++line)
+      {
+        bool crest = false, edge = false; // is it an edge of such a face of the cell?
+        for (const unsigned int face : cell->face_indices())
+          for (unsigned int l = 0; l < GeometryInfo<3>::lines_per_face; ++l)
+            if (cell->face(face)->line(l) == cell->line(line))
+            {
+              crest = crest || on_surface(cell, face, PhysicalId::crest);
+              edge = edge || on_surface(cell, face, side);
+            }
+        if (!crest || !edge)
+          continue;
+        ++n_lines;
+        const double length = cell->line(line)->diameter();
+        // Simpson's rule with the node in the middle, exact for the shape functions of both degrees
+        const double ends = model.fe.degree == 1 ? .5 : 1. / 6.;
+        const auto   add = [&](const unsigned int node, const double part)
+        {
+          for (unsigned int c = 0; model.equation[node] != rigid_ground && c < 3; ++c)
+            load[3 * std::size_t(model.equation[node]) + c] += part * length * q[c];
+        };
+        for (unsigned int v = 0; v < 2; ++v)
+          add(cell->line(line)->vertex_dof_index(v, 0), ends);
+        if (model.fe.degree == 2)
+          add(cell->line(line)->dof_index(0), 2. / 3.);
+      }
+    if (n_lines == 0)
+      throw InputError("Entry \"Loads/Crest line\": the surfaces \"crest\" and \"" + loads.crest_edge +
+                       "\" of the mesh do not meet, or are missing. Mark both in the mesh.");
+  }
+} // namespace Voussoir

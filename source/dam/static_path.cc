@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
+#include <voussoir/dam/static_path.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+namespace Voussoir
+{
+  namespace
+  {
+    constexpr double endless = std::numeric_limits<double>::infinity();
+
+    bool has(const std::vector<StaticStage> &stages, const StaticStage::Kind kind)
+    {
+      return std::any_of(stages.begin(), stages.end(), [&](const StaticStage &s) { return s.kind == kind; });
+    }
+
+    std::string in_words(const char *what, const double value)
+    {
+      std::ostringstream text;
+      text << what << value;
+      return text.str();
+    }
+  } // namespace
+
+  StaticPath::StaticPath(const Dam &dam) : dam(dam), increments(dam.scene.statics.water_increments)
+  {
+    add_stages();
+    StaticPart last{"end", dam.scene.reservoir.level, endless,
+                    Unknowns(3 * std::size_t(dam.structure.n_nodes()), 0.)};
+    for (const StaticLoad &load : dam.loads)
+      for (std::size_t i = 0; load.is_raised && i < last.raised.size(); ++i)
+        last.raised[i] += load.force[i];
+    parts.push_back(std::move(last));
+  }
+
+  void StaticPath::add_stages()
+  {
+    const std::vector<StaticStage> stages = static_stages(dam.scene.statics.stages);
+    const bool                     has_days = has(stages, StaticStage::Kind::day),
+               has_lifts = has(stages, StaticStage::Kind::grout);
+    const std::string entry = "Entry \"Statics/Stages\"";
+    if (has_days && dam.scene.loads.temperature.table.empty())
+      throw InputError(entry + " names days, but there is no table of temperatures. Give "
+                               "\"Loads/Temperature/Table\", or leave the days out.");
+    if (has(stages, StaticStage::Kind::fill) && dam.scene.reservoir.density == 0.)
+      throw InputError(entry +
+                       " fills the reservoir, but \"Reservoir/Density\" is 0. Set it to 1000, or leave the "
+                       "levels out.");
+    if (has_lifts && dam.tied)
+      throw InputError(entry +
+                       " grouts joints, but the dam has none that are open: all are tied. Choose another "
+                       "\"Joints/Model\", or leave the lifts out.");
+    Scene at = dam.scene; // as it is at a stage
+    at.reservoir.level = -endless;
+    if (has_days) // until the first of them
+      at.loads.temperature = TemperatureParameters();
+    double grouted = has_lifts ? -endless : endless;
+    for (const StaticStage &stage : stages)
+      switch (stage.kind)
+      {
+      case StaticStage::Kind::grout:
+        if (stage.value <= grouted)
+          throw InputError(entry + ": \"" + in_words("grout ", stage.value) +
+                           "\" is not above the lift before. Name the lifts from below.");
+        grouted = stage.value;
+        break;
+      case StaticStage::Kind::fill:
+        check_level(at.reservoir.level = stage.value);
+        add_part(in_words("fill ", stage.value), at, grouted);
+        break;
+      case StaticStage::Kind::day:
+        at.loads.temperature = dam.scene.loads.temperature;
+        at.loads.temperature.day = stage.value;
+        add_part(in_words("day ", stage.value), at, grouted);
+      }
+  }
+
+  void StaticPath::add_part(const std::string &name, const Scene &at, const double grouted)
+  {
+    StaticPart part{name, at.reservoir.level, grouted,
+                    Unknowns(3 * std::size_t(dam.structure.n_nodes()), 0.)};
+    for (const StaticLoad &load : static_loads(at, {*dam.model, dam.structure, dam.materials}))
+      for (std::size_t i = 0; load.is_raised && i < part.raised.size(); ++i)
+        part.raised[i] += load.force[i];
+    parts.push_back(std::move(part));
+  }
+
+  void StaticPath::check_level(const double level) const
+  {
+    double top = -endless;
+    for (unsigned int i = 0; i < dam.model->n_nodes(); ++i)
+      if (dam.model->on_surface(i, PhysicalId::upstream))
+        top = std::max(top, dam.model->points[i][2]);
+    if (level > top + 1e-6 * dam.size)
+      throw InputError("Entry \"Statics/Stages\": the level " + std::to_string(level) +
+                       " m is above the dam, which ends at " + std::to_string(top) + " m. Lower it.");
+  }
+
+  double StaticPath::share(const unsigned int step) const
+  {
+    return double(step % increments + 1) / increments;
+  }
+
+  Unknowns StaticPath::load(const unsigned int step) const
+  {
+    const double    share = this->share(step);
+    const Unknowns &to = part(step).raised;
+    Unknowns        sum(to.size());
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] = share * to[i];
+    if (step >= increments)
+    {
+      const Unknowns &from = part(step - increments).raised;
+      for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] += (1. - share) * from[i];
+    }
+    for (const StaticLoad &load : dam.loads)
+      for (std::size_t i = 0; !load.is_raised && i < sum.size(); ++i)
+        sum[i] += load.force[i];
+    return sum;
+  }
+
+  double StaticPath::water_pressure(const unsigned int step, const double z) const
+  {
+    const auto   depth = [&](const StaticPart &part) { return std::max(0., part.level - z); };
+    const double share = this->share(step), before = step < increments ? 0. : depth(part(step - increments));
+    return dam.scene.reservoir.density * dam.scene.statics.gravity * dam.scene.loads.factor("water") *
+           (share * depth(part(step)) + (1. - share) * before);
+  }
+
+  PairLaws laws_up_to(const double grouted, const Dam &dam, const JointLaw &free)
+  {
+    PairLaws laws = dam.laws;
+    for (std::size_t p = 0; p < laws.of_pair.size(); ++p)
+      if (dam.structure.pairs[p].place[2] > grouted && laws.of_pair[p] != dam.laws.of_joint.back().get())
+        laws.of_pair[p] = &free;
+    return laws;
+  }
+} // namespace Voussoir

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
+#include <voussoir/dam/face_distance.h>
+#include <voussoir/dam/temperature.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace Voussoir
+{
+  namespace
+  {
+    using Row = std::array<double, 3>; ///< day, upstream, downstream
+
+    std::vector<Row> read_table(const std::string &file)
+    {
+      std::error_code error;
+      std::ifstream   in;
+      if (std::filesystem::is_regular_file(file, error))
+        in.open(file);
+      if (!in.is_open())
+        throw InputError("Entry \"Loads/Temperature/Table\": the file " + file +
+                         " cannot be read. Its path is relative to the directory of the scene file.");
+      std::vector<Row> rows;
+      std::string      line;
+      for (unsigned int number = 1; std::getline(in, line); ++number)
+      {
+        line = line.substr(0, line.find('#'));
+        std::replace_if(
+            line.begin(), line.end(), [](const char c) { return c == ',' || c == ';' || c == '\r'; }, ' ');
+        std::istringstream words(line);
+        std::string        more;
+        Row                row;
+        if (!(std::istringstream(line) >> more) ||
+            (number == 1 && std::isalpha(static_cast<unsigned char>(more[0]))))
+          continue; // empty, or the names of the columns
+        const std::string place =
+            "Entry \"Loads/Temperature/Table\": " + file + ", line " + std::to_string(number);
+        if (!(words >> row[0] >> row[1] >> row[2]) || words >> more)
+          throw InputError(place + " is \"" + line +
+                           "\"; write three numbers, the day and the temperatures of the upstream and of the "
+                           "downstream face in degC.");
+        if (!rows.empty() && !(row[0] > rows.back()[0]))
+          throw InputError(place + ": the days must ascend; this one follows " +
+                           std::to_string(rows.back()[0]) + ".");
+        rows.push_back(row);
+      }
+      return rows;
+    }
+  } // namespace
+
+  std::array<double, 2> face_temperatures(const TemperatureParameters &temperature,
+                                          const std::string           &directory)
+  {
+    if (temperature.table.empty())
+      return {{temperature.upstream, temperature.downstream}};
+    const std::string      file = (std::filesystem::path(directory) / temperature.table).string();
+    const std::vector<Row> rows = read_table(file);
+    const double           day = temperature.day;
+    if (rows.empty() || day < rows.front()[0] || day > rows.back()[0])
+    {
+      std::ostringstream message;
+      message << "Entry \"Loads/Temperature/Table\": " << file << " has no temperature of day " << day;
+      if (!rows.empty())
+        message << ", only those of " << rows.front()[0] << " to " << rows.back()[0];
+      throw InputError(message.str() +
+                       ". Lengthen the table, or change \"Loads/Temperature/Day\" (or the day in "
+                       "\"Statics/Stages\").");
+    }
+    std::size_t k = 1;
+    while (k + 1 < rows.size() && rows[k][0] < day)
+      ++k;
+    if (rows.size() == 1)
+      return {{rows[0][1], rows[0][2]}};
+    const double t = (day - rows[k - 1][0]) / (rows[k][0] - rows[k - 1][0]);
+    return {{rows[k - 1][1] + t * (rows[k][1] - rows[k - 1][1]),
+             rows[k - 1][2] + t * (rows[k][2] - rows[k - 1][2])}};
+  }
+
+  InitialStrain temperature_load(const SolidModel &model, const std::vector<Material> &materials,
+                                 const bool incompatible_modes, const TemperatureParameters &temperature,
+                                 const std::string &directory)
+  {
+    const auto          faces = face_temperatures(temperature, directory);
+    std::vector<double> strain(model.n_nodes(), 0.);
+    if (faces[0] != faces[1])
+      strain = places_in_thickness(model, "Loads/Temperature");
+    for (double &s : strain)
+      s = temperature.expansion * (faces[0] + s * (faces[1] - faces[0]) - temperature.grouting);
+    return initial_strain(model, materials, incompatible_modes, strain);
+  }
+} // namespace Voussoir

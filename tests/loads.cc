@@ -1,0 +1,515 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Temperature, silt, tail water, uplift and concentrated loads against closed forms.
+// Usage: loads temperature|joints|faces|nodes|combinations
+
+#include <voussoir/dam/base_uplift.h>
+#include <voussoir/dam/face_distance.h>
+#include <voussoir/dam/face_pressure.h>
+#include <voussoir/dam/joint_water.h>
+#include <voussoir/dam/nodal_forces.h>
+#include <voussoir/dam/temperature.h>
+#include <voussoir/joints/joint_system.h>
+#include <voussoir/joints/pairs.h>
+#include <voussoir/mesh/mesh_joints.h>
+
+#include "grids.h"
+#include "testing.h"
+
+using namespace Voussoir;
+using namespace Testing;
+
+namespace
+{
+  constexpr double thick = 10., wide = 20., tall = 30.;
+
+  HexMesh wall(const std::array<unsigned int, 3>             &n = {{2, 3, 4}},
+               const std::function<Vector3(const Vector3 &)> &place = nullptr)
+  {
+    return Grids::wall({{thick, wide, tall}}, n, n[1], place);
+  }
+
+  Vector3 sum(const Unknowns &f)
+  {
+    Vector3 result{};
+    for (std::size_t k = 0; k < f.size(); ++k)
+      result[k % 3] += f[k];
+    return result;
+  }
+
+  double largest(const Unknowns &f)
+  {
+    double result = 0.;
+    for (const double x : f)
+      result = std::max(result, std::abs(x));
+    return result;
+  }
+
+  // Temperature
+
+  /** A model without supports with its structure, under a temperature. */
+  struct Heated
+  {
+    Heated(const HexMesh &mesh, const unsigned int degree, const TemperatureParameters &temperature,
+           const double poisson = .2)
+        : model(mesh, degree)
+    {
+      concrete.poisson = poisson;
+      model.free_base();
+      structure = assemble_structure(model, {concrete}, true);
+      thermal = temperature_load(model, {concrete}, true, temperature, ".");
+    }
+
+    Unknowns displacement(const std::function<Vector3(const Vector3 &)> &u) const
+    {
+      Unknowns result(3 * structure.n_nodes());
+      for (unsigned int i = 0; i < model.n_nodes(); ++i)
+        set(result, model.equation[i], u({{model.points[i][0], model.points[i][1], model.points[i][2]}}));
+      return result;
+    }
+
+    Unknowns residual(const Unknowns &u) const ///< K u - f [N]
+    {
+      Unknowns r;
+      structure.multiply_stiffness(u, r);
+      for (std::size_t k = 0; k < r.size(); ++k)
+        r[k] -= thermal.load[k];
+      return r;
+    }
+
+    std::vector<Stress> stress(const Unknowns &u) const
+    {
+      std::vector<Stress> s;
+      StressRecovery(model, {concrete}, true).apply(u, s);
+      for (std::size_t i = 0; i < s.size(); ++i)
+        for (unsigned int c = 0; c < 6; ++c)
+          s[i][c] += thermal.stress[i][c];
+      return s;
+    }
+
+    Material      concrete;
+    SolidModel    model;
+    Structure     structure;
+    InitialStrain thermal;
+  };
+
+  TemperatureParameters heat(const double upstream, const double downstream)
+  {
+    TemperatureParameters t;
+    t.upstream = upstream;
+    t.downstream = downstream;
+    t.grouting = 10.;
+    return t;
+  }
+
+  /** The free wall: T = T_0 + G x makes u = alpha ((T_0 - T_g) r + G ((x^2 - y^2 - z^2)/2, x y, x z)) and no
+   * stress (Boley and Weiner 1960). */
+  void free_wall(const unsigned int degree, const double upstream, const double downstream)
+  {
+    const Heated   bar(wall(), degree, heat(upstream, downstream));
+    const double   a = 1e-5, t = upstream - 10., g = (downstream - upstream) / thick;
+    const Unknowns u = bar.displacement(
+        [=](const Vector3 &x)
+        {
+          return Vector3{{a * (t * x[0] + g * (x[0] * x[0] - x[1] * x[1] - x[2] * x[2]) / 2.),
+                          a * (t * x[1] + g * x[0] * x[1]), a * (t * x[2] + g * x[0] * x[2])}};
+        });
+    const std::string name = "free wall, degree " + std::to_string(degree) + ", " + text(upstream) + " to " +
+                             text(downstream) + " degC: ";
+    below(name + "exact u is in balance", largest(bar.residual(u)) / largest(bar.thermal.load), 1e-10);
+    float stress = 0.f;
+    for (const Stress &s : bar.stress(u))
+      for (const float x : s)
+        stress = std::max(stress, std::abs(x));
+    below(name + "no stress [of E alpha dT]", stress / (bar.concrete.young * a * 20.),
+          3e-5); // in single precision
+  }
+
+  /** Held along y at both ends, free across: sigma_y = -E alpha dT. */
+  void clamped_bar(const unsigned int degree)
+  {
+    const double   dt = 15., a = 1e-5;
+    const Heated   bar(wall(), degree, heat(10. + dt, 10. + dt));
+    const double   e = bar.concrete.young, nu = bar.concrete.poisson;
+    const Unknowns u = bar.displacement(
+        [=](const Vector3 &x) {
+          return Vector3{{(1. + nu) * a * dt * x[0], 0., (1. + nu) * a * dt * x[2]}};
+        });
+    for (const Stress &s : bar.stress(u))
+      for (unsigned int c = 0; c < 6; ++c)
+        expect_within(s[c], c == 1 ? -e * a * dt : 0., 1e-5 * e * a * dt, "stress of the clamped bar");
+    const Unknowns r = bar.residual(u);
+    double         reaction = 0., rest = 0.;
+    for (unsigned int i = 0; i < bar.model.n_nodes(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const double y = bar.model.points[i][1], f = r[3 * bar.model.equation[i] + c];
+        if (c == 1 && y < 1e-6)
+          reaction += f;
+        else if (c != 1 || y < wide - 1e-6)
+          rest = std::max(rest, std::abs(f));
+      }
+    expect_close(reaction, e * a * dt * thick * tall, 1e-10, "reaction of the clamped bar");
+    expect(rest < 1e-10 * reaction, "balance of the clamped bar");
+  }
+
+  constexpr double inner = 20., outer = 30.;
+
+  /** A closed ring of the height @p h, its outer face upstream. */
+  HexMesh ring(const unsigned int n, const unsigned int n_through, const double h)
+  {
+    HexMesh    mesh;
+    const auto node = [&](const unsigned int i, const unsigned int j, const unsigned int k)
+    { return (k * n + j % n) * (n_through + 1) + i; };
+    for (unsigned int k = 0; k < 2; ++k)
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i <= n_through; ++i)
+        {
+          const double r = outer + (inner - outer) * i / n_through, angle = 2. * pi * j / n;
+          mesh.nodes.push_back({r * std::cos(angle), r * std::sin(angle), h * k});
+        }
+    for (unsigned int j = 0; j < n; ++j)
+    {
+      for (unsigned int i = 0; i < n_through; ++i)
+        mesh.cells.push_back({{node(i, j, 0), node(i, j + 1, 0), node(i + 1, j + 1, 0), node(i + 1, j, 0),
+                               node(i, j, 1), node(i, j + 1, 1), node(i + 1, j + 1, 1), node(i + 1, j, 1)},
+                              1});
+      for (const unsigned int i : {0u, n_through})
+        mesh.faces.push_back({{node(i, j, 0), node(i, j + 1, 0), node(i, j + 1, 1), node(i, j, 1)},
+                              i == 0 ? PhysicalId::upstream : PhysicalId::downstream});
+    }
+    return mesh;
+  }
+
+  /** Hoop stress of a thin free ring whose temperature is T (b - r)/(b - a): Timoshenko and Goodier 1970,
+   * section 151. */
+  double hoop_stress(const double r, const double e_alpha_t)
+  {
+    const double a = inner, b = outer;
+    const auto   integral = [=](const double s) // of T r from a to s
+    { return (b * (s * s - a * a) / 2. - (s * s * s - a * a * a) / 3.) / (b - a); };
+    return e_alpha_t *
+           ((r * r + a * a) / (b * b - a * a) * integral(b) + integral(r) - r * r * (b - r) / (b - a)) /
+           (r * r);
+  }
+
+  void free_ring()
+  {
+    Heated      disc(ring(64, 4, .5), 2, heat(10., 30.), 0.);
+    JointSystem system(disc.structure, JointLaws(), ContactParameters(), 1e-3, 1.,
+                       0.); // held by hardly anything
+    Unknowns    u;
+    system.solve_free(disc.thermal.load, u);
+    const auto   stress = disc.stress(u);
+    double       error = 0.;
+    const double scale = disc.concrete.young * 1e-5 * 20.;
+    for (unsigned int i = 0; i < disc.model.n_nodes(); ++i)
+    {
+      const double  x = disc.model.points[i][0], y = disc.model.points[i][1], r = std::hypot(x, y);
+      const Stress &s = stress[i];
+      const double  hoop = (y * y * s[0] + x * x * s[1] - 2. * x * y * s[3]) / (r * r);
+      error = std::max(error, std::abs(hoop - hoop_stress(r, scale)) / scale);
+    }
+    note("ring: hoop stress inside [of E alpha T]", hoop_stress(inner, 1.));
+    below("ring: hoop stress at all nodes [of E alpha T]", error, .01);
+  }
+
+  void tables()
+  {
+    write_text("temperatures.csv", "day, upstream, downstream\n0, 4, 2\n100, 8, 22 # summer\n\n200; 6; 2\n");
+    TemperatureParameters t;
+    t.table = "temperatures.csv";
+    for (const auto &[day, up, down] :
+         {std::array<double, 3>{0., 4., 2.}, {25., 5., 7.}, {150., 7., 12.}, {200., 6., 2.}})
+    {
+      t.day = day;
+      const auto faces = face_temperatures(t, ".");
+      expect_within(faces[0], up, 1e-12, "upstream face");
+      expect_within(faces[1], down, 1e-12, "downstream face");
+    }
+    t.day = 201.;
+    expect_error([&] { face_temperatures(t, "."); }, {"Loads/Temperature/Table", "day 201", "0 to 200"});
+    t.table = "none.csv";
+    expect_error([&] { face_temperatures(t, "."); }, {"none.csv", "relative"});
+    for (const auto &[content, part] :
+         {std::make_pair("0 1\n", "line 1"), {"0 1 2\n0 1 2\n", "ascend"}, {"0 1 2 3\n", "three numbers"}})
+    {
+      write_text("bad.csv", content);
+      t.table = "bad.csv";
+      expect_error([&] { face_temperatures(t, "."); }, {"bad.csv", part});
+    }
+  }
+
+  void temperature()
+  {
+    for (const unsigned int degree : {1, 2})
+    {
+      free_wall(degree, 30., 30.);
+      free_wall(degree, 30., -10.);
+      clamped_bar(degree);
+    }
+    free_ring();
+    tables();
+    HexMesh bare = wall();
+    bare.faces.clear();
+    const SolidModel model(bare, 1);
+    throws("a linear temperature without faces", [&] { places_in_thickness(model, "Loads/Temperature"); },
+           {"Loads/Temperature", "\"upstream\"", "Mark it"});
+  }
+
+  // Joints: two bars of 2 m x 1 m x 1 m that meet, held at their far ends.
+
+  struct TwoBars
+  {
+    TwoBars(const unsigned int degree, const double dt) : model(mesh(), degree)
+    {
+      concrete.poisson = 0.;
+      structure = assemble_structure(model, {concrete}, true);
+      structure.pairs = find_pairs(model, 1);
+      structure.n_joints = 1;
+      structure.collect_interfaces();
+      laws.of_joint.push_back(make_joint_law("FJA", LawParameters(.8)));
+      laws.assign(structure.pairs);
+      load = temperature_load(model, {concrete}, true, heat(10. + dt, 10. + dt), ".").load;
+      system = std::make_unique<JointSystem>(structure, laws, ContactParameters(), 0., 1., 0.);
+    }
+
+    static HexMesh mesh()
+    {
+      HexMesh mesh = Grids::columns({{0., 1., 2.}, {2., 3., 4.}});
+      mesh.faces.push_back({{0, 1, 2, 3}, PhysicalId::base});
+      mesh.faces.push_back({{20, 21, 22, 23}, PhysicalId::base});
+      for (const unsigned int k : {0, 4, 12, 16}) // y = 0 is upstream
+        mesh.faces.push_back({{k, k + 3, k + 7, k + 4}, PhysicalId::upstream});
+      return mesh;
+    }
+
+    void solve()
+    {
+      const std::size_t n = 3 * structure.pairs.size();
+      force.assign(n, 0.);
+      gap.assign(n, 0.);
+      expect(system->solve(load, Unknowns(n, 0.), Unknowns(n, 0.), force, gap, u).converged, "convergence");
+    }
+
+    double mean_gap() const ///< over the joint of 1 m^2
+    {
+      double result = 0.;
+      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+        result += structure.pairs[p].area * gap[3 * p];
+      return result;
+    }
+
+    double joint_force() const
+    {
+      double result = 0.;
+      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+        result += force[3 * p];
+      return result;
+    }
+
+    Material                     concrete;
+    SolidModel                   model;
+    Structure                    structure;
+    JointLaws                    laws;
+    Unknowns                     load, force, gap, u;
+    std::unique_ptr<JointSystem> system;
+  };
+
+  void joints()
+  {
+    const double a = 1e-5, dt = 15.;
+    for (const unsigned int degree : {1, 2})
+    {
+      TwoBars cold(degree, -dt), warm(degree, dt);
+      cold.solve();
+      expect_close(cold.mean_gap(), a * dt * 4., 1e-9, "opening under cooling");
+      expect(std::abs(cold.joint_force()) < 1e-9 * warm.concrete.young * a * dt,
+             "an open joint has no force");
+      warm.solve();
+      expect_close(warm.joint_force(), warm.concrete.young * a * dt, 1e-9, "force under warming");
+      below("gap of the warm bars [m]", warm.mean_gap(), 1e-15);
+
+      // Water in the open joint, up to z = 1 and to z = 0.6; then a closed one stays dry.
+      const Unknowns dry = cold.load;
+      for (const double level : {1.5, .6})
+      {
+        const auto pressure = [=](const double z) { return 1e4 * std::max(0., level - z); };
+        JointWater water(cold.model, cold.structure);
+        expect(water.spread(cold.system->states(), pressure) &&
+                   !water.spread(cold.system->states(), pressure),
+               "the water goes all the way at once");
+        cold.load = dry;
+        water.add_forces(pressure, cold.load);
+        unsigned int n_below = 0;
+        double       push = 0.;
+        for (const Pair &pair : cold.structure.pairs)
+        {
+          n_below += pair.place[2] < level;
+          push += pressure(pair.place[2]) * pair.area;
+        }
+        expect(water.n_wet() == n_below && n_below > 0, "pairs below the level are wet");
+        if (level > 1.)
+          expect_close(push, 1e4, 1e-12, "water in the joint");
+        const double before = cold.mean_gap();
+        cold.solve();
+        // each bar of 2 m is compressed by the push over its section of 1 m^2
+        expect_close(cold.mean_gap() - a * dt * 4., 4. * push / cold.concrete.young, 1e-9,
+                     "opening by the water");
+        expect(before > 0., "open");
+        expect(std::abs(sum(cold.load)[0] - sum(dry)[0]) < 1e-6 * push, "the water pushes both sides alike");
+      }
+      JointWater shut(warm.model, warm.structure);
+      expect(!shut.spread(warm.system->states(), [](double) { return 1e4; }) && shut.n_wet() == 0,
+             "no water enters a closed joint");
+    }
+  }
+
+  // Faces
+
+  void faces()
+  {
+    for (const unsigned int degree : {1, 2})
+    {
+      SolidModel model(wall({{2, 4, 6}}), degree);
+      model.free_base();
+      TailWaterParameters tail;
+      SiltParameters      silt;
+      for (const double level : {30., 20., 17.}) // between nodes, too
+      {
+        tail.level = silt.level = level;
+        Unknowns load(3 * model.first_equation.back(), 0.);
+        add_tail_water(model, tail, 9.81, load);
+        expect_close(sum(load)[0], -9810. * level * level / 2. * wide, 1e-3, "push of the tail water");
+        Unknowns of_silt(load.size(), 0.);
+        add_silt(model, silt, 9.81, of_silt);
+        expect_close(sum(of_silt)[0], 900. * 9.81 / 3. * level * level / 2. * wide, 1e-3,
+                     "push of the silt, K = 1/3");
+        silt.coefficient = .5;
+        Unknowns half(load.size(), 0.);
+        add_silt(model, silt, 9.81, half);
+        expect_close(sum(half)[0], 1.5 * sum(of_silt)[0], 1e-12, "K = 1/2");
+        expect(std::abs(sum(half)[1]) + std::abs(sum(half)[2]) < 1e-9 * sum(half)[0], "along x");
+        silt.coefficient = -1.;
+      }
+    }
+    // The upstream face leans downstream by 0.2: silt rests on it; upstream: it bears nothing below.
+    for (const double lean : {.2, -.2})
+    {
+      SolidModel model(wall({{2, 4, 6}},
+                            [=](const Vector3 &x) {
+                              return Vector3{{x[0] + lean * x[2], x[1], x[2]}};
+                            }),
+                       1);
+      model.free_base();
+      SiltParameters silt;
+      silt.level = tall;
+      Unknowns load(3 * model.first_equation.back(), 0.);
+      add_silt(model, silt, 9.81, load);
+      const double vertical = 900. * 9.81 * tall * tall / 2. * wide;
+      expect_close(sum(load)[0], vertical / 3., 1e-9, "push of the silt");
+      expect_within(sum(load)[2], lean > 0. ? -.2 * vertical : 0., 1e-9 * vertical, "weight of the silt");
+    }
+  }
+
+  void uplift()
+  {
+    Scene scene;
+    scene.reservoir.level = 24.;
+    scene.loads.tail_water.level = 6.;
+    const SolidModel model(wall({{4, 3, 2}}), 1); // held: the base has its uplift all the same
+    const double     unit = 1000. * 9.81 * thick * wide;
+    expect_close(sum(base_uplift(scene, model).force)[2], unit * (24. + 6.) / 2., 1e-12,
+                 "uplift without drains");
+    scene.loads.uplift.drain_position = .25;
+    scene.loads.uplift.drain_efficiency = .5;
+    const double at_drains = 6. + .5 * .75 * 18.;
+    expect_close(sum(base_uplift(scene, model).force)[2],
+                 unit * (.25 * (24. + at_drains) / 2. + .75 * (at_drains + 6.) / 2.), 1e-12,
+                 "uplift with drains");
+    scene.loads.uplift.drain_efficiency = 1.;
+    expect_close(uplift_head(.6, 24., 6., scene.loads.uplift), 6., 1e-12, "behind perfect drains");
+    const auto of_monolith = base_uplift(scene, model).of_monolith;
+    expect(of_monolith.size() == 1, "monoliths");
+    expect_close(of_monolith.at(1)[2], unit * (.25 * 15. + .75 * 6.), 1e-12, "uplift of the monolith");
+  }
+
+  void faces_and_base()
+  {
+    faces();
+    uplift();
+  }
+
+  // Nodes
+
+  void nodes()
+  {
+    for (const unsigned int degree : {1, 2})
+    {
+      // Two monoliths, a joint at y = 10.
+      const SolidModel model(open_joints(Grids::wall({{thick, wide, tall}}, {{2, 4, 3}}, 2)), degree);
+      LoadParameters   loads;
+      loads.concentrated = {{"hook", "0 10 30 1e3 -2e3 5e2"}, {"crane", "9.7 0.1 29 0 0 -7e4"}};
+      Unknowns load(3 * model.first_equation.back(), 0.);
+      add_concentrated(model, loads, load);
+      const Vector3 total = sum(load);
+      expect(total[0] == 1e3 && total[1] == -2e3 && total[2] == -69500., "concentrated loads");
+      loads.concentrated = {{"far", "0 10 80 1 0 0"}};
+      expect_error([&] { add_concentrated(model, loads, load); },
+                   {"Loads/Concentrated", "\"far\"", "from the dam"});
+      loads.concentrated = {{"foot", "0 10 0 1 0 0"}};
+      expect_error([&] { add_concentrated(model, loads, load); }, {"\"foot\"", "held"});
+      loads.concentrated = {{"short", "0 10 0 1 0"}};
+      expect_error([&] { loads.check(); }, {"\"short\"", "six numbers"});
+      loads.concentrated.clear();
+      for (const std::string edge : {"upstream", "downstream"})
+      {
+        loads.crest_line = "2e3 0 -5e3";
+        loads.crest_edge = edge;
+        Unknowns line(load.size(), 0.);
+        add_crest_line(model, loads, line);
+        expect_close(sum(line)[0], 2e3 * wide, 1e-12, "line load along x");
+        expect_close(sum(line)[2], -5e3 * wide, 1e-12, "line load along z");
+        for (unsigned int i = 0; i < model.n_nodes(); ++i)
+          if (model.equation[i] != rigid_ground && line[3 * model.equation[i]] != 0.)
+            expect(model.points[i][2] == tall && model.points[i][0] == (edge == "upstream" ? 0. : thick),
+                   "on the edge");
+      }
+      loads.crest_line = "1 2";
+      expect_error([&] { loads.check(); }, {"Loads/Crest line", "three numbers"});
+    }
+  }
+
+  void combinations()
+  {
+    LoadParameters loads;
+    expect(loads.factor("water") == 1. && loads.factor("earthquake") == 1., "without a combination");
+    loads.combination = "usual";
+    expect(loads.factor("tail water") == 1. && loads.factor("earthquake") == 0., "usual");
+    loads.combinations["flood"] = "weight, water 1.1 , tail  water -0.5";
+    loads.combination = "flood";
+    expect(loads.factor("water") == 1.1 && loads.factor("tail water") == -.5 && loads.factor("silt") == 0.,
+           "flood");
+    loads.check();
+    loads.combination = "Flood";
+    expect_error([&] { loads.check(); }, {"Loads/Combination\"", "\"Flood\"", "Did you mean \"flood\"?"});
+    loads.combinations["bad"] = "weight, watre 2";
+    expect_error([&] { loads.check(); }, {"\"bad\"", "\"watre 2\"", "Did you mean \"water\"?"});
+    loads.combinations["bad"] = "weight, weight 2";
+    expect_error([&] { loads.check(); }, {"\"bad\"", "\"weight\" twice"});
+    const auto stages = static_stages("grout 140, fill 100,day 90 , grout 210");
+    expect(stages.size() == 4 && stages[1].kind == StaticStage::Kind::fill && stages[2].value == 90.,
+           "stages");
+    for (const char *bad : {"fill", "fill x", "fill 3 4", "empty 100", "fill -"})
+      expect_error([&] { static_stages(bad); }, {"Statics/Stages", bad});
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  return run({{"temperature", temperature},
+              {"joints", joints},
+              {"faces", faces_and_base},
+              {"nodes", nodes},
+              {"combinations", combinations}},
+             argc, argv);
+}
