@@ -9,8 +9,8 @@ required=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev libfclib
 optional=(python3-meshio) # reads .inp and .med
 if [[ "${1:-}" != --program ]]; then
   required+=(gmsh numdiff ccache clang-format shellcheck doxygen)
-  # Only benchmarks/calculix.py and contact.py, and the test that looks at the page of `voussoir report`, use them.
-  optional+=(calculix-ccx python3-siconos python3-h5py chromium)
+  # Only benchmarks/calculix.py and contact.py, `voussoir study`, and the test that looks at the page of `voussoir report`, use them.
+  optional+=(calculix-ccx python3-siconos python3-h5py chromium snakemake)
 fi
 
 missing() # PACKAGE...: those that are not installed
@@ -61,5 +61,5 @@ if ((${#needed[@]})); then
 fi
 if ((${#wanted[@]})); then
   apt install -y --no-install-recommends "${wanted[@]}" ||
-    echo "setup: warning: could not install ${wanted[*]}; benchmarks and tests that need them will be skipped" >&2
+    echo "setup: warning: could not install ${wanted[*]}; what needs them will be skipped" >&2
 fi
