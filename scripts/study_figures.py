@@ -3,6 +3,7 @@
 
 import math
 from collections import Counter, defaultdict
+from dataclasses import replace
 
 import matplotlib
 
@@ -119,7 +120,7 @@ def normal(z):
 def lognormal_fit(scales, above, runs):
     """Median and standard deviation of the logarithm of the scale at which a limit is passed: maximum likelihood of the
     counts `above` of `runs` at each scale (Baker, Earthquake Spectra 31, 2015, equation 11), by Newton's method for
-    Phi(a + b ln x). None where counts do not overlap (any small deviation fits) or do not rise with the scale."""
+    Phi(a + b ln x). None where counts do not overlap (the smaller the deviation, the better) or do not rise with the scale."""
     scales, above, runs = (np.asarray(values, dtype=float) for values in (scales, above, runs))
     if not above.any() or (above == runs).all() or scales[above > 0].min() >= scales[above < runs].max():
         return None
@@ -137,21 +138,68 @@ def lognormal_fit(scales, above, runs):
     return (math.exp(-beta[0] / beta[1]), 1. / beta[1]) if beta[1] > 0 else None
 
 
+def passings(by_record, limit):
+    """The scale at which each record's curve {scale: value} first passes the limit, between scales linearly: three lists, of
+    the scales, of the last ones of records that never pass, and of the first ones of records that pass from the first on."""
+    known, later, earlier = [], [], []
+    for curve in by_record.values():
+        scales = sorted(curve)
+        values = [curve[scale] for scale in scales]
+        first = next((i for i, value in enumerate(values) if value > limit), None)
+        if first is None:
+            later.append(scales[-1])
+        elif first == 0:
+            earlier.append(scales[0])
+        else:
+            part = (limit - values[first - 1]) / (values[first] - values[first - 1])
+            known.append(scales[first - 1] + part * (scales[first] - scales[first - 1]))
+    return known, later, earlier
+
+
+def lognormal_of_passings(known, later, earlier):
+    """Median and standard deviation of the logarithm of the scales, the others being known to be larger or smaller than
+    theirs: maximum likelihood by expectation and maximisation (Dempster, Laird and Rubin, J. R. Stat. Soc. B 39, 1977), the
+    deviation with n - 1. None with fewer than three known scales."""
+    if len(known) < 3:
+        return None
+    known, bounds = np.log(known), np.log(np.array([*later, *earlier], dtype=float))
+    side = np.array([1.] * len(later) + [-1.] * len(earlier))
+    mean, deviation, n = known.mean(), max(known.std(), 1e-9), len(known) + len(bounds)
+    for _ in range(2000 if len(bounds) else 1):
+        z = (bounds - mean) / deviation
+        hazard = np.exp(-.5 * z * z) / math.sqrt(2. * math.pi) / np.maximum(normal(-side * z), 1e-300) if len(bounds) else z
+        first = mean + side * deviation * hazard
+        second = mean**2 + deviation**2 + side * deviation * hazard * (mean + bounds)
+        before = mean, deviation
+        mean = (known.sum() + first.sum()) / n
+        deviation = math.sqrt(max((known @ known + second.sum()) / n - mean**2, 1e-18))
+        if abs(mean - before[0]) + abs(deviation - before[1]) < 1e-12:
+            break
+    return math.exp(mean), deviation * math.sqrt(n / (n - 1))
+
+
 def draw_fragility(axes, study, pairs, limit, colour, text):
     """Shares of runs above a limit at each scale, and the curve that fits them; says how many runs that is."""
-    stripes = defaultdict(list)
+    stripes, by_record = defaultdict(list), curves(pairs, study)
     for row, value in pairs:
         stripes[number(row[study.over])].append(value > limit)
     scales = sorted(stripes)
     above, runs = [sum(stripes[scale]) for scale in scales], [len(stripes[scale]) for scale in scales]
     text += f": {sum(above)} of {sum(runs)} runs"
-    fit = lognormal_fit(scales, above, runs) if min(scales) > 0 else None
+    fit, reason = None, "a scale is not positive"
+    if min(scales) > 0 and min(map(len, by_record.values())) > 1:
+        found = passings(by_record, limit)
+        fit, reason = lognormal_of_passings(*found), "fewer than three records pass between the scales"
+        source = f"{len(found[0])} of {len(by_record)} records pass between the scales"
+    elif min(scales) > 0:
+        fit, reason = lognormal_fit(scales, above, runs), "fewer than two scales have both"
+        source = f"counts of {len(scales)} scales"
     if fit is not None:
-        x = np.linspace(min(scales) / 4, 1.1 * max(scales), 300)
-        axes.plot(x, normal((np.log(x) - math.log(fit[0])) / fit[1]), color=colour, linewidth=2)
-        text += f"\nmedian {fit[0]:.3g}, deviation of ln {fit[1]:.2f}"
+        x = np.linspace(min(scales) / 4, 1.1 * max(scales), 400)
+        axes.plot(x, normal((np.log(x) - math.log(fit[0])) / max(fit[1], 1e-6)), color=colour, linewidth=2)
+        text += f"\nmedian {fit[0]:.3g}, deviation of ln {fit[1]:.2f}\n{source}"
     else:
-        text += "\nno fit: " + ("none passes" if not any(above) else "all pass" if above == runs else "no overlap of passed and not passed")
+        text += f"\nno fit: {reason}"
     axes.plot(scales, np.divide(above, runs), "o", color=colour, clip_on=False, label=text)
 
 
@@ -227,9 +275,25 @@ def tornado(study, rows, path):
     save(figure, path)
 
 
+def independent(factors, rows):
+    """The factors without those that follow from another one, as steps follow from a foundation in a table."""
+    def follows(entry, other):
+        return len({(row[other], row[entry]) for row in rows}) == len({row[other] for row in rows})
+
+    kept = []
+    for i, entry in enumerate(factors):
+        if not any(follows(entry, other) and (other in kept or not follows(other, entry) or j < i)
+                   for j, other in enumerate(factors) if other != entry):
+            kept.append(entry)
+    return kept
+
+
 def draw(study, rows, directory):
     """All figures that the study has data for."""
     directory.mkdir(exist_ok=True)
+    first = [entry for entry in (study.over, study.records) if entry]
+    factors = independent([*first, *(entry for entry in study.factors if entry not in first)], rows)
+    study = replace(study, factors=[entry for entry in study.factors if entry in factors or entry in first])
     if study.over and rows:
         incremental(study, rows, directory / "over_scale")
     if study.over and study.records and any(measured(rows, name) for name in study.limits):

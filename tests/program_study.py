@@ -199,10 +199,19 @@ def failing():
     expect("2 before, 2 to do" in out and good.items() <= times_of("output/soft").items(), out)
 
 
+def quantile(distribution, share):
+    """By bisection."""
+    low, high = -9., 9.
+    for _ in range(60):
+        middle = .5 * (low + high)
+        low, high = (middle, high) if distribution(middle)[0] < share else (low, middle)
+    return low
+
+
 def fits():
     """Damaged area, fragility and tornado against what they must be."""
     import numpy as np
-    from study_figures import effects, lognormal_fit, normal
+    from study_figures import effects, independent, lognormal_fit, lognormal_of_passings, normal, passings
     from study_file import Study
     from study_results import area_above
     # A linear field on a unit square: the strip above the limit, for any direction
@@ -219,6 +228,23 @@ def fits():
     expect(abs(median - .7) < 1e-9 and abs(deviation - .35) < 1e-9, f"{median}, {deviation}")
     for above in ([0] * 6, [10] * 6, [0, 0, 0, 10, 10, 10], [0, 0, 3, 10, 10, 10], [9, 8, 6, 4, 2, 1]):
         expect(lognormal_fit(scales, above, [10] * 6) is None, f"a fit for {above}")
+    # Where curves pass a limit, and the distribution of that
+    curves = {"1": {1.: 0., 2.: 4., 3.: 2.}, "2": {1.: 5., 2.: 6.}, "3": {1.: 0., 2.: 1.}, "4": {1.: 1., 3.: 3.}}
+    expect(passings(curves, 2.) == ([1.5, 2.], [2.], [1.]), f"{passings(curves, 2.)}")
+    median, deviation = lognormal_of_passings([math.exp(x) for x in (-1, 0, 1)], [], [])
+    expect(abs(median - 1) < 1e-12 and abs(deviation - 1) < 1e-12, f"{median}, {deviation}")
+    z = np.array([quantile(normal, (i + .5) / 2000) for i in range(2000)])
+    known = np.exp(math.log(.7) + .35 * z)
+    cut, low = float(np.exp(math.log(.7) + .35 * .5)), float(np.exp(math.log(.7) - .35))
+    for parts in ((known[known < cut], [cut] * int((known >= cut).sum()), []),
+                  (known[(known < cut) & (known > low)], [cut] * int((known >= cut).sum()), [low] * int((known <= low).sum()))):
+        median, deviation = lognormal_of_passings(*parts)
+        expect(abs(median - .7) < 1e-3 and abs(deviation - .35) < 1e-3, f"censored: {median}, {deviation}")
+    expect(lognormal_of_passings([1., 2.], [3.], []) is None, "a fit to two")
+    # What follows from another factor is none
+    rows = [{"joints": j, "along": {"5": "60", "17": "54"}[j], "model": m, "steps": {"a": "1", "b": "1", "c": "5"}[m], "twin": m + m}
+            for j in ("5", "17") for m in "abc"]
+    expect(independent(["joints", "along", "model", "steps", "twin"], rows) == ["joints", "model"], "independent")
     # Tornado of a + 10 b, all combinations, and one by one
     rows = [({"a": str(a), "b": str(b), "scene": f"{a}{b}"}, a + 10. * b) for a in (1, 2, 3) for b in (0, 4)]
     found, base = effects(Study(Path("x"), factors=["a", "b"]), rows)
