@@ -24,5 +24,5 @@ install(FILES ${CMAKE_BINARY_DIR}/cmake/VoussoirConfig.cmake ${CMAKE_BINARY_DIR}
 # The program looks for its scripts in ../share/voussoir/scripts (source/base/python_script.cc).
 install(DIRECTORY scripts/ DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts USE_SOURCE_PERMISSIONS FILES_MATCHING PATTERN "*.py"
   PATTERN "*.css" PATTERN __pycache__ EXCLUDE PATTERN mutants.py EXCLUDE PATTERN function_lengths.py EXCLUDE)
-install(DIRECTORY prm meshes studies DESTINATION ${VOUSSOIR_SHARE_DIR} PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY prm meshes studies python DESTINATION ${VOUSSOIR_SHARE_DIR} PATTERN __pycache__ EXCLUDE)
 install(FILES README.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
