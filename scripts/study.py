@@ -178,6 +178,9 @@ def validate_all(study, directory, names, jobs):
             except InputError as error:
                 if str(error) not in errors:
                     errors.append(str(error))
+            except KeyboardInterrupt:
+                pool.shutdown(cancel_futures=True)
+                raise
     if errors:
         more = f" {len(errors) - 1} more of the {len(names)} scenes cannot be run, either." if len(errors) > 1 else ""
         raise InputError(errors[0] + more)
@@ -304,6 +307,7 @@ def main():
     if shutil.which("snakemake") is None:
         raise InputError("`voussoir study` needs Snakemake (on Debian: apt-get install snakemake).")
     signal.signal(signal.SIGTERM, signal.default_int_handler)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     study = read_study(options.files[0], options.set)
     names = names_of(study)
     jobs, threads = jobs_and_threads(options, study)

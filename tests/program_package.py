@@ -10,6 +10,7 @@ import json
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -100,5 +101,91 @@ def arcs():
     expect(abs(frequencies[0] / 3.81 - 1) < .05 and abs(frequencies[1] / 4.27 - 1) < .05, f"{frequencies}")
 
 
+def blocks(page):
+    """(remarks, text) of each fenced block: remarks are the HTML comments right above it, {"file": NAME, "small": OPTIONS...}."""
+    found, remarks, lines = [], {}, iter(page.read_text().splitlines())
+    for line in lines:
+        if match := re.fullmatch(r"<!-- (file|small|not run): (.*) -->", line):
+            remarks[match[1]] = match[2]
+        elif line.startswith("```"):
+            text = []
+            for inner in lines:
+                if inner == "```":
+                    break
+                text.append(inner)
+            found.append(({**remarks, "language": line[3:]}, "\n".join(text) + "\n"))
+            remarks = {}
+        elif line.strip():
+            remarks = {}
+    return found
+
+
+def shortened(text, options):
+    """The commands of a block with the options that make them small, before a redirection."""
+    return "\n".join(re.sub(r"^(voussoir [^>]*)", lambda m: f"{m[1]} {options}", line) if options else line for line in text.splitlines())
+
+
+def tutorial(name):
+    """Runs a page's blocks one after the other, in a directory that looks like that of the sources."""
+    for folder in ("prm", "meshes", "scripts", "studies", "include", "python"):
+        Path(folder).symlink_to(ROOT / folder)
+    Path("build").symlink_to(Path(VOUSSOIR).parent)
+    if name == "6_study" and shutil.which("snakemake") is None:
+        print("Snakemake is not installed")
+        sys.exit(77)
+    Path("bin").mkdir()
+    Path("bin/python3").symlink_to(sys.executable)
+    environment = {**os.environ, "PATH": f"{Path('bin').absolute()}:{Path(VOUSSOIR).parent}:{os.environ['PATH']}"}
+    n = 0
+    for remarks, text in blocks(ROOT / "doc" / "tutorials" / f"{name}.md"):
+        if "not run" in remarks:
+            continue
+        if "file" in remarks:
+            write(remarks["file"], text)
+            continue
+        expect(remarks["language"] == "sh", f"a block of {name} is neither a file nor commands: {text}")
+        options = remarks.get("small", "").replace("|", r"\|")
+        result = subprocess.run(["bash", "-euo", "pipefail", "-c", shortened(text, options)], capture_output=True, text=True, env=environment)
+        expect(result.returncode == 0, f"{text}{result.stdout[-2000:]}{result.stderr}")
+        print("    " + text.strip().replace("\n", "\n    "))
+        n += 1
+    expect(n > 0, f"{name} has no commands")
+
+
+def tutorial_1_first_run():
+    tutorial("1_first_run")
+    expect(json.loads(Path("output/first_fjb/summary.json").read_text())["law"] == "FJB", "the law")
+    expect(len(list(Path("output/first/figures").glob("*.png"))) >= 5, "figures")
+
+
+def tutorial_2_own_dam():
+    tutorial("2_own_dam")
+    expect(json.loads(Path("output/own/summary.json").read_text())["mesh"]["joints"] == 7, "joints")
+
+
+def tutorial_3_own_records():
+    tutorial("3_own_records")
+    with open("record.csv") as one, open("as_run.csv") as two:
+        before, after = ([[float(x) for x in row] for row in list(csv.reader(file))[1:]] for file in (one, two))
+    worst = max(abs(1.2 * x - y) for p, q in zip(before, after) for x, y in zip(p[1:], q[1:]))
+    expect(len(before) == len(after) and worst < 1e-9, f"the record as run differs by {worst}")
+
+
+def tutorial_4_rock():
+    tutorial("4_rock")
+    found = [json.loads(Path(f"output/{name}/summary.json").read_text())["foundation"] for name in ("rock", "massless", "rigid")]
+    expect(found == ["rock", "massless", "rigid"], f"{found}")
+
+
+def tutorial_5_own_law():
+    tutorial("5_own_law")
+
+
+def tutorial_6_study():
+    tutorial("6_study")
+    expect(len(list(Path("output/openings/runs").iterdir())) == 4, "runs")
+
+
 if __name__ == "__main__":
-    run_cases(package, arcs)
+    run_cases(package, arcs, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records, tutorial_4_rock, tutorial_5_own_law,
+              tutorial_6_study)

@@ -156,19 +156,30 @@ def table():
 
 
 def killed():
-    """Killed with -9 in the middle and started again: what was done is not repeated, the rest is as if nothing had been."""
+    """Killed with -9 in the middle and started again."""
+    interrupted(signal.SIGKILL)
+
+
+def stopped():
+    """Stopped by SIGTERM in the middle and started again."""
+    interrupted(signal.SIGTERM)
+
+
+def interrupted(number):
+    """What was done is not repeated, the rest is as if nothing had been."""
     needs_snakemake()
     write_scene(extra="subsection Output\nset Checkpoint interval = 20\nend\n")
     write("four.prm", STUDY)
     words = ["four.prm", "--jobs", "1", "--set", "Settings/Motion/Duration=2", "--set", "Settings/Dynamics/Steps per sample=10"]
-    process = subprocess.Popen([VOUSSOIR, "study", *words], stdout=subprocess.DEVNULL)
+    process = subprocess.Popen([VOUSSOIR, "study", *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     end = time.time() + 200
     second = Path(f"output/four/runs/{NAMES[1]}")
     while time.time() < end and not (len(times_of("output/four")) == 1 and list(second.glob("checkpoint.bin"))):
         expect(process.poll() is None, "the study ended before it could be killed")
         time.sleep(.01)
-    process.send_signal(signal.SIGKILL)
-    process.wait()
+    process.send_signal(number)
+    _, error = process.communicate()
+    expect(number == signal.SIGKILL or process.returncode == 1 and "goes on" in error, f"status {process.returncode}: {error}")
     first = times_of("output/four")
     expect(len(first) == 1, f"{len(first)} scenes were done when the study was killed")
     text, _ = study(*words)
@@ -274,4 +285,4 @@ def examples():
 
 if __name__ == "__main__":
     os.environ["VOUSSOIR_PROGRAM"] = VOUSSOIR
-    run_cases(refusals, table, killed, failing, fits, examples)
+    run_cases(refusals, table, killed, stopped, failing, fits, examples)
