@@ -186,6 +186,23 @@ def tutorial_6_study():
     expect(len(list(Path("output/openings/runs").iterdir())) == 4, "runs")
 
 
+def site():
+    """Every page of doc/ is in the site, no link is broken (MkDocs is strict), and the search knows the entries."""
+    if shutil.which("mkdocs") is None:
+        print("MkDocs is not installed")
+        sys.exit(77)
+    words = [sys.executable, str(ROOT / "scripts" / "site.py"), "--output", "site", "--voussoir", VOUSSOIR]
+    result = subprocess.run(words, capture_output=True, text=True)
+    expect(result.returncode == 0, f"{result.stdout}{result.stderr}")
+    for page in (ROOT / "doc").rglob("*.md"):
+        name = page.relative_to(ROOT / "doc").with_suffix(".html")
+        expect(name.name == "mainpage.html" or Path("site", name).is_file(), f"{name} is missing")
+    found = json.loads(Path("site/search/search_index.json").read_text())["docs"]
+    expect(any("Joints/Friction" in page["text"] for page in found), "the search does not know Joints/Friction")
+    outside = re.findall(r'<(?:script|link)[^>]*(?:src|href)="(https?:[^"]*\.(?:js|css)[^"]*)"', Path("site/index.html").read_text())
+    expect(not outside, f"the site needs {outside}")
+
+
 if __name__ == "__main__":
-    run_cases(package, arcs, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records, tutorial_4_rock, tutorial_5_own_law,
+    run_cases(package, arcs, site, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records, tutorial_4_rock, tutorial_5_own_law,
               tutorial_6_study)

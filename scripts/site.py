@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Builds the site: README, tutorials, all pages of doc/, the reference of all entries, with search (MkDocs, Debian: mkdocs).
+
+    scripts/site.py [--output build/site] [--voussoir build/voussoir]
+
+A link to a page or figure that is not there is an error. `python3 -m http.server -d build/site` shows it.
+"""
+
+import argparse
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+OTHERS = ("CONTRIBUTING.md", "CITATION.cff", "LICENSE")
+METHOD = ("method", "output", "mesh", "studies", "python", "changes")
+
+
+def title_of(page):
+    """The first heading."""
+    return next(line[2:].strip() for line in page.read_text(encoding="utf-8").splitlines() if line.startswith("# "))
+
+
+def stage(pages):
+    """All pages as the site has them: README is the first one, what the sources alone have is named, not linked."""
+    shutil.copytree(ROOT / "doc", pages, ignore=shutil.ignore_patterns("Doxyfile.in", "mainpage.md", "*.csv"))
+    (pages / "index.md").rename(pages / "pages.md")
+    readme = (ROOT / "README.md").read_text(encoding="utf-8").replace("](doc/", "](").replace("](index.md)", "](pages.md)")
+    (pages / "index.md").write_text(readme, encoding="utf-8")
+    for name in OTHERS:
+        shutil.copy(ROOT / name, pages / name)
+    for page in pages.rglob("*.md"):
+        text, here = page.read_text(encoding="utf-8"), page.parent
+
+        def link(match, here=here):
+            target = match[2].split("#")[0]
+            if "://" in target or not target or (here / target).exists():
+                return match[0]
+            if (ROOT / "doc" / here.relative_to(pages) / target).exists() or (ROOT / target).exists():
+                return f"`{match[1]}`"  # a file of the sources
+            return match[0]
+
+        text = re.sub(r"(?<!!)\[([^\]]*)\]\(([^)\s]+)\)", link, text.replace("](../../CONTRIBUTING.md)", "](../CONTRIBUTING.md)")
+                      .replace("](doc/", "]("))
+        page.write_text(text, encoding="utf-8")
+
+
+def reference(pages, program):
+    """parameters.md: a table of entries for each section, by the program."""
+    def table(tree, path):
+        own = {name: child for name, child in tree.items() if "pattern_description" in child}
+        lines = [f"\n## {'/'.join(path)}\n\n| entry | default | meaning |\n|---|---|---|"] if own else []
+        for name, entry in own.items():
+            default = f"`{entry['default_value']}`".replace("|", "\\|") if entry["default_value"] else ""
+            lines.append(f"| `{'/'.join([*path, name])}` | {default} | " + entry["documentation"].replace("|", "\\|") + " |")
+        for name, child in tree.items():
+            if name not in own:
+                lines += table(child, [*path, name])
+        return lines
+
+    result = subprocess.run([program, "parameters", "json"], capture_output=True, text=True, check=True)
+    (pages / "parameters.md").write_text("# All entries of a scene\n" + "\n".join(table(json.loads(result.stdout), [])) + "\n", encoding="utf-8")
+
+
+def configuration(directory, pages):
+    """mkdocs.yml: tutorials, the program, the entries, what was computed."""
+    tutorials = sorted(path.name for path in (pages / "tutorials").glob("*.md"))
+    rest = sorted(path.stem for path in pages.glob("*.md") if path.stem not in (*METHOD, "index", "pages", "parameters", "CONTRIBUTING"))
+    nav = [{"Voussoir": "index.md"},
+           {"Tutorials": [{title_of(pages / "tutorials" / name): f"tutorials/{name}"} for name in tutorials]},
+           {"The program": [{title_of(pages / f"{name}.md"): f"{name}.md"} for name in METHOD]},
+           {"All entries": "parameters.md"},
+           {"What was computed": [{title_of(pages / f"{name}.md"): f"{name}.md"} for name in rest]},
+           {"All pages": "pages.md"}, {"Contributing": "CONTRIBUTING.md"}]
+    text = {"site_name": "Voussoir", "docs_dir": str(pages), "nav": nav, "theme": {"name": "readthedocs", "highlightjs": False}, "use_directory_urls": False,
+            "plugins": ["search"], "extra_css": ["tables.css"]}
+    (pages / "tables.css").write_text("th, td { padding: 3px 8px; vertical-align: top; } table { margin-bottom: 24px; } thead:has(th:empty) { display: none; }\n",
+                                      encoding="utf-8")
+    path = directory / "mkdocs.yml"
+    path.write_text(json.dumps(text, indent=1), encoding="utf-8")  # JSON is YAML
+    return path
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("--output", default=ROOT / "build" / "site", type=Path)
+    parser.add_argument("--voussoir", default=ROOT / "build" / "voussoir", help="the program")
+    options = parser.parse_args()
+    if shutil.which("mkdocs") is None:
+        sys.exit("site: MkDocs is not there (on Debian: apt-get install mkdocs).")
+    with tempfile.TemporaryDirectory() as temporary:
+        directory = Path(temporary)
+        stage(directory / "pages")
+        reference(directory / "pages", options.voussoir)
+        yml = configuration(directory, directory / "pages")
+        return subprocess.run(["mkdocs", "build", "--quiet", "--strict", "--config-file", str(yml), "--site-dir", str(options.output.resolve())],
+                              check=False).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())
