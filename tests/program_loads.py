@@ -82,12 +82,15 @@ def temperature():
 
 def calculix():
     """CalculiX on the same arch (golden/make_calculix_temperature.py): plain elements and those with modes under a uniform
-    temperature; 20-node elements under a linear one, against ours of degree 2. Limits: displacements, stresses."""
+    temperature; 20-node elements under a linear one, against ours of degree 2. Stresses not on joints, where each monolith has its own, nor, of
+    elements that differ, at the held base, where they are singular. Limits: displacements, stresses."""
     golden = json.loads((Path(__file__).resolve().parent / "golden" / "calculix_temperature.json").read_text())
     t = scenes.TEMPERATURES
     meshes.arch("arch.msh", *scenes.CALCULIX["cells"])
+    nodes, _, quads = meshes.arch_block(*scenes.CALCULIX["cells"])
+    held = {key(nodes[c]) for tag, corners in quads if tag == 1 for c in corners}
     for element, faces, limits in (("C3D8", "uniform", (5e-6, 1e-4)), ("C3D8I", "uniform", (.01, .06)),
-                                   ("C3D20", "linear", (.01, .06))):
+                                   ("C3D20", "linear", (.01, .03))):
         file = scene(element, "arch.msh", Elements={"Incompatible modes": str(element != "C3D8").lower(), "Degree": 2 if element == "C3D20" else 1},
                      Concrete={"Young's modulus": 21e9, "Poisson's ratio": .17, "Density": 2400})
         runs(file, "--output", element, *settings(
@@ -95,14 +98,21 @@ def calculix():
             Loads__Temperature__Grouting=t["grouting"], Loads__Temperature__Expansion=t["expansion"]))
         (solution,) = Path(element).glob("solution-*.vtu")
         fields, check, theirs = at_places(read_vtu(solution), ["displacement", *STRESS]), Worst(element), golden[element]
+        stresses = []
         sizes = [max(math.hypot(*row[3:6]) for row in theirs), max(abs(x) for row in theirs for x in row[6:])]
         for row in theirs:
             rows = fields[key(row[:3])]
             for a, b in zip(rows[0][:3], row[3:6]):
                 check.close("displacement", a, b, limits[0], sizes[0])
-            for a, b in zip(rows[0][3:], row[6:]):
-                if len(rows) == 1:  # on a joint each monolith has its own stress
-                    check.close("stress", a, b, limits[1], sizes[1])
+            if len(rows) == 1 and (element == "C3D8" or key(row[:3]) not in held):
+                stresses += [(a, b) for a, b in zip(rows[0][3:], row[6:])]
+        if element == "C3D20":
+            error = math.sqrt(sum((a - b)**2 for a, b in stresses) / len(stresses)) / sizes[1]
+            print(f"    {element}: stress: root of mean squares {error:.1e}, limit {limits[1]}")
+            expect(len(stresses) > 100 and error < limits[1], f"stresses of {element}: {error}")
+        else:
+            for a, b in stresses:
+                check.close("stress", a, b, limits[1], sizes[1])
         check.done()
 
 

@@ -23,7 +23,8 @@ namespace Voussoir
   BaseUplift base_uplift(const Scene &scene, const SolidModel &model)
   {
     const std::vector<double> place = places_in_thickness(model, "Loads/Uplift/Base");
-    const double              gravity = scene.statics.gravity, tail = scene.loads.tail_water.level,
+    const double              factor = scene.loads.factor("uplift"), gravity = scene.statics.gravity,
+                 tail = scene.loads.tail_water.level,
                  of_reservoir = scene.reservoir.density * gravity * scene.loads.factor("water"),
                  of_tail = scene.loads.tail_water.density * gravity * scene.loads.factor("tail water");
     BaseUplift                           uplift{Unknowns(3 * std::size_t(model.n_nodes()), 0.), {}};
@@ -47,7 +48,7 @@ namespace Voussoir
                                          of_tail * std::max(0., tail - z), scene.loads.uplift);
             for (unsigned int c = 0; c < 3; ++c)
             {
-              const double f = -scene.loads.factor("uplift") * p * values.normal_vector(q)[c] * values.JxW(q);
+              const double f = -factor * p * values.normal_vector(q)[c] * values.JxW(q);
               uplift.of_monolith[cell->material_id()][c] += f;
               for (unsigned int i = 0; i < dofs.size(); ++i)
                 uplift.force[3 * dofs[i] + c] += f * values.shape_value(i, q);
