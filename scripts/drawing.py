@@ -150,7 +150,7 @@ def draw_crest_bars(axes, run, quantity, top, limit=0.):
     axes.set_xticks(number[::every])
     axes.set(xlabel="joint, from the right bank to the left" if run.joints["s"][0] <= run.joints["s"][-1] else
              "joint, from the left bank to the right", ylabel=f"maximum {quantity} [mm]")
-    axes.set_ylim(0, 1.35 * max(top, 1e3 * limit if 1e3 * limit < 2. * top else 0.) or 1)
+    axes.set_ylim(0, 1.42 * max(top, 1e3 * limit if 1e3 * limit < 2. * top else 0.) or 1)
     axes.grid(False, axis="x")
     axes.legend(loc="upper left", handletextpad=0.4, borderaxespad=0.2)
 

@@ -22,7 +22,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 try:
     import numpy as np
     from drawing import (DIRECTIONS, FACES, aspect, common_levels, common_top, draw_base, draw_crest, draw_crest_bars, draw_energy,
-                         draw_face, draw_joint_history, draw_spectrum, energy_parts, imbalance, note, plt, stress_bar,
+                         draw_face, draw_joint_history, draw_spectrum, energy_parts, imbalance, plt, stress_bar,
                          worst_joints)
 except ImportError as error:
     print(f"{sys.executable}: {error}")

@@ -24,7 +24,7 @@ import numpy as np
 matplotlib.use("Agg")
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import matplotlib.pyplot as plt  # noqa: E402 (after the choice of the backend)
-from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
+from matplotlib.collections import PolyCollection  # noqa: E402
 from matplotlib.colors import LinearSegmentedColormap  # noqa: E402
 from vtu import read_vtu  # noqa: E402
 
@@ -228,7 +228,9 @@ def main():
     bar.ax.tick_params(labelsize=9, colors=".25")
     bar.outline.set_visible(False)
     text = [f"t = {time:.2f} s"] if time is not None else []
-    text += [f"displacements × {options.magnify:g}", f"widest opening {1e3 * data['opening'].max():.0f} mm"]
+    text += [f"displacements × {options.magnify:g}"]
+    if np.isfinite(data["opening"]).any():
+        text += [f"widest opening {1e3 * np.nanmax(data['opening']):.0f} mm"]
     axes.set_title(options.title or ", ".join(text), fontsize=11, color=".25")
     options.picture.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(options.picture, dpi=120, bbox_inches="tight", facecolor="white")

@@ -179,7 +179,7 @@ def checks(page, runs):
             ("Residual of the contact problems, relative", lambda s: number(s["contact_residual"], "")),
             ("Newton steps per time step, mean and largest", lambda s: f"{s['newton_iterations']['mean']:.2f}, {s['newton_iterations']['max']:.0f}"),
             ("Time steps", lambda s: f"{s['steps']} of {s['time_step']:g} s"),
-            ("Estimated error", lambda s: error_estimate(s["error_estimate"]))]
+            ("Estimated error of the time step, largest openings at the crest", lambda s: f"{100 * s['error_estimate']['openings']:.2g} %")]
     body = ""
     for title, value in rows:
         cells = []
@@ -196,13 +196,6 @@ def checks(page, runs):
     texts = [(run, text) for run in runs for text in run.summary.get("warnings", [])]
     listed = "".join(f'<li class="warning">{escape(named(runs, run))}{": " if len(runs) > 1 else ""}{escape(text)}</li>' for run, text in texts)
     page.add(f"<ul>{listed}</ul>" if texts else "<p>None.</p>")
-
-
-def error_estimate(found):
-    """As summary.json has it: a share, or several by name."""
-    if isinstance(found, dict):
-        return ", ".join(f"{name.replace('_', ' ')} {100 * value:.2g} %" for name, value in found.items() if isinstance(value, (int, float)))
-    return f"{100 * found:.2g} %"
 
 
 def repeat(page, runs):
@@ -271,7 +264,11 @@ def main():
     output = options.output or runs[0].directory / "report.html"
     if output.suffix not in (".html", ".htm"):
         raise InputError(f"The report is a page: give --output a name that ends in .html, instead of {output}.")
-    text = page_of(runs)
+    try:
+        text = page_of(runs)
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        raise InputError(f"summary.json of {', '.join(options.directories)} is not what this version writes ({type(error).__name__}: {error}). "
+                         "Repeat the run.") from error
     try:
         output.write_text(text, encoding="utf-8")
     except OSError as error:

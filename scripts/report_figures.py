@@ -7,7 +7,7 @@ import io
 import numpy as np
 
 import picture
-from drawing import (COLOURS, DIRECTIONS, DOWNSTREAM, FACES, LIMIT, UPSTREAM, aspect, common_levels, common_top, draw_base,
+from drawing import (COLOURS, DIRECTIONS, DOWNSTREAM, LIMIT, UPSTREAM, aspect, common_levels, common_top, draw_base,
                      draw_crest, draw_crest_bars, draw_energy, draw_face, draw_joint_history, draw_spectrum, energy_parts, energy_unit,
                      plt, stress_bar, worst_joints)
 from runs import Skip

@@ -12,6 +12,7 @@ EXTREMES = {
     "max_tension_upstream": ("Tension, upstream face", "MPa", "tension_upstream"),
     "max_tension_downstream": ("Tension, downstream face", "MPa", "tension_downstream"),
     "max_compression": ("Compression", "MPa", "compression")}
+ERRORS = {"max_opening": "largest_opening", "max_tension_upstream": "tension_upstream", "max_tension_downstream": "tension_downstream"}
 SCALES = {"mm": 1e3, "MPa": 1e-6, "%": 100., "s": 1., "": 1., "MN": 1e-6}
 MINUS = "\N{MINUS SIGN}"
 
@@ -21,7 +22,7 @@ def number(value, unit, digits=3):
     value *= SCALES[unit]
     if value != value:
         return "none"
-    if value == 0.:
+    if value == 0. or abs(value) < 1e-4 and unit in ("mm", "MPa", "s", "%"):  # round-off, to an engineer
         return "0"
     if abs(value) < 1e-3 or abs(value) >= 1e6:
         mantissa, exponent = f"{value:.1e}".split("e")
@@ -46,8 +47,8 @@ WORDS = {"demand_capacity": "demand-capacity ratio", "overstressed_share": "shar
 class Item:
     """A line of the table of results: a value in SI, perhaps with a place, a time and a limit."""
 
-    def __init__(self, title, unit, found, limit=None):
-        self.title, self.unit, self.limit = title, unit, limit
+    def __init__(self, title, unit, found, limit=None, error=None):
+        self.title, self.unit, self.limit, self.error = title, unit, limit, error
         found = found if isinstance(found, dict) else {"value": found}
         self.value, self.place, self.time = found["value"], found.get("place"), found.get("time")
 
@@ -78,12 +79,13 @@ def unit_of(name):
 
 def items(run):
     """Key -> Item of the results of a run, in their order."""
-    limits, found = limits_of(run), {}
+    limits, errors, found = limits_of(run), run.summary.get("error_estimate"), {}
+    errors = errors if isinstance(errors, dict) else {}
     for key, value in run.summary.get("extremes", {}).items():
         if not isinstance(value, dict) or not isinstance(value.get("value"), (int, float)) or (run.tied and key in ("max_opening", "max_slip")):
             continue
         title, unit, limit = EXTREMES.get(key, (key.removeprefix("max_").replace("_", " ").capitalize(), unit_of(key), key))
-        found[key] = Item(title, unit, value, limits.get(limit))
+        found[key] = Item(title, unit, value, limits.get(limit), errors.get(ERRORS.get(key)))
     for key, of in (("waterstop", "at the waterstop"), ("residual", "that remains")):
         for name in ("opening", "slip"):
             if f"max_{name}" in run.summary.get(key, {}):
@@ -153,7 +155,8 @@ def extremes(runs):
         cells = [f'<td>{escape(item.title)} <span class="unit">{"[" + item.unit + "]" if item.unit else ""}</span></td>']
         for of_run in found:
             one = of_run.get(key)
-            cells.append(f'<td class="n {one.state}">{number(one.value, one.unit)}</td>' if one else '<td class="n">–</td>')
+            error = f' <span class="unit">± {number(one.error, one.unit, 2)}</span>' if one and isinstance(one.error, (int, float)) else ""
+            cells.append(f'<td class="n {one.state}">{number(one.value, one.unit)}{error}</td>' if one else '<td class="n">–</td>')
         if limited:
             limit = next((of_run[key].limit for of_run in found if key in of_run and of_run[key].limit), None)
             cells.append(f'<td class="n">{with_unit(limit["limit"], item.unit).removesuffix(item.unit) if limit else ""}</td>')
@@ -193,7 +196,8 @@ def facts(runs):
 
 def differences(runs):
     """Entries whose values are not the defaults in some run; those in which runs differ are marked."""
-    names = list(dict.fromkeys(name for run in runs for name, (_, default) in run.entries.items() if default is not None))
+    changed = {name for run in runs for name, (_, default) in run.entries.items() if default is not None}
+    names = [name for name in dict.fromkeys(name for run in runs for name in run.entries) if name in changed]
     if not names:
         return "<p>Nothing: every entry has its default.</p>"
     rows = []

@@ -113,6 +113,22 @@ def area_of(surface, joint):
     return total
 
 
+def film():
+    """A GIF of the run, and what is not one."""
+    write_scene()
+    runs("scene.prm", "--output", "run", *settings("Output/Solution interval=10"))
+    result = film_of("run", "film.gif", "--width", "320", "--magnify", "50", "--from", "0.1")
+    expect(result.returncode == 0 and "5 pictures" in result.stdout, f"{result}")
+    expect(Path("film.gif").read_bytes()[:6] == b"GIF89a", "no GIF")
+    result = film_of("run", "film.gif", "--from", "3")
+    expect(result.returncode == 2 and "too few" in result.stderr, f"{result}")
+    expect(film_of("run", "film.mp4").returncode == 2 and film_of("nothing", "film.gif").returncode == 2, "not refused")
+
+
+def film_of(*arguments):
+    return subprocess.run(["/usr/bin/python3", str(SCRIPTS / "film.py"), *arguments], capture_output=True, text=True, check=False)
+
+
 def figures():
     """Of several runs on the same scales, as PNG and as PDF; a tied run beside one that is not."""
     write_scene()
@@ -130,4 +146,4 @@ def figures():
 
 
 if __name__ == "__main__":
-    run_cases(view, modes, joint_surfaces, figures)
+    run_cases(view, modes, joint_surfaces, film, figures)
