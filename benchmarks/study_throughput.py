@@ -8,16 +8,23 @@ same scenes started by hand, one process per core. Checks, Snakemake, table and 
 
 import argparse
 import os
+import resource
+import subprocess
 import sys
 import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-import subprocess
 
 from program import ROOT, add_program_argument
 
 JOINTS = {"Mesh/Arch210/Joints": 28, "Mesh/Arch210/Elements along": 87, "Output/Figures": "false"}
+
+
+def cpu_seconds():
+    """Of all processes that have ended."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
 
 
 def main():
@@ -35,17 +42,18 @@ def main():
             subprocess.run([program, ROOT / "prm" / "quickstart.prm", "--quiet", "--output", f"{directory}/alone{seed}", *words],
                            env=environment, check=True, stdout=subprocess.DEVNULL)
 
-        begin = time.time()
+        begin, cpu = time.time(), cpu_seconds()
         with ThreadPoolExecutor(cores) as pool:
             list(pool.map(alone, range(1, options.scenes + 1)))
-        by_hand = time.time() - begin
+        by_hand, cpu_by_hand = time.time() - begin, cpu_seconds() - cpu
         study = Path(directory, "study.prm")
         study.write_text(f"set Scene = {ROOT / 'prm' / 'quickstart.prm'}\n" + "".join(f"set Settings/{e} = {v}\n" for e, v in settings.items())
                          + f"set Factors/Motion/Seed = 1 ... {options.scenes}\n")
-        begin = time.time()
+        begin, cpu = time.time(), cpu_seconds()
         subprocess.run([program, "study", str(study), "--jobs", str(cores), "--output", f"{directory}/study"], check=True, stdout=subprocess.DEVNULL)
-        whole = time.time() - begin
-    print(f"{options.scenes} scenes on {cores} cores: by hand {by_hand:.1f} s, as a study {whole:.1f} s; {100 * by_hand / whole:.0f} % of the throughput")
+        whole, cpu_whole = time.time() - begin, cpu_seconds() - cpu
+    print(f"{options.scenes} scenes on {cores} cores: by hand {by_hand:.1f} s, as a study {whole:.1f} s; {100 * by_hand / whole:.0f} % of the throughput; "
+          f"CPU time {cpu_by_hand:.1f} and {cpu_whole:.1f} s, {100 * cpu_by_hand / cpu_whole:.0f} %")
     return 0
 
 

@@ -10,7 +10,7 @@ optional=(python3-meshio) # reads .inp and .med
 if [[ "${1:-}" != --program ]]; then
   required+=(gmsh numdiff ccache clang-format shellcheck doxygen)
   # Only benchmarks/calculix.py and contact.py, `voussoir study`, scripts/site.py, and the test that looks at the page of `voussoir report`, use them.
-  optional+=(calculix-ccx python3-siconos python3-h5py chromium snakemake mkdocs)
+  optional+=(calculix-ccx python3-siconos python3-h5py chromium snakemake mkdocs python3-jsonschema)
 fi
 
 missing() # PACKAGE...: those that are not installed

@@ -186,6 +186,35 @@ def tutorial_6_study():
     expect(len(list(Path("output/openings/runs").iterdir())) == 4, "runs")
 
 
+def editor():
+    """Snippets are scenes, and the schema takes the defaults and refuses what the program refuses."""
+    result = subprocess.run([sys.executable, str(ROOT / "scripts" / "editor.py"), "--output", "editor", "--voussoir", VOUSSOIR], capture_output=True, text=True)
+    expect(result.returncode == 0, result.stderr)
+    snippets = json.loads(Path("editor/voussoir.code-snippets").read_text())
+    schema = json.loads(Path("editor/voussoir-scene.schema.json").read_text())
+    expect(list(snippets) == list(schema["properties"]) and len(snippets) > 80, f"{len(snippets)} entries")
+    scene = []
+    for snippet in snippets.values():  # every default typed, the first choice taken
+        for line in snippet["body"]:
+            scene.append(re.sub(r"\$\{1\|([^,|]*).*\|\}", r"\1", re.sub(r"\$\{1:(.*)\}$", r"\1", line)))
+    runs("scene", write("all.prm", "\n".join(scene) + "\n"))
+    expect(runs("scene", "all.prm") == runs("scene", write("none.prm", "")), "the snippets are not the defaults")
+    try:
+        import jsonschema
+    except ImportError:
+        print("    without jsonschema")
+        return
+    jsonschema.Draft7Validator.check_schema(schema)
+    validator = jsonschema.Draft7Validator(schema)
+    for value in ({name: entry["default"] for name, entry in schema["properties"].items()}, {"Joints/Friction": .5, "Joints/Model": "FJB"},
+                  {"Concrete/Young's modulus": "21 GPa", "Output/Figures": False}):
+        expect(validator.is_valid(value), f"{[error.message for error in validator.iter_errors(value)]}")
+    for value in ({"Joints/Friction": -1}, {"Joints/Friction": "much"}, {"Joints/Model": "FJC"}, {"Joints/Frictoin": 1}, {"Motion/Seed": 1.5}):
+        expect(not validator.is_valid(value), f"{value} is valid")
+        entry, text = next(iter(value.items()))
+        refused(["scene", "none.prm", "--set", f"{entry}={text}"], entry.split("/")[0])
+
+
 def site():
     """Every page of doc/ is in the site, no link is broken (MkDocs is strict), and the search knows the entries."""
     if shutil.which("mkdocs") is None:
@@ -204,5 +233,5 @@ def site():
 
 
 if __name__ == "__main__":
-    run_cases(package, arcs, site, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records, tutorial_4_rock, tutorial_5_own_law,
+    run_cases(package, arcs, editor, site, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records, tutorial_4_rock, tutorial_5_own_law,
               tutorial_6_study)
