@@ -3,108 +3,18 @@
 // ground: what is stable, and how the known mistakes fail. Without an argument 1e4 steps, or the number
 // given.
 
-#include "box.h"
 #include "column.h"
+#include "quarter_box.h"
 
 #include <voussoir/foundation/foundation_parameters.h>
-#include <voussoir/rock/sections.h>
-#include <voussoir/rock/transmitting_boundary.h>
 
 namespace
 {
-  using namespace Boxes;
+  using namespace QuarterBoxes;
   using Columns::above;
   using Columns::below;
 
-  constexpr unsigned int n = 12;
-  unsigned int           n_long = 10000;
-
-  struct Result
-  {
-    double       peak = 0., end = 0., energy_error = 0.; ///< max |u| of the first 1000 steps, at the end
-    unsigned int steps = 0;                              ///< until it blew up
-  };
-
-  RockRegionParameters parameters(const std::string &boundary)
-  {
-    RockRegionParameters p;
-    p.rock.materials[rock] = unit_rock();
-    p.rock.nodal_everywhere = true;
-    p.rock.centre = {{0., 0., double(n)}};
-    p.boundary = boundary;
-    p.dt = .3;
-    return p;
-  }
-
-  RockModel quarter(const RockRegionParameters &p)
-  {
-    return make_rock_model(box({n, n, n}, {"x+", "y+", "z-"},
-                               [](const double i, const double j, const double k) -> Vector3 {
-                                 return {{i, j, k}};
-                               }),
-                           p.rock);
-  }
-
-  /** Plane strain in x and z, a half, the ground on top. */
-  RockModel half_plane(const RockRegionParameters &p, const unsigned int nx, const unsigned int nz)
-  {
-    const HexMesh mesh = box({nx, 1, nz}, {"x+", "z-"},
-                             [](const double i, const double j, const double k) -> Vector3 {
-                               return {{i, j, k}};
-                             });
-    auto          rock = p.rock;
-    rock.centre = {{0., 0., double(nz)}};
-    return make_rock_model(mesh, rock, tie_layer(mesh, 1));
-  }
-
-  std::array<long, 3> key(const std::array<double, 3> &p)
-  {
-    return {{std::lround(2. * p[0]), std::lround(2. * p[1]), std::lround(2. * p[2])}};
-  }
-
-  Result run(const RockRegionParameters &p, const RockModel &model, const unsigned int n_steps)
-  {
-    auto                      region = make_region(model, p);
-    std::vector<unsigned int> fixed;
-    unsigned int              source = 0;
-    for (unsigned int i = 0; i < model.points.size(); ++i)
-    {
-      const auto &x = model.points[i];
-      for (unsigned int c = 0; c < 2; ++c)
-        if (x[c] == 0.)
-          fixed.push_back(3 * i + c);
-      if (x[0] == 0. && x[1] == 0. && x[2] >= model.points[source][2])
-        source = i; // on the ground
-    }
-    region->fix(fixed);
-    region->keep_energy();
-    region->force.assign(3 * model.points.size(), 0.);
-    Result result;
-    double largest = 0.;
-    for (unsigned int i = 0; i < n_steps; ++i)
-    {
-      const double t = (region->time() - 25.) / 8.;
-      region->force[3 * source + 2] = -.25 * std::exp(-t * t);
-      region->advance();
-      ++result.steps;
-      if (i < 1000 || i % 100 == 0 || i + 1 == n_steps)
-      {
-        double most = 0.;
-        for (const double u : region->displacement())
-          most = std::abs(u) <= most ? most : std::abs(u); // NaN stays
-        result.end = most;
-        if (!(most < 1e6))
-          break;
-        if (i < 1000)
-          result.peak = std::max(result.peak, most);
-        const RegionEnergy &e = region->energy();
-        largest = std::max(largest, e.kinetic + e.strain);
-        result.energy_error = std::max(result.energy_error, std::abs(e.balance()));
-      }
-    }
-    result.energy_error /= largest;
-    return result;
-  }
+  unsigned int n_long = 10000;
 
   void stable()
   {
@@ -155,13 +65,7 @@ namespace
   void drift()
   {
     auto without = parameters("mtf2");
-    without.boundary_maker = []
-    {
-      TransmittingFormula formula = mtf2();
-      for (auto &f : formula.factors)
-        f.gamma_p = f.gamma_s = 0.;
-      return std::make_unique<TransmittingBoundary>(formula);
-    };
+    without.boundary_maker = mtf2_without_gamma;
     const auto drifts = [](const RockRegionParameters &p)
     {
       const Result first = run(p, quarter(p), 4000), second = run(p, quarter(p), 8000);
@@ -174,33 +78,6 @@ namespace
     drifts(without);
     Columns::report("mtf2-plain", 0., "-", true);
     drifts(parameters("mtf2-plain"));
-  }
-
-  /** Lines of nodes on edges go inward at 45 degrees. */
-  RockModel with_diagonal_lines(RockModel model, const std::array<int, 3> &cells, const bool plane)
-  {
-    std::map<std::array<long, 3>, unsigned int> number;
-    for (unsigned int i = 0; i < model.points.size(); ++i)
-      number[key(model.points[i])] = i;
-    for (BoundaryLine &line : model.lines)
-    {
-      Vector3    x = model.points[line.nodes[0]];
-      const auto step = [&](const unsigned int d) -> double {
-        return d == 2 ? (x[2] == 0. ? 1. : 0.) : d == 1 && plane ? 0. : x[d] == cells[d] ? -1. : 0.;
-      };
-      const Vector3 inward = {{step(0), step(1), step(2)}};
-      const double  square = inward[0] * inward[0] + inward[1] * inward[1] + inward[2] * inward[2];
-      if (square < 1.5)
-        continue;
-      for (unsigned int k = 0; k < line.nodes.size(); ++k)
-      {
-        line.nodes[k] = number.at(key(x));
-        line.position[k] = k * std::sqrt(square);
-        for (unsigned int d = 0; d < 3; ++d)
-          x[d] += inward[d];
-      }
-    }
-    return model;
   }
 
   void diagonal()
