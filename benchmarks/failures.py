@@ -60,11 +60,14 @@ def save(options, fig, name):
     plt.close(fig)
 
 
+def need(program, how):
+    if not Path(program).exists():
+        raise SystemExit(f"There is no {program}: build it with {how}.")
+
+
 def benchmark(options, *arguments):
     """The tables that benchmark_failures prints, each a numpy array with named columns."""
-    if not Path(options.benchmark).exists():
-        raise SystemExit(f"There is no {options.benchmark}: build it with \"ninja -C build benchmarks\", or name it "
-                         "with --benchmark.")
+    need(options.benchmark, '"ninja -C build benchmarks", or name it with --benchmark')
     text, _ = run(options.benchmark, *arguments)
     return [np.atleast_1d(np.genfromtxt(io.StringIO(part), delimiter=",", names=True)) if part.count("\n") else None
             for part in (block.strip() for block in text.split("\n\n"))]
@@ -386,6 +389,8 @@ def main():
         if name not in CASES:
             parser.error(f"there is no failure \"{name}\"; there are {', '.join(CASES)}.")
     for name in options.names or CASES:
+        if name in ("newmark", "angle"):
+            need(options.voussoir, "scripts/build.sh, or name it with --voussoir")
         print(f"### {name}: {CASES[name].__doc__}\n")
         CASES[name](options)
     return 0
