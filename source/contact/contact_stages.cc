@@ -175,6 +175,25 @@ namespace Voussoir
     return solve(right_hand_side, pairs, force, gap);
   }
 
+  void ContactSolver::guess_bonded(const Unknowns &right_hand_side, Unknowns &force)
+  {
+    constexpr double softness = 1e-4; // of pairs, relative: also where W is singular forces stay in bounds
+    jacobian->expect_far_coupling();
+    for (std::size_t i = 0; i < law.size(); ++i)
+    {
+      equations[i] = PairEquations();
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        equations[i].residual[c] = rho[i] * right_hand_side[3 * i + c];
+        equations[i].d_gap[4 * c] = rho[i];
+        equations[i].d_force[4 * c] = softness;
+      }
+    }
+    jacobian->update(equations);
+    Unknowns gap;
+    jacobian->solve(1e-3, force, gap);
+  }
+
   /** Starts a solution; its first iterate is @p force, or none where nothing touches. */
   ContactSolver::Iterate ContactSolver::first_guess(const Unknowns              &right_hand_side,
                                                     const std::vector<PairPast> &pairs, Unknowns &force)

@@ -95,6 +95,20 @@ namespace Voussoir
       u[permutation[i]] = x[i];
   }
 
+  void CondensedBody::solve(const double *b, double *u)
+  {
+    std::vector<double> u_G(n_interface());
+    apply_load(b, u_G.data());
+    if (interface_row.empty())
+      factor.forward(x.data());
+    for (std::size_t i = 0; i < u_G.size() && !free_order; ++i)
+      x[interface_row[i]] = u_G[i];
+    if (interface_row.empty() || !free_order)
+      factor.backward(x.data());
+    for (std::size_t i = 0; i < x.size(); ++i)
+      u[permutation[i]] = x[i];
+  }
+
   std::vector<double> CondensedBody::take_flexibility()
   {
     return free_order ? std::exchange(flexibility, {}) : flexibility;

@@ -62,6 +62,19 @@ namespace Voussoir
     group = group_;
     n = W->size(group);
     leading = padded(n);
+  }
+
+  /** Is there F? Made when it is first asked for. */
+  bool JointBlock::has_inverse()
+  {
+    if (!tried_inverse)
+      make_inverse();
+    tried_inverse = true;
+    return !F.empty();
+  }
+
+  void JointBlock::make_inverse()
+  {
     std::vector<double> inverse = W->block(group, group);
     if (n == 0 || !invert(inverse, n))
       return;
@@ -126,7 +139,8 @@ namespace Voussoir
     factor.equations.assign(present, present + n / 3);
     find_rows();
     // Two thirds: what F's further product is worth.
-    for_gap = !F.empty() && given_force.size() + unknown.size() < 2 * (given_gap.size() + unknown.size()) / 3;
+    for_gap =
+        given_force.size() + unknown.size() < 2 * (given_gap.size() + unknown.size()) / 3 && has_inverse();
     if (for_gap)
       factorise();
     else

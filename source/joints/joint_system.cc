@@ -49,7 +49,8 @@ namespace Voussoir
                            const double stiffness_factor, const double dashpot_factor,
                            const ForceMeaning meaning, const Unknowns &springs)
       : structure(structure), parameters(parameters), laws(laws), meaning(meaning),
-        sides(structure.pairs.size()), W(pairs_per_joint(structure)), n_solved(parameters.first_problem)
+        is_static(mass_factor == 0.), sides(structure.pairs.size()), W(pairs_per_joint(structure)),
+        n_solved(parameters.first_problem)
   {
     for (const JointLaw *law : laws.of_pair)
       if (parameters.write_problems && law->flat_friction() < 0. && !law->surfaces_law())
@@ -161,6 +162,9 @@ namespace Voussoir
             }
       if (parameters.write_problems && n_solved++ % parameters.write_interval == 0)
         write_problem(b, start, memory, force);
+      if (is_static && parameters.method != "sweeps" &&
+          std::all_of(force.begin(), force.end(), [](const double f) { return f == 0.; }))
+        solver->guess_bonded(b, force);
       result = solve_pairs(b, start, memory, force, gap);
       for (auto &f : interface)
         std::fill(f.begin(), f.end(), 0.);
@@ -224,13 +228,12 @@ namespace Voussoir
   {
     AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
     u.resize(load.size());
-    for (unsigned int i = 0; i < bodies.size(); ++i)
-    {
-      const std::size_t first = 3 * std::size_t(structure.bodies[i].first_node);
-      bodies[i].apply_load(load.data() + first, interface[i].data());
-      std::fill(interface[i].begin(), interface[i].end(), 0.);
-      bodies[i].apply_joint_forces(interface[i].data(), u.data() + first);
-    }
+    for_each_parallel(static_cast<int>(bodies.size()),
+                      [&](const int i)
+                      {
+                        const std::size_t first = 3 * std::size_t(structure.bodies[i].first_node);
+                        bodies[i].solve(load.data() + first, u.data() + first);
+                      });
   }
 
   double JointSystem::memory() const

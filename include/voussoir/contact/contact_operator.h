@@ -15,6 +15,9 @@ namespace Voussoir
   public:
     virtual ~ContactJacobian() = default;
 
+    /** The pairs will feel each other from afar, as in statics: solve() may prepare for that. */
+    virtual void expect_far_coupling() {}
+
     /** Take new equations, one per pair, which must outlive the solutions; factorise what needs it. Returns
      *  the number of factorisations. */
     virtual unsigned int update(const std::vector<PairEquations> &equations) = 0;

@@ -43,6 +43,10 @@ namespace Voussoir
     /** The same for laws without memory. @p start: gap at the start of the step, three entries per pair. */
     ContactResult solve(const Unknowns &b, const Unknowns &start, Unknowns &force, Unknowns &gap);
 
+    /** The forces at which the gaps would stay as they are, W force + b = 0, nearly: a first guess for a
+     * static state. */
+    void guess_bonded(const Unknowns &b, Unknowns &force);
+
     const std::vector<PairState>     &states() const { return state; }   ///< of the last solution
     const std::vector<unsigned char> &touching() const { return touch; } ///< surfaces, as in PairEquations
 

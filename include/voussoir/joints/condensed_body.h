@@ -30,6 +30,9 @@ namespace Voussoir
     /** @p f: n_interface() joint forces; @p u: receives 3 n_nodes. After apply_load(). */
     void apply_joint_forces(const double *f, double *u);
 
+    /** A u = b without joint forces. */
+    void solve(const double *b, double *u);
+
     /** Is A solved twice, in an order without regard to the interface? */
     bool has_free_order() const { return free_order; }
 

@@ -9,11 +9,11 @@ namespace Voussoir
   /** A joint's own block D = d_force + d_gap W_jj of Newton's equations, ready to be solved, in single
    * precision.
    *
-   * With the stiffness F = W_jj^-1 of the joint alone, made once, the unknown is the change y of the gap, the
-   * force's change is z = F y. Where pairs stick, y is given by their equations; only open pairs and the
-   * directions of slip are unknown, which are few: a small system (d_force F + d_gap) y = r remains, and
-   * y = W_jj z costs nothing. Where most pairs are open the unknown is z instead, known at the open pairs
-   * (JointFactor); so, too, where F is no better than single precision can tell. */
+   * With the stiffness F = W_jj^-1 of the joint alone, made once when it is first of use, the unknown is the
+   * change y of the gap, the force's change is z = F y. Where pairs stick, y is given by their equations;
+   * only open pairs and the directions of slip are unknown, which are few: a small system (d_force F + d_gap)
+   * y = r remains, and y = W_jj z costs nothing. Where most pairs are open the unknown is z instead, known at
+   * the open pairs (JointFactor); so, too, where F is no better than single precision can tell. */
   class JointBlock
   {
   public:
@@ -27,9 +27,13 @@ namespace Voussoir
     /** z = D^-1 r, y = W_jj z. */
     void solve(const float *r, float *z, float *y) const;
 
+    bool holds_inverse() const { return !F.empty(); } ///< has F been made?
+
   private:
     bool is_similar(const PairEquations *present) const;
     void find_rows();
+    bool has_inverse();
+    void make_inverse();
     void check_inverse();
     void multiply_by_W(const float *z, float *y) const;
     void factorise();
@@ -38,8 +42,9 @@ namespace Voussoir
 
     const InterfaceOperator  *W = nullptr;
     unsigned int              group = 0, n = 0;
-    std::size_t               leading = 0;         ///< dimension of F
-    std::vector<float>        F;                   ///< by column; empty: of no use
+    std::size_t               leading = 0; ///< dimension of F
+    std::vector<float>        F;           ///< by column; empty: of no use
+    bool                      tried_inverse = false;
     bool                      is_accurate = false; ///< is W_jj F = I to single precision?
     JointFactor               factor; ///< of either system; its equations are those of the factor
     bool                      for_gap = false;

@@ -17,13 +17,15 @@ namespace Voussoir
    *  the gap of the solution is known in the end. All this in single precision, half the memory traffic: it
    *  only makes Newton's steps, whose residuals are evaluated in double precision.
    *
-   *  Where the joints depend on each other so much that this takes many iterations (statics), and each is
-   *  coupled to its neighbours only, the preconditioner is the block LU decomposition of the whole chain. */
+   *  Where the joints depend on each other so much that this takes many iterations, or will (statics), and
+   * each is coupled to its neighbours only, the preconditioner is the block LU decomposition of the whole
+   * chain. */
   class JointJacobian : public ContactJacobian
   {
   public:
     explicit JointJacobian(const InterfaceOperator &W); ///< @p W must outlive this
 
+    void         expect_far_coupling() override { use_chain = is_chain; }
     unsigned int update(const std::vector<PairEquations> &equations) override;
     unsigned int solve(double tolerance, Unknowns &step, Unknowns &d_gap) override;
 

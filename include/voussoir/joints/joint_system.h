@@ -29,8 +29,9 @@ namespace Voussoir
     JointSystem(const JointSystem &) = delete; // the solver knows the joint operator by its place
 
     /** @p start: gap at the start of the step, 3 per pair [m]; @p memory: of the pairs, as committed before
-     * the step; receives the events of the step, after each of which it is solved once more; @p force: guess,
-     * then solution, 3 per pair [N]; @p gap, 3 per pair [m]; @p u, 3 per node [m]. */
+     * the step; receives the events of the step, after each of which it is solved once more; @p force: guess
+     * (zeros in a static system: none), then solution, 3 per pair [N]; @p gap, 3 per pair [m]; @p u, 3 per
+     * node [m]. */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &memory,
                         Unknowns &force, Unknowns &gap, Unknowns &u);
 
@@ -74,6 +75,7 @@ namespace Voussoir
     const ContactParameters          parameters;
     const PairLaws                   laws;
     const ForceMeaning               meaning;
+    const bool                       is_static; ///< without masses
     std::vector<CondensedBody>       bodies;
     std::vector<std::array<Side, 2>> sides; ///< per pair
     InterfaceOperator                W;
