@@ -576,11 +576,13 @@ def foundations():
     shaking = [*rock, "--set", "Foundation/Model=rock", "--set", "Motion/Duration=0.3", "--set", "Joints/Model=tied"]
     runs("scene.prm", "--output", "fine", *shaking, "--set", "Dynamics/Steps per sample=4")
     amplitude = {}
-    for name, *settings in (["substeps", "--set", "Foundation/Substeps=4", "--set", "Foundation/Stiffness damping=4e-4"],
+    for name, *settings in (["substeps", "--set", "Foundation/Substeps=4"],
+                            ["partition", "--set", "Foundation/Substeps=4", "--set", "Foundation/Coupling=partition",
+                             "--set", "Foundation/Stiffness damping=4e-4"],
                             *([b, "--set", "Dynamics/Steps per sample=4", "--set", f"Foundation/Boundary={b}"]
                               for b in ("mtf2-plain", "viscous-spring", "fixed"))):
         runs("scene.prm", "--output", name, *shaking, *settings)
-    for name in ("fine", "substeps", "mtf2-plain", "viscous-spring", "fixed"):
+    for name in ("fine", "substeps", "partition", "mtf2-plain", "viscous-spring", "fixed"):
         with open(f"{name}/history.csv") as file:
             x = [float(row["crest_x"]) for row in csv.DictReader(file)]
         amplitude[name] = max(x) - min(x)
@@ -589,7 +591,8 @@ def foundations():
         expect(abs(x / amplitude["fine"] - 1) < (.5 if name == "fixed" else .1), f"amplitude with {name}: {amplitude}")
     refused(["scene.prm", "--output", "none", *shaking], "critical", "Foundation/Substeps")
     refused(["modes", "scene.prm", *rock, "--set", "Foundation/Model=rock"], "massless")
-    refused(["scene.prm", "--validate", *shaking, "--set", "Foundation/Substeps=4"], "Foundation/Stiffness damping")
+    refused(["scene.prm", "--validate", *shaking, "--set", "Foundation/Substeps=4", "--set", "Foundation/Coupling=partition"],
+            "Foundation/Stiffness damping", "mean traction")
 
 
 def doubled():

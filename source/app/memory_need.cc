@@ -104,7 +104,17 @@ namespace Voussoir
       double kept = 0.;      ///< of these afterwards
       double operators = 0.; ///< of W
       double diagonal = 0.;  ///< of W's own blocks of the joints
+      double feet = 0.;      ///< of what eliminates feet on rock with steps of its own
     };
+
+    /** Those of FootElimination: the feet's flexibility and its factor, and what couples feet and joints. */
+    double of_feet(const Graph &body, const std::vector<bool> &on_base)
+    {
+      double feet = 0., joints = 0.;
+      for (unsigned int i = 0; i < body.place.size(); ++i)
+        (on_base[body.place[i]] ? feet : joints) += body.is_interface[i];
+      return 9. * feet * (2. * feet + joints);
+    }
 
     /** @p m: unknowns of each joint. */
     void add_operator(const std::vector<Joint> &joints, const std::vector<double> &m, Factors &factors)
@@ -157,8 +167,11 @@ namespace Voussoir
           nodes_on(dam, [](const int surface) { return surface == PhysicalId::base; });
       const std::vector<bool> held =
           scene.foundation.model == "rigid" ? on_base : std::vector<bool>(dam.nodes.size(), false);
-      const std::vector<bool> in_pair = nodes_on(dam, is_joint_side);
-      std::set<int>           volumes;
+      const bool own_steps = scene.foundation.model == "rock" && scene.foundation.has_own_steps();
+      const std::vector<bool> in_pair =
+          nodes_on(dam, [&](const int surface)
+                   { return is_joint_side(surface) || (own_steps && surface == PhysicalId::base); });
+      std::set<int> volumes;
       for (const HexMesh::Cell &cell : dam.cells)
         volumes.insert(tied || massless ? 1 : cell.volume);
       // Of elements of degree 2: nodes, blocks, entries of factors, and of what lies on surfaces squared.
@@ -177,13 +190,17 @@ namespace Voussoir
         factors.entries += entries_2 * size.entries;
         factors.dense += surface_2 * size.interface;
         factors.kept += surface_2 * size.kept;
+        if (own_steps)
+          factors.feet += of_feet(graph, on_base);
         n_nodes += nodes_2 * graph.neighbours.size();
         n_blocks += blocks_2 * graph.n_blocks();
       }
       if (!tied)
-        add_operator(joints, joint_unknowns(dam, joints, held), factors);
+        add_operator(joints, joint_unknowns(dam, joints, own_steps ? on_base : held), factors);
       factors.operators *= surface_2;
       factors.diagonal *= surface_2;
+      if (own_steps && !tied)
+        factors.feet += factors.operators; // a second one while the feet are eliminated
       return 2. * block * n_blocks + per_cell * dam.cells.size() + per_node * n_nodes; // stiffness, stress
     }
 
@@ -216,7 +233,7 @@ namespace Voussoir
     const double dam = of_dam(scene, mesh, factors);
     // Of the operator also single precision; inverses and LU factors of the joints' blocks in that, too.
     need.halved_step =
-        8. * factors.entries +
+        8. * (factors.entries + factors.feet) +
         std::max(8. * factors.dense, 8. * factors.kept + 12. * factors.operators + 8. * factors.diagonal);
     need.run = program + dam + need.halved_step * (scene.error_estimate ? 2. : 1.);
     if (scene.foundation.model == "rock")

@@ -189,7 +189,8 @@ namespace Voussoir
       }
     }
     newmark = std::make_unique<Newmark>(structure, dam->laws, contact_parameters("shaking"), motion.dt,
-                                        impact_rule(scene.impact_rule));
+                                        impact_rule(scene.impact_rule),
+                                        n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr);
     Unknowns load = statics.load;
     if (n_steps > 0 && dam->foundation->moves_base())
       for (unsigned int d = 0; d < 3; ++d)

@@ -246,6 +246,8 @@ namespace Voussoir
     for (unsigned int i = 0; i < count && !out_of_time(); ++i, ++result.sweeps)
       W.sweep(solve_pair, x.force, x.gap);
     drift += 1e-6;
+    if (!W.is_in_blocks() && count > 0)
+      refresh_gap(x);
   }
 
   /** Moves along @p step; returns by how much of it. None decreases: the whole step is taken. */

@@ -9,6 +9,7 @@
 #include <voussoir/mesh/mesh_groups.h>
 #include <voussoir/mesh/mesh_joints.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -111,6 +112,8 @@ namespace Voussoir
         tie_joints(*model, n_joints, true); // the foundation joins all monoliths
       structure = assemble_structure(*model, materials, incompatible_modes);
       pairs = find_pairs(*model, n_joints);
+      if (foundation->base() == Foundation::Base::led)
+        remove_feet(pairs);
       geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
     }
     if (tied && n_joints > 0)
@@ -127,6 +130,24 @@ namespace Voussoir
     structure.collect_interfaces();
   }
 
+  /** The pairs of the dam's base are what the foundation makes of them. */
+  void Dam::remove_feet(std::vector<Pair> &pairs) const
+  {
+    const std::set<unsigned int> base = nodes_of_base();
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                               [&](const Pair &pair) { return base.count(pair.node_1) > 0; }),
+                pairs.end());
+  }
+
+  std::set<unsigned int> Dam::nodes_of_base() const
+  {
+    std::set<unsigned int> base;
+    for (unsigned int i = 0; i < model->n_nodes(); ++i)
+      if (model->on_surface(i, PhysicalId::base))
+        base.insert(model->equation[i]);
+    return base;
+  }
+
   /** The laws of the pairs; the feet of the joints are tied where the foundation does not open there. */
   void Dam::tie_feet()
   {
@@ -135,9 +156,8 @@ namespace Voussoir
       throw InputError("The joint model cohesive needs \"Dynamics/Impact\" = mean-force, not " +
                        scene.impact_rule + ".");
     std::set<unsigned int> base;
-    for (unsigned int i = 0; i < model->n_nodes(); ++i)
-      if (foundation->base() == Foundation::Base::tied && model->on_surface(i, PhysicalId::base))
-        base.insert(model->equation[i]);
+    if (foundation->base() == Foundation::Base::tied)
+      base = nodes_of_base();
     laws.of_joint.push_back(make_joint_law("tied", LawParameters()));
     for (std::size_t p = 0; p < structure.pairs.size(); ++p)
       if (base.count(structure.pairs[p].node_1) > 0)

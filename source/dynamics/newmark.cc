@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace Voussoir
 {
@@ -18,24 +17,16 @@ namespace Voussoir
   }
 
   Newmark::Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters,
-                   const double dt, const ImpactRule rule)
-      : structure(structure), laws(laws), parameters(parameters), rule(rule), impact(structure, laws, rule)
+                   const double dt, const ImpactRule rule, Support *support)
+      : structure(structure), laws(laws), parameters(parameters), rule(rule), support(support),
+        impact(structure, laws, rule)
   {
     for (const JointLaw *law : laws.of_pair)
       if (law->needs_mean_force() && rule != ImpactRule::mean_force)
         throw InputError("The joint law \"cohesive\" needs the impact rule mean-force (Dynamics/Impact).");
-    add_level(dt);
-  }
-
-  void Newmark::add_level(const double dt)
-  {
-    ContactParameters of_level = parameters;
-    of_level.write_problems = parameters.write_problems && levels.empty();
-    // Of the rule mean-force: the sum of the forces at both ends.
-    const ForceMeaning meaning = rule == ImpactRule::mean_force ? ForceMeaning{2., true} : ForceMeaning();
-    levels.emplace_back(new Level{
-        dt, JointSystem(structure, laws, of_level, 4. / (dt * dt) + 2. / dt * structure.mass_damping,
-                        1. + 2. / dt * structure.stiffness_damping, 2. / dt, meaning)});
+    if (support && rule != ImpactRule::mean_force)
+      throw InputError("Rock with steps of its own needs the impact rule mean-force (Dynamics/Impact).");
+    add_level({dt, support ? support->n_substeps() : 1, 0});
   }
 
   double Newmark::memory() const
@@ -151,52 +142,7 @@ namespace Voussoir
   ContactResult Newmark::advance(const Unknowns &load, const Vector3 &base_velocity)
   {
     AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
-    return advance(0, load, base_velocity);
-  }
-
-  /** A step that has been halved so many times. */
-  ContactResult Newmark::advance(const unsigned int halvings, const Unknowns &load,
-                                 const Vector3 &base_velocity)
-  {
-    if (halvings == levels.size())
-      add_level(.5 * levels.back()->dt);
-    ContactResult result;
-    if (!step(*levels[halvings], load, base_velocity, result))
-      return advance_in_halves(halvings, load, base_velocity, result);
-    last_level = halvings;
-    return result;
-  }
-
-  ContactResult Newmark::advance_in_halves(const unsigned int halvings, const Unknowns &load,
-                                           const Vector3 &base_velocity, const ContactResult &failed)
-  {
-    constexpr unsigned int most = 3;
-    const double           dt = levels[halvings]->dt;
-    if (halvings == most)
-    {
-      std::ostringstream message;
-      message << "The joint conditions did not converge at t = " << now.time + dt
-              << " s, not with time steps of " << dt << " s either: relative residual " << failed.residual
-              << " after " << failed.iterations << " Newton steps and " << failed.sweeps
-              << " sweeps. See entries \"Motion/Time step\" and \"Contact/Maximum iterations\".";
-      throw ComputationError(message.str());
-    }
-    Unknowns middle = load;
-    for (std::size_t k = 0; k < load.size(); ++k)
-      middle[k] = .5 * (load[k] + now.load[k]);
-    Vector3 middle_base;
-    for (unsigned int c = 0; c < 3; ++c)
-      middle_base[c] = .5 * (base_velocity[c] + now.base_velocity[c]);
-    const double   end = now.time + dt; // free of the round-off of halves
-    ContactResult  result = advance(halvings + 1, middle, middle_base);
-    const Unknowns first_half = impulse;
-    result += advance(halvings + 1, load, base_velocity);
-    result.add_work(failed);
-    result.path = ContactPath::smaller_step;
-    now.time = end;
-    for (std::size_t k = 0; k < impulse.size(); ++k)
-      impulse[k] += first_half[k];
-    return result;
+    return advance(Part{levels[0]->dt, levels[0]->n_substeps, 0}, load, base_velocity);
   }
 
   /** One step; false when the joints do not converge: then nothing has changed. */
@@ -204,7 +150,8 @@ namespace Voussoir
   {
     const double dt = level.dt;
     Unknowns     force, u_new;
-    result = solve(level, load, base_velocity, force, u_new);
+    FeetOfStep   feet;
+    result = solve(level, load, base_velocity, force, u_new, feet);
     if (!result.converged)
       return false;
     const double half_dt = .5 * dt; // the impulse of each pair, from the mean of its force over the step
@@ -214,6 +161,8 @@ namespace Voussoir
     Work     work;
     Unknowns change; // of the jumps
     add_work_of_joints(dt, u_new, change, work);
+    if (support)
+      work.input += push_support(level, feet, u_new);
     move(dt, load, base_velocity, u_new, work);
     if (!std::isfinite(work.input))
       throw ComputationError("The displacements are not finite at t = " + std::to_string(now.time) + " s.");
@@ -235,8 +184,10 @@ namespace Voussoir
   /** Displacements and joint forces at the end of a step; the memory of the laws, once they have converged.
    */
   ContactResult Newmark::solve(Level &level, const Unknowns &load, const Vector3 &base_velocity,
-                               Unknowns &force, Unknowns &u_new)
+                               Unknowns &force, Unknowns &u_new, FeetOfStep &feet)
   {
+    if (support)
+      feet.place = support->predict(level.n_substeps);
     const std::size_t n_pairs = structure.pairs.size();
     Unknowns          offset(3 * n_pairs), start(3 * n_pairs), memory = now.memory;
     for (std::size_t p = 0; p < n_pairs; ++p)
@@ -250,7 +201,7 @@ namespace Voussoir
       for (double &f : force)
         f *= 2.;
     const ContactResult result = level.system.solve(right_hand_side(level.dt, load, base_velocity), offset,
-                                                    start, memory, force, gap, u_new);
+                                                    start, memory, force, gap, u_new, &feet);
     if (result.converged)
     {
       level.system.commit(start, force, gap, memory);
@@ -306,7 +257,7 @@ namespace Voussoir
       damping += structure.mass_damping / dt * dot(relative, momentum);
       input -= structure.mass_damping * dot(base, momentum);
     }
-    work.input = input;
+    work.input += input;
     work.damping = damping;
     now.Ku.swap(Ku);
     now.load = load;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
-#include <voussoir/foundation/explicit_rock.h>
+#include <voussoir/foundation/own_step_rock.h>
 #include <voussoir/motion/ground_motion.h>
 
 #include <algorithm>
@@ -26,6 +26,8 @@ namespace Voussoir
 
   std::unique_ptr<Foundation> make_explicit_rock(const FoundationSite &site)
   {
+    if (site.parameters.has_own_steps())
+      return std::make_unique<OwnStepRock>(site);
     return std::make_unique<ExplicitRock>(site);
   }
 
@@ -90,21 +92,30 @@ namespace Voussoir
     return sum;
   }
 
-  void ExplicitRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
+  /** The region, at rest; the earthquake comes @p delay late [s]. */
+  void ExplicitRock::make_rock(const GroundMotion &outcrop, const TimeGrid &steps, const double delay)
   {
     statics.reset(); // its memory
     grid = steps;
     const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
     region = make_region(model, p);
+    const IncidentWave wave = incident_wave(outcrop);
+    if (grid.n > 0) // else without an earthquake
+      shake(
+          *region, model, p, [wave, delay](const double t) { return wave(t - delay); },
+          grid.n_substeps() + 2);
+    region->keep_energy();
+  }
+
+  void ExplicitRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
+  {
+    make_rock(outcrop, steps, 0.);
     if (grid.substeps == 1)
       model.stiffness = BlockSparseMatrix(); // its memory: the region has what it needs
-    if (grid.n > 0)                          // else without an earthquake
-      shake(*region, model, p, incident_wave(outcrop), grid.n_substeps() + 2);
     std::vector<unsigned int> nodes;
     for (const Foot &f : foot)
       nodes.push_back(f.rock);
     region->set_prescribed(nodes);
-    region->keep_energy();
     const std::size_t n = 3 * foot.size();
     rest.assign(n, 0.);
     for (std::size_t i = 0; i < foot.size(); ++i)
@@ -173,9 +184,14 @@ namespace Voussoir
         a[k] = 2. / grid.dt * (v_new - v[k]) - a[k];
         v[k] = v_new;
       }
+    keep_account();
+  }
+
+  void ExplicitRock::keep_account()
+  {
     const RegionEnergy &e = energy();
-    account[1] = std::max(
-        {account[1], e.kinetic + e.strain, e.damping, std::abs(e.prescribed), std::abs(e.transmitted)});
+    account[1] = std::max({account[1], e.kinetic + e.strain, e.damping, std::abs(e.prescribed + e.external),
+                           std::abs(e.transmitted)});
     account[2] = std::max(account[2], std::abs(e.balance()));
   }
 

@@ -50,10 +50,10 @@ namespace Voussoir
     return {{"rock_kinetic", e.kinetic},
             {"rock_strain", e.strain},
             {"rock_damping", e.damping},
-            {"rock_feet", e.prescribed},
+            {"rock_feet", e.prescribed + e.external},
             {"transmitted", e.transmitted},
             {"rock_balance", e.balance()},
-            {"interface", e.prescribed + work_on_dam()}};
+            {"interface", work_of_feet() + work_on_dam()}};
   }
 
   double ExplicitRock::balance_error() const

@@ -47,7 +47,7 @@ namespace Voussoir
   std::string ExplicitRock::trouble_of_energy() const
   {
     const RegionEnergy &rock = energy();
-    const double        coupling = rock.prescribed + work_on_dam();
+    const double        coupling = work_of_feet() + work_on_dam();
     std::ostringstream  text;
     text.precision(3);
     if (region->artificial_boundary()->absorbs() && !(-rock.transmitted <= energy_bound))
@@ -98,7 +98,7 @@ namespace Voussoir
       text << ", a \"Foundation/Stiffness damping\" of " << .02 * rock_dt << " s (0.02 of the rock's step)";
     if (!p.nodal_everywhere)
       text << ", \"Foundation/Nodal quadrature everywhere\" = true";
-    if (p.substeps > 1)
+    if (p.substeps > 1 && !p.has_own_steps())
       text << ", fewer \"Foundation/Substeps\"";
     text << ", or a smaller time step (\"Dynamics/Steps per sample\"); see doc/boundary.md.";
     return text.str();

@@ -41,10 +41,16 @@ namespace Voussoir
         "needs to be exact; else only the layers at the boundary.");
     prm.add_parameter("Nodal layers", nodal_layers, "Layers of nodal quadrature at the artificial boundary.",
                       Integer(0));
-    prm.add_parameter("Substeps", substeps,
-                      "Explicit steps of the rock in each step of the dam. More than one make the base "
-                      "heavier: see doc/rock.md for the error.",
+    prm.add_parameter("Substeps", substeps, "Explicit steps of the rock in each step of the dam.",
                       Integer(1, 100));
+    prm.add_parameter(
+        "Coupling", coupling,
+        "Of dam and rock. mean traction: forces that are constant in each step of the dam, such "
+        "that dam and rock agree at its end; exact in energy for any number of sub-steps. "
+        "partition: the rock feels the predicted motion of the dam's base; with sub-steps the "
+        "base is made heavier: see doc/rock.md for the error. auto: partition for one sub-step, "
+        "mean traction for more.",
+        Selection("auto|mean traction|partition"));
     prm.leave_subsection();
   }
 

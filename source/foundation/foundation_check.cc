@@ -27,11 +27,14 @@ namespace Voussoir
     void check_substeps(const FoundationParameters &p, const TimeGrid &steps)
     {
       const double damping = .15 * steps.substep();
-      if (steps.substeps > 2 && p.stiffness_damping < .99 * damping) // .99: the message rounds
+      if (steps.substeps > 2 && !p.has_own_steps() &&
+          p.stiffness_damping < .99 * damping) // .99: the message rounds
         throw InputError(
-            "More than two sub-steps (\"Foundation/Substeps\") grow slowly without damping of the rock: set "
-            "\"Foundation/Stiffness damping\" to 0.15 of its time step, here " +
-            number(damping) + " s, or take fewer.");
+            "More than two sub-steps (\"Foundation/Substeps\") with \"Foundation/Coupling\" = partition grow "
+            "slowly without damping of the rock: set \"Foundation/Stiffness damping\" to 0.15 of its time "
+            "step, "
+            "here " +
+            number(damping) + " s, or \"Foundation/Coupling\" to mean traction, or take fewer.");
     }
   } // namespace
 

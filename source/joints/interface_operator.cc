@@ -3,6 +3,7 @@
 
 #include <voussoir/base/parallel.h>
 #include <voussoir/joints/dense_kernels.h>
+#include <voussoir/joints/foot_elimination.h>
 #include <voussoir/joints/interface_operator.h>
 
 #include <algorithm>
@@ -82,6 +83,8 @@ namespace Voussoir
         for (const double p : products[i][side])
           *out++ += p;
       }
+    if (eliminated)
+      eliminated->subtract(x.data(), y.data());
   }
 
   void InterfaceOperator::find_colours()
@@ -100,12 +103,40 @@ namespace Voussoir
     }
   }
 
-  void InterfaceOperator::finish()
+  void InterfaceOperator::finish(std::shared_ptr<const FootElimination> feet)
   {
+    eliminated = std::move(feet);
     single.clear();
-    for (const auto &b : blocks)
-      single[b.first].assign(b.second.begin(), b.second.end());
+    if (eliminated)
+    {
+      auto whole = blocks;
+      eliminated->for_blocks([&](const unsigned int j, const unsigned int k)
+                             { return find_block(j, k) != nullptr; },
+                             [&](const unsigned int j, const unsigned int k, const std::vector<double> &part)
+                             {
+                               std::vector<double> &block = whole.at({j, k});
+                               for (std::size_t i = 0; i < part.size(); ++i)
+                                 block[i] -= part[i];
+                             });
+      blocks.swap(whole);
+      for (unsigned int pair = 0; pair < n_pairs(); ++pair)
+        diagonals.push_back(diagonal_of_blocks(pair));
+      for (const auto &b : blocks)
+        single[b.first].assign(b.second.begin(), b.second.end());
+      blocks.swap(whole);
+    }
+    else
+      for (const auto &b : blocks)
+        single[b.first].assign(b.second.begin(), b.second.end());
     find_colours();
+  }
+
+  std::vector<double> InterfaceOperator::own_block(const unsigned int group) const
+  {
+    if (!eliminated)
+      return blocks.at({group, group});
+    const std::vector<float> &block = single.at({group, group});
+    return {block.begin(), block.end()};
   }
 
   void InterfaceOperator::add_single(const unsigned int j, const unsigned int k, const float *x,
@@ -140,18 +171,14 @@ namespace Voussoir
   void InterfaceOperator::sweep_group(const unsigned int j, const PairSolver &solve_pair, double *force,
                                       const double *gap, float *moved, float *change) const
   {
-    constexpr unsigned int     n_passes = 3; // while the block is in the cache
-    const unsigned int         m = size(j);
-    const std::vector<double> &exact = blocks.at({j, j});
-    const std::vector<float>  &w = single.at({j, j});
+    constexpr unsigned int    n_passes = 3; // while the block is in the cache
+    const unsigned int        m = size(j);
+    const std::vector<float> &w = single.at({j, j});
     for (unsigned int pass = 0; pass < n_passes; ++pass)
       for (unsigned int i = 0; i < m; i += 3)
       {
-        double *f = force + i;
-        Matrix3 H;
-        for (unsigned int r = 0; r < 3; ++r)
-          for (unsigned int c = 0; c < 3; ++c)
-            H[3 * r + c] = exact[std::size_t(i + c) * m + i + r];
+        double       *f = force + i;
+        const Matrix3 H = diagonal((begin(j) + i) / 3);
         const Vector3 Hf = H * Vector3{{f[0], f[1], f[2]}};
         Vector3       free;
         for (unsigned int c = 0; c < 3; ++c)
@@ -171,6 +198,11 @@ namespace Voussoir
 
   Matrix3 InterfaceOperator::diagonal(const unsigned int pair) const
   {
+    return eliminated ? diagonals[pair] : diagonal_of_blocks(pair);
+  }
+
+  Matrix3 InterfaceOperator::diagonal_of_blocks(const unsigned int pair) const
+  {
     AssertIndexRange(pair, n_pairs());
     const unsigned int group = std::upper_bound(offset.begin(), offset.end(), 3 * pair) - offset.begin() - 1;
     const std::vector<double> &b = blocks.at({group, group});
@@ -184,7 +216,7 @@ namespace Voussoir
 
   double InterfaceOperator::memory() const
   {
-    double bytes = 0;
+    double bytes = 72. * diagonals.size() + (eliminated ? eliminated->memory() : 0.);
     for (const auto &b : blocks)
       bytes += 12. * b.second.size();
     return bytes;

@@ -163,6 +163,41 @@ namespace Voussoir
 
   unsigned int JointJacobian::solve(const double tolerance, Unknowns &step, Unknowns &d_gap)
   {
+    const unsigned int iterations = solve_blocks(tolerance, step, d_gap);
+    return W.is_in_blocks() ? iterations : iterations + correct(tolerance, step, d_gap);
+  }
+
+  /** What the feet couple beyond the blocks is little: a solution with these is corrected until it is one of
+   * the whole operator. */
+  unsigned int JointJacobian::correct(const double tolerance, Unknowns &step, Unknowns &d_gap) const
+  {
+    constexpr unsigned int most = 10;
+    unsigned int           iterations = 0;
+    for (unsigned int round = 0; round < most; ++round)
+    {
+      W.multiply(step, d_gap);
+      Unknowns r(W.n());
+      double   all = 0., left = 0.;
+      for (std::size_t i = 0; i < equations->size(); ++i)
+      {
+        const PairEquations &e = (*equations)[i];
+        const Vector3        f = e.d_force * get(step, i), g = e.d_gap * get(d_gap, i);
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          r[3 * i + c] = -e.residual[c] - f[c] - g[c];
+          all += e.residual[c] * e.residual[c];
+          left += r[3 * i + c] * r[3 * i + c];
+        }
+      }
+      if (left <= std::max(tolerance * tolerance, 1e-12) * all || round + 1 == most)
+        break;
+      iterations += gmres(r, .5 * tolerance * std::sqrt(all), step, d_gap);
+    }
+    return iterations;
+  }
+
+  unsigned int JointJacobian::solve_blocks(const double tolerance, Unknowns &step, Unknowns &d_gap)
+  {
     const unsigned int n = W.n();
     // The trivial rows first: they are exact, and stay zero in all that follows.
     Unknowns r(n);

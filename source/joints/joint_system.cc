@@ -47,7 +47,8 @@ namespace Voussoir
   JointSystem::JointSystem(const Structure &structure, const PairLaws &laws,
                            const ContactParameters &parameters, const double mass_factor,
                            const double stiffness_factor, const double dashpot_factor,
-                           const ForceMeaning meaning, const Unknowns &springs)
+                           const ForceMeaning meaning, const Unknowns &springs,
+                           const FootElimination::Feet *given_feet)
       : structure(structure), parameters(parameters), laws(laws), meaning(meaning),
         is_static(mass_factor == 0.), sides(structure.pairs.size()), W(pairs_per_joint(structure)),
         n_solved(parameters.first_problem)
@@ -57,6 +58,9 @@ namespace Voussoir
         throw InputError(
             "Contact/Write problems: only problems with Coulomb friction can be written; use the "
             "joint model FJA or KSM.");
+    if (parameters.write_problems && given_feet)
+      throw InputError("Contact/Write problems: on rock with steps of its own all joints are coupled, which "
+                       "no problem file has; set \"Foundation/Coupling\" to partition.");
     const int                                 n_bodies = structure.bodies.size();
     std::vector<std::optional<CondensedBody>> condensed(n_bodies);
     for_each_parallel(n_bodies,
@@ -70,8 +74,10 @@ namespace Voussoir
       interface.emplace_back(body->n_interface());
       bodies.push_back(std::move(*body));
     }
+    if (given_feet)
+      feet = std::make_shared<FootElimination>(structure, *given_feet);
     condense();
-    W.finish();
+    W.finish(feet);
     solver = std::make_unique<ContactSolver>(W, laws.of_pair, parameters);
   }
 
@@ -104,6 +110,8 @@ namespace Voussoir
     {
       const std::vector<double> F = bodies[b].take_flexibility();
       const std::size_t         m = bodies[b].n_interface();
+      if (feet)
+        feet->add_body(b, F);
       for (const auto &q : of_body[b]) // columns
         for (const auto &p : of_body[b])
         {
@@ -126,10 +134,45 @@ namespace Voussoir
               block[(column + j) * rows + row + i] += w[3 * i + j];
         }
     }
+    if (feet)
+      feet->factorise();
+  }
+
+  /** G u + offset for the displacements of the interface as they are, and forces on the feet. */
+  Unknowns JointSystem::gaps_without_forces(const Unknowns &offset, const Unknowns &foot_force) const
+  {
+    Unknowns b = offset;
+    for (unsigned int p = 0; p < sides.size(); ++p)
+      for (unsigned int side = 0; side < 2; ++side)
+        if (const Side &s = sides[p][side]; s.body != rigid_ground)
+          for (unsigned int c = 0; c < 3; ++c)
+          {
+            const double x = (side == 0 ? -1. : 1.) * interface[s.body][3 * s.node + c];
+            for (unsigned int i = 0; i < 3; ++i)
+              b[3 * p + i] += structure.pairs[p].frame[i][c] * x;
+          }
+    if (feet)
+      feet->add_gaps(1., foot_force, b.data());
+    return b;
+  }
+
+  /** The interface's work space: G^T force. */
+  void JointSystem::put_on_interface(const Unknowns &force)
+  {
+    for (auto &f : interface)
+      std::fill(f.begin(), f.end(), 0.);
+    for (unsigned int p = 0; p < sides.size(); ++p)
+      for (unsigned int side = 0; side < 2; ++side)
+        if (const Side &s = sides[p][side]; s.body != rigid_ground)
+          for (unsigned int c = 0; c < 3; ++c)
+            for (unsigned int i = 0; i < 3; ++i)
+              interface[s.body][3 * s.node + c] +=
+                  (side == 0 ? -1. : 1.) * structure.pairs[p].frame[i][c] * force[3 * p + i];
   }
 
   ContactResult JointSystem::solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
-                                   Unknowns &memory, Unknowns &force, Unknowns &gap, Unknowns &u)
+                                   Unknowns &memory, Unknowns &force, Unknowns &gap, Unknowns &u,
+                                   FeetOfStep *of_step)
   {
     AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
     AssertDimension(offset.size(), 3 * sides.size());
@@ -148,33 +191,32 @@ namespace Voussoir
     const double  middle = now();
     ContactResult result;
     result.converged = true;
+    if (feet)
+    {
+      feet->take_from(interface, of_step->force);
+      for (std::size_t k = 0; k < of_step->force.size(); ++k)
+        of_step->force[k] = of_step->place[k] - of_step->force[k];
+      feet->solve(of_step->force);
+    }
     if (!sides.empty())
     {
-      Unknowns b = offset;
-      for (unsigned int p = 0; p < sides.size(); ++p)
-        for (unsigned int side = 0; side < 2; ++side)
-          if (const Side &s = sides[p][side]; s.body != rigid_ground)
-            for (unsigned int c = 0; c < 3; ++c)
-            {
-              const double x = (side == 0 ? -1. : 1.) * interface[s.body][3 * s.node + c];
-              for (unsigned int i = 0; i < 3; ++i)
-                b[3 * p + i] += structure.pairs[p].frame[i][c] * x;
-            }
+      const Unknowns b = gaps_without_forces(offset, of_step ? of_step->force : Unknowns());
       if (parameters.write_problems && n_solved++ % parameters.write_interval == 0)
         write_problem(b, start, memory, force);
       if (is_static && parameters.method != "sweeps" &&
           std::all_of(force.begin(), force.end(), [](const double f) { return f == 0.; }))
         solver->guess_bonded(b, force);
       result = solve_pairs(b, start, memory, force, gap);
-      for (auto &f : interface)
-        std::fill(f.begin(), f.end(), 0.);
-      for (unsigned int p = 0; p < sides.size(); ++p)
-        for (unsigned int side = 0; side < 2; ++side)
-          if (const Side &s = sides[p][side]; s.body != rigid_ground)
-            for (unsigned int c = 0; c < 3; ++c)
-              for (unsigned int i = 0; i < 3; ++i)
-                interface[s.body][3 * s.node + c] +=
-                    (side == 0 ? -1. : 1.) * structure.pairs[p].frame[i][c] * force[3 * p + i];
+    }
+    put_on_interface(force);
+    if (feet)
+    {
+      Unknowns by_joints;
+      feet->take_gaps(force.data(), by_joints);
+      feet->solve(by_joints);
+      for (std::size_t k = 0; k < by_joints.size(); ++k)
+        of_step->force[k] -= by_joints[k];
+      feet->add_to(interface, of_step->force);
     }
 
     const double after = now();

@@ -39,8 +39,11 @@ namespace Voussoir
     virtual Matrix3      diagonal(unsigned int pair) const = 0;
     virtual void         multiply(const Unknowns &x, Unknowns &y) const = 0; ///< y = W x
 
-    /** One Gauss-Seidel sweep over the pairs; @p gap = W force + b before and after. */
+    /** One Gauss-Seidel sweep over the pairs; @p gap = W force + b before and after, if is_in_blocks(). */
     virtual void sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const = 0;
+
+    /** Does sweep() know all of W? Else its gaps are to be made afresh. */
+    virtual bool is_in_blocks() const { return true; }
 
     virtual std::unique_ptr<ContactJacobian> make_jacobian() const = 0;
   };

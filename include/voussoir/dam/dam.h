@@ -11,6 +11,7 @@
 #include <voussoir/solid/stress.h>
 
 #include <optional>
+#include <set>
 
 namespace Voussoir
 {
@@ -54,10 +55,13 @@ namespace Voussoir
     void    choose_laws(bool tie_all);
     void    assemble(const HexMesh &opened);
     void    tie_feet();
-    void    add_loads();
-    void    check_water_level();
-    void    stage_self_weight();
-    void    find_lowest_base();
+    void    remove_feet(std::vector<Pair> &pairs) const;
+
+    std::set<unsigned int> nodes_of_base() const; ///< their equations
+    void                   add_loads();
+    void                   check_water_level();
+    void                   stage_self_weight();
+    void                   find_lowest_base();
 
     std::vector<unsigned int> lowest_base; ///< free nodes there
   };

@@ -3,6 +3,7 @@
 #define voussoir_newmark_h
 
 #include <voussoir/dynamics/impact.h>
+#include <voussoir/dynamics/support.h>
 
 namespace Voussoir
 {
@@ -37,8 +38,11 @@ namespace Voussoir
   class Newmark
   {
   public:
+    /** @p support: what the dam's feet stand on if that makes steps of its own, or null; it must outlive
+     * this. Steps are halved down to one of its own then, and it is to be where the dam is at the start.
+     * InputError for laws, and a support, that need the rule mean-force without it. */
     Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters, double dt,
-            ImpactRule rule);
+            ImpactRule rule, Support *support = nullptr);
 
     /** Start from displacement @p u and velocity @p v with the joint forces @p force of that state under @p
      * load; @p reference: jump of each pair, 3 per pair, at which it is closed and
@@ -78,16 +82,25 @@ namespace Voussoir
     /** What belongs to the size of a step: whole, or halved once, twice, three times. All else is shared. */
     struct Level
     {
-      double      dt;
-      JointSystem system;
+      double       dt;
+      unsigned int n_substeps; ///< of the support
+      JointSystem  system;
     };
-    void          add_level(double dt);
-    ContactResult advance(unsigned int halvings, const Unknowns &load, const Vector3 &base_velocity);
-    ContactResult advance_in_halves(unsigned int halvings, const Unknowns &load, const Vector3 &base_velocity,
+    /** A step, or a part of it: the support's steps cannot be halved, so halves may differ by one of them. */
+    struct Part
+    {
+      double       dt;
+      unsigned int n_substeps, halvings;
+    };
+    void          add_level(const Part &part);
+    unsigned int  level_of(const Part &part);
+    ContactResult advance(const Part &part, const Unknowns &load, const Vector3 &base_velocity);
+    ContactResult advance_in_halves(const Part &part, const Unknowns &load, const Vector3 &base_velocity,
                                     const ContactResult &failed);
     bool step(Level &level, const Unknowns &load, const Vector3 &base_velocity, ContactResult &result);
     ContactResult solve(Level &level, const Unknowns &load, const Vector3 &base_velocity, Unknowns &force,
-                        Unknowns &u_new);
+                        Unknowns &u_new, FeetOfStep &feet);
+    double        push_support(const Level &level, FeetOfStep &feet, const Unknowns &u_new);
     void          add_work_of_joints(double dt, const Unknowns &u_new, Unknowns &change, Work &work) const;
     void          move(double dt, const Unknowns &load, const Vector3 &base_velocity, const Unknowns &u_new,
                        Work &work);
@@ -102,6 +115,7 @@ namespace Voussoir
     const JointLaws                    &laws;
     const ContactParameters             parameters;
     const ImpactRule                    rule;
+    Support *const                      support;
     Impact                              impact;
     Unknowns                            reference, impulse, gap;
     DynamicState                        now;

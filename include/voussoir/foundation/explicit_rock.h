@@ -23,12 +23,13 @@ namespace Voussoir
    * them with the forces of their predicted motion, u + dt v + dt^2/4 a. Displacements of the rock are those
    * of the earthquake; the static state is superposed.
    *
-   *  With m substeps the rock makes m steps in one of the dam: the feet go evenly from one prediction to the
-   * next (Belytschko, Yen and Mullen 1979), and the dam feels the force at the end. Predictions over so long
-   * a step make feet unstable that are lighter than the rock's stiffness there asks; so for m > 1 each foot
-   * carries in addition the mass k dt^2/2, k bounding the rock's stiffness between the feet: an error in the
-   * order of dt^2, whose size is in doc/rock.md. For m > 2 slow growth is left, which stiffness-proportional
-   * damping of 0.15 steps of the rock suppresses; check() asks for it. */
+   *  With m substeps (and "Foundation/Coupling" = partition; else: OwnStepRock) the rock makes m steps in one
+   * of the dam: the feet go evenly from one prediction to the next (Belytschko, Yen and Mullen 1979), and the
+   * dam feels the force at the end. Predictions over so long a step make feet unstable that are lighter than
+   * the rock's stiffness there asks; so for m > 1 each foot carries in addition the mass k dt^2/2, k bounding
+   * the rock's stiffness between the feet: an error in the order of dt^2, whose size is in doc/rock.md. For m
+   * > 2 slow growth is left, which stiffness-proportional damping of 0.15 steps of the rock suppresses;
+   * check() asks for it. */
   class ExplicitRock : public Foundation
   {
   public:
@@ -79,9 +80,14 @@ namespace Voussoir
     /** Energies of the rock, half a step of its own before the dam's time, after start() [J]. */
     const RegionEnergy &energy() const { return region->energy(); }
 
-    /** Work of the rock's elements on the feet so far, as the dam counts it [J]. With that of the feet on the
-     * rock (energy().prescribed) it adds up to what the coupling made. */
-    double work_on_dam() const { return account[0]; }
+    /** Work of the rock on the feet so far, as the dam counts it, and of the feet on the rock [J]: they add
+     * up to what the coupling made. */
+    double         work_on_dam() const { return account[0]; }
+    virtual double work_of_feet() const { return energy().prescribed; }
+
+  protected:
+    void make_rock(const GroundMotion &outcrop, const TimeGrid &steps, double delay);
+    void keep_account();
 
   private:
     void     check_stability(const TimeGrid &grid) const;
@@ -90,6 +96,7 @@ namespace Voussoir
                           const Unknowns &r) const;
     double   add_slack(const Unknowns &springs, const Unknowns &u, const Unknowns &base, Unknowns &r) const;
 
+  protected:
     const FoundationParameters      parameters;
     HexMesh                         mesh;
     const std::string               source;

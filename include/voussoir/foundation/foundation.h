@@ -45,12 +45,13 @@ namespace Voussoir
     virtual ~Foundation() = default;
 
     /** What becomes of the nodes of the dam's base: held, without unknowns; shared by the monoliths that meet
-     * there; or free, with the pairs of joints there tied. */
+     * there; free, with the pairs of joints there tied; or led by the foundation, each by itself. */
     enum class Base
     {
       held,
       shared,
-      tied
+      tied,
+      led
     };
     virtual Base base() const { return Base::held; }
     virtual bool uses_rock() const { return false; } ///< does it need the rock of the mesh?
@@ -84,6 +85,10 @@ namespace Voussoir
     /** Add the mass to the feet that substeps need; to be done before the dam's Newmark is made. Returns that
      * mass [kg]. */
     virtual double add_interface_mass(Structure &, const TimeGrid &) const { return 0.; }
+
+    /** What leads the dam's base, or null; marks its feet as interface of their bodies. To be done before the
+     * dam's Newmark is made, after start(). */
+    virtual Support *support(Structure &) { return nullptr; }
 
     /** Make ready for these steps from the static displacement of the dam, at rest. */
     virtual void start(const GroundMotion &, const TimeGrid &, const Unknowns & /*u*/) {}

@@ -24,9 +24,13 @@ namespace Voussoir
     std::string  boundary = "mtf3", free_field = "sections";
     bool         nodal_everywhere = true;
     unsigned int nodal_layers = 6;
-    unsigned int substeps = 1; ///< of the rock in each step of the dam
+    unsigned int substeps = 1;      ///< of the rock in each step of the dam
+    std::string  coupling = "auto"; ///< or mean traction, partition
 
     static constexpr double largest_poisson = .45; ///< of rock
+
+    /** Does the rock make steps of its own, coupled by mean tractions? */
+    bool has_own_steps() const { return coupling == "mean traction" || (coupling == "auto" && substeps > 1); }
 
     void add_parameters(dealii::ParameterHandler &prm);
 

@@ -6,12 +6,20 @@
 #include <voussoir/contact/contact_operator.h>
 
 #include <map>
+#include <memory>
 #include <utility>
 
 namespace Voussoir
 {
+  class FootElimination;
+
   /** The symmetric operator W of the joints, gap = W force + b, in dense blocks by group of pairs (a joint).
-   *  Two groups are coupled where one body touches both, so along an arch W is block tridiagonal. */
+   *  Two groups are coupled where one body touches both, so along an arch W is block tridiagonal.
+   *
+   *  On a support that makes steps of its own the operator is that less what the feet take off, W - B H^-1
+   * B^T, which couples all groups. Exact products take it so; in single precision, where products are for
+   * Newton's steps and the sweeps, the blocks are those of the whole operator, but of the coupled groups
+   * only. */
   class InterfaceOperator : public ContactOperator
   {
   public:
@@ -40,6 +48,8 @@ namespace Voussoir
 
     Matrix3 diagonal(unsigned int pair) const override;
 
+    bool is_in_blocks() const override { return !eliminated; }
+
     /** The pairs of a group are visited three times at once. In single precision: @p gap is off by round-off
      * of that size. */
     void sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const override;
@@ -61,22 +71,29 @@ namespace Voussoir
     const std::vector<unsigned int> &neighbours(const unsigned int group) const { return coupled[group]; }
     double                           memory() const; ///< [bytes]
 
-    /** Make the copy in single precision, and choose the colours, once all blocks are filled in. */
-    void                      finish();
+    /** A group's own block of the operator, by column; with feet that are eliminated in single precision. */
+    std::vector<double> own_block(unsigned int group) const;
+
+    /** Make the copy in single precision, and choose the colours, once all blocks are filled in. @p feet:
+     * what is to be taken off, or null. */
+    void                      finish(std::shared_ptr<const FootElimination> feet = nullptr);
     const std::vector<float> &single_block(unsigned int j, unsigned int k) const { return single.at({j, k}); }
 
     /** y += W_jk x in single precision, also for j > k. */
     void add_single(unsigned int j, unsigned int k, const float *x, float *y) const;
 
   private:
-    void sweep_group(unsigned int j, const PairSolver &solve_pair, double *force, const double *gap,
-                     float *moved, float *change) const;
-    void find_colours();
+    void    sweep_group(unsigned int j, const PairSolver &solve_pair, double *force, const double *gap,
+                        float *moved, float *change) const;
+    Matrix3 diagonal_of_blocks(unsigned int pair) const;
+    void    find_colours();
 
     std::vector<unsigned int>                                            offset;
     std::vector<std::vector<unsigned int>>                               coupled;
     std::map<std::pair<unsigned int, unsigned int>, std::vector<double>> blocks;
-    std::map<std::pair<unsigned int, unsigned int>, std::vector<float>>  single; ///< the same
+    std::map<std::pair<unsigned int, unsigned int>, std::vector<float>>  single; ///< less the feet's part
+    std::shared_ptr<const FootElimination>                               eliminated;
+    std::vector<Matrix3>                                                 diagonals; ///< of pairs, with feet
     std::vector<unsigned int>              colour; ///< of the groups; coupled ones have different ones
     std::vector<std::vector<unsigned int>> groups_of_colour;
   };

@@ -38,6 +38,8 @@ namespace Voussoir
     void                 multiply_W(const Floats &x, Floats &y) const;
     void                 multiply_W_sparse(const Unknowns &x, Floats &y) const;
     void                 precondition(const Floats &v, Floats &z, Floats &Wz) const;
+    unsigned int         solve_blocks(double tolerance, Unknowns &step, Unknowns &d_gap);
+    unsigned int         correct(double tolerance, Unknowns &step, Unknowns &d_gap) const;
     unsigned int         gmres(const Unknowns &r, double target, Unknowns &step, Unknowns &d_gap) const;
 
     const InterfaceOperator                           &W;

@@ -3,7 +3,7 @@
 #define voussoir_joint_system_h
 
 #include <voussoir/contact/contact_solver.h>
-#include <voussoir/joints/condensed_body.h>
+#include <voussoir/joints/foot_elimination.h>
 #include <voussoir/joints/interface_operator.h>
 #include <voussoir/joints/joint_laws.h>
 
@@ -15,6 +15,13 @@ namespace Voussoir
     double sweeps = 0., joints = 0.;
   };
 
+  /** What a support says of a step, see FootElimination: three values per foot. */
+  struct FeetOfStep
+  {
+    Unknowns place; ///< of the feet without forces on them [m]
+    Unknowns force; ///< of the solution, on the feet, of the same meaning as those of the joints [N]
+  };
+
   /** The bodies condensed for one operator A = mass_factor M + stiffness_factor K + dashpot_factor D +
    * springs, and the joints between them: solves A u = load + G^T force, gap = G u + offset, with the joint
    * laws between force and gap. */
@@ -22,18 +29,20 @@ namespace Voussoir
   {
   public:
     /** @p meaning: of the forces of this system, for the laws; @p springs: to the ground, per component
-     * [N/m], or empty. */
+     * [N/m], or empty; @p feet: on a support that gives way, compliance for forces of this meaning, or null.
+     */
     JointSystem(const Structure &structure, const PairLaws &laws, const ContactParameters &parameters,
                 double mass_factor, double stiffness_factor, double dashpot_factor,
-                ForceMeaning meaning = ForceMeaning(), const Unknowns &springs = Unknowns());
+                ForceMeaning meaning = ForceMeaning(), const Unknowns &springs = Unknowns(),
+                const FootElimination::Feet *feet = nullptr);
     JointSystem(const JointSystem &) = delete; // the solver knows the joint operator by its place
 
     /** @p start: gap at the start of the step, 3 per pair [m]; @p memory: of the pairs, as committed before
      * the step; receives the events of the step, after each of which it is solved once more; @p force: guess
      * (zeros in a static system: none), then solution, 3 per pair [N]; @p gap, 3 per pair [m]; @p u, 3 per
-     * node [m]. */
+     * node [m]; @p feet: with feet only. */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &memory,
-                        Unknowns &force, Unknowns &gap, Unknowns &u);
+                        Unknowns &force, Unknowns &gap, Unknowns &u, FeetOfStep *feet = nullptr);
 
     /** The same for laws without memory. */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &force,
@@ -66,6 +75,8 @@ namespace Voussoir
       unsigned int body = rigid_ground, node = 0;
     };
     void          condense();
+    Unknowns      gaps_without_forces(const Unknowns &offset, const Unknowns &foot_force) const;
+    void          put_on_interface(const Unknowns &force);
     ContactResult solve_pairs(const Unknowns &b, const Unknowns &start, Unknowns &memory, Unknowns &force,
                               Unknowns &gap);
     void          write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &memory,
@@ -79,6 +90,7 @@ namespace Voussoir
     std::vector<CondensedBody>       bodies;
     std::vector<std::array<Side, 2>> sides; ///< per pair
     InterfaceOperator                W;
+    std::shared_ptr<FootElimination> feet; ///< or null
     std::unique_ptr<ContactSolver>   solver;
     std::vector<std::vector<double>> interface; ///< work space per body
     unsigned int                     n_solved;  ///< also before this object was made

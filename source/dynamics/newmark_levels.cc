@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whole steps and parts of them, and a support that makes steps of its own.
+
+#include <voussoir/base/error.h>
+#include <voussoir/dynamics/newmark.h>
+
+#include <sstream>
+
+namespace Voussoir
+{
+  void Newmark::add_level(const Part &part)
+  {
+    const double      dt = part.dt;
+    ContactParameters of_level = parameters;
+    of_level.write_problems = parameters.write_problems && levels.empty();
+    // Of the rule mean-force: the sum of the forces at both ends.
+    const ForceMeaning    meaning = rule == ImpactRule::mean_force ? ForceMeaning{2., true} : ForceMeaning();
+    FootElimination::Feet feet;
+    if (support)
+    {
+      feet = {support->feet(), support->compliance(part.n_substeps)};
+      for (Matrix3 &block : feet.compliance.value) // for the sum of the forces at both ends
+        for (double &x : block)
+          x *= .5;
+    }
+    levels.emplace_back(
+        new Level{dt, part.n_substeps,
+                  JointSystem(structure, laws, of_level, 4. / (dt * dt) + 2. / dt * structure.mass_damping,
+                              1. + 2. / dt * structure.stiffness_damping, 2. / dt, meaning, Unknowns(),
+                              support ? &feet : nullptr)});
+  }
+
+  /** Its number; made when there is none yet. */
+  unsigned int Newmark::level_of(const Part &part)
+  {
+    for (unsigned int i = 0; support && i < levels.size(); ++i)
+      if (levels[i]->n_substeps == part.n_substeps)
+        return i;
+    if (support || part.halvings == levels.size())
+      add_level(part);
+    return support ? levels.size() - 1 : part.halvings;
+  }
+
+  ContactResult Newmark::advance(const Part &part, const Unknowns &load, const Vector3 &base_velocity)
+  {
+    const unsigned int level = level_of(part);
+    ContactResult      result;
+    if (!step(*levels[level], load, base_velocity, result))
+      return advance_in_halves(part, load, base_velocity, result);
+    last_level = level;
+    return result;
+  }
+
+  ContactResult Newmark::advance_in_halves(const Part &part, const Unknowns &load,
+                                           const Vector3 &base_velocity, const ContactResult &failed)
+  {
+    constexpr unsigned int most = 3;
+    const double           dt = part.dt;
+    if (part.halvings == most || (support && part.n_substeps == 1))
+    {
+      std::ostringstream message;
+      message << "The joint conditions did not converge at t = " << now.time + dt
+              << " s, not with time steps of " << dt << " s either: relative residual " << failed.residual
+              << " after " << failed.iterations << " Newton steps and " << failed.sweeps
+              << " sweeps. See entries \"Motion/Time step\" and \"Contact/Maximum iterations\".";
+      throw ComputationError(message.str());
+    }
+    const unsigned int n = part.n_substeps, n_first = n / 2;
+    const double       share = support ? double(n_first) / n : .5;
+    Unknowns           middle = load;
+    for (std::size_t k = 0; k < load.size(); ++k)
+      middle[k] = share * load[k] + (1. - share) * now.load[k];
+    Vector3 middle_base;
+    for (unsigned int c = 0; c < 3; ++c)
+      middle_base[c] = share * base_velocity[c] + (1. - share) * now.base_velocity[c];
+    const double   end = now.time + dt; // free of the round-off of halves
+    ContactResult  result = advance({share * dt, n_first, part.halvings + 1}, middle, middle_base);
+    const Unknowns first_half = impulse;
+    result += advance({(1. - share) * dt, n - n_first, part.halvings + 1}, load, base_velocity);
+    result.add_work(failed);
+    result.path = ContactPath::smaller_step;
+    now.time = end;
+    for (std::size_t k = 0; k < impulse.size(); ++k)
+      impulse[k] += first_half[k];
+    return result;
+  }
+
+  /** The support makes its steps, with the mean force of the step. Returns the work of that on the dam [J].
+   */
+  double Newmark::push_support(const Level &level, FeetOfStep &feet, const Unknowns &u_new)
+  {
+    const std::vector<unsigned int> &node = support->feet();
+    double                           work = 0.;
+    for (std::size_t i = 0; i < node.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const std::size_t k = 3 * std::size_t(node[i]) + c;
+        feet.force[3 * i + c] *= .5;
+        work += feet.force[3 * i + c] * (u_new[k] - now.u[k]);
+      }
+    support->push(level.n_substeps, feet.force, work);
+    return work;
+  }
+} // namespace Voussoir

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/foundation/own_step_rock.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace Voussoir
+{
+  std::vector<unsigned int> OwnStepRock::feet_of_rock() const
+  {
+    std::vector<unsigned int> result;
+    for (const Foot &f : foot)
+      result.push_back(f.rock);
+    return result;
+  }
+
+  RayleighDamping OwnStepRock::damping() const
+  {
+    return region_parameters(parameters, centre, 0.).damping;
+  }
+
+  std::string OwnStepRock::about_steps() const
+  {
+    std::ostringstream text;
+    text.precision(4);
+    text << ", in each " << parameters.substeps
+         << " of the rock, coupled by mean tractions; critical time step "
+         << "of the rock " << dt_critical << " s";
+    return text.str();
+  }
+
+  void OwnStepRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
+  {
+    ExplicitRock::check(steps, steps_per_sample);
+    RockPatch(model, damping(), steps.substep(), feet_of_rock(), steps.substeps);
+  }
+
+  void OwnStepRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
+  {
+    make_rock(outcrop, steps, .5 * steps.substep());
+    patch = std::make_unique<RockPatch>(model, damping(), grid.substep(), feet_of_rock(), grid.substeps);
+    model.stiffness = BlockSparseMatrix(); // its memory: region and patch have what they need
+    region->force.assign(3 * std::size_t(n_nodes()), 0.);
+    std::vector<std::pair<unsigned int, unsigned int>> standing;
+    for (unsigned int i = 0; i < foot.size(); ++i)
+      for (const unsigned int node : foot[i].nodes)
+        standing.push_back({node, i});
+    std::sort(standing.begin(), standing.end());
+    rest.clear();
+    for (const auto &[node, i] : standing)
+    {
+      nodes.push_back(node);
+      foot_of.push_back(i);
+      rest.insert(rest.end(), u.begin() + 3 * std::size_t(node), u.begin() + 3 * std::size_t(node) + 3);
+    }
+    v.assign(3, 0.); // of the base, in the mean
+    a = v;
+    account.assign(4, 0.);
+  }
+
+  Support *OwnStepRock::support(Structure &structure)
+  {
+    for (Body &body : structure.bodies)
+    {
+      for (const unsigned int node : nodes)
+        if (node >= body.first_node && node < body.first_node + body.n_nodes())
+          body.interface.push_back(node - body.first_node);
+      std::sort(body.interface.begin(), body.interface.end());
+      body.interface.erase(std::unique(body.interface.begin(), body.interface.end()), body.interface.end());
+    }
+    return this;
+  }
+
+  namespace
+  {
+    /** The compliance for the dam's nodes: @p foot of each. */
+    BlockSparseMatrix of_nodes(const BlockSparseMatrix &R, const std::vector<unsigned int> &foot)
+    {
+      std::vector<std::vector<unsigned int>> standing(R.n_rows()), columns(foot.size());
+      for (unsigned int i = 0; i < foot.size(); ++i)
+        standing[foot[i]].push_back(i);
+      const auto each = [&](const auto &action)
+      {
+        for (unsigned int i = 0; i < foot.size(); ++i)
+          for (std::size_t k = R.start[foot[i]]; k < R.start[foot[i] + 1]; ++k)
+            for (const unsigned int j : standing[R.column[k]])
+              action(i, j, R.value[k]);
+      };
+      each([&](const unsigned int i, const unsigned int j, const Matrix3 &) { columns[i].push_back(j); });
+      for (auto &row : columns)
+        std::sort(row.begin(), row.end());
+      BlockSparseMatrix result(columns);
+      each([&](const unsigned int i, const unsigned int j, const Matrix3 &block)
+           { result.add(i, j, block); });
+      return result;
+    }
+  } // namespace
+
+  BlockSparseMatrix OwnStepRock::compliance(const unsigned int n) const
+  {
+    return of_nodes(patch->compliance(n), foot_of);
+  }
+
+  Unknowns OwnStepRock::predict(const unsigned int n)
+  {
+    const Stopwatch watch;
+    const Unknowns  place = patch->places(n, region->displacement(), region->half_step_velocity());
+    Unknowns        result = rest;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+        result[3 * i + c] += place[3 * std::size_t(foot_of[i]) + c];
+    seconds_advancing += watch.seconds();
+    return result;
+  }
+
+  /** Of the rock's feet, at the dam's time. */
+  Unknowns OwnStepRock::places() const
+  {
+    const Unknowns &u = region->displacement(), &w = region->half_step_velocity();
+    Unknowns        result;
+    for (const Foot &f : foot)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const std::size_t k = 3 * std::size_t(f.rock) + c;
+        result.push_back(u[k] + .5 * region->time_step() * w[k]);
+      }
+    return result;
+  }
+
+  void OwnStepRock::push(const unsigned int n, const Unknowns &on_dam, const double work)
+  {
+    const Stopwatch watch;
+    Unknowns        on_rock(3 * foot.size(), 0.);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+        on_rock[3 * std::size_t(foot_of[i]) + c] -= on_dam[3 * i + c];
+    for (std::size_t i = 0; i < foot.size(); ++i)
+      std::copy_n(on_rock.begin() + 3 * i, 3, region->force.begin() + 3 * std::size_t(foot[i].rock));
+    const Unknowns before = places();
+    for (unsigned int j = 0; j < n; ++j)
+      region->advance();
+    const Unknowns after = places();
+    for (std::size_t k = 0; k < on_rock.size(); ++k)
+      account[3] += on_rock[k] * (after[k] - before[k]);
+    account[0] += work;
+    seconds_advancing += watch.seconds();
+  }
+
+  /** The forces come by the Support; only the mean velocity of the feet is needed beforehand. */
+  void OwnStepRock::advance(Unknowns &)
+  {
+    for (unsigned int c = 0; c < 3; ++c)
+      predicted_velocity[c] = v[c] + .5 * grid.dt * a[c];
+  }
+
+  void OwnStepRock::follow(const DynamicState &state)
+  {
+    Vector3 mean{};
+    for (const Foot &f : foot)
+      for (const unsigned int node : f.nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+          mean[c] += state.v[3 * std::size_t(node) + c] / (foot.size() * f.nodes.size());
+    for (unsigned int c = 0; c < 3; ++c)
+    {
+      a[c] = 2. / grid.dt * (mean[c] - v[c]) - a[c];
+      v[c] = mean[c];
+    }
+    keep_account();
+  }
+
+  std::vector<std::vector<double> *> OwnStepRock::state()
+  {
+    if (!region)
+      return {};
+    std::vector<std::vector<double> *> arrays = region->state();
+    for (Unknowns *array : {&rest, &v, &a, &account})
+      arrays.push_back(array);
+    return arrays;
+  }
+} // namespace Voussoir

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/joints/foot_elimination.h>
+
+#include <algorithm>
+
+extern "C"
+{
+  void dgemm_(const char *, const char *, const int *, const int *, const int *, const double *,
+              const double *, const int *, const double *, const int *, const double *, double *,
+              const int *);
+  void dgemv_(const char *, const int *, const int *, const double *, const double *, const int *,
+              const double *, const int *, const double *, double *, const int *);
+}
+
+namespace Voussoir
+{
+  namespace
+  {
+    /** The pattern of @p R and the feet of each body coupled to each other. */
+    BlockSparseMatrix with_bodies(const BlockSparseMatrix &R, const std::vector<unsigned int> &first)
+    {
+      std::vector<std::vector<unsigned int>> columns(R.n_rows());
+      for (unsigned int b = 0; b + 1 < first.size(); ++b)
+        for (unsigned int i = first[b]; i < first[b + 1]; ++i)
+        {
+          columns[i].assign(R.column.begin() + R.start[i], R.column.begin() + R.start[i + 1]);
+          for (unsigned int k = first[b]; k < first[b + 1]; ++k)
+            columns[i].push_back(k);
+          std::sort(columns[i].begin(), columns[i].end());
+          columns[i].erase(std::unique(columns[i].begin(), columns[i].end()), columns[i].end());
+        }
+      BlockSparseMatrix result(columns);
+      for (unsigned int i = 0; i < R.n_rows(); ++i)
+        for (std::size_t k = R.start[i]; k < R.start[i + 1]; ++k)
+          result.add(i, R.column[k], R.value[k]);
+      return result;
+    }
+
+    unsigned int place_in(const std::vector<unsigned int> &sorted, const unsigned int value)
+    {
+      return std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin();
+    }
+  } // namespace
+
+  FootElimination::FootElimination(const Structure &structure, Feet given)
+      : structure(structure), feet(std::move(given)), begin(structure.n_joints + 1, 0), first(1, 0)
+  {
+    for (const Pair &pair : structure.pairs)
+      begin[pair.joint + 1] += 3;
+    for (unsigned int j = 0; j < structure.n_joints; ++j)
+      begin[j + 1] += begin[j];
+    for (const Body &body : structure.bodies)
+    {
+      first.push_back(place_in(feet.node, body.first_node + body.n_nodes()));
+      for (unsigned int i = first[first.size() - 2]; i < first.back(); ++i)
+        interface.push_back(place_in(body.interface, feet.node[i] - body.first_node));
+    }
+    H.bodies.resize(1);
+    H.bodies[0].stiffness = with_bodies(feet.compliance, first);
+    H.mass.resize(feet.node.size());
+  }
+
+  void FootElimination::add_body(const unsigned int b, const std::vector<double> &F)
+  {
+    const Body       &body = structure.bodies[b];
+    const std::size_t m = 3 * body.interface.size();
+    const auto        flexibility = [&](const unsigned int p, const unsigned int q)
+    {
+      Matrix3 f;
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          f[3 * i + j] = F[(3 * std::size_t(q) + j) * m + 3 * p + i];
+      return f;
+    };
+    for (unsigned int i = first[b]; i < first[b + 1]; ++i)
+      for (unsigned int k = first[b]; k < first[b + 1]; ++k)
+        H.bodies[0].stiffness.add(i, k, flexibility(interface[i], interface[k]));
+    for (unsigned int p = 0; p < structure.pairs.size() && n_feet(b) > 0; ++p)
+    {
+      const Pair &pair = structure.pairs[p];
+      for (unsigned int side = 0; side < 2; ++side)
+      {
+        const unsigned int node = side == 0 ? pair.node_1 : pair.node_2;
+        if (node < body.first_node || node >= body.first_node + body.n_nodes()) // the ground, too
+          continue;
+        const std::size_t    rows = n_rows(pair.joint), row = 3 * p - begin[pair.joint];
+        std::vector<double> &block = B[{pair.joint, b}];
+        block.resize(rows * 3 * n_feet(b), 0.);
+        for (unsigned int k = 0; k < n_feet(b); ++k)
+        {
+          const Matrix3 f =
+              flexibility(place_in(body.interface, node - body.first_node), interface[first[b] + k]);
+          for (unsigned int j = 0; j < 3; ++j)
+            for (unsigned int i = 0; i < 3; ++i)
+              block[(3 * k + j) * rows + row + i] +=
+                  (side == 0 ? -1. : 1.) * dot(pair.frame[i], Vector3{{f[j], f[3 + j], f[6 + j]}});
+        }
+      }
+    }
+  }
+
+  void FootElimination::factorise()
+  {
+    H.bodies[0].stiffness.symmetrise();
+    factor.emplace_back(H, H.bodies[0], 0., 1., 0.);
+    H = Structure(); // its memory
+  }
+
+  void FootElimination::solve(Unknowns &x) const
+  {
+    factor[0].apply_load(x.data(), nullptr);
+    factor[0].apply_joint_forces(nullptr, x.data());
+  }
+
+  void FootElimination::take_from(const std::vector<std::vector<double>> &values, Unknowns &x) const
+  {
+    x.resize(n());
+    for (unsigned int b = 0; b + 1 < first.size(); ++b)
+      for (unsigned int i = first[b]; i < first[b + 1]; ++i)
+        std::copy_n(values[b].begin() + 3 * interface[i], 3, x.begin() + 3 * std::size_t(i));
+  }
+
+  void FootElimination::add_to(std::vector<std::vector<double>> &values, const Unknowns &x) const
+  {
+    for (unsigned int b = 0; b + 1 < first.size(); ++b)
+      for (unsigned int i = first[b]; i < first[b + 1]; ++i)
+        for (unsigned int c = 0; c < 3; ++c)
+          values[b][3 * interface[i] + c] += x[3 * std::size_t(i) + c];
+  }
+
+  void FootElimination::add_gaps(const double factor, const Unknowns &f, double *gap) const
+  {
+    const int    stride = 1;
+    const double one = 1.;
+    for (const auto &block : B)
+    {
+      const int rows = n_rows(block.first.first), columns = 3 * n_feet(block.first.second);
+      dgemv_("N", &rows, &columns, &factor, block.second.data(), &rows,
+             f.data() + 3 * std::size_t(first[block.first.second]), &stride, &one,
+             gap + begin[block.first.first], &stride);
+    }
+  }
+
+  void FootElimination::take_gaps(const double *f, Unknowns &x) const
+  {
+    const int    stride = 1;
+    const double one = 1.;
+    x.assign(n(), 0.);
+    for (const auto &block : B)
+    {
+      const int rows = n_rows(block.first.first), columns = 3 * n_feet(block.first.second);
+      dgemv_("T", &rows, &columns, &one, block.second.data(), &rows, f + begin[block.first.first], &stride,
+             &one, x.data() + 3 * std::size_t(first[block.first.second]), &stride);
+    }
+  }
+
+  void FootElimination::subtract(const double *f, double *gap) const
+  {
+    Unknowns x;
+    take_gaps(f, x);
+    solve(x);
+    add_gaps(-1., x, gap);
+  }
+
+  /** Columns of H^-1 for the feet of a body. */
+  std::vector<double> FootElimination::inverse_columns(const unsigned int body) const
+  {
+    std::vector<double> result;
+    for (unsigned int k = 3 * first[body]; k < 3 * first[body + 1]; ++k)
+    {
+      Unknowns x(n(), 0.);
+      x[k] = 1.;
+      solve(x);
+      result.insert(result.end(), x.begin(), x.end());
+    }
+    return result;
+  }
+
+  std::vector<double> FootElimination::times_transposed(const std::vector<double> &columns,
+                                                        const Key                 &key) const
+  {
+    const int           rows = n(), n_columns = n_rows(key.first), m = 3 * n_feet(key.second);
+    const double        one = 1., zero = 0.;
+    std::vector<double> Y(std::size_t(rows) * n_columns);
+    dgemm_("N", "T", &rows, &n_columns, &m, &one, columns.data(), &rows, B.at(key).data(), &n_columns, &zero,
+           Y.data(), &rows);
+    return Y;
+  }
+
+  std::vector<double> FootElimination::product(const Key &key, const std::vector<double> &Y,
+                                               const unsigned int n_columns) const
+  {
+    const int           rows = n_rows(key.first), columns = n_columns, m = 3 * n_feet(key.second), all = n();
+    const double        one = 1., zero = 0.;
+    std::vector<double> result(std::size_t(rows) * columns);
+    dgemm_("N", "N", &rows, &columns, &m, &one, B.at(key).data(), &rows,
+           Y.data() + 3 * std::size_t(first[key.second]), &all, &zero, result.data(), &rows);
+    return result;
+  }
+
+  double FootElimination::memory() const
+  {
+    double bytes = factor.empty() ? 0. : factor[0].memory();
+    for (const auto &block : B)
+      bytes += 8. * block.second.size();
+    return bytes;
+  }
+} // namespace Voussoir

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
+#include <voussoir/rock/rock_patch.h>
+
+#include <algorithm>
+#include <set>
+
+namespace Voussoir
+{
+  RockPatch::RockPatch(const RockModel &model, const RayleighDamping &damping, const double dt,
+                       const std::vector<unsigned int> &feet, const unsigned int n_steps)
+      : damping(damping), dt(dt), node(feet), n_layer(1, feet.size())
+  {
+    add_layers(model, n_steps);
+    std::vector<bool> on_boundary(model.points.size(), false);
+    for (const BoundaryFace &face : model.faces)
+      for (const unsigned int i : face.nodes)
+        on_boundary[i] = true;
+    const unsigned int n_rows = n_layer[n_steps - 1];
+    for (unsigned int i = 0; i < n_rows; ++i)
+    {
+      if (on_boundary[node[i]])
+        throw InputError(
+            "The dam's base is fewer than " + std::to_string(n_steps) +
+            " layers of rock elements from the artificial boundary, which is too near for as many "
+            "sub-steps: make the rock larger, or take fewer \"Foundation/Substeps\".");
+      inverse_mass.push_back(1. / model.mass[node[i]]);
+    }
+    std::vector<unsigned int> number(model.points.size(), no_node);
+    for (unsigned int i = 0; i < node.size(); ++i)
+      number[node[i]] = i;
+    start.assign(1, 0);
+    const BlockSparseMatrix &K = model.stiffness;
+    for (unsigned int i = 0; i < n_rows; ++i)
+    {
+      for (std::size_t k = K.start[node[i]]; k < K.start[node[i] + 1]; ++k)
+      {
+        column.push_back(number[K.column[k]]);
+        value.push_back(K.value[k]);
+      }
+      start.push_back(column.size());
+    }
+  }
+
+  void RockPatch::add_layers(const RockModel &model, const unsigned int n_steps)
+  {
+    const BlockSparseMatrix &K = model.stiffness;
+    std::vector<bool>        is_there(model.points.size(), false);
+    for (const unsigned int i : node)
+      is_there[i] = true;
+    for (unsigned int layer = 1, first = 0; layer <= n_steps; ++layer)
+    {
+      const unsigned int end = node.size();
+      for (unsigned int i = first; i < end; ++i)
+        for (std::size_t k = K.start[node[i]]; k < K.start[node[i] + 1]; ++k)
+          if (!is_there[K.column[k]])
+          {
+            is_there[K.column[k]] = true;
+            node.push_back(K.column[k]);
+          }
+      first = end;
+      n_layer.push_back(node.size());
+    }
+  }
+
+  /** A step of ExplicitRegion, of nodes within @p n_left layers; @p force: on the feet, or null. */
+  void RockPatch::step(const unsigned int n_left, const double *force, Unknowns &u, Unknowns &w,
+                       Unknowns &x) const
+  {
+    const int n_moved = 3 * n_layer[n_left + 1], n_rows = n_layer[n_left], n_forces = force ? n_feet() : 0;
+#pragma omp parallel for simd schedule(static)
+    for (int k = 0; k < n_moved; ++k)
+    {
+      u[k] += dt * w[k];
+      x[k] = u[k] + damping.stiffness * w[k];
+    }
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < n_rows; ++i)
+    {
+      double K[3] = {0., 0., 0.};
+      for (std::size_t e = start[i]; e < start[i + 1]; ++e)
+      {
+        const double  *y = x.data() + 3 * std::size_t(column[e]);
+        const Matrix3 &a = value[e];
+        for (unsigned int c = 0; c < 3; ++c)
+          K[c] += a[3 * c] * y[0] + a[3 * c + 1] * y[1] + a[3 * c + 2] * y[2];
+      }
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const double f = i < n_forces ? force[3 * i + c] : 0.;
+        double      &v = w[3 * std::size_t(i) + c];
+        v += dt * (inverse_mass[i] * (f - K[c]) - damping.mass * v);
+      }
+    }
+  }
+
+  Unknowns RockPatch::feet_of(const Unknowns &u, const Unknowns &w) const
+  {
+    Unknowns place(3 * std::size_t(n_feet()));
+    for (std::size_t k = 0; k < place.size(); ++k)
+      place[k] = u[k] + .5 * dt * w[k];
+    return place;
+  }
+
+  Unknowns RockPatch::places(const unsigned int n_steps, const Unknowns &u, const Unknowns &w) const
+  {
+    const std::size_t n = n_layer[n_steps];
+    Unknowns          u_here(3 * n), w_here(3 * n), x(3 * n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        u_here[3 * i + c] = u[3 * std::size_t(node[i]) + c];
+        w_here[3 * i + c] = w[3 * std::size_t(node[i]) + c];
+      }
+    for (unsigned int left = n_steps; left-- > 0;)
+      step(left, nullptr, u_here, w_here, x);
+    return feet_of(u_here, w_here);
+  }
+
+  /** For each foot those whose places its force changes within @p n_steps: up to n_steps - 1 layers away. */
+  std::vector<std::vector<unsigned int>> RockPatch::reach(const unsigned int n_steps) const
+  {
+    std::vector<std::vector<unsigned int>> result(n_feet());
+    for (unsigned int foot = 0; foot < n_feet(); ++foot)
+    {
+      std::set<unsigned int>    found = {foot};
+      std::vector<unsigned int> edge = {foot}, next;
+      for (unsigned int layer = 1; layer < n_steps; ++layer, edge.swap(next), next.clear())
+        for (const unsigned int i : edge)
+          for (std::size_t e = start[i]; i < n_layer[n_steps - 1] && e < start[i + 1]; ++e)
+            if (found.insert(column[e]).second)
+              next.push_back(column[e]);
+      for (const unsigned int i : found)
+        if (i < n_feet())
+          result[foot].push_back(i);
+    }
+    return result;
+  }
+
+  BlockSparseMatrix RockPatch::compliance(const unsigned int n_steps) const
+  {
+    const auto        reached = reach(n_steps);
+    BlockSparseMatrix result(reached);
+    std::vector<bool> done(n_feet(), false);
+    const std::size_t n = 3 * std::size_t(n_layer[n_steps]);
+    for (unsigned int first = 0; first < n_feet(); ++first)
+    {
+      if (done[first])
+        continue;
+      std::vector<unsigned int> together; // feet whose forces reach different ones
+      std::vector<bool>         taken(n_feet(), false);
+      for (unsigned int foot = first; foot < n_feet(); ++foot)
+        if (!done[foot] && std::none_of(reached[foot].begin(), reached[foot].end(),
+                                        [&](const unsigned int i) { return taken[i]; }))
+        {
+          done[foot] = true;
+          together.push_back(foot);
+          for (const unsigned int i : reached[foot])
+            taken[i] = true;
+        }
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        Unknowns u(n, 0.), w(n, 0.), x(n, 0.), force(3 * std::size_t(n_feet()), 0.);
+        for (const unsigned int foot : together)
+          force[3 * foot + c] = 1.;
+        for (unsigned int left = n_steps; left-- > 0;)
+          step(left, force.data(), u, w, x);
+        const Unknowns place = feet_of(u, w);
+        for (const unsigned int foot : together)
+          for (const unsigned int i : reached[foot])
+          {
+            Matrix3 block{};
+            for (unsigned int r = 0; r < 3; ++r)
+              block[3 * r + c] = place[3 * i + r];
+            result.add(i, foot, block);
+          }
+      }
+    }
+    return result;
+  }
+
+  double RockPatch::memory() const
+  {
+    return 4. * (node.size() + column.size()) + 8. * (inverse_mass.size() + start.size()) +
+           72. * value.size();
+  }
+} // namespace Voussoir

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The rock at steps of its own, coupled by mean tractions: compliance of its feet, energy, accuracy, joints.
+
+#include "rock_block.h"
+
+#include <voussoir/foundation/own_step_rock.h>
+
+namespace
+{
+  using namespace Voussoir;
+  using namespace Blocks;
+  using Columns::below;
+  using Columns::between;
+
+  constexpr double near_critical = .98 * .003004; ///< step of the rock of the block's cells [s]
+
+  Case own_steps(const unsigned int m, const double dt)
+  {
+    Case c;
+    c.coupling = "mean traction";
+    c.substeps = m;
+    c.dt = m * dt;
+    return c;
+  }
+
+  RockModel model_of(const Ground &ground)
+  {
+    RockParameters p;
+    p.materials[PhysicalId::first_rock] = rock;
+    p.nodal_everywhere = true;
+    return make_rock_model(make_mesh(ground, true, false), p);
+  }
+
+  /** Places of the feet after m steps with unit forces held. */
+  void compliance()
+  {
+    const RockModel           model = model_of(box(6));
+    std::vector<unsigned int> feet;
+    for (unsigned int i = 0; i < model.points.size(); ++i)
+      if (const auto &p = model.points[i]; std::abs(p[0]) < 11. && std::abs(p[1]) < 11. && p[2] > -1.)
+        feet.push_back(i);
+    RayleighDamping damping;
+    damping.mass = .3;
+    damping.stiffness = 1e-4;
+    const double h = .0028;
+    for (const unsigned int m : {1, 2, 4, 5})
+    {
+      const RockPatch         patch(model, damping, h, feet, m);
+      const BlockSparseMatrix R = patch.compliance(m);
+      double                  asymmetry = 0., largest = 0., off = 0., own = 0.;
+      std::vector<double>     dense(9 * feet.size() * feet.size(), 0.);
+      const std::size_t       n = 3 * feet.size();
+      for (unsigned int i = 0; i < R.n_rows(); ++i)
+        for (std::size_t k = R.start[i]; k < R.start[i + 1]; ++k)
+          for (unsigned int a = 0; a < 9; ++a)
+            dense[(3 * i + a / 3) * n + 3 * R.column[k] + a % 3] = R.value[k][a];
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+        {
+          largest = std::max(largest, std::abs(dense[i * n + j]));
+          asymmetry = std::max(asymmetry, std::abs(dense[i * n + j] - dense[j * n + i]));
+          if (m == 1 && i != j)
+            off = std::max(off, std::abs(dense[i * n + j]));
+          if (m == 1 && i == j)
+            own = std::max(own, std::abs(dense[i * n + i] * 2. * model.mass[feet[i / 3]] / (h * h) - 1.));
+        }
+      const std::string name = "compliance of the feet, m = " + std::to_string(m);
+      below(name + ": asymmetry / largest", asymmetry / largest, 1e-14);
+      below(name + ": off the diagonal, m = 1", off / largest, 0.);
+      below(name + ": h^2/2M, m = 1", own, 1e-14);
+
+      // The region itself, under all forces together.
+      ExplicitRegion            region(make_operator(model), model.mass, damping, h);
+      std::vector<unsigned int> held;
+      for (const BoundaryFace &face : model.faces)
+        held.insert(held.end(), face.nodes.begin(), face.nodes.end());
+      region.fix_nodes(held);
+      region.force.assign(3 * model.points.size(), 0.);
+      Unknowns f(n), Rf(n);
+      for (std::size_t k = 0; k < n; ++k)
+        region.force[3 * feet[k / 3] + k % 3] = f[k] = Columns::random_number();
+      for (unsigned int j = 0; j < m; ++j)
+        region.advance();
+      R.multiply(f.data(), Rf.data());
+      double error = 0., size = 0.;
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        const std::size_t i = 3 * feet[k / 3] + k % 3;
+        const double      place = region.displacement()[i] + .5 * h * region.half_step_velocity()[i];
+        error = std::max(error, std::abs(place - Rf[k]));
+        size = std::max(size, std::abs(place));
+      }
+      below(name + ": against the region / largest", error / size, 1e-13);
+    }
+  }
+
+  /** What a run says of its energies and feet, relative. */
+  struct Account
+  {
+    double dam = 0., rock = 0., interface = 0., largest = 0.;
+
+    void see(const Newmark &newmark, const ExplicitRock &foundation)
+    {
+      largest = std::max(largest, newmark.largest_energy());
+      dam = std::max(dam, std::abs(newmark.state().energy.balance(newmark.initial_energy())));
+      rock = std::max(rock, foundation.balance_error());
+      interface = std::max(interface, std::abs(foundation.work_of_feet() + foundation.work_on_dam()));
+    }
+
+    void report(const std::string &name, const double limit) const
+    {
+      below(name + ": account of the dam", dam / largest, limit);
+      below(name + ": account of the rock", rock, limit);
+      below(name + ": energy made by the coupling", interface / largest, limit);
+    }
+  };
+
+  /** A closed box without damping, near the critical step: all energy stays. */
+  void closed_box()
+  {
+    for (const unsigned int m : {1, 2, 4, 7})
+    {
+      Case c = own_steps(m, near_critical);
+      c.duration = 20000 / m * c.dt;
+      Account       account;
+      const History h =
+          partitioned(box(7), c, false, [&](const Newmark &n, const ExplicitRock &r) { account.see(n, r); });
+      account.report("closed box, m = " + std::to_string(m), 1e-11);
+      const std::vector<Vector3> begin(h.top.begin(), h.top.begin() + h.top.size() / 10),
+          end(h.top.end() - h.top.size() / 10, h.top.end());
+      below("  top, last tenth / first", peak(end) / peak(begin), 1.2);
+    }
+  }
+
+  /** Against an implicit run of the same step. */
+  void accuracy()
+  {
+    for (const unsigned int m : {1, 2, 4, 7})
+    {
+      Case c = own_steps(m, .01 / 7.);
+      c.pulse_length = .4;
+      c.duration = 140 / m * c.dt * 4;
+      const History one = implicit(box(7), c), two = partitioned(box(7), c);
+      std::printf("m = %u: top %.2e foot %.2e\n", m, difference(two.top, one.top),
+                  difference(two.foot, one.foot));
+      c.coupling = "partition";
+      if (m > 1)
+        c.stiffness_damping = 0;
+      const History three = partitioned(box(7), c);
+      std::printf("   partition: top %.2e foot %.2e\n", difference(three.top, one.top),
+                  difference(three.foot, one.foot));
+    }
+  }
+
+  /** Two monoliths on one rock, contact and friction between them. @p contact: so tight that steps must be
+   * halved, or not. */
+  void friction(const std::string &name, const unsigned int m, const ContactParameters &contact,
+                const bool halves)
+  {
+    Case c = own_steps(m, .00143);
+    c.law = "FJA";
+    c.duration = 280 / m * c.dt;
+    Account account;
+    double  created = 0., penetration = 0., opening = 0., taken = 0., memory = 0., memory_at_first = 0.;
+    double  path = 0.;
+    bool    slips = false;
+    partitioned(
+        box(7), c, true,
+        [&](const Newmark &n, const ExplicitRock &r)
+        {
+          account.see(n, r);
+          const Energy &e = n.state().energy;
+          created = std::max(created, taken - e.friction - e.impact);
+          taken = e.friction + e.impact;
+          memory_at_first = memory_at_first > 0. ? memory_at_first : n.memory();
+          memory = n.memory();
+          for (unsigned int p = 0; p < n.pair_states().size(); ++p)
+          {
+            const Vector3 jump = n.opening_and_slip(p);
+            penetration = std::max(penetration, -jump[0]);
+            opening = std::max(opening, jump[0]);
+            path = std::max(path, std::hypot(jump[1], jump[2]));
+            slips = slips || n.pair_states()[p] == PairState::slip;
+          }
+        },
+        contact);
+    account.report(name, 1e-11);
+    below(name + ": energy created by the joint in a step", created / account.largest, 1e-12);
+    below(name + ": penetration / opening", penetration / opening, 1e-9);
+    Columns::above(name + ": slip", slips ? path : 0., 1e-12);
+    Columns::above(name + ": taken by friction and impact", taken / account.largest, 1e-6);
+    between(name + ": are there halved steps", memory > memory_at_first, halves, halves);
+  }
+
+  void joints()
+  {
+    for (const unsigned int m : {1, 2, 4, 7})
+      friction("friction, m = " + std::to_string(m), m, Columns::tight(), false);
+    ContactParameters poor = Columns::tight();
+    poor.max_iterations = 1;
+    for (const unsigned int m : {4, 5})
+      friction("halved steps, m = " + std::to_string(m), m, poor, true);
+  }
+} // namespace
+
+/** Usage: own_steps compliance|energy|accuracy|joints */
+int main(int argc, char **argv)
+{
+  const std::string part = argc > 1 ? argv[1] : "";
+  if (part == "compliance")
+    return Columns::run_all({compliance});
+  if (part == "energy")
+    return Columns::run_all({closed_box});
+  if (part == "accuracy")
+    return Columns::run_all({accuracy});
+  if (part == "joints")
+    return Columns::run_all({joints});
+  std::fprintf(stderr, "usage: own_steps compliance|energy|accuracy|joints\n");
+  return 2;
+}

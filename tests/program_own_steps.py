@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tests of the program: rock at steps of its own ("Foundation/Substeps" above 1, coupled by mean tractions).
+
+    program_own_steps.py VOUSSOIR CASE...     cases: see the functions with that name below
+"""
+
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import run_program
+from program_watch import settings
+from run_program import expect, refused, run_cases, runs, same, summary, table, write_scene
+
+ROCK = settings("Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
+                "Motion/Duration=1", "Output/Envelope interval=0", "Output/Figures=false")
+OWN = [*ROCK, *settings("Foundation/Substeps=4", "Dynamics/Steps per sample=2")]
+
+
+def closes(directory):
+    """The accounts of dam and rock close, and the coupling neither gives nor takes energy."""
+    expect(summary(directory)["energy_balance_error"] < 1e-8, f"energy of the dam in {directory}")
+    expect(summary(directory)["rock"]["energy_balance_error"] < 1e-10, f"energy of the rock in {directory}")
+    names, rows = table(f"{directory}/energy.csv")
+    made, feet = (max(abs(row[names.index(name)]) for row in rows) for name in ("interface", "rock_feet"))
+    print(f"    {directory}: work at the feet {feet:.3g} J, made by the coupling {made:.2g} J")
+    expect(feet > 0. and made < 1e-9 * feet, f"the coupling makes {made} of {feet} J in {directory}")
+
+
+def laws():
+    """FJA, KSM, cohesive and tied joints; every joint problem solved by Newton's method."""
+    write_scene()
+    for law in ("FJA", "FJB", "KSM", "cohesive", "tied"):
+        runs("scene.prm", "--output", law, *OWN, *settings(f"Joints/Model={law}"))
+        closes(law)
+        expect(summary(law)["newton"]["max_residual"] < 1e-10 if "max_residual" in summary(law).get("newton", {}) else True,
+               f"residual of {law}")
+
+
+def accuracy():
+    """Four steps of the rock in one of the dam are nearer to one step for all than the partition is."""
+    write_scene()
+    runs("scene.prm", "--output", "fine", *ROCK, *settings("Dynamics/Steps per sample=8"))
+    runs("scene.prm", "--output", "own", *OWN)
+    runs("scene.prm", "--output", "partition", *OWN, *settings("Foundation/Coupling=partition",
+                                                              "Foundation/Stiffness damping=1.9e-4"))
+    crest = {}
+    for name, every in (("fine", 4), ("own", 1), ("partition", 1)):
+        names, rows = table(f"{name}/history.csv")
+        crest[name] = [row[names.index("crest_x")] for row in rows][::every]
+    size = sum(x * x for x in crest["fine"])
+    off = {name: (sum((x - y)**2 for x, y in zip(crest[name], crest["fine"])) / size)**.5 for name in ("own", "partition")}
+    print(f"    crest off by {off}")
+    expect(off["own"] < .03 and off["own"] < .5 * off["partition"], f"crest off by {off}")
+
+
+def resume():
+    """Killed in the middle, it goes on as if it had not been, to the last bit where joints are tied."""
+    write_scene()
+    for law, limit in (("tied", 0.), ("FJA", 2e-7)):
+        whole, killed = f"whole_{law}", f"killed_{law}"
+        chosen = [*OWN, *settings(f"Joints/Model={law}", "Output/Checkpoint interval=20")]
+        runs("scene.prm", "--output", whole, *chosen)
+        process = subprocess.Popen([run_program.VOUSSOIR, "scene.prm", "--output", killed, *chosen],
+                                   stdout=subprocess.DEVNULL)
+        while process.poll() is None and not Path(killed, "checkpoint.txt").exists():
+            time.sleep(.001)
+        process.send_signal(signal.SIGKILL)
+        expect(process.wait() == -signal.SIGKILL, "it ended before it could be killed")
+        runs("scene.prm", "--output", killed, *chosen, "--resume")
+        same(killed, whole, limit, ("history", "energy") if law == "tied" else ("history", "joint_history"))
+
+
+def entries():
+    """What does not fit is refused before the run; --validate names the coupling."""
+    write_scene()
+    expect("mean tractions" in runs("scene.prm", "--validate", *OWN), "--validate names the coupling")
+    expect("mean tractions" not in runs("scene.prm", "--validate", *ROCK, *settings("Dynamics/Steps per sample=8")),
+           "one step for all is the partition")
+    refused(["scene.prm", "--output", "none", *OWN, *settings("Dynamics/Impact=paper")], "mean-force", "Dynamics/Impact")
+    refused(["scene.prm", "--output", "none", *OWN, *settings("Contact/Write problems=true")], "Foundation/Coupling")
+    refused(["scene.prm", "--validate", *ROCK, *settings("Foundation/Substeps=50", "Dynamics/Steps per sample=1")],
+            "layers", "Foundation/Substeps")
+
+
+if __name__ == "__main__":
+    run_cases(laws, accuracy, resume, entries)
