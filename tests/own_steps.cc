@@ -66,8 +66,11 @@ namespace
         }
       const std::string name = "compliance of the feet, m = " + std::to_string(m);
       below(name + ": asymmetry / largest", asymmetry / largest, 1e-14);
-      below(name + ": off the diagonal, m = 1", off / largest, 0.);
-      below(name + ": h^2/2M, m = 1", own, 1e-14);
+      if (m == 1)
+      {
+        between("  off the diagonal", off, 0., 0.);
+        below("  against h^2/2M", own, 1e-14);
+      }
 
       // The region itself, under all forces together.
       ExplicitRegion            region(make_operator(model), model.mass, damping, h);
@@ -97,14 +100,22 @@ namespace
   /** What a run says of its energies and feet, relative. */
   struct Account
   {
-    double dam = 0., rock = 0., interface = 0., largest = 0.;
+    double dam = 0., rock = 0., interface = 0., largest = 0., apart = 0., far = 1e-300;
 
-    void see(const Newmark &newmark, const ExplicitRock &foundation)
+    void see(const Newmark &newmark, ExplicitRock &foundation)
     {
       largest = std::max(largest, newmark.largest_energy());
       dam = std::max(dam, std::abs(newmark.state().energy.balance(newmark.initial_energy())));
       rock = std::max(rock, foundation.balance_error());
       interface = std::max(interface, std::abs(foundation.work_of_feet() + foundation.work_on_dam()));
+      auto          &own = dynamic_cast<OwnStepRock &>(foundation);
+      const Unknowns places = own.predict(0); // where they are
+      for (std::size_t k = 0; k < places.size(); ++k)
+      {
+        const double u = newmark.state().u[3 * std::size_t(own.feet()[k / 3]) + k % 3];
+        apart = std::max(apart, std::abs(u - places[k]));
+        far = std::max(far, std::abs(u));
+      }
     }
 
     void report(const std::string &name, const double limit) const
@@ -112,6 +123,7 @@ namespace
       below(name + ": account of the dam", dam / largest, limit);
       below(name + ": account of the rock", rock, limit);
       below(name + ": energy made by the coupling", interface / largest, limit);
+      below(name + ": feet of dam and rock apart / displacement", apart / far, 1e-12);
     }
   };
 
@@ -124,7 +136,7 @@ namespace
       c.duration = 20000 / m * c.dt;
       Account       account;
       const History h =
-          partitioned(box(7), c, false, [&](const Newmark &n, const ExplicitRock &r) { account.see(n, r); });
+          partitioned(box(7), c, false, [&](const Newmark &n, ExplicitRock &r) { account.see(n, r); });
       account.report("closed box, m = " + std::to_string(m), 1e-11);
       const std::vector<Vector3> begin(h.top.begin(), h.top.begin() + h.top.size() / 10),
           end(h.top.end() - h.top.size() / 10, h.top.end());
@@ -132,74 +144,88 @@ namespace
     }
   }
 
-  /** Against an implicit run of the same step. */
-  void accuracy()
+  /** Without damping, near the critical step, in a box that waves leave: no growth long after the pulse, and
+   * no drift. */
+  void open_box()
   {
-    for (const unsigned int m : {1, 2, 4, 7})
+    for (const unsigned int m : {2, 4, 7})
     {
-      Case c = own_steps(m, .01 / 7.);
-      c.pulse_length = .4;
-      c.duration = 140 / m * c.dt * 4;
-      const History one = implicit(box(7), c), two = partitioned(box(7), c);
-      std::printf("m = %u: top %.2e foot %.2e\n", m, difference(two.top, one.top),
-                  difference(two.foot, one.foot));
-      c.coupling = "partition";
-      if (m > 1)
-        c.stiffness_damping = 0;
-      const History three = partitioned(box(7), c);
-      std::printf("   partition: top %.2e foot %.2e\n", difference(three.top, one.top),
-                  difference(three.foot, one.foot));
+      Case c = own_steps(m, near_critical);
+      c.boundary = "mtf3";
+      c.duration = 12000 / m * c.dt;
+      const History h = partitioned(box(8), c);
+      const auto    late = [](const std::vector<Vector3> &u)
+      { return peak(std::vector<Vector3>(u.end() - u.size() / 10, u.end())) / peak(u); };
+      below("mtf3, m = " + std::to_string(m) + ": last tenth of 12000 steps of the rock / peak, top",
+            late(h.top), 1e-3);
+      below("  foot", late(h.foot), 1e-3);
     }
   }
 
-  /** Two monoliths on one rock, contact and friction between them. @p contact: so tight that steps must be
-   * halved, or not. */
-  void friction(const std::string &name, const unsigned int m, const ContactParameters &contact,
-                const bool halves)
+  /** Against an implicit run of the same step; the partition of as many sub-steps is much farther off. */
+  void accuracy()
+  {
+    std::printf("Fixed box, pulse of 0.4 s: difference to an implicit run of the same step / peak\n");
+    for (const auto &[m, top, foot] : {std::tuple<unsigned int, double, double>{1, 5e-4, 1e-3},
+                                       {2, 1.5e-3, 3e-3},
+                                       {4, 5e-3, 1e-2},
+                                       {7, 2.5e-2, 2.5e-2}})
+    {
+      Case c = own_steps(m, .01 / 7.);
+      c.pulse_length = .4;
+      c.duration = 560 / m * c.dt;
+      const History     one = implicit(box(7), c), own = partitioned(box(7), c);
+      const std::string name = "  m = " + std::to_string(m);
+      below(name + ", top", difference(own.top, one.top), top);
+      below(name + ", foot", difference(own.foot, one.foot), foot);
+      c.coupling = "partition";
+      const History partition = partitioned(box(7), c);
+      if (m > 1)
+      {
+        Columns::above(name + ", partition over that, top",
+                       difference(partition.top, one.top) / difference(own.top, one.top), 5.);
+        Columns::above("  foot", difference(partition.foot, one.foot) / difference(own.foot, one.foot), 5.);
+      }
+    }
+  }
+
+  /** Two monoliths on one rock, contact and friction between them. */
+  void friction(const std::string &name, const unsigned int m)
   {
     Case c = own_steps(m, .00143);
     c.law = "FJA";
     c.duration = 280 / m * c.dt;
     Account account;
-    double  created = 0., penetration = 0., opening = 0., taken = 0., memory = 0., memory_at_first = 0.;
+    double  created = 0., penetration = 0., opening = 0., taken = 0.;
     double  path = 0.;
     bool    slips = false;
-    partitioned(
-        box(7), c, true,
-        [&](const Newmark &n, const ExplicitRock &r)
-        {
-          account.see(n, r);
-          const Energy &e = n.state().energy;
-          created = std::max(created, taken - e.friction - e.impact);
-          taken = e.friction + e.impact;
-          memory_at_first = memory_at_first > 0. ? memory_at_first : n.memory();
-          memory = n.memory();
-          for (unsigned int p = 0; p < n.pair_states().size(); ++p)
-          {
-            const Vector3 jump = n.opening_and_slip(p);
-            penetration = std::max(penetration, -jump[0]);
-            opening = std::max(opening, jump[0]);
-            path = std::max(path, std::hypot(jump[1], jump[2]));
-            slips = slips || n.pair_states()[p] == PairState::slip;
-          }
-        },
-        contact);
+    partitioned(box(7), c, true,
+                [&](const Newmark &n, ExplicitRock &r)
+                {
+                  account.see(n, r);
+                  const Energy &e = n.state().energy;
+                  created = std::max(created, taken - e.friction - e.impact);
+                  taken = e.friction + e.impact;
+                  for (unsigned int p = 0; p < n.pair_states().size(); ++p)
+                  {
+                    const Vector3 jump = n.opening_and_slip(p);
+                    penetration = std::max(penetration, -jump[0]);
+                    opening = std::max(opening, jump[0]);
+                    path = std::max(path, std::hypot(jump[1], jump[2]));
+                    slips = slips || n.pair_states()[p] == PairState::slip;
+                  }
+                });
     account.report(name, 1e-11);
     below(name + ": energy created by the joint in a step", created / account.largest, 1e-12);
     below(name + ": penetration / opening", penetration / opening, 1e-9);
     Columns::above(name + ": slip", slips ? path : 0., 1e-12);
     Columns::above(name + ": taken by friction and impact", taken / account.largest, 1e-6);
-    between(name + ": are there halved steps", memory > memory_at_first, halves, halves);
   }
 
   void joints()
   {
     for (const unsigned int m : {1, 2, 4, 7})
-      friction("friction, m = " + std::to_string(m), m, Columns::tight(), false);
-    ContactParameters poor = Columns::tight();
-    poor.max_iterations = 1;
-    for (const unsigned int m : {4, 5})
-      friction("halved steps, m = " + std::to_string(m), m, poor, true);
+      friction("friction, m = " + std::to_string(m), m);
   }
 } // namespace
 
@@ -210,7 +236,7 @@ int main(int argc, char **argv)
   if (part == "compliance")
     return Columns::run_all({compliance});
   if (part == "energy")
-    return Columns::run_all({closed_box});
+    return Columns::run_all({closed_box, open_box});
   if (part == "accuracy")
     return Columns::run_all({accuracy});
   if (part == "joints")

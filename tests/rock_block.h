@@ -220,7 +220,7 @@ namespace Blocks
   };
 
   /** Sees the dam and its foundation after each step. */
-  using Watch = std::function<void(const Newmark &newmark, const ExplicitRock &rock)>;
+  using Watch = std::function<void(const Newmark &newmark, ExplicitRock &rock)>;
 
   /** Dam implicit, rock explicit: what the program does. @p cut: two monoliths with a tied joint. */
   inline History partitioned(const Ground &ground, const Case &c, const bool cut = false,
