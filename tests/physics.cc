@@ -181,7 +181,7 @@ namespace
                              return Vector3{{e[0] * x[0] + e[3] * x[1], e[1] * x[1] + e[4] * x[2],
                                              e[2] * x[2] + e[5] * x[0]}};
                            }),
-                     stress);
+                     {}, stress);
       const double trace = e[0] + e[1] + e[2];
       expect_stress(
           model, stress,
@@ -218,7 +218,7 @@ namespace
                        return Vector3{{-.5 * curvature * (z * z + m.poisson * (x * x - y * y)),
                                        -curvature * m.poisson * x * y, curvature * x * z}};
                      }),
-               stress);
+               {}, stress);
     expect_stress(
         model, stress,
         [&](const dealii::Point<3> &p) {

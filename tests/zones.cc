@@ -164,7 +164,7 @@ namespace
       u[3 * model.equation[i] + 1] = .001 * model.points[i][1];
     structure.multiply_stiffness(u, force);
     std::vector<Stress> stress;
-    StressRecovery(model, materials, true).apply(u, stress);
+    StressRecovery(model, materials, true).apply(u, {}, stress);
     const double expected[5] = {10., 10., 70., 70., 10.}, // of the nodes at y = 0, 1, ...
         of_layer[5] = {-10., 7., -67., 60., 10.};         // their forces
     double sum[5] = {};

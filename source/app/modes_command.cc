@@ -82,7 +82,7 @@ namespace Voussoir
       table.write(directory + "/modes.csv");
       for (std::size_t k = 0; k < modes.size(); ++k)
       {
-        char name[30];
+        char name[40];
         std::snprintf(name, sizeof(name), "/mode-%03zu.vtu", k + 1);
         write_shape(dam, modes[k], directory + name);
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/error.h>
+#include <voussoir/dam/face_pressure.h>
 #include <voussoir/dam/static_path.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
@@ -204,7 +205,10 @@ namespace Voussoir
     joints->reach = JointReach(*dam->model, structure.pairs);
     joints->points =
         JointPoints(*dam->model, structure.pairs, structure.n_joints, scene.limits.waterstop_depth);
-    stress = std::make_unique<StressRecovery>(*dam->model, dam->materials, scene.elements.incompatible_modes);
+    tractions = std::make_unique<Tractions>(*dam->model, structure, known_traction(scene),
+                                            dam->initial_stress, statics.joint_water);
+    stress = std::make_unique<StressRecovery>(*dam->model, dam->materials, scene.elements.incompatible_modes,
+                                              tractions->faces);
     envelope = std::make_unique<EnvelopeRecorder>(*stress, dam->initial_stress);
     envelope->overstress = Overstress(scene.limits.tensile_strength, dam->model->n_nodes());
     if (scene.error_estimate && n_steps > 0)
@@ -212,8 +216,9 @@ namespace Voussoir
       ContactParameters parameters = scene.contact;
       parameters.write_problems = false;
       companion = std::make_unique<TimeErrorEstimate>(
-          *dam, parameters, motion.dt, impact_rule(scene.impact_rule),
-          scene.output.envelope_interval > 0 ? stress.get() : nullptr, newmark->state(), statics.closed);
+          *dam, parameters, motion.dt, impact_rule(scene.impact_rule), newmark->state(), statics.closed);
+      if (scene.output.envelope_interval > 0)
+        companion->record_stresses(*stress, *tractions);
     }
     declare_tables();
     count.seconds_static += watch.seconds();
@@ -271,7 +276,7 @@ namespace Voussoir
     if (scene.output.envelope_interval > 0 && step % scene.output.envelope_interval == 0)
     {
       const Stopwatch watch;
-      envelope->record(state.time, state.u);
+      envelope->record(state.time, state.u, tractions->at(state.force));
       count.seconds_stresses += watch.seconds();
     }
     const Stopwatch watch;

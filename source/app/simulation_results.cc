@@ -41,7 +41,7 @@ namespace Voussoir
   void Simulation::write_solution()
   {
     std::vector<Stress> s;
-    stress->apply(newmark->state().u, s);
+    stress->apply(newmark->state().u, tractions->at(newmark->state().force), s);
     std::vector<FieldWriter::NodalField> fields = {{"max_principal", std::vector<float>(s.size())},
                                                    {"min_principal", std::vector<float>(s.size())}};
     constexpr const char                *components[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};

@@ -98,6 +98,10 @@ namespace Voussoir
       statics.contact += static_step(path, i, *system, water.get(), springs, gap);
       record_static_step(path, i, *system, water.get(), gap);
     }
+    if (water)
+      statics.joint_water = water->pressures(
+          [&](const double z)
+          { return scene.loads.factor("uplift") * path.water_pressure(path.n_steps() - 1, z); });
     statics.pairs = system->states();
     pairs_at_start = statics.pairs;
     statics.n_open = std::count(statics.pairs.begin(), statics.pairs.end(), PairState::open);

@@ -47,6 +47,44 @@ namespace Voussoir
     }
   } // namespace
 
+  namespace
+  {
+    Vector3 scaled(const double factor, const Vector3 &v)
+    {
+      return {{factor * v[0], factor * v[1], factor * v[2]}};
+    }
+
+    Vector3 of_silt(const SiltParameters &silt, const double vertical, const Vector3 &normal)
+    {
+      const double lateral = -vertical * silt.pressure_coefficient();
+      return {{lateral * normal[0], lateral * normal[1], -vertical * std::max(0., normal[2])}};
+    }
+  } // namespace
+
+  KnownTraction known_traction(const Scene &scene)
+  {
+    const double gravity = scene.statics.gravity;
+    const auto  &loads = scene.loads;
+    const double water = loads.factor("water") * scene.reservoir.density * gravity,
+                 tail = loads.tail_water.acts()
+                            ? loads.factor("tail water") * loads.tail_water.density * gravity
+                            : 0.,
+                 sediment = loads.silt.acts() ? loads.factor("silt") * loads.silt.density * gravity : 0.;
+    const double level = scene.reservoir.level;
+    return [=](const int surface, const double z, const Vector3 &normal)
+    {
+      Vector3      t{};
+      const double below_tail = loads.tail_water.level - z, below_silt = loads.silt.level - z;
+      if (surface == PhysicalId::upstream && z < level)
+        add(t, scaled(-water * (level - z), normal));
+      if (surface == PhysicalId::upstream && sediment > 0. && below_silt > 0.)
+        add(t, of_silt(loads.silt, sediment * below_silt, normal));
+      if (surface == PhysicalId::downstream && tail > 0. && below_tail > 0.)
+        add(t, scaled(-tail * below_tail, normal));
+      return t;
+    };
+  }
+
   void add_tail_water(const SolidModel &model, const TailWaterParameters &water, const double gravity,
                       Unknowns &load)
   {

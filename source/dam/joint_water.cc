@@ -74,6 +74,15 @@ namespace Voussoir
       }
   }
 
+  std::vector<double> JointWater::pressures(const std::function<double(double)> &pressure) const
+  {
+    std::vector<double> result(wet.size(), 0.);
+    for (unsigned int p = 0; p < wet.size(); ++p)
+      if (wet[p])
+        result[p] = pressure(structure.pairs[p].place[2]);
+    return result;
+  }
+
   unsigned int JointWater::n_wet() const
   {
     return std::count(wet.begin(), wet.end(), true);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
-#include <voussoir/foundation/own_step_rock.h>
+#include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/motion/ground_motion.h>
 
 #include <algorithm>
@@ -22,13 +22,6 @@ namespace Voussoir
     result.boundary = p.boundary;
     result.free_field = p.free_field;
     return result;
-  }
-
-  std::unique_ptr<Foundation> make_explicit_rock(const FoundationSite &site)
-  {
-    if (site.parameters.has_own_steps())
-      return std::make_unique<OwnStepRock>(site);
-    return std::make_unique<ExplicitRock>(site);
   }
 
   ExplicitRock::ExplicitRock(const FoundationSite &site)

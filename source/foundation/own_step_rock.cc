@@ -6,6 +6,13 @@
 
 namespace Voussoir
 {
+  std::unique_ptr<Foundation> make_explicit_rock(const FoundationSite &site)
+  {
+    if (site.parameters.has_own_steps())
+      return std::make_unique<OwnStepRock>(site);
+    return std::make_unique<ExplicitRock>(site);
+  }
+
   std::vector<unsigned int> OwnStepRock::feet_of_rock() const
   {
     std::vector<unsigned int> result;

@@ -120,9 +120,9 @@ namespace Voussoir
   {
   }
 
-  void EnvelopeRecorder::record(const double time, const Unknowns &u)
+  void EnvelopeRecorder::record(const double time, const Unknowns &u, const std::vector<Vector3> &tractions)
   {
-    recovery.apply(u, stress);
+    recovery.apply(u, tractions, stress);
     overstress.begin(time);
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < static_cast<int>(stress.size()); ++i)

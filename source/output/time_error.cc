@@ -7,18 +7,21 @@
 namespace Voussoir
 {
   TimeErrorEstimate::TimeErrorEstimate(const Dam &dam, const ContactParameters &parameters, const double dt,
-                                       const ImpactRule rule, const StressRecovery *stress,
-                                       const DynamicState &start, const Unknowns &reference_jump)
+                                       const ImpactRule rule, const DynamicState &start,
+                                       const Unknowns &reference_jump)
       : newmark(dam.structure, dam.laws, parameters, 2. * dt, rule), dam(dam),
         joints(dam.structure, *dam.geometry)
   {
     joints.reach = JointReach(*dam.model, dam.structure.pairs);
     newmark.start(start.u, start.v, start.force, start.load, reference_jump, start.memory);
     joints.record(newmark);
-    if (stress == nullptr)
-      return;
-    envelope.emplace(*stress, dam.initial_stress);
-    envelope->record(start.time, start.u);
+  }
+
+  void TimeErrorEstimate::record_stresses(const StressRecovery &stress, Tractions &known)
+  {
+    tractions = &known;
+    envelope.emplace(stress, dam.initial_stress);
+    envelope->record(newmark.state().time, newmark.state().u, tractions->at(newmark.state().force));
   }
 
   void TimeErrorEstimate::advance(const unsigned int step, const Unknowns &load, const Vector3 &base_velocity)
@@ -28,7 +31,7 @@ namespace Voussoir
     newmark.advance(load, base_velocity);
     joints.record(newmark);
     if (envelope)
-      envelope->record(newmark.state().time, newmark.state().u);
+      envelope->record(newmark.state().time, newmark.state().u, tractions->at(newmark.state().force));
   }
 
   TimeError TimeErrorEstimate::of(const JointRecorder &of_run, const EnvelopeRecorder &stresses) const

@@ -2,6 +2,7 @@
 #include <voussoir/solid/cell_elasticity.h>
 #include <voussoir/solid/solid_model.h>
 #include <voussoir/solid/stress.h>
+#include <voussoir/solid/traction_condition.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,29 +27,25 @@ namespace Voussoir
   }
 
   StressRecovery::StressRecovery(const SolidModel &model, const std::vector<Material> &materials,
-                                 const bool incompatible_modes)
+                                 const bool incompatible_modes, const std::vector<NodeFace> &faces)
+      : material(model.n_nodes(), Material{0.})
   {
-    const unsigned int                     n = model.n_nodes();
-    std::vector<std::vector<unsigned int>> columns(n);
-    std::vector<unsigned int>              n_cells(n, 0); // of the stiffest material
-    std::vector<double>                    stiffest(n, 0.);
+    find_columns(model);
+    add_cells(model, materials, incompatible_modes);
+    condition(faces);
+  }
+
+  void StressRecovery::find_columns(const SolidModel &model)
+  {
+    std::vector<std::vector<unsigned int>> columns(model.n_nodes());
     std::vector<types::global_dof_index>   dofs(model.fe.n_dofs_per_cell());
     for (const auto &cell : model.dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
-      const double young = model.material_of(cell, materials).young;
       for (const auto i : dofs)
-      {
-        if (young > stiffest[i])
-        {
-          stiffest[i] = young;
-          n_cells[i] = 0;
-        }
-        n_cells[i] += young == stiffest[i];
         for (const auto j : dofs)
           if (model.equation[j] != rigid_ground)
             columns[i].push_back(model.equation[j]);
-      }
     }
     start.push_back(0);
     for (auto &row : columns)
@@ -59,18 +56,39 @@ namespace Voussoir
       start.push_back(column.size());
     }
     blocks.assign(column.size(), std::array<float, 18>{});
+  }
 
+  /** The mean of the cells of the stiffest material around each node. */
+  void StressRecovery::add_cells(const SolidModel &model, const std::vector<Material> &materials,
+                                 const bool incompatible_modes)
+  {
+    std::vector<unsigned int>            n_cells(model.n_nodes(), 0); // of the stiffest material
+    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      const Material &of_cell = model.material_of(cell, materials);
+      for (const auto i : dofs)
+      {
+        if (of_cell.young > material[i].young)
+        {
+          material[i] = of_cell;
+          n_cells[i] = 0;
+        }
+        n_cells[i] += of_cell.young == material[i].young;
+      }
+    }
     CellElasticity                      elasticity(model.fe, incompatible_modes);
     std::vector<std::array<double, 18>> cell_blocks;
     for (const auto &cell : model.dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
-      const Material &material = model.material_of(cell, materials);
-      elasticity.reinit(cell, material);
+      const Material &of_cell = model.material_of(cell, materials);
+      elasticity.reinit(cell, of_cell);
       elasticity.stress_operator(cell_blocks);
       for (unsigned int i = 0; i < dofs.size(); ++i)
         for (unsigned int j = 0; j < dofs.size(); ++j)
-          if (model.equation[dofs[j]] != rigid_ground && material.young == stiffest[dofs[i]])
+          if (model.equation[dofs[j]] != rigid_ground && of_cell.young == material[dofs[i]].young)
           {
             const auto begin = column.begin() + start[dofs[i]], end = column.begin() + start[dofs[i] + 1];
             auto      &entry = blocks[std::lower_bound(begin, end, model.equation[dofs[j]]) - column.begin()];
@@ -80,7 +98,39 @@ namespace Voussoir
     }
   }
 
-  void StressRecovery::apply(const Unknowns &u, std::vector<Stress> &stress) const
+  /** Replaces the rows of nodes with known tractions by those of TractionCondition. */
+  void StressRecovery::condition(const std::vector<NodeFace> &faces)
+  {
+    for (std::size_t f = 0; f < faces.size(); f = node_of_face.size())
+    {
+      const unsigned int   node = faces[f].node;
+      std::vector<Vector3> normals;
+      for (std::size_t k = f; k < faces.size() && faces[k].node == node; ++k)
+        normals.push_back(faces[k].normal);
+      const TractionCondition known(material[node].poisson, normals);
+      for (std::size_t k = start[node]; k < start[node + 1]; ++k)
+      {
+        const std::array<float, 18> given = blocks[k];
+        for (unsigned int c = 0; c < 6; ++c)
+          for (unsigned int d = 0; d < 3; ++d)
+          {
+            double sum = 0.;
+            for (unsigned int e = 0; e < 6; ++e)
+              sum += known.of_stress[c][e] * given[3 * e + d];
+            blocks[k][3 * c + d] = static_cast<float>(sum);
+          }
+      }
+      for (const auto &block : known.of_traction)
+      {
+        of_traction.emplace_back();
+        std::copy(block.begin(), block.end(), of_traction.back().begin());
+        node_of_face.push_back(node);
+      }
+    }
+  }
+
+  void StressRecovery::apply(const Unknowns &u, const std::vector<Vector3> &tractions,
+                             std::vector<Stress> &stress) const
   {
     stress.resize(start.size() - 1);
 #pragma omp parallel for schedule(static)
@@ -100,5 +150,9 @@ namespace Voussoir
       for (unsigned int c = 0; c < 6; ++c)
         stress[i][c] = sum[3 * c] + sum[3 * c + 1] + sum[3 * c + 2];
     }
+    for (std::size_t f = 0; f < tractions.size(); ++f)
+      for (unsigned int c = 0; c < 6; ++c)
+        for (unsigned int d = 0; d < 3; ++d)
+          stress[node_of_face[f]][c] += of_traction[f][3 * c + d] * static_cast<float>(tractions[f][d]);
   }
 } // namespace Voussoir

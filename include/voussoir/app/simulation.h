@@ -5,6 +5,7 @@
 #include <voussoir/base/interrupt.h>
 #include <voussoir/base/log.h>
 #include <voussoir/dam/dam.h>
+#include <voussoir/dam/tractions.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/output/checkpoint_file.h>
 #include <voussoir/output/recorder.h>
@@ -109,7 +110,8 @@ namespace Voussoir
     struct StaticState
     {
       Unknowns               u, force, load, memory;
-      Unknowns               closed; ///< jumps at which the joints were grouted, 3 per pair [m]
+      Unknowns               closed;      ///< jumps at which the joints were grouted, 3 per pair [m]
+      std::vector<double>    joint_water; ///< pressure in each pair [Pa], or empty
       std::vector<PairState> pairs;
       ContactResult          contact;
       unsigned int           n_open = 0;
@@ -137,6 +139,7 @@ namespace Voussoir
 
     std::unique_ptr<Newmark>                    newmark;
     std::unique_ptr<StabilityWatch>             stability;
+    std::unique_ptr<Tractions>                  tractions;
     std::unique_ptr<StressRecovery>             stress;
     std::unique_ptr<EnvelopeRecorder>           envelope;
     std::unique_ptr<JointRecorder>              joints;

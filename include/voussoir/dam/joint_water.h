@@ -23,6 +23,9 @@ namespace Voussoir
     /** The forces on both sides of the wet pairs, pressure times area, that press them apart [N]. */
     void add_forces(const std::function<double(double)> &pressure, Unknowns &load) const;
 
+    /** In each pair [Pa]. */
+    std::vector<double> pressures(const std::function<double(double)> &pressure) const;
+
     unsigned int n_wet() const;
 
   private:

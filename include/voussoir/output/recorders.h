@@ -87,7 +87,8 @@ namespace Voussoir
     /** @p initial: stresses to add to those of the displacements (self-weight), one per node. */
     EnvelopeRecorder(const StressRecovery &recovery, std::vector<Stress> initial);
 
-    void record(double time, const Unknowns &u);
+    /** @p tractions: as StressRecovery::apply(). */
+    void record(double time, const Unknowns &u, const std::vector<Vector3> &tractions);
 
     /** The largest of the maxima (or the smallest of the minima) of the nodes on a surface, 0: of all nodes.
      */

@@ -3,6 +3,7 @@
 #define voussoir_time_error_h
 
 #include <voussoir/dam/dam.h>
+#include <voussoir/dam/tractions.h>
 #include <voussoir/output/recorders.h>
 
 #include <optional>
@@ -26,10 +27,12 @@ namespace Voussoir
   {
   public:
     /** @p dt: of the run. @p start: its state then, @p reference_jump: jumps at which the joints are
-     * closed, 3 per pair [m]. @p stress: nullptr: no tensions. All are kept. */
+     * closed, 3 per pair [m]. All are kept. */
     TimeErrorEstimate(const Dam &dam, const ContactParameters &parameters, double dt, ImpactRule rule,
-                      const StressRecovery *stress, const DynamicState &start,
-                      const Unknowns &reference_jump);
+                      const DynamicState &start, const Unknowns &reference_jump);
+
+    /** Tensions, too, from now on. Both are kept. */
+    void record_stresses(const StressRecovery &stress, Tractions &tractions);
 
     /** After each step of the run, under @p load at its end; every second one is a step here. */
     void advance(unsigned int step, const Unknowns &load, const Vector3 &base_velocity);
@@ -49,6 +52,7 @@ namespace Voussoir
     const Dam                      &dam;
     JointRecorder                   joints;
     std::optional<EnvelopeRecorder> envelope;
+    Tractions                      *tractions = nullptr;
   };
 } // namespace Voussoir
 

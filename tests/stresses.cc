@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Stresses where tractions are known: on faces, edges and corners, and at joints.
+
+#include <voussoir/dam/face_pressure.h>
+#include <voussoir/dam/tractions.h>
+#include <voussoir/joints/joint_system.h>
+#include <voussoir/joints/pairs.h>
+#include <voussoir/mesh/mesh_joints.h>
+#include <voussoir/solid/stress.h>
+#include <voussoir/solid/traction_condition.h>
+
+#include "grids.h"
+#include "testing.h"
+
+#include <algorithm>
+
+using namespace Voussoir;
+using namespace Testing;
+
+namespace
+{
+  constexpr double thick = 10., wide = 20., tall = 30.;
+
+  Unknowns field(const SolidModel &model, const std::function<Vector3(const dealii::Point<3> &)> &u)
+  {
+    Unknowns result(3 * std::size_t(model.first_equation.back()));
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      if (model.equation[i] != rigid_ground)
+        for (unsigned int c = 0; c < 3; ++c)
+          result[3 * model.equation[i] + c] = u(model.points[i])[c];
+    return result;
+  }
+
+  Vector3 traction(const Stress &s, const Vector3 &n)
+  {
+    return {{s[0] * n[0] + s[3] * n[1] + s[5] * n[2], s[3] * n[0] + s[1] * n[1] + s[4] * n[2],
+             s[5] * n[0] + s[4] * n[1] + s[2] * n[2]}};
+  }
+
+  /** A uniform stress on distorted elements stays, if the tractions are its own. */
+  void patch()
+  {
+    Material m;
+    m.young = 25e9;
+    m.poisson = .2;
+    const auto distort = [](const Vector3 &x) {
+      return Vector3{{x[0] + .4 * std::sin(x[1] + x[2]), x[1] + .5 * std::sin(x[0] + x[2]), x[2]}};
+    };
+    const double e[6] = {1e-5, -2e-5, 4e-5, 3e-5, -1e-5, 2e-5};
+    for (const unsigned int degree : {1, 2})
+    {
+      SolidModel model(Grids::wall({{thick, wide, tall}}, {{2, 3, 3}}, 3, distort), degree);
+      model.free_base();
+      const Unknowns u = field(
+          model,
+          [&](const dealii::Point<3> &x) {
+            return Vector3{{e[0] * x[0] + e[3] * x[1], e[1] * x[1] + e[4] * x[2], e[2] * x[2] + e[5] * x[0]}};
+          });
+      const std::vector<NodeFace> faces = faces_at_nodes(model);
+      std::vector<Stress>         plain, known;
+      StressRecovery(model, {m}, true).apply(u, {}, plain);
+      std::vector<Vector3> tractions;
+      for (const NodeFace &face : faces)
+        tractions.push_back(traction(plain[face.node], face.normal));
+      StressRecovery(model, {m}, true, faces).apply(u, tractions, known);
+      double change = 0.;
+      for (std::size_t i = 0; i < known.size(); ++i)
+        for (unsigned int c = 0; c < 6; ++c)
+          change = std::max<double>(change, std::abs(known[i][c] - plain[i][c]));
+      below("uniform stress with its tractions, degree " + std::to_string(degree), change / 1e6, 5e-5);
+    }
+  }
+
+  /** A corner of three planes gives all six components; an edge leaves the strain along it; a plane those in
+   * it. */
+  void corner()
+  {
+    const double                              nu = .17, s[6] = {1., -2., 3., .4, -.5, .6};
+    const std::array<std::vector<Vector3>, 3> planes = {{{{{1., 0., 0.}}},
+                                                         {{{1., 0., 0.}}, {{0., .8, .6}}},
+                                                         {{{1., 0., 0.}}, {{0., .8, .6}}, {{.6, 0., .8}}}}};
+    for (const auto &normals : planes)
+    {
+      const TractionCondition known(nu, normals);
+      Stress                  result{};
+      for (unsigned int c = 0; c < 6; ++c)
+        for (std::size_t k = 0; k < normals.size(); ++k)
+        {
+          const Vector3 t = traction({{1.f, -2.f, 3.f, .4f, -.5f, .6f}}, normals[k]);
+          for (unsigned int d = 0; d < 3; ++d)
+            result[c] += known.of_traction[k][3 * c + d] * t[d];
+        }
+      double along = 0.; // strain along the edge, or, of one plane, along y
+      if (normals.size() == 1)
+        expect_within(result[1], nu / (1. - nu) * s[0], 1e-6, "plane stress of a pressed face");
+      else if (normals.size() == 2)
+        for (const double a : {-.6})
+        {
+          const double b = .8, edge = a * a * result[1] + b * b * result[2] + 2. * a * b * result[4];
+          along = edge - nu * (result[0] + result[1] + result[2] - edge);
+          expect_within(along, 0., 1e-6, "strain along an edge");
+        }
+      else
+        for (unsigned int c = 0; c < 6; ++c)
+          expect_within(result[c], s[c], 1e-6, "stress of a corner");
+      for (const Vector3 &n : normals)
+        for (unsigned int d = 0; d < 3; ++d)
+          expect_within(traction(result, n)[d], traction({{1.f, -2.f, 3.f, .4f, -.5f, .6f}}, n)[d], 1e-6,
+                        "traction");
+    }
+  }
+
+  /** A thick ring under pressure from outside (Lame), its displacement that of the exact solution: the stress
+   * on its faces. */
+  void ring()
+  {
+    const double p = 1e6, a = 40., b = 50., nu = .2; // radii inside and outside
+    Material     m;
+    m.young = 25e9;
+    m.poisson = nu;
+    const auto bent = [&](const Vector3 &x)
+    {
+      const double r = b - x[0], angle = .02 * x[1];
+      return Vector3{{-r * std::cos(angle), r * std::sin(angle), x[2]}};
+    };
+    SolidModel model(Grids::wall({{thick, wide, tall}}, {{2, 8, 3}}, 8, bent), 1);
+    model.free_base();
+    const double          A = -p * b * b / (b * b - a * a), B = a * a * A; // s_r = A - B/r^2, s_t = A + B/r^2
+    const Unknowns        u = field(model,
+                                    [&](const dealii::Point<3> &x)
+                                    {
+                               const double r = std::hypot(x[0], x[1]);
+                               const double radial =
+                                   (1. + nu) / m.young * ((1. - 2. * nu) * A * r + B / r); // plane strain
+                               return Vector3{{radial * x[0] / r, radial * x[1] / r, 0.}};
+                             });
+    std::vector<NodeFace> faces;
+    for (const NodeFace &face : faces_at_nodes(model))
+      if (face.surface == PhysicalId::upstream || face.surface == PhysicalId::downstream)
+        faces.push_back(face);
+    std::vector<Vector3> tractions;
+    for (const NodeFace &face : faces)
+    {
+      const double pressure = face.surface == PhysicalId::upstream ? p : 0.;
+      tractions.push_back(
+          {{-pressure * face.normal[0], -pressure * face.normal[1], -pressure * face.normal[2]}});
+    }
+    std::vector<Stress> plain, known;
+    StressRecovery(model, {m}, true).apply(u, {}, plain);
+    StressRecovery(model, {m}, true, faces).apply(u, tractions, known);
+    double missed = 0., hoop[2] = {0., 0.}, normal = 0.;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+    {
+      const NodeFace &face = faces[f];
+      const Vector3   miss = traction(known[face.node], face.normal) - tractions[f];
+      missed = std::max(missed, norm(miss));
+      normal = std::max(normal, norm(traction(plain[face.node], face.normal) - tractions[f]));
+      const Vector3 t = {{-face.normal[1], face.normal[0], 0.}};
+      const double  r = face.surface == PhysicalId::upstream ? b : a, exact = A + B / (r * r);
+      if (std::abs(model.points[face.node][1]) > 1. && std::abs(model.points[face.node][1]) < 15.)
+        for (const bool with : {false, true})
+          hoop[with] =
+              std::max(hoop[with], std::abs(dot(t, traction((with ? known : plain)[face.node], t)) - exact) /
+                                       std::abs(exact));
+    }
+    below("ring: traction on its faces, of the pressure", missed / p, 1e-5);
+    above("ring: the same from strains alone", normal / p, .1);
+    below("ring: hoop stress", hoop[true], .01);
+    note("ring: the same from strains alone", hoop[false]);
+  }
+
+  /** Two monoliths, the joint pressed by a force that is the work of a given pressure. */
+  void joint(const unsigned int degree)
+  {
+    const HexMesh mesh = open_joints(Grids::wall({{thick, wide, tall}}, {{2, 4, 6}}, 2));
+    SolidModel    model(mesh, degree);
+    model.free_base();
+    Structure structure = assemble_structure(model, {Material()}, true);
+    structure.pairs = find_pairs(model, 1);
+    const auto pressure = [](const Vector3 &x, const double slope)
+    { return 2e6 + slope * (3e4 * x[0] - 5e4 * x[2]); };
+    for (const double slope : {0., 1.})
+    {
+      // One dimension after the other: nodes of two elements along x, six along z, linear in each.
+      Unknowns force(3 * structure.pairs.size());
+      for (std::size_t i = 0; i < structure.pairs.size(); ++i)
+      {
+        const Pair &pair = structure.pairs[i];
+        Vector3     x = pair.place; // where the mean of the node's shape function lies
+        for (const auto &edge : {std::make_pair(0, thick), {2, tall}})
+          if (degree == 1 && (x[edge.first] == 0. || x[edge.first] == edge.second))
+            x[edge.first] += (x[edge.first] == 0. ? 5. : -5.) / 3.;
+        force[3 * i] = pair.area * pressure(x, slope);
+      }
+      Tractions   tractions(model, structure, [](int, double, const Vector3 &) { return Vector3{}; });
+      const auto &at = tractions.at(force);
+      double      worst = 0., raw = 0.;
+      for (std::size_t f = 0; f < at.size(); ++f)
+      {
+        const NodeFace &face = tractions.faces[f];
+        const auto     &x = model.points[face.node];
+        const bool      in_joint = is_joint_side(face.surface);
+        const double    exact = in_joint ? -pressure({{x[0], x[1], x[2]}}, slope) : 0.;
+        worst = std::max(worst, std::abs(dot(at[f], face.normal) - exact));
+        expect_within(norm(at[f]), std::abs(dot(at[f], face.normal)), 1., "pressure alone");
+      }
+      for (std::size_t i = 0; i < structure.pairs.size(); ++i)
+        raw = std::max(raw, std::abs(force[3 * i] / structure.pairs[i].area -
+                                     pressure(structure.pairs[i].place, slope)));
+      below("joint: pressure at its nodes, degree " + std::to_string(degree), worst / 2e6,
+            slope == 0. ? 1e-12 : .45 * raw / 2e6 + 1e-12);
+    }
+    Unknowns half(3 * structure.pairs.size(), 0.); // open above: there is nothing
+    for (std::size_t i = 0; i < structure.pairs.size(); ++i)
+      half[3 * i] = structure.pairs[i].place[2] < 14. ? 1e6 : 0.;
+    JointTractions joint(model, structure);
+    const auto    &at = joint.at(half);
+    for (std::size_t i = 0; i < at.size(); ++i)
+      expect(half[3 * i] > 0. ? at[i][0] > 0. : at[i][0] == 0. && at[i][1] == 0.,
+             "no pressure where it is open");
+  }
+
+  /** A wall under water that stands on its base: the tractions on all its faces are those that are known. */
+  void dam()
+  {
+    SolidModel          model(Grids::wall({{thick, wide, tall}}, {{2, 4, 6}}, 4), 1);
+    const Structure     structure = assemble_structure(model, {Material()}, true);
+    ReservoirParameters water;
+    water.level = 26.;
+    Unknowns load(3 * structure.n_nodes(), 0.), u;
+    add_water_pressure(model, water, 9.81, load);
+    JointSystem(structure, JointLaws(), ContactParameters(), 0., 1., 0.).solve_free(load, u);
+    Scene scene;
+    scene.reservoir = water;
+    scene.statics.gravity = 9.81;
+    Tractions            tractions(model, structure, known_traction(scene));
+    const StressRecovery recovery(model, {Material()}, true, tractions.faces);
+    std::vector<Stress>  stress;
+    recovery.apply(u, tractions.at({}), stress);
+    double worst = 0., push = 0.;
+    for (const NodeFace &face : tractions.faces)
+    {
+      const double  depth = 26. - model.points[face.node][2];
+      const bool    wet = face.normal[0] < -.9 && depth > 0.;
+      const double  p = wet ? 9810. * depth : 0.;
+      const Vector3 known = {{-p * face.normal[0], 0., 0.}};
+      worst = std::max(worst, norm(traction(stress[face.node], face.normal) - known));
+      push += wet;
+    }
+    const double size = *std::max_element(u.begin(), u.end()) * 21e9 / tall;
+    below("wall under water: tractions on faces, edges, corners, of its stress", worst / size, 1e-5);
+    expect(push == 5 * 5, "the nodes under water but those of the base");
+  }
+} // namespace
+
+int main()
+{
+  return run({{"patch", patch},
+              {"corner", corner},
+              {"ring", ring},
+              {"joint of degree 1", [] { joint(1); }},
+              {"joint of degree 2", [] { joint(2); }},
+              {"dam", dam}});
+}
