@@ -3,8 +3,6 @@
 
 #include "rock_block.h"
 
-#include <voussoir/foundation/own_step_rock.h>
-
 namespace
 {
   using namespace Voussoir;

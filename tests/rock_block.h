@@ -4,7 +4,7 @@
 
 #include "column.h"
 
-#include <voussoir/foundation/explicit_rock.h>
+#include <voussoir/foundation/own_step_rock.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/motion/motion.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/names.h>
-#include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/foundation/foundation_table.h>
 #include <voussoir/foundation/massless_rock.h>
+#include <voussoir/foundation/own_step_rock.h>
 
 #include <algorithm>
 

@@ -117,8 +117,6 @@ namespace Voussoir
     WatchBounds         bounds;
     double              energy_bound = 0.; ///< that the rock may take in [J]
   };
-
-  std::unique_ptr<Foundation> make_explicit_rock(const FoundationSite &site);
 } // namespace Voussoir
 
 #endif

@@ -50,6 +50,9 @@ namespace Voussoir
     std::vector<unsigned int>  nodes, foot_of; ///< the dam's, ascending, and the foot below each
     Vector3                    predicted_velocity{};
   };
+
+  /** The one that the parameters choose: they say whether the rock has steps of its own. */
+  std::unique_ptr<Foundation> make_explicit_rock(const FoundationSite &site);
 } // namespace Voussoir
 
 #endif
