@@ -163,8 +163,11 @@ namespace Voussoir
 
   unsigned int JointJacobian::solve(const double tolerance, Unknowns &step, Unknowns &d_gap)
   {
-    const unsigned int iterations = solve_blocks(tolerance, step, d_gap);
-    return W.is_in_blocks() ? iterations : iterations + correct(tolerance, step, d_gap);
+    if (W.is_in_blocks())
+      return solve_blocks(tolerance, step, d_gap);
+    const unsigned int iterations =
+        solve_blocks(.5 * tolerance, step, d_gap); // the rest for what is not in them
+    return iterations + correct(tolerance, step, d_gap);
   }
 
   /** What the feet couple beyond the blocks is little: a solution with these is corrected until it is one of
