@@ -79,7 +79,7 @@ namespace
     std::vector<Stress> stress(const Unknowns &u) const
     {
       std::vector<Stress> s;
-      StressRecovery(model, {concrete}, true).apply(u, s);
+      StressRecovery(model, {concrete}, true).apply(u, {}, s);
       for (std::size_t i = 0; i < s.size(); ++i)
         for (unsigned int c = 0; c < 6; ++c)
           s[i][c] += thermal.stress[i][c];
