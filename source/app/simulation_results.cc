@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 namespace Voussoir
 {
@@ -55,11 +54,10 @@ namespace Voussoir
       fields[0].values[i] = p[0];
       fields[1].values[i] = p[1];
     }
-    // Joint state at the nodes of the joints: opening, slip, and 0 open, 1 stick, 2 slip; nan and -1
-    // elsewhere.
-    constexpr float               nowhere = std::numeric_limits<float>::quiet_NaN();
+    // Joint state at the nodes of the joints: opening, slip, and 0 open, 1 stick, 2 slip; 0, 0 and -1
+    // elsewhere (not nan, which deal.II would spread over the cells).
     const std::vector<PairState> &pairs = step == start_step ? pairs_at_start : newmark->pair_states();
-    std::vector<float> opening(dam->structure.n_nodes(), nowhere), slip(opening), state(opening.size(), -1.f);
+    std::vector<float> opening(dam->structure.n_nodes(), 0.f), slip(opening), state(opening.size(), -1.f);
     for (unsigned int p = 0; p < dam->structure.pairs.size(); ++p)
     {
       const Vector3 d = newmark->opening_and_slip(p);
@@ -73,7 +71,7 @@ namespace Voussoir
     }
     for (const auto &field : {std::make_pair("opening", &opening), {"slip", &slip}, {"joint_state", &state}})
     {
-      fields.push_back({field.first, std::vector<float>(s.size(), field.second == &state ? -1.f : nowhere)});
+      fields.push_back({field.first, std::vector<float>(s.size(), field.second == &state ? -1.f : 0.f)});
       for (std::size_t i = 0; i < s.size(); ++i)
         if (dam->model->equation[i] != rigid_ground)
           fields.back().values[i] = (*field.second)[dam->model->equation[i]];
