@@ -18,7 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 OTHERS = ("CONTRIBUTING.md", "CITATION.cff", "LICENSE")
-METHOD = ("method", "output", "mesh", "studies", "python", "changes")
+METHOD = ("method", "output", "report", "mesh", "studies", "python", "changes")
 
 
 def title_of(page):
