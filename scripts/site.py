@@ -18,7 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 OTHERS = ("CONTRIBUTING.md", "CITATION.cff", "LICENSE")
-METHOD = ("method", "output", "report", "mesh", "studies", "python", "changes")
+METHOD = ("method", "output", "report", "mesh", "loads", "accuracy", "failures", "studies", "python", "changes")
 
 
 def title_of(page):
@@ -73,7 +73,7 @@ def configuration(directory, pages):
     rest = sorted(path.stem for path in pages.glob("*.md") if path.stem not in (*METHOD, "index", "pages", "parameters", "CONTRIBUTING"))
     nav = [{"Voussoir": "index.md"},
            {"Tutorials": [{title_of(pages / "tutorials" / name): f"tutorials/{name}"} for name in tutorials]},
-           {"The program": [{title_of(pages / f"{name}.md"): f"{name}.md"} for name in METHOD]},
+           {"The program": [{title_of(pages / f"{name}.md"): f"{name}.md"} for name in METHOD if (pages / f"{name}.md").exists()]},
            {"All entries": "parameters.md"},
            {"What was computed": [{title_of(pages / f"{name}.md"): f"{name}.md"} for name in rest]},
            {"All pages": "pages.md"}, {"Contributing": "CONTRIBUTING.md"}]

@@ -313,8 +313,8 @@ def main():
     jobs, threads = jobs_and_threads(options, study)
     directory, lock = open_directory(options, study)
     with lock:
-        print(f"Study     {study.file.stem}: {len(names)} scenes, {jobs} at a time with {threads} "
-              f"thread{'s' if threads > 1 else ''} each", flush=True)
+        at_a_time = "as the profile says" if options.profile and not options.jobs else f"{jobs} at a time"
+        print(f"Study     {study.file.stem}: {len(names)} scenes, {at_a_time}, with {threads} thread{'s' if threads > 1 else ''} each", flush=True)
         scenes = validate_all(study, directory, names, jobs)
         job = " ".join(shlex.quote(word) for word in (sys.executable, str(Path(__file__).resolve().with_name("study_scene.py"))))
         write_whole(directory / "scenes.json", json.dumps({"program": str(Path(PROGRAM).resolve()), "job": job, "threads": threads,
