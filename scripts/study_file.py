@@ -222,8 +222,8 @@ def path_of(value, study):
 
 
 def is_file_entry(entry):
-    """Mesh/File, Motion/File, Motion/File x..."""
-    return entry.split("/")[-1].split(" ")[0] == "File"
+    """Mesh/File, Motion/File, Motion/File x..., and the table of temperatures."""
+    return entry.split("/")[-1].split(" ")[0] == "File" or entry == "Loads/Temperature/Table"
 
 
 def read_study(path, overrides=()):
