@@ -147,6 +147,8 @@ namespace
       const std::string kernels = plain ? ", plain kernels" : "";
       check_body("thin body" + kernels, box(3, 5, 12, true), true);
       check_body("thick body" + kernels, box(24, 4, 5, true), false);
+      if (!plain)
+        check_body("large body with joints, dissected", box(60, 10, 12, true), false);
       check_body("body without joints" + kernels, box(4, 5, 6, false), true);
       check_body("one node" + kernels, box(1, 1, 1, false), true);
     }

@@ -83,14 +83,32 @@ namespace Voussoir
       p[n] = k;
     }
 
-    /** A fill-reducing order in which the interface comes last. */
-    std::vector<int> order(cholmod_sparse *A, const std::vector<bool> &is_interface, cholmod_common &common)
+    /** A fill-reducing order in which the interface comes last: minimum degree, or nested dissection. */
+    std::vector<int> order(cholmod_sparse *A, const std::vector<bool> &is_interface, const bool dissect,
+                           cholmod_common &common)
     {
       std::vector<int> group(is_interface.begin(), is_interface.end()), permutation(is_interface.size());
-      cholmod_camd(A, nullptr, 0, group.data(), permutation.data(), &common);
+      if (dissect && cholmod_metis(A, nullptr, 0, 1, permutation.data(), &common) != 0)
+        std::stable_partition(permutation.begin(), permutation.end(),
+                              [&](const int i) { return !is_interface[i]; });
+      else
+        cholmod_camd(A, nullptr, 0, group.data(), permutation.data(), &common);
       check_memory(common);
       return permutation;
     }
+
+    /** The factor in that order, not filled in yet. */
+    cholmod_factor *interface_last(cholmod_sparse *A, const std::vector<bool> &is_interface,
+                                   const bool dissect, cholmod_common &common)
+    {
+      std::vector<int> permutation = order(A, is_interface, dissect, common);
+      common.nmethods = 1;
+      common.method[0].ordering = CHOLMOD_GIVEN;
+      cholmod_factor *L = cholmod_analyze_p(A, permutation.data(), nullptr, 0, &common);
+      check_memory(common);
+      return L;
+    }
+
     /** Chooses the order of elimination of @p A: the interface last, or, where @p is_interface is empty, any.
      */
     cholmod_factor *analysed(cholmod_sparse *A, const std::size_t n_unknowns,
@@ -104,10 +122,15 @@ namespace Voussoir
         common.method[0].ordering = n_unknowns < large ? CHOLMOD_AMD : CHOLMOD_GIVEN;
         return cholmod_analyze(A, &common);
       }
-      std::vector<int> permutation = order(A, is_interface, common);
-      common.nmethods = 1;
-      common.method[0].ordering = CHOLMOD_GIVEN;
-      return cholmod_analyze_p(A, permutation.data(), nullptr, 0, &common);
+      cholmod_factor *L = interface_last(A, is_interface, false, common);
+      if (n_unknowns < large)
+        return L;
+      const double    work = common.fl;
+      cholmod_factor *dissected = interface_last(A, is_interface, true, common);
+      if (common.fl < work)
+        std::swap(L, dissected);
+      cholmod_free_factor(&dissected, &common);
+      return L;
     }
 
     /** Numbers in the first @p n_columns of a supernodal factor. */
