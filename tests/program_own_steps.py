@@ -98,6 +98,21 @@ def resume():
         same(killed, whole, limit, ("history", "energy") if law == "tied" else ("history", "joint_history"))
 
 
+def threads():
+    """The same to the last bit for any number of threads; the static state is that of tied feet."""
+    write_scene()
+    for n in ("1", "2"):
+        runs("scene.prm", "--output", f"threads_{n}", *OWN, *settings("Joints/Model=FJA"), environment={"OMP_NUM_THREADS": n})
+    same("threads_1", "threads_2", 0., ("history", "joint_history", "energy"))
+    crest = []
+    for coupling in ("auto", "partition"):
+        runs("scene.prm", "--output", coupling, *OWN, *settings("Motion/Source=none", f"Foundation/Coupling={coupling}",
+                                                               "Joints/Model=FJA"))
+        crest.append(summary(coupling)["static"]["crest_displacement"][0])
+    print(f"    crest under water {crest} m")
+    expect(abs(crest[0]) > 1e-4 and abs(crest[0] / crest[1] - 1.) < 1e-7, f"static state: {crest}")
+
+
 def entries():
     """What does not fit is refused before the run; --validate names the coupling."""
     write_scene()
@@ -111,4 +126,4 @@ def entries():
 
 
 if __name__ == "__main__":
-    run_cases(laws, joints, halved, accuracy, resume, entries)
+    run_cases(laws, joints, halved, accuracy, resume, threads, entries)
