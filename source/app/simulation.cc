@@ -207,8 +207,10 @@ namespace Voussoir
         JointPoints(*dam->model, structure.pairs, structure.n_joints, scene.limits.waterstop_depth);
     tractions = std::make_unique<Tractions>(*dam->model, structure, known_traction(scene),
                                             dam->initial_stress, statics.joint_water);
-    stress = std::make_unique<StressRecovery>(*dam->model, dam->materials, scene.elements.incompatible_modes,
-                                              tractions->faces);
+    stress = std::make_unique<StressRecovery>(
+        *dam->model, dam->materials, scene.elements.incompatible_modes,
+        scene.output.stress_recovery == "tractions" ? tractions->faces : std::vector<NodeFace>());
+    tension = std::make_unique<FaceTension>(*dam->model);
     envelope = std::make_unique<EnvelopeRecorder>(*stress, dam->initial_stress);
     envelope->overstress = Overstress(scene.limits.tensile_strength, dam->model->n_nodes());
     if (scene.error_estimate && n_steps > 0)
@@ -270,13 +272,20 @@ namespace Voussoir
         std::max(count.imbalance, std::abs(newmark->state().energy.balance(newmark->initial_energy())));
   }
 
+  /** Those that the recovery takes. */
+  std::vector<Vector3> Simulation::known_tractions()
+  {
+    return scene.output.stress_recovery == "tractions" ? tractions->at(newmark->state().force)
+                                                       : std::vector<Vector3>();
+  }
+
   void Simulation::record()
   {
     const DynamicState &state = newmark->state();
     if (scene.output.envelope_interval > 0 && step % scene.output.envelope_interval == 0)
     {
       const Stopwatch watch;
-      envelope->record(state.time, state.u, tractions->at(state.force));
+      envelope->record(state.time, state.u, known_tractions());
       count.seconds_stresses += watch.seconds();
     }
     const Stopwatch watch;

@@ -136,10 +136,9 @@ namespace Voussoir
       slip += state == PairState::slip;
     }
     const double done = step - first_step, elapsed = shaking_clock.seconds();
-    const float  tension = *std::max_element(envelope->maximum.begin(), envelope->maximum.end());
     log.line("%7.2f  %6.2f %5u %5u  %12.2f %10.2f  %13.2f  %7s  %7s", newmark->state().time,
              count.newton / step, open, slip, 1e3 * joints->opening.value, 1e3 * joints->slip.value,
-             scene.output.envelope_interval > 0 ? 1e-6 * tension : 0.,
+             scene.output.envelope_interval > 0 ? 1e-6 * tension->headline(*envelope) : 0.,
              clock_time(clock_before + elapsed).c_str(),
              clock_time(elapsed / done * (n_steps - step)).c_str());
   }

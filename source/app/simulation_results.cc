@@ -40,7 +40,7 @@ namespace Voussoir
   void Simulation::write_solution()
   {
     std::vector<Stress> s;
-    stress->apply(newmark->state().u, tractions->at(newmark->state().force), s);
+    stress->apply(newmark->state().u, known_tractions(), s);
     std::vector<FieldWriter::NodalField> fields = {{"max_principal", std::vector<float>(s.size())},
                                                    {"min_principal", std::vector<float>(s.size())}};
     constexpr const char                *components[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};
@@ -57,7 +57,8 @@ namespace Voussoir
     // Joint state at the nodes of the joints: opening, slip, and 0 open, 1 stick, 2 slip; 0, 0 and -1
     // elsewhere (not nan, which deal.II would spread over the cells).
     const std::vector<PairState> &pairs = step == start_step ? pairs_at_start : newmark->pair_states();
-    std::vector<float> opening(dam->structure.n_nodes(), 0.f), slip(opening), state(opening.size(), -1.f);
+    std::vector<float> opening(dam->structure.n_nodes(), 0.f), slip(opening), state(opening.size(), -1.f),
+        pressure(opening);
     for (unsigned int p = 0; p < dam->structure.pairs.size(); ++p)
     {
       const Vector3 d = newmark->opening_and_slip(p);
@@ -66,10 +67,14 @@ namespace Voussoir
         {
           opening[node] = d[0];
           slip[node] = std::hypot(d[1], d[2]);
+          pressure[node] = joint_pressure(dam->structure, newmark->state(), p);
           state[node] = static_cast<float>(pairs[p]);
         }
     }
-    for (const auto &field : {std::make_pair("opening", &opening), {"slip", &slip}, {"joint_state", &state}})
+    for (const auto &field : {std::make_pair("opening", &opening),
+                              {"slip", &slip},
+                              {"joint_pressure", &pressure},
+                              {"joint_state", &state}})
     {
       fields.push_back({field.first, std::vector<float>(s.size(), field.second == &state ? -1.f : 0.f)});
       for (std::size_t i = 0; i < s.size(); ++i)
@@ -106,6 +111,7 @@ namespace Voussoir
     joints->maxima().write(directory + "/joints.csv");
     if (!dam->structure.pairs.empty())
       joints->points.write(directory, *dam->geometry);
+    joints->pressures().write(directory + "/joint_pressures.csv");
   }
 
   void Simulation::write_fields()
@@ -115,7 +121,9 @@ namespace Voussoir
     {
       const FieldWriter writer(*dam->model);
       writer.write_vtu(directory + "/envelope.vtu", {},
-                       {{"max_principal", envelope->maximum}, {"min_principal", envelope->minimum}});
+                       {{"max_principal", envelope->maximum},
+                        {"min_principal", envelope->minimum},
+                        {"max_joint_pressure", joints->largest_pressure(*dam->model)}});
       writer.write_faces(directory, *dam->geometry, envelope->maximum, envelope->minimum);
     }
     count.seconds_output += watch.seconds();
@@ -139,6 +147,7 @@ namespace Voussoir
           100. * error.opening, 1e3 * error.largest_opening, 1e-6 * error.tension_upstream,
           1e-6 * error.tension_downstream);
     }
+    report_tension();
     if (n_steps > 0)
       log.line("Speed     %.2f s of wall time per second of shaking; per step %.1f ms: sweeps %.1f, joints "
                "%.1f, stepping "
@@ -156,6 +165,30 @@ namespace Voussoir
     if (scene.output.figures)
       draw_figures();
     log.line("Results   %s", directory.c_str());
+  }
+
+  /** The largest tensions that are not those of the singular foot, and these apart. */
+  void Simulation::report_tension()
+  {
+    if (scene.output.envelope_interval == 0)
+      return;
+    const auto in_mpa = [&](const int surface, const bool foot)
+    {
+      return 1e-6 * (foot ? envelope->extreme(*dam->model, surface, true)
+                          : tension->largest_above_foot(*envelope, *dam->model, surface))
+                        .value;
+    };
+    log.line("Tension   largest %.2f MPa upstream, %.2f MPa downstream, farther than a tenth of the height "
+             "from the "
+             "base; with the foot, where it grows with refinement, %.2f and %.2f MPa",
+             in_mpa(PhysicalId::upstream, false), in_mpa(PhysicalId::downstream, false),
+             in_mpa(PhysicalId::upstream, true), in_mpa(PhysicalId::downstream, true));
+    if (const double f = scene.strength_of_area(); f > 0.)
+      log.line(
+          "          above the strength of %.2f MPa: %.1f %% of the upstream face, %.1f %% of the downstream "
+          "face",
+          1e-6 * f, 100. * tension->above(*envelope, PhysicalId::upstream, f).share(),
+          100. * tension->above(*envelope, PhysicalId::downstream, f).share());
   }
 
   double Simulation::largest_energy() const

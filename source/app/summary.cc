@@ -97,6 +97,10 @@ namespace Voussoir
       json.add("max_tension_upstream", json_of(envelope->extreme(*dam->model, PhysicalId::upstream, true)))
           .add("max_tension_downstream",
                json_of(envelope->extreme(*dam->model, PhysicalId::downstream, true)))
+          .add("max_tension_upstream_above_foot",
+               json_of(tension->largest_above_foot(*envelope, *dam->model, PhysicalId::upstream)))
+          .add("max_tension_downstream_above_foot",
+               json_of(tension->largest_above_foot(*envelope, *dam->model, PhysicalId::downstream)))
           .add("max_compression", json_of(envelope->extreme(*dam->model, 0, false)));
     return json;
   }
@@ -109,6 +113,21 @@ namespace Voussoir
         .add("largest_opening", error.largest_opening)
         .add("tension_upstream", error.tension_upstream)
         .add("tension_downstream", error.tension_downstream);
+    return json;
+  }
+
+  /** How much of the faces has tension above the strength. */
+  Json Simulation::json_of_strength() const
+  {
+    Json json;
+    json.add("strength", scene.strength_of_area());
+    for (const auto &face :
+         {std::make_pair("upstream", PhysicalId::upstream), {"downstream", PhysicalId::downstream}})
+    {
+      const FaceTension::Part part = tension->above(*envelope, face.second, scene.strength_of_area());
+      Json                    of_face;
+      json.add(face.first, of_face.add("area", part.area).add("share", part.share()));
+    }
     return json;
   }
 
@@ -150,6 +169,8 @@ namespace Voussoir
     summary.add_texts("warnings", log.warnings());
     if (companion)
       summary.add("error_estimate", json_of_time_error());
+    if (scene.output.envelope_interval > 0 && scene.strength_of_area() > 0.)
+      summary.add("tension_above_strength", json_of_strength());
     dam->foundation->add_to_summary(summary, grid());
     if (!assessment.in_words().empty())
       log.line("Limits    %s", assessment.in_words().c_str());

@@ -220,7 +220,9 @@ namespace Voussoir
     add_weight(structure, scene.loads.factor("weight") * scene.statics.gravity, load);
     JointSystem system(structure, JointLaws(), ContactParameters(), 0., 1., 0.);
     system.solve_free(load, u);
-    StressRecovery(*model, materials, scene.elements.incompatible_modes, faces_at_nodes(*model))
+    StressRecovery(*model, materials, scene.elements.incompatible_modes,
+                   scene.output.stress_recovery == "tractions" ? faces_at_nodes(*model)
+                                                               : std::vector<NodeFace>())
         .apply(u, {}, initial_stress);
     if (const unsigned int e = model->equation[geometry->crown]; e != rigid_ground)
       self_weight_crown = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};

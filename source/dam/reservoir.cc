@@ -117,8 +117,98 @@ namespace Voussoir
     };
   } // namespace
 
+  namespace
+  {
+    /** Westergaard's mass per area over the upstream face [kg/m^2]. */
+    class Westergaard
+    {
+    public:
+      Westergaard(const SolidModel &model, const ReservoirParameters &reservoir)
+          : reservoir(reservoir), foot(model)
+      {
+      }
+
+      double at(const Point<3> &x) const
+      {
+        const double h = reservoir.level - x[2];
+        const double depth = reservoir.level - (reservoir.depth == "local" ? foot.at(x[1]) : foot.lowest);
+        return h <= 0. ? 0.
+                       : reservoir.factor * 7. / 8. * reservoir.density * std::sqrt(std::max(depth, h) * h);
+      }
+
+    private:
+      const ReservoirParameters &reservoir;
+      const UpstreamFoot         foot;
+    };
+
+    /** m n n^T. Returns its part along x, also of a node that is held. */
+    double add_mass(const unsigned int equation, const double m, const Tensor<1, 3> &n, Structure &structure)
+    {
+      if (equation != rigid_ground)
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int b = 0; b < 3; ++b)
+          {
+            structure.mass[equation][3 * a + b] += m * n[a] * n[b];
+            structure.added_mass[equation][3 * a + b] += m * n[a] * n[b];
+          }
+      return m * n[0] * n[0];
+    }
+
+    /** The mass of a face by the hat functions between neighbouring nodes: the shares by the shape functions
+     * of degree 2 can be negative where the water line cuts the face. */
+    std::vector<double> hat_masses(const SolidModel &model, const FEFaceValues<3> &values,
+                                   const Westergaard &westergaard)
+    {
+      std::vector<double> mass(model.fe.n_dofs_per_cell(), 0.);
+      for (const unsigned int q : values.quadrature_point_indices())
+      {
+        const Point<3> &x = values.quadrature_point(q);
+        const Point<3>  unit = values.get_mapping().transform_real_to_unit_cell(values.get_cell(), x);
+        for (unsigned int i = 0; i < mass.size(); ++i)
+        {
+          double hat = 1.;
+          for (unsigned int d = 0; d < 3; ++d)
+            hat *= std::max(0., 1. - model.fe.degree * std::abs(unit[d] - model.fe.unit_support_point(i)[d]));
+          mass[i] += hat * westergaard.at(x) * values.JxW(q);
+        }
+      }
+      return mass;
+    }
+  } // namespace
+
   double add_westergaard_mass(const SolidModel &model, const ReservoirParameters &reservoir,
                               Structure &structure)
+  {
+    const Westergaard         westergaard(model, reservoir);
+    double                    total = 0.;
+    std::vector<double>       mass;
+    std::vector<Tensor<1, 3>> normal;
+    // More points than a smooth mass needs: the water line cuts through faces.
+    for_upstream_faces(model, 8,
+                       [&](const FEFaceValues<3> &values, const auto &dofs)
+                       {
+                         mass.assign(dofs.size(), 0.);
+                         normal.assign(dofs.size(), Tensor<1, 3>());
+                         for (const unsigned int q : values.quadrature_point_indices())
+                         {
+                           const double m = westergaard.at(values.quadrature_point(q)) * values.JxW(q);
+                           for (unsigned int i = 0; i < dofs.size(); ++i)
+                           {
+                             mass[i] += values.shape_value(i, q) * m;
+                             normal[i] += std::abs(values.shape_value(i, q)) * m * values.normal_vector(q);
+                           }
+                         }
+                         if (*std::min_element(mass.begin(), mass.end()) < 0.)
+                           mass = hat_masses(model, values, westergaard);
+                         for (unsigned int i = 0; i < dofs.size(); ++i)
+                           if (const double size = normal[i].norm(); mass[i] > 0. && size > 0.)
+                             total += add_mass(model.equation[dofs[i]], mass[i], normal[i] / size, structure);
+                       });
+    return total;
+  }
+
+  double add_nodal_westergaard_mass(const SolidModel &model, const ReservoirParameters &reservoir,
+                                    Structure &structure)
   {
     std::vector<Tensor<1, 3>> area(model.n_nodes());
     for_upstream_faces(model, model.fe.degree + 1,
@@ -129,27 +219,12 @@ namespace Voussoir
                              area[dofs[i]] +=
                                  values.shape_value(i, q) * values.JxW(q) * values.normal_vector(q);
                        });
-    const UpstreamFoot foot(model);
-    double             total = 0.;
+    const Westergaard westergaard(model, reservoir);
+    double            total = 0.;
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
-    {
-      const unsigned int e = model.equation[i];
-      const double       h = reservoir.level - model.points[i][2], size = area[i].norm();
-      if (h <= 0. || size == 0.)
-        continue;
-      const double depth =
-          reservoir.level - (reservoir.depth == "local" ? foot.at(model.points[i][1]) : foot.lowest);
-      const double m =
-          reservoir.factor * 7. / 8. * reservoir.density * std::sqrt(std::max(depth, h) * h) / size;
-      total += m * area[i][0] * area[i][0];
-      if (e != rigid_ground)
-        for (unsigned int a = 0; a < 3; ++a)
-          for (unsigned int b = 0; b < 3; ++b)
-          {
-            structure.mass[e][3 * a + b] += m * area[i][a] * area[i][b];
-            structure.added_mass[e][3 * a + b] += m * area[i][a] * area[i][b];
-          }
-    }
+      if (const double size = area[i].norm(); size > 0.)
+        total +=
+            add_mass(model.equation[i], westergaard.at(model.points[i]) * size, area[i] / size, structure);
     return total;
   }
 
@@ -164,6 +239,8 @@ namespace Voussoir
 
     const AddedMassRow added_masses[] = {
         {"Westergaard", "his formula, in the normal direction of the upstream face", add_westergaard_mass},
+        {"Westergaard-nodal", "the same at the nodes, by their areas: coarser, for comparison",
+         add_nodal_westergaard_mass},
         {"none", "the water is a static load only",
          [](const SolidModel &, const ReservoirParameters &, Structure &) { return 0.; }}};
   } // namespace

@@ -182,6 +182,15 @@ namespace Voussoir
                       Patterns::Integer(1));
     prm.add_parameter("Figures", figures,
                       "Draw the figures at the end of the run (needs python3-matplotlib).");
+    prm.add_parameter(
+        "Stress recovery", stress_recovery,
+        "Stresses at the nodes: tractions (from the elements, with the known tractions on faces and "
+        "joints) or elements (from these alone).",
+        Patterns::Selection("tractions|elements"));
+    prm.add_parameter(
+        "Tensile strength", tensile_strength,
+        "summary.json says how much of each face has tension above it; 0: nothing is said [Pa].",
+        Patterns::Double(0.));
     prm.leave_subsection();
   }
 

@@ -46,7 +46,9 @@ namespace Voussoir
   }
 
   JointRecorder::JointRecorder(const Structure &structure, const DamGeometry &geometry)
-      : largest(geometry.joints.size()), structure(structure), geometry(geometry)
+      : largest(geometry.joints.size()), structure(structure), geometry(geometry),
+        pressure(structure.pairs.size(), 0.), time_of_pressure(structure.pairs.size(), 0.),
+        sum_of_means(geometry.joints.size(), 0.)
   {
     history.columns = {"time"};
     for (std::size_t j = 0; j < geometry.joints.size(); ++j)
@@ -66,6 +68,11 @@ namespace Voussoir
     return {{up[0], down[0], std::hypot(up[1], up[2]), std::hypot(down[1], down[2])}};
   }
 
+  double joint_pressure(const Structure &structure, const DynamicState &state, const unsigned int pair)
+  {
+    return state.force[3 * pair] / structure.pairs[pair].area;
+  }
+
   void JointRecorder::record(const Newmark &newmark)
   {
     const double time = newmark.state().time;
@@ -81,6 +88,7 @@ namespace Voussoir
         slip = {s, time, structure.pairs[p].place};
     }
     points.end_record(time);
+    record_pressures(newmark.state());
     std::vector<double> row = {time};
     for (std::size_t j = 0; j < largest.size(); ++j)
     {
@@ -93,6 +101,50 @@ namespace Voussoir
               std::max(most.slip_upstream, now[2]), std::max(most.slip_downstream, now[3]), most.time};
     }
     history.rows.push_back(row);
+  }
+
+  void JointRecorder::record_pressures(const DynamicState &state)
+  {
+    std::vector<double> force(sum_of_means.size(), 0.), area(force);
+    for (unsigned int p = 0; p < structure.pairs.size(); ++p)
+    {
+      force[structure.pairs[p].joint] += state.force[3 * p];
+      area[structure.pairs[p].joint] += structure.pairs[p].area;
+      if (const double now = joint_pressure(structure, state, p); now > pressure[p])
+        pressure[p] = now, time_of_pressure[p] = state.time;
+    }
+    for (std::size_t j = 0; j < force.size(); ++j)
+      sum_of_means[j] += area[j] > 0. ? force[j] / area[j] : 0.;
+  }
+
+  Table JointRecorder::pressures() const
+  {
+    Table table;
+    table.columns = {"joint", "s", "max_pressure", "x", "y", "z", "time_of_max_pressure", "mean_pressure"};
+    for (std::size_t j = 0; j < geometry.joints.size(); ++j)
+    {
+      std::vector<double> row = {double(j + 1), geometry.joints[j].arc_length, 0., 0., 0., 0., 0., 0.};
+      for (unsigned int p = 0; p < structure.pairs.size(); ++p)
+        if (const Pair &pair = structure.pairs[p]; pair.joint == j && pressure[p] > row[2])
+          row = {row[0],        row[1],        pressure[p],         pair.place[0],
+                 pair.place[1], pair.place[2], time_of_pressure[p], 0.};
+      row[7] = sum_of_means[j] / std::max<std::size_t>(1, history.rows.size());
+      table.rows.push_back(row);
+    }
+    return table;
+  }
+
+  std::vector<float> JointRecorder::largest_pressure(const SolidModel &model) const
+  {
+    std::vector<float> of_node(structure.n_nodes(), 0.f), result(model.n_nodes(), 0.f);
+    for (unsigned int p = 0; p < structure.pairs.size(); ++p)
+      for (const unsigned int node : {structure.pairs[p].node_1, structure.pairs[p].node_2})
+        if (node != rigid_ground)
+          of_node[node] = static_cast<float>(pressure[p]);
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      if (model.equation[i] != rigid_ground)
+        result[i] = of_node[model.equation[i]];
+    return result;
   }
 
   Table JointRecorder::maxima() const

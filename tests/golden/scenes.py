@@ -101,14 +101,14 @@ def prm(scene, directory):
         "Elements": {"Degree": scene.get("degree", 1), "Incompatible modes": str(scene.get("modes", False)).lower()},
         "Concrete": {"Young's modulus": 21e9, "Poisson's ratio": .17, "Density": 2400},
         "Damping": dict(zip(("Ratio", "Frequency 1", "Frequency 2"), scene["damping"])),
-        "Reservoir": {"Water level": scene["level"], "Density": 1000, "Added mass": "Westergaard", "Depth": scene.get("depth"),
+        "Reservoir": {"Water level": scene["level"], "Density": 1000, "Added mass": "Westergaard-nodal", "Depth": scene.get("depth"),
                       "Factor": scene.get("factor")} if "depth" in scene else
                      {"Water level": scene["level"], "Density": 1000, "Added mass": "none"},
         "Joints": {"Model": scene["law"], **({"Friction": scene["friction"]} if "friction" in scene else {})},
         "Statics": {"Self-weight": "staged" if scene["staged"] else "monolithic", "Gravity": 9.81},
         "Motion": write_motion(scene, directory),
         "Dynamics": {"Steps per sample": round(SAMPLE.get(scene["motion"], scene["dt"]) / scene["dt"])},
-        "Output": {"Figures": "false", "Checkpoint interval": 0,
+        "Output": {"Figures": "false", "Stress recovery": "elements", "Checkpoint interval": 0,
                    "Solution interval": round(duration(scene) / scene["dt"])},
     }
     return "".join(f"subsection {name}\n" + "".join(f"  set {k} = {v}\n" for k, v in entries.items()) + "end\n"
@@ -162,6 +162,7 @@ subsection Motion
 end
 subsection Output
   set Figures             = false
+  set Stress recovery     = elements
   set Solution interval   = 1000
   set Checkpoint interval = 0
 end

@@ -8,6 +8,7 @@
 #include <voussoir/dam/tractions.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/output/checkpoint_file.h>
+#include <voussoir/output/face_tension.h>
 #include <voussoir/output/recorder.h>
 #include <voussoir/output/run_directory.h>
 #include <voussoir/output/stability_watch.h>
@@ -39,49 +40,52 @@ namespace Voussoir
     void run();
 
   private:
-    void              read_input();
-    TimeGrid          grid() const { return {motion.dt, scene.foundation.substeps, n_steps}; }
-    void              report_setup();
-    void              report_motion_notes();
-    void              report_motion_and_warnings();
-    void              find_static_state();
-    Vector3           relative_to_base(unsigned int node) const;
-    ContactParameters contact_parameters(const std::string &stage) const;
-    void              start_shaking();
-    void              declare_tables();
-    void              declare_history(Recorder &table);
-    void              declare_energy(Recorder &table);
-    void              shake();
-    void              advance();
-    void              step_once();
-    void              record();
-    void              report_step();
-    void              write_solution();
-    void              open_tables();
-    void              write_tables();
-    void              write_fields();
-    void              write_results();
-    void              write_summary();
-    Json              json_of_mesh() const;
-    Json              json_of_times() const;
-    Json              json_of_newton() const;
-    Json              json_of_statics() const;
-    Json              json_of_extremes() const;
-    Json              json_of_time_error() const;
-    double            largest_energy() const; ///< of the dam, that has gone through [J]
-    double            balance_error() const;  ///< largest |balance| of its energies, over largest_energy()
-    void              check_balance() const;  ///< ComputationError where an account does not close
-    void              draw_figures();
-    void              stop_if_asked() const;
-    void              keep_and_stop();
-    std::string       keep_last_state();
-    std::string       checkpoint_name() const { return directory + "/checkpoint.bin"; }
-    void              save_checkpoint();
-    Provenance        provenance_now() const;
-    void              open_checkpoint();
-    void              load_checkpoint();
-    void              report_loads();
-    Json              json_of_loads() const;
+    void                 read_input();
+    TimeGrid             grid() const { return {motion.dt, scene.foundation.substeps, n_steps}; }
+    void                 report_setup();
+    void                 report_motion_notes();
+    void                 report_motion_and_warnings();
+    void                 find_static_state();
+    Vector3              relative_to_base(unsigned int node) const;
+    ContactParameters    contact_parameters(const std::string &stage) const;
+    void                 start_shaking();
+    void                 declare_tables();
+    void                 declare_history(Recorder &table);
+    void                 declare_energy(Recorder &table);
+    void                 shake();
+    void                 advance();
+    void                 step_once();
+    void                 record();
+    void                 report_step();
+    void                 write_solution();
+    void                 open_tables();
+    void                 write_tables();
+    void                 write_fields();
+    void                 report_tension();
+    std::vector<Vector3> known_tractions();
+    void                 write_results();
+    void                 write_summary();
+    Json                 json_of_mesh() const;
+    Json                 json_of_times() const;
+    Json                 json_of_newton() const;
+    Json                 json_of_statics() const;
+    Json                 json_of_extremes() const;
+    Json                 json_of_time_error() const;
+    Json                 json_of_strength() const;
+    double               largest_energy() const; ///< of the dam, that has gone through [J]
+    double               balance_error() const;  ///< largest |balance| of its energies, over largest_energy()
+    void                 check_balance() const;  ///< ComputationError where an account does not close
+    void                 draw_figures();
+    void                 stop_if_asked() const;
+    void                 keep_and_stop();
+    std::string          keep_last_state();
+    std::string          checkpoint_name() const { return directory + "/checkpoint.bin"; }
+    void                 save_checkpoint();
+    Provenance           provenance_now() const;
+    void                 open_checkpoint();
+    void                 load_checkpoint();
+    void                 report_loads();
+    Json                 json_of_loads() const;
 
     ContactResult static_step(const StaticPath &path, unsigned int i, JointSystem &system, JointWater *water,
                               const Unknowns &springs, Unknowns &gap);
@@ -142,6 +146,7 @@ namespace Voussoir
     std::unique_ptr<Tractions>                  tractions;
     std::unique_ptr<StressRecovery>             stress;
     std::unique_ptr<EnvelopeRecorder>           envelope;
+    std::unique_ptr<FaceTension>                tension;
     std::unique_ptr<JointRecorder>              joints;
     std::unique_ptr<TimeErrorEstimate>          companion;               ///< if the scene asks for it
     Table                                       history, energy, stages; ///< stages: of the static state

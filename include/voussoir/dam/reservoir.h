@@ -19,7 +19,7 @@ namespace Voussoir
   {
     double      level = 195.;               ///< z of the water surface [m]
     double      density = 1000.;            ///< 0: empty reservoir [kg/m^3]
-    std::string added_mass = "Westergaard"; ///< or none
+    std::string added_mass = "Westergaard"; ///< or Westergaard-nodal, none
     std::string depth = "global";           ///< or local
     double      factor = 1.;                ///< of the added mass [-]
 
@@ -30,18 +30,23 @@ namespace Voussoir
   void add_water_pressure(const SolidModel &model, const ReservoirParameters &reservoir, double gravity,
                           Unknowns &load);
 
-  /** Westergaard's added mass 7/8 rho sqrt(H h) A n n^T on the nodes of the surface "upstream", as 3x3 blocks
-   * in structure.mass and structure.added_mass; h: depth of the node, A n: its tributary area vector; H:
-   * depth of the reservoir (global: at its deepest point; local: in the vertical section through the node,
-   * Kuo 1982). Returns the total added mass for horizontal motion along x [kg]. */
+  /** Westergaard's added mass 7/8 rho sqrt(H h) n n^T per area of the surface "upstream", integrated over its
+   * wet part and lumped to the nodes as 3x3 blocks in structure.mass and structure.added_mass; h: depth, H:
+   * depth of the reservoir (global: at its deepest point; local: in the same vertical section, Kuo 1982). The
+   * shares of the nodes are those of the shape functions, as in the lumped mass of the concrete. Returns the
+   * total added mass for horizontal motion along x [kg]. */
   double add_westergaard_mass(const SolidModel &model, const ReservoirParameters &reservoir,
                               Structure &structure);
+
+  /** The same by the formula at the nodes and their areas alone. */
+  double add_nodal_westergaard_mass(const SolidModel &model, const ReservoirParameters &reservoir,
+                                    Structure &structure);
 
   /** The added mass of that name, in structure.mass and structure.added_mass. Returns the total for
    * horizontal motion along x [kg]. */
   double add_added_mass(const SolidModel &model, const ReservoirParameters &reservoir, Structure &structure);
 
-  std::string added_mass_names(); ///< as a ParameterHandler selection: "Westergaard|none"
+  std::string added_mass_names(); ///< as a ParameterHandler selection: "Westergaard|Westergaard-nodal|none"
   std::string added_mass_docs();  ///< what they are
 } // namespace Voussoir
 

@@ -70,6 +70,8 @@ namespace Voussoir
     unsigned int                       checkpoint_interval = 500; ///< [steps], 0: none
     unsigned int                       progress_interval = 64;    ///< [steps]
     bool                               figures = true;
+    std::string                        stress_recovery = "tractions"; ///< or elements
+    double                             tensile_strength = 0.;         ///< [Pa], 0: none
     void                               add_parameters(dealii::ParameterHandler &prm);
     void                               check() const;
     std::map<std::string, Vector3>     probe_places() const; ///< throws InputError for a malformed one
@@ -97,6 +99,13 @@ namespace Voussoir
     MotionParameters     motion;
     LimitParameters      limits;
     OutputParameters     output;
+
+    /** Of the area of the faces where tension is above it: Output/Tensile strength, else that of the limits;
+     * 0: none [Pa]. */
+    double strength_of_area() const
+    {
+      return output.tensile_strength > 0. ? output.tensile_strength : limits.tensile_strength;
+    }
 
     std::vector<std::string> warnings; ///< of read_scene(), about entries that the user wrote
 

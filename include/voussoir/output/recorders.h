@@ -60,7 +60,12 @@ namespace Voussoir
     };
 
     void  record(const Newmark &newmark);
-    Table maxima() const; ///< joints.csv
+    Table maxima() const;    ///< joints.csv
+    Table pressures() const; ///< joint_pressures.csv
+
+    /** The largest pressure over time at the nodes of the joints, one per node of the model, 0 elsewhere
+     * [Pa]. */
+    std::vector<float> largest_pressure(const SolidModel &model) const;
 
     Table                history; ///< joint_history.csv
     Extreme              opening, slip;
@@ -71,14 +76,21 @@ namespace Voussoir
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
       archive &history &opening &slip &reach &points &largest;
+      archive &pressure &time_of_pressure            &sum_of_means;
     }
 
   private:
     std::array<double, 4> at_crest(const Newmark &newmark, std::size_t joint) const;
+    void                  record_pressures(const DynamicState &state);
 
-    const Structure   &structure;
-    const DamGeometry &geometry;
+    const Structure    &structure;
+    const DamGeometry  &geometry;
+    std::vector<double> pressure, time_of_pressure; ///< largest of each pair [Pa], [s]
+    std::vector<double> sum_of_means;               ///< of each joint's mean pressure, over history.rows [Pa]
   };
+
+  /** Normal force of a pair over its area, compression > 0 [Pa]. */
+  double joint_pressure(const Structure &structure, const DynamicState &state, unsigned int pair);
 
   /** Largest and smallest principal stress of every node over time. */
   class EnvelopeRecorder

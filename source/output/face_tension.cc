@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <voussoir/output/face_tension.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace Voussoir
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** The share of each node in the area of a surface [m^2]. */
+    std::map<unsigned int, double> areas(const SolidModel &model, const int surface)
+    {
+      std::map<unsigned int, double> area;
+      FEFaceValues<3> values(model.fe, QGauss<2>(model.fe.degree + 1), update_values | update_JxW_values);
+      std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+      for (const auto &cell : model.dof_handler.active_cell_iterators())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() && static_cast<int>(cell->face(f)->boundary_id()) == surface)
+          {
+            values.reinit(cell, f);
+            cell->get_dof_indices(dofs);
+            for (unsigned int i = 0; i < dofs.size(); ++i)
+              if (model.fe.has_support_on_face(i, f))
+                for (const unsigned int q : values.quadrature_point_indices())
+                  area[dofs[i]] += values.shape_value(i, q) * values.JxW(q);
+          }
+      return area;
+    }
+  } // namespace
+
+  FaceTension::FaceTension(const SolidModel &model)
+  {
+    std::vector<Point<3>> base;
+    double                top = -1e300, bottom = 1e300;
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+    {
+      top = std::max(top, model.points[i][2]);
+      bottom = std::min(bottom, model.points[i][2]);
+      if (model.on_surface(i, PhysicalId::base) &&
+          (model.on_surface(i, PhysicalId::upstream) || model.on_surface(i, PhysicalId::downstream)))
+        base.push_back(model.points[i]);
+    }
+    const double reach = .1 * (top - bottom);
+    for (const int surface : {PhysicalId::upstream, PhysicalId::downstream})
+      for (const auto &node : areas(model, surface))
+      {
+        const Point<3> &x = model.points[node.first];
+        const bool      is_foot =
+            std::any_of(base.begin(), base.end(), [&](const Point<3> &p) { return p.distance(x) < reach; });
+        faces[surface].push_back({node.first, node.second, is_foot});
+      }
+  }
+
+  Extreme FaceTension::largest_above_foot(const EnvelopeRecorder &envelope, const SolidModel &model,
+                                          const int surface) const
+  {
+    Extreme largest{std::numeric_limits<double>::quiet_NaN()};
+    if (const auto face = faces.find(surface); face != faces.end())
+      for (const FaceNode &n : face->second)
+        if (const double x = envelope.maximum[n.node]; !n.is_foot && !(x <= largest.value))
+        {
+          const Point<3> &p = model.points[n.node];
+          largest = {x, envelope.time_of_maximum[n.node], {{p[0], p[1], p[2]}}};
+        }
+    return largest;
+  }
+
+  double FaceTension::headline(const EnvelopeRecorder &envelope) const
+  {
+    double largest = 0.;
+    for (const auto &face : faces)
+      for (const FaceNode &n : face.second)
+        if (!n.is_foot)
+          largest = std::max<double>(largest, envelope.maximum[n.node]);
+    return largest;
+  }
+
+  FaceTension::Part FaceTension::above(const EnvelopeRecorder &envelope, const int surface,
+                                       const double strength) const
+  {
+    Part part;
+    if (const auto face = faces.find(surface); face != faces.end())
+      for (const FaceNode &n : face->second)
+      {
+        part.whole += n.area;
+        part.area += envelope.maximum[n.node] > strength ? n.area : 0.;
+      }
+    return part;
+  }
+} // namespace Voussoir
