@@ -55,21 +55,22 @@ namespace Voussoir
         patch.reference_cell = ReferenceCells::Quadrilateral;
         patch.data.reinit(names.size(), 4);
         patch.patch_index = patches.size();
-        bool complete = true;
-        for (unsigned int k = 0; k < 4 && complete; ++k)
+        for (unsigned int k = 0; k < 4; ++k)
         {
           const unsigned int node = quad.nodes[k < 2 ? k : 5 - k]; // lexicographic, not around it
           const auto         found = pair_of.find(model.equation[node]);
-          complete = found != pair_of.end();
-          if (!complete)
-            continue;
           patch.vertices[k] = model.points[node];
+          if (found == pair_of.end()) // held, at the foot: neither opens nor slips
+          {
+            patch.data(0, k) = j + 1.;
+            patch.data(names.size() - 1, k) = -1.;
+            continue;
+          }
           const auto values = values_of(found->second, structure, newmark, states[found->second]);
           for (std::size_t i = 0; i < values.size(); ++i)
             patch.data(i, k) = values[i];
         }
-        if (complete)
-          patches.push_back(patch);
+        patches.push_back(patch);
       }
     OutputFile out(file);
     using Range = std::tuple<unsigned int, unsigned int, std::string,
