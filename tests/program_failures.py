@@ -10,7 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from run_program import expect, run_cases, runs, summary, table
+from run_program import expect, run_cases, runs, summary, table, voussoir
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "benchmarks"))
@@ -69,7 +69,9 @@ def dam():
         ("--set", entry))]
     for name, entry in (("default", "Dynamics/Impact=mean-force"), ("none", "Dynamics/Impact=none"),
                         ("paper", "Joints/Equations=paper")):
-        runs(*coarse, "--set", entry, "--output", name)
+        result = voussoir(*coarse, "--set", entry, "--output", name)
+        # Plain Newmark may be stopped for what it does: the tables end there.
+        expect(result.returncode == 0 or name == "none" and "has become unstable" in result.stderr, f"{name}: {result.stderr}")
     taken = {}
     for name in ("default", "none"):
         names, rows = table(f"{name}/energy.csv")

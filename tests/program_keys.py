@@ -32,7 +32,8 @@ def tight():
             expect(result["energy_balance_error"] < 1e-9, "energy balance")
     names, rows = table("x/energy.csv")
     seats = [row[names.index("bond")] for row in rows]
-    expect(min(seats) >= 0. and max(seats) > 0., "the seats hold energy")
+    # Counted from the static state, in which they hold a little already.
+    expect(max(seats) > 0. and min(seats) > -.01 * max(seats), f"the seats hold energy: {min(seats)} to {max(seats)} J")
 
 
 def rigid():

@@ -92,7 +92,8 @@ def calculix():
     for element, faces, limits in (("C3D8", "uniform", (5e-6, 1e-4)), ("C3D8I", "uniform", (.01, .06)),
                                    ("C3D20", "linear", (.01, .03))):
         file = scene(element, "arch.msh", Elements={"Incompatible modes": str(element != "C3D8").lower(), "Degree": 2 if element == "C3D20" else 1},
-                     Concrete={"Young's modulus": 21e9, "Poisson's ratio": .17, "Density": 2400})
+                     Concrete={"Young's modulus": 21e9, "Poisson's ratio": .17, "Density": 2400},
+                     Output={"Stress recovery": "elements"})  # as CalculiX
         runs(file, "--output", element, *settings(
             Loads__Temperature__Upstream_face=t[faces][0], Loads__Temperature__Downstream_face=t[faces][1],
             Loads__Temperature__Grouting=t["grouting"], Loads__Temperature__Expansion=t["expansion"]))
@@ -144,7 +145,7 @@ def stages():
     expect(lifts["extremes"]["max_opening"]["value"] < 2e-3, "openings count from the grouting")
     at_first, _ = result("at_first", *settings(Statics__Stages="grout 1000, fill 100"))
     filled, _ = result("not_lifted", *settings(Statics__Stages="fill 100"))
-    expect(at_first["static"]["crest_displacement"] == filled["static"]["crest_displacement"], "all grouted at first")
+    expect(math.dist(at_first["static"]["crest_displacement"], filled["static"]["crest_displacement"]) < 1e-12, "all grouted at first")
     # Through an earthquake, and from a checkpoint, openings still count from the grouting.
     write_scene()
     lifts = settings(Statics__Stages="fill 100, grout 100, fill 150")

@@ -220,7 +220,8 @@ namespace Voussoir
       companion = std::make_unique<TimeErrorEstimate>(
           *dam, parameters, motion.dt, impact_rule(scene.impact_rule), newmark->state(), statics.closed);
       if (scene.output.envelope_interval > 0)
-        companion->record_stresses(*stress, *tractions);
+        companion->record_stresses(*stress,
+                                   scene.output.stress_recovery == "tractions" ? tractions.get() : nullptr);
     }
     declare_tables();
     count.seconds_static += watch.seconds();

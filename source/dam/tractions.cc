@@ -67,8 +67,10 @@ namespace Voussoir
         for (unsigned int c = 0; c < 3; ++c)
           traction[f][c] = side * (frame[0][c] * t[0] + frame[1][c] * t[1] + frame[2][c] * t[2]);
       }
-    for (const Edge &edge : edges)
-      meet(edge);
+    constexpr unsigned int n_passes = 6; // at corners two edges of a joint meet, nearly orthogonal
+    for (unsigned int i = 0; i < n_passes; ++i)
+      for (const Edge &edge : edges)
+        meet(edge);
     result.resize(traction.size());
     for (std::size_t f = 0; f < traction.size(); ++f)
       result[f] = traction[f] - initial[f];

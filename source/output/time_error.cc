@@ -17,11 +17,18 @@ namespace Voussoir
     joints.record(newmark);
   }
 
-  void TimeErrorEstimate::record_stresses(const StressRecovery &stress, Tractions &known)
+  void TimeErrorEstimate::record_stresses(const StressRecovery &stress, Tractions *known)
   {
-    tractions = &known;
+    tractions = known;
     envelope.emplace(stress, dam.initial_stress);
-    envelope->record(newmark.state().time, newmark.state().u, tractions->at(newmark.state().force));
+    record_stresses();
+  }
+
+  void TimeErrorEstimate::record_stresses()
+  {
+    const DynamicState &state = newmark.state();
+    envelope->record(state.time, state.u,
+                     tractions == nullptr ? std::vector<Vector3>() : tractions->at(state.force));
   }
 
   void TimeErrorEstimate::advance(const unsigned int step, const Unknowns &load, const Vector3 &base_velocity)
@@ -31,7 +38,7 @@ namespace Voussoir
     newmark.advance(load, base_velocity);
     joints.record(newmark);
     if (envelope)
-      envelope->record(newmark.state().time, newmark.state().u, tractions->at(newmark.state().force));
+      record_stresses();
   }
 
   TimeError TimeErrorEstimate::of(const JointRecorder &of_run, const EnvelopeRecorder &stresses) const

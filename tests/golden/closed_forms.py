@@ -130,7 +130,7 @@ def added_mass():
     everywhere; over a valley with the local depth H(y) it is the integral of 7/12 rho H(y)^2, with the greatest H0 everywhere
     that of 7/12 rho sqrt(H0) H(y)^1.5; both kinds. By the nodes' areas (trapezoids in sqrt(h)) a little less."""
     check = Worst("added mass")
-    westergaard = {"Density": 1000}
+    westergaard = {"Density": 1000, "Added mass": "Westergaard"}
 
     def total(name, mesh, **entries):
         shown = runs(scene(name, mesh, Reservoir={**westergaard, **entries}), "--validate")

@@ -31,8 +31,8 @@ namespace Voussoir
     TimeErrorEstimate(const Dam &dam, const ContactParameters &parameters, double dt, ImpactRule rule,
                       const DynamicState &start, const Unknowns &reference_jump);
 
-    /** Tensions, too, from now on. Both are kept. */
-    void record_stresses(const StressRecovery &stress, Tractions &tractions);
+    /** Tensions, too, from now on; @p tractions: known to @p stress, or null. Both are kept. */
+    void record_stresses(const StressRecovery &stress, Tractions *tractions);
 
     /** After each step of the run, under @p load at its end; every second one is a step here. */
     void advance(unsigned int step, const Unknowns &load, const Vector3 &base_velocity);
@@ -49,6 +49,8 @@ namespace Voussoir
     Newmark newmark;
 
   private:
+    void record_stresses();
+
     const Dam                      &dam;
     JointRecorder                   joints;
     std::optional<EnvelopeRecorder> envelope;
