@@ -4,8 +4,8 @@
 
     benchmarks/choices.py [GROUP...] [--seconds 3] [--voussoir PROGRAM]
 
-Groups: steps (time step and rule of impact), steps28 (28 joints), estimate, estimate28 (Dynamics/Error estimate), elements,
-solvers, boundary, free_field, rock_steps.
+Groups: quickstart, joints28 (mesh and time step together), steps (time step and rule of impact), steps28 (28 joints), estimate,
+estimate28 (Dynamics/Error estimate), elements, solvers, boundary, free_field, rock_steps.
 The measures are those of `voussoir accuracy`: largest openings of the joints (root of the sum of squares), means of the
 tension envelope over nine zones of each face; over the strongest seconds of the scene's motion. Each group has a
 reference: the finest step, mesh or box. Prints Markdown tables, writes doc/figures/choices_GROUP.png. Cost: seconds of
@@ -28,7 +28,7 @@ from accuracy import read, strongest, zone_means  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-RIGID, ROCK, MANY = (ROOT / "prm" / f"{name}.prm" for name in ("quickstart", "rock_fja", "rigid28"))
+RIGID, ROCK, MANY = (ROOT / "prm" / f"{name}.prm" for name in ("coarse", "rock_fja", "rigid28"))
 STEPS = "Dynamics/Steps per sample"
 BOX = {f"Mesh/Arch210/Rock/{side}": 420 for side in ("Upstream", "Downstream", "Sides", "Depth")}
 
@@ -52,7 +52,15 @@ def groups():
     modes, degree = "Elements/Incompatible modes", "Elements/Degree"
     rock = {**mesh(30, 10, 1), STEPS: 5, "Mesh/Arch210/Rock/Boundary layers": 8}
     told = [("with its estimate", f"{10 / n:g} ms", {STEPS: n, "Dynamics/Error estimate": "true"}) for n in (1, 2, 4)]
+    whole = [(f"{name(m)}, {10 / n:g} ms", {**mesh(*m), STEPS: n}) for m, n in
+             (((60, 16, 2), 1), ((60, 16, 2), 2), ((60, 20, 3), 2), ((72, 24, 3), 2), ((60, 24, 4), 2))]
+    whole28 = [(f"{name(m)}, {10 / n:.3g} ms", {**mesh(*m), STEPS: n}) for m, n in
+               (((145, 21, 4), 1), ((58, 21, 2), 1), ((58, 21, 2), 2), ((58, 21, 3), 2), ((58, 21, 3), 3))]
     return {
+        "quickstart": (RIGID, {}, [("5 joints", label, settings) for label, settings in whole], {**mesh(120, 32, 6), STEPS: 4},
+                       "120 x 32 x 6 elements at 2.5 ms"),
+        "joints28": (MANY, {}, [("28 joints", label, settings) for label, settings in whole28], {**mesh(116, 42, 4), STEPS: 4},
+                     "116 x 42 x 4 elements at 2.5 ms"),
         "steps": (RIGID, {}, steps_of(("mean-force", "impulse-consistent", "paper", "none"), (1, 2, 4)), {STEPS: 8},
                   "mean-force at 1.25 ms, on the same mesh"),
         "steps28": (MANY, many, steps_of(("mean-force",), (1, 2, 4)), {STEPS: 8}, "1.25 ms, on the same mesh (58 x 21 x 2)"),
@@ -82,7 +90,7 @@ def groups():
 
 class Runs:
     def __init__(self, options, scene, common, directory):
-        self.options, self.scene, self.directory, self.n = options, scene, Path(directory), 0
+        self.options, self.scene, self.directory, self.n, self.areas = options, scene, Path(directory), 0, None
         run(options.voussoir, "motion", scene, "--output", self.directory / "whole.csv")
         part, _ = strongest(np.loadtxt(self.directory / "whole.csv", delimiter=",", skiprows=1), options.seconds)
         np.savetxt(self.directory / "motion.csv", part, delimiter=",")
@@ -97,7 +105,10 @@ class Runs:
         openings = np.array([max(float(j["opening_upstream"]), float(j["opening_downstream"]))
                              for j in read(directory / "joints.csv")])
         print(".", end="", file=sys.stderr, flush=True)
-        return openings, zone_means(directory), summary
+        means, areas = zone_means(directory)
+        if self.areas is None:
+            self.areas = areas  # of the reference
+        return openings, np.sqrt(self.areas / self.areas.sum()) * means, summary
 
 
 def error(value, reference):

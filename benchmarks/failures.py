@@ -28,7 +28,7 @@ from program import ROOT, add_program_argument, run, simulate
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-SCENE = ROOT / "prm" / "quickstart.prm"
+SCENE = ROOT / "prm" / "coarse.prm"
 STRONG = {"Mesh/Arch210/Elements along": 36, "Mesh/Arch210/Elements up": 12, "Motion/Duration": 5.12,
           "Motion/Rise end": 0.5, "Motion/Decay begin": 4.5}  # five seconds of strong shaking, coarse
 WORST = 0.9  # the phase in which plain Newmark's energy grows most

@@ -4,7 +4,7 @@
 
     benchmarks/fjb_study.py [--voussoir PROGRAM] [--motions 3] [--output output/fjb_study] [--only WORD]
 
-Five seconds of strong shaking of prm/quickstart.prm with 36 x 12 x 2 elements, one assumption changed at a time, FJA and
+Five seconds of strong shaking of prm/coarse.prm with 36 x 12 x 2 elements, one assumption changed at a time, FJA and
 FJB with several motions each. Prints a Markdown table; what has been run is kept in OUTPUT/results.json and not run
 again. Openings are the largest over time at the crest, of both faces, of each joint.
 
@@ -24,7 +24,7 @@ from program import ROOT, add_program_argument, run as program_output, simulate
 from paper import scatter
 from figures import read_table
 
-SCENE = ROOT / "prm" / "quickstart.prm"
+SCENE = ROOT / "prm" / "coarse.prm"
 STRONG = {"Motion/Duration": 5.12, "Motion/Rise end": 0.5, "Motion/Decay begin": 4.5, "Output/Envelope interval": 0}
 MESH = "Mesh/Arch210/"
 SIZE = {MESH + "Elements along": 36, MESH + "Elements up": 12}

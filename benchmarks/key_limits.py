@@ -4,7 +4,7 @@
 
     benchmarks/key_limits.py [--voussoir PROGRAM] [--mesh 24x8x1] [--duration 2.56] [--only TEXT] [--set ENTRY=VALUE]...
 
-prm/quickstart.prm with keys of all flank angles 0, 20, 45, 60 degrees, clearances 0, 1, 5 mm, directions both, radial,
+prm/coarse.prm with keys of all flank angles 0, 20, 45, 60 degrees, clearances 0, 1, 5 mm, directions both, radial,
 vertical, and flank friction 0.8 and 0: 72 settings, and FJA beside them. Prints a Markdown table: per setting the
 largest and mean number of Newton steps, steps solved by fall-backs or halved, and the time in the joints over FJA's.
 
@@ -38,7 +38,7 @@ def simulate(program, scene, settings, directory):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add_program_argument(parser)
-    parser.add_argument("--scene", default=str(ROOT / "prm" / "quickstart.prm"))
+    parser.add_argument("--scene", default=str(ROOT / "prm" / "coarse.prm"))
     parser.add_argument("--mesh", default="24x8x1", help="elements along x up x through")
     parser.add_argument("--duration", type=float, default=2.56, help="of the motion [s]")
     parser.add_argument("--only", default="", help="settings whose name contains this")

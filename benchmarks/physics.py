@@ -17,7 +17,7 @@ from pathlib import Path
 
 from program import ROOT, add_program_argument, simulate
 
-SCENE = ROOT / "prm" / "quickstart.prm"
+SCENE = ROOT / "prm" / "coarse.prm"
 SEEDS = [1, 2, 3, 4]
 SPECTRUM = {1.0: 168.6, 0.5: 146.8}  # crest, stream direction, 24 modes, SRSS [mm]
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from program import ROOT, add_program_argument, run, simulate
 
-SCENE = ROOT / "prm" / "quickstart.prm"
+SCENE = ROOT / "prm" / "coarse.prm"
 MESH = (60, 16, 2)
 RECOVERIES = ("elements", "tractions")
 

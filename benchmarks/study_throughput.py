@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Throughput of a study: twelve scenes of prm/quickstart.prm with 28 joints, on all cores with one thread each, against the
+"""Throughput of a study: twelve scenes of prm/coarse.prm with 28 joints, on all cores with one thread each, against the
 same scenes started by hand, one process per core. Checks, Snakemake, table and figures are in the study's time.
 
     benchmarks/study_throughput.py [--voussoir PROGRAM] [--scenes 12] [--duration 20.48]
@@ -39,7 +39,7 @@ def main():
     with tempfile.TemporaryDirectory() as directory:
         def alone(seed):
             words = [word for entry, value in {**settings, "Motion/Seed": seed}.items() for word in ("--set", f"{entry}={value}")]
-            subprocess.run([program, ROOT / "prm" / "quickstart.prm", "--quiet", "--output", f"{directory}/alone{seed}", *words],
+            subprocess.run([program, ROOT / "prm" / "coarse.prm", "--quiet", "--output", f"{directory}/alone{seed}", *words],
                            env=environment, check=True, stdout=subprocess.DEVNULL)
 
         begin, cpu = time.time(), cpu_seconds()
@@ -47,7 +47,7 @@ def main():
             list(pool.map(alone, range(1, options.scenes + 1)))
         by_hand, cpu_by_hand = time.time() - begin, cpu_seconds() - cpu
         study = Path(directory, "study.prm")
-        study.write_text(f"set Scene = {ROOT / 'prm' / 'quickstart.prm'}\n" + "".join(f"set Settings/{e} = {v}\n" for e, v in settings.items())
+        study.write_text(f"set Scene = {ROOT / 'prm' / 'coarse.prm'}\n" + "".join(f"set Settings/{e} = {v}\n" for e, v in settings.items())
                          + f"set Factors/Motion/Seed = 1 ... {options.scenes}\n")
         begin, cpu = time.time(), cpu_seconds()
         subprocess.run([program, "study", str(study), "--jobs", str(cores), "--output", f"{directory}/study"], check=True, stdout=subprocess.DEVNULL)

@@ -23,7 +23,7 @@ from program import ROOT, add_program_argument, run, simulate
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-SCENE = ROOT / "prm" / "quickstart.prm"
+SCENE = ROOT / "prm" / "coarse.prm"
 TIME_STEPS = [0.01, 0.005, 0.0025, 0.00125, 0.000625]  # the last is the reference
 # Elements along, up, through; the last is the reference.
 MESHES = [("trilinear, modes", 1, [(30, 8, 1), (30, 8, 2), (60, 16, 2), (60, 16, 4), (96, 32, 4)]),

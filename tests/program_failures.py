@@ -63,7 +63,7 @@ def models():
 
 def dam():
     """In a dam plain Newmark's joints give more energy than the earthquake; the angle as printed costs Newton steps."""
-    coarse = [ROOT / "prm" / "quickstart.prm", *(word for entry in (
+    coarse = [ROOT / "prm" / "coarse.prm", *(word for entry in (
         "Mesh/Arch210/Elements along=18", "Mesh/Arch210/Elements up=8", "Mesh/Arch210/Elements through=1",
         "Motion/Duration=5.12", "Motion/Rise end=0.5", "Motion/Decay begin=4.5", "Output/Figures=false") for word in
         ("--set", entry))]

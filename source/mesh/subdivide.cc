@@ -71,6 +71,8 @@ namespace Voussoir
     // face.
     const unsigned int ends[3][2][4] = {
         {{0, 1, 2, 3}, {4, 5, 6, 7}}, {{0, 4, 5, 1}, {3, 7, 6, 2}}, {{0, 3, 7, 4}, {1, 2, 6, 5}}};
+    if (h.size() != 8) // a wedge already
+      return h;
     for (const auto &end : ends)
       for (unsigned int e = 0; e < 4; ++e)
       {

@@ -24,7 +24,8 @@ namespace Voussoir
     DoFHandler<3>              vector_handler(model.triangulation);
     Vector<float>              displacement;
     std::vector<Vector<float>> scalars;
-    DataOut<3>                 data_out; // last: it refers to the others
+    DataOut<3>                 data_out;                // last: it refers to the others
+    data_out.attach_triangulation(model.triangulation); // before any data
     scalars.reserve(fields.size());
     for (const NodalField &field : fields)
     {
@@ -33,7 +34,6 @@ namespace Voussoir
     }
     for (const auto &cell : model.triangulation.active_cell_iterators())
       monolith[cell->active_cell_index()] = static_cast<float>(cell->material_id());
-    data_out.attach_triangulation(model.triangulation);
     data_out.add_data_vector(monolith, "monolith", DataOut<3>::type_cell_data);
     if (!u.empty())
     {
