@@ -139,10 +139,13 @@ def draw(name, what, results):
     for mark, curve in zip("os^vDP", dict.fromkeys(r[0] for r in results)):
         rows = [r for r in results if r[0] == curve]
         axes.plot([r[2] for r in rows], [100 * max(r[3:5]) for r in rows], mark + "-", label=curve)
-        for r in rows:
-            axes.annotate(r[1], (r[2], 100 * max(r[3:5])), textcoords="offset points", xytext=(5, 4), fontsize=7.5)
+        for i, r in enumerate(rows):  # above and below in turn, for neighbours
+            axes.annotate(r[1], (r[2], 100 * max(r[3:5])), textcoords="offset points", xytext=(5, (4, -11)[i % 2]), fontsize=7.5)
     axes.set(xscale="log", yscale="log", xlabel="cost: seconds of one thread per second of earthquake",
              ylabel="error of openings or zone tension, the larger [%]", title=f"{name}: against {what}")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter("{x:g}" if axis is axes.xaxis or len(results) < 12 else "")
     axes.title.set_fontsize(9.5)
     axes.grid(True, which="both", linewidth=0.4, color="0.88")
     axes.legend(frameon=False, fontsize=9)
