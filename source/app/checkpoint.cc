@@ -56,7 +56,9 @@ namespace Voussoir
         pairs.push_back(static_cast<int>(state));
       archive << provenance << step << pairs << n_steps << motion.dt << samples << wall << cpu << state
               << first << largest << count << history << energy << *joints << *envelope << solutions;
-      if (companion)
+      const bool is_estimating = companion != nullptr;
+      archive << is_estimating;
+      if (is_estimating)
       {
         const DynamicState beside = companion->newmark.state();
         archive << beside << *companion;
@@ -169,6 +171,10 @@ namespace Voussoir
           "from the beginning. Set \"Motion/Duration\" as it was, or run without --resume.");
     archive >> clock_before >> cpu_before >> state >> first >> largest >> count >> history >> energy >>
         *joints >> *envelope >> solutions;
+    bool was_estimating = false;
+    archive >> was_estimating;
+    if (!was_estimating)
+      companion.reset();
     if (companion)
     {
       DynamicState beside;

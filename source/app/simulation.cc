@@ -213,7 +213,7 @@ namespace Voussoir
     tension = std::make_unique<FaceTension>(*dam->model);
     envelope = std::make_unique<EnvelopeRecorder>(*stress, dam->initial_stress);
     envelope->overstress = Overstress(scene.limits.tensile_strength, dam->model->n_nodes());
-    if (scene.error_estimate && n_steps > 0)
+    if (scene.error_estimate && n_steps > 1)
     {
       ContactParameters parameters = scene.contact;
       parameters.write_problems = false;
@@ -252,8 +252,7 @@ namespace Voussoir
           "          smaller steps from t = %.4g s on, where joints ask for them: factors of %.2f GiB more",
           newmark->state().time, more / std::pow(2., 30));
     dam->foundation->follow(newmark->state());
-    if (companion)
-      companion->advance(step + 1, load, base_velocity);
+    advance_companion(load, base_velocity);
     ++count.path[static_cast<unsigned int>(result.path)];
     ++step;
     const double rock_seconds = dam->foundation->seconds() - rock_before;
@@ -271,6 +270,23 @@ namespace Voussoir
     count.residual = std::max(count.residual, result.residual);
     count.imbalance =
         std::max(count.imbalance, std::abs(newmark->state().energy.balance(newmark->initial_energy())));
+  }
+
+  /** An estimate that cannot be had is no reason to end the run. */
+  void Simulation::advance_companion(const Unknowns &load, const Vector3 &base_velocity)
+  {
+    try
+    {
+      if (companion)
+        companion->advance(step + 1, load, base_velocity);
+    }
+    catch (const ComputationError &error)
+    {
+      companion.reset();
+      log.line("warning: there will be no estimate of the error that the time step makes (Dynamics/Error "
+               "estimate): with twice the step the joints did not converge. %s",
+               error.what());
+    }
   }
 
   /** Those that the recovery takes. */

@@ -140,7 +140,7 @@ namespace Voussoir
              1e3 * joints->slip.value);
     if (companion)
     {
-      const TimeError error = companion->of(*joints, *envelope);
+      const TimeError error = companion->of(*joints, *envelope, *tension);
       log.line(
           "          error by the time step, by estimate: %.2g %% of the joints' openings; %.2g mm of the "
           "largest, %.2g and %.2g MPa of the largest tension upstream and downstream",

@@ -107,7 +107,7 @@ namespace Voussoir
 
   Json Simulation::json_of_time_error() const
   {
-    const TimeError error = companion->of(*joints, *envelope);
+    const TimeError error = companion->of(*joints, *envelope, *tension);
     Json            json;
     json.add("openings", error.opening)
         .add("largest_opening", error.largest_opening)

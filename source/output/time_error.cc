@@ -41,7 +41,8 @@ namespace Voussoir
       record_stresses();
   }
 
-  TimeError TimeErrorEstimate::of(const JointRecorder &of_run, const EnvelopeRecorder &stresses) const
+  TimeError TimeErrorEstimate::of(const JointRecorder &of_run, const EnvelopeRecorder &stresses,
+                                  const FaceTension &tension) const
   {
     constexpr double part = .4; // of the difference
     TimeError        error;
@@ -58,8 +59,8 @@ namespace Voussoir
       return error;
     const auto of_face = [&](const int face)
     {
-      return part * std::abs(stresses.extreme(*dam.model, face, true).value -
-                             envelope->extreme(*dam.model, face, true).value);
+      return part * std::abs(tension.largest_above_foot(stresses, *dam.model, face).value -
+                             tension.largest_above_foot(*envelope, *dam.model, face).value);
     };
     error.tension_upstream = of_face(PhysicalId::upstream);
     error.tension_downstream = of_face(PhysicalId::downstream);

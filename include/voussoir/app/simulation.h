@@ -54,6 +54,7 @@ namespace Voussoir
     void                 declare_energy(Recorder &table);
     void                 shake();
     void                 advance();
+    void                 advance_companion(const Unknowns &load, const Vector3 &base_velocity);
     void                 step_once();
     void                 record();
     void                 report_step();

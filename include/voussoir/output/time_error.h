@@ -4,7 +4,7 @@
 
 #include <voussoir/dam/dam.h>
 #include <voussoir/dam/tractions.h>
-#include <voussoir/output/recorders.h>
+#include <voussoir/output/face_tension.h>
 
 #include <optional>
 
@@ -17,7 +17,7 @@ namespace Voussoir
      * the openings [-]. */
     double opening = 0.;
     double largest_opening = 0.;                           ///< of the largest anywhere [m]
-    double tension_upstream = 0., tension_downstream = 0.; ///< of the largest principal stresses [Pa]
+    double tension_upstream = 0., tension_downstream = 0.; ///< of the largest above the foot [Pa]
   };
 
   /** The same dam on its moving base at twice the time step, beside the run. The estimate is 0.4 of the
@@ -37,7 +37,8 @@ namespace Voussoir
     /** After each step of the run, under @p load at its end; every second one is a step here. */
     void advance(unsigned int step, const Unknowns &load, const Vector3 &base_velocity);
 
-    TimeError of(const JointRecorder &joints, const EnvelopeRecorder &envelope) const;
+    TimeError of(const JointRecorder &joints, const EnvelopeRecorder &envelope,
+                 const FaceTension &tension) const;
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
