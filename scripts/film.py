@@ -73,7 +73,14 @@ def main():
     options = parser.parse_args()
     if options.film.suffix != ".gif":
         raise InputError(f"The film is a GIF: give a name that ends in .gif, instead of {options.film}.")
+    if not (options.slower > 0. and options.width > 0):
+        raise InputError("--slower and --width must be greater than 0.")
+    if not options.film.absolute().parent.is_dir():
+        raise InputError(f"The film {options.film} cannot be written: there is no directory {options.film.parent}.")
     chosen = [(time, file) for time, file in times_of(options.directory) if options.begin <= time <= options.until]
+    for _, file in chosen:
+        if not file.is_file():
+            raise InputError(f"{file} of solution.pvd is not there. Repeat the run, or choose other times with --from and --until.")
     if len(chosen) < 2:
         raise InputError(f"There are {len(chosen)} solutions in {options.directory} between these times, too few for a film.")
     pictures = [Picture(file, options.magnify) for _, file in chosen]

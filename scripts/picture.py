@@ -41,7 +41,7 @@ def widest(directory):
     with open(directory / "joint_history.csv") as file:
         names = file.readline().strip().split(",")
         table = np.loadtxt(file, delimiter=",", ndmin=2)
-    openings = table[:, [i for i, name in enumerate(names) if name.startswith("opening")]].max(axis=1)
+    openings = table[:, [i for i, name in enumerate(names) if name.startswith("opening")]].max(axis=1, initial=0.)  # no joints: the first
     steps = {int(path.stem[9:]): path for path in directory.glob("solution-*.vtu")}
     if not steps:
         raise SystemExit(f"picture: {directory} has no solution-*.vtu; run with --set 'Output/Solution interval=1'")
@@ -202,6 +202,8 @@ def main():
     options = parser.parse_args()
     if options.solution.is_dir():
         options.solution = widest(options.solution)
+    if not options.solution.is_file():
+        raise SystemExit(f"picture: there is no {options.solution}: give a solution-*.vtu, or the output directory of a run")
     time = time_of(options.solution)
     data = {name: np.asarray(values) for name, values in read_vtu(options.solution).items()}
     points = data["Points"].reshape(-1, 3).astype(float)

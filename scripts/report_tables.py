@@ -108,28 +108,34 @@ def demands(run, limits):
         return found
     faces = [overstress[name] for name in ("upstream", "downstream") if name in overstress]
     found["demand_capacity"] = Item("Demand-capacity ratio", "", max(face["demand_capacity"] for face in faces), limits.get("demand_capacity"))
-    found["overstress_duration"] = Item("Duration of overstress at a point", "s", max(face["duration"][0] for face in faces),
-                                        limits.get("overstress_duration"))
+    title, longest, limit = "Duration of overstress at a point", max(face["duration"][0] for face in faces), limits.get("overstress_duration")
+    if limit:  # of the level that decides: what is allowed there falls to none at twice the strength
+        longest = limit["value"]
+        level = 2. - limit["limit"] / run.limit("Overstress duration") if run.limit("Overstress duration") > 0. else 1.
+        title += f", above {level:.2g} times the strength"
+    found["overstress_duration"] = Item(title, "s", longest, limit)
     for name in ("upstream", "downstream"):
         if name in overstress:
-            found[f"share_{name}"] = Item(f"Share of the {name} face above the tensile strength", "%", overstress[name]["share"][0],
-                                          limits.get("overstressed_share"))
+            share, limit = overstress[name]["share"][0], limits.get("overstressed_share")  # which is that of the worse face
+            found[f"share_{name}"] = Item(f"Share of the {name} face above the tensile strength", "%", share,
+                                          limit and {**limit, "value": share, "kept": share <= limit["limit"]})
     return found
 
 
 def verdict(run):
     """kept, exceeded or nothing; and a sentence."""
-    limits = limits_of(run)
+    limits, unjudged = limits_of(run), run.summary.get("limits_not_judged", {})
+    rest = " Not judged: " + "; ".join(f"{WORDS.get(name, name.replace('_', ' '))} ({why})" for name, why in unjudged.items()) + "." if unjudged else ""
     if not limits:
-        return "", "The scene gives no limits (section Limits), so nothing is judged here."
+        return "", rest.strip() or "The scene gives no limits (section Limits), so nothing is judged here."
     texts = []
     for name, limit in limits.items():
         if not limit["kept"]:
             unit = {"Pa": "MPa", "m": "mm"}.get(limit.get("unit", ""), limit.get("unit", "")) or ("%" if "share" in name else "")
             texts.append(f"{WORDS.get(name, name.replace('_', ' '))} {number(limit['value'], unit)} of {with_unit(limit['limit'], unit)}")
     if not texts:
-        return "kept", "All limits of the scene are kept."
-    return "exceeded", f"{len(texts)} of {len(limits)} limits {'is' if len(texts) == 1 else 'are'} exceeded: {'; '.join(texts)}."
+        return ("", f"{len(limits)} of {len(limits) + len(unjudged)} limits are kept.{rest}") if unjudged else ("kept", "All limits of the scene are kept.")
+    return "exceeded", f"{len(texts)} of {len(limits)} limits {'is' if len(texts) == 1 else 'are'} exceeded: {'; '.join(texts)}.{rest}"
 
 
 def tiles(run):
@@ -158,8 +164,9 @@ def extremes(runs):
             error = f' <span class="unit">± {number(one.error, one.unit, 2)}</span>' if one and isinstance(one.error, (int, float)) else ""
             cells.append(f'<td class="n {one.state}">{number(one.value, one.unit)}{error}</td>' if one else '<td class="n">–</td>')
         if limited:
-            limit = next((of_run[key].limit for of_run in found if key in of_run and of_run[key].limit), None)
-            cells.append(f'<td class="n">{with_unit(limit["limit"], item.unit).removesuffix(item.unit) if limit else ""}</td>')
+            given = dict.fromkeys(with_unit(of_run[key].limit["limit"], item.unit).removesuffix(item.unit).strip()
+                                  for of_run in found if key in of_run and of_run[key].limit)  # runs may have their own
+            cells.append(f'<td class="n">{", ".join(given)}</td>')
         if single:
             if limited:
                 cells.append(f'<td class="{item.state}">{item.state}</td>')

@@ -82,7 +82,7 @@ class Run:
     def __init__(self, directory):
         self.directory = Path(directory)
         file = self.directory / "summary.json"
-        if not file.exists():
+        if not file.is_file():
             raise InputError(f"{directory} holds no summary.json, so it is not the output directory of a finished run. Give the "
                              "directory that voussoir was told to write to with --output.")
         try:
@@ -151,7 +151,7 @@ class Run:
     @cached_property
     def entries(self):
         file = self.directory / "scene.prm"
-        return read_entries(file.read_text()) if file.exists() else {}
+        return read_entries(file.read_text()) if file.is_file() else {}
 
     def limit(self, name):
         """Entry "Limits/NAME" of the scene in its unit, 0 if there is none."""

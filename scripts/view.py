@@ -5,7 +5,7 @@
     voussoir view SCENE.prm [--output DIR] [--set 'Section/Entry=value']...
 
 DIR/view.png      the dam from downstream and from upstream with the water, its plan, the section at the crown, and the rock
-DIR/mesh.vtu      the cells, with monolith (rock: 1000 and above) and zone, for ParaView
+DIR/mesh.vtu      the cells, with monolith (rock: 1000 and above), for ParaView
 DIR/surfaces.vtu  the faces in groups, with the number of the group (doc/mesh.md), for ParaView
 DIR/mesh.msh      the mesh as the program has it, for gmsh
 """
@@ -91,7 +91,7 @@ def number_joints(axes, view, mesh):
     nodes = {v: set(mesh.cells[mesh.volume == v].ravel()) for v in np.unique(mesh.volume) if v < FIRST_ROCK}
     key = {v: {tuple(np.round(mesh.points[n], 3)) for n in found} for v, found in nodes.items()}
     joints = [(v, np.array(sorted(key[v] & key[v + 1]))) for v in key if v + 1 in key]
-    every = -(-len(joints) // 15)
+    every = -(-len(joints) // 15) or 1
     for number, shared in joints[::every]:
         if len(shared):
             place, _ = view(shared[shared[:, 2].argmax()] + [0., 0., .02 * np.ptp(mesh.points[:, 2])])
@@ -153,7 +153,7 @@ def cut(mesh, y):
 
 
 def section(axes, mesh, level, wet):
-    """The section through the middle of the crest, or where the dam is highest, with the water."""
+    """The section through the middle of the crest, with the water."""
     crest = mesh.on(CREST)
     y = (crest[:, :, 1].min() + crest[:, :, 1].max()) / 2. + 1e-3 * np.ptp(crest[:, :, 1])
     polygons, volumes = cut(mesh, y)
@@ -212,6 +212,10 @@ def main():
     print(result.stdout, end="")
     mesh = Mesh(output / "mesh.msh")
     level, density = float(entries["Reservoir/Water level"]), float(entries["Reservoir/Density"])
+    for surface, name in ((UPSTREAM, "upstream"), (CREST, "crest")):
+        if not len(mesh.on(surface)):
+            raise InputError(f"The mesh of {scene} has no surface \"{name}\" (id {surface}), so it cannot be run: mark it (doc/mesh.md). "
+                             f"{output / 'mesh.msh'} is the mesh as it is.")
     upstream = mesh.on(UPSTREAM)
     wet = density > 0. and len(upstream) > 0 and level > upstream[:, :, 2].min()
     sheet(mesh, level, wet, f"{scene.stem}: {(mesh.volume < FIRST_ROCK).sum()} cells of the dam, {len(set(mesh.volume[mesh.volume < FIRST_ROCK]))} "

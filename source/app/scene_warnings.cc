@@ -157,8 +157,8 @@ namespace Voussoir
         {"Motion/Source is file",
          [](const Scene &s) { return s.motion.source == "file"; },
          {"Motion/Spectrum", "Motion/Characteristic period", "Motion/Maximum beta",
-          "Motion/Peak acceleration", "Motion/Vertical ratio", "Motion/Damping", "Motion/Seed",
-          "Motion/Rise end", "Motion/Decay begin", "Motion/Decay rate", "Motion/Matching iterations"},
+          "Motion/Peak acceleration", "Motion/Vertical ratio", "Motion/Seed", "Motion/Rise end",
+          "Motion/Decay begin", "Motion/Decay rate", "Motion/Matching iterations"},
          {}},
         {"Foundation/Model is rigid",
          [](const Scene &s) { return s.foundation.model == "rigid"; },
@@ -313,6 +313,12 @@ namespace Voussoir
     for (std::size_t r = 0; r < rules.size(); ++r)
       if (!idle[r].empty())
         warnings.push_back(without_effect(idle[r], rules[r].reason));
+    const LimitParameters &limits = scene.limits;
+    if (scene.output.envelope_interval > 1 &&
+        (limits.tensile_strength > 0. || limits.tension > 0. || limits.compression > 0.))
+      warnings.push_back("Output/Envelope interval is " + std::to_string(scene.output.envelope_interval) +
+                         ": peaks of the stresses between are missed, and durations are multiples of it, so "
+                         "that a limit may be told as kept that is not. Set it to 1 for Limits.");
     if (any_joint(scene, {"cohesive"}) && scene.joints.strength == 0.)
       warnings.push_back("Joints/Strength is 0: the model cohesive is then FJA. Set the tensile strength of "
                          "the bond, such as 1 MPa.");

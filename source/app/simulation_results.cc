@@ -98,7 +98,11 @@ namespace Voussoir
     energy_file.open(directory + "/energy.csv", energy);
     joint_file.open(directory + "/joint_history.csv", joints->history);
     if (n_steps > 0)
-      spectrum_table(motion, scene.motion).write(directory + "/spectrum.csv");
+    {
+      MotionParameters as_run = scene.motion;
+      as_run.factor *= scene.loads.factor("earthquake"); // of the combination, as that of the motion
+      spectrum_table(motion, as_run).write(directory + "/spectrum.csv");
+    }
     if (!scene.statics.stages.empty())
       stages.write(directory + "/stages.csv");
   }
@@ -141,11 +145,14 @@ namespace Voussoir
     if (companion)
     {
       const TimeError error = companion->of(*joints, *envelope, *tension);
-      log.line(
-          "          error by the time step, by estimate: %.2g %% of the joints' openings; %.2g mm of the "
-          "largest, %.2g and %.2g MPa of the largest tension upstream and downstream",
-          100. * error.opening, 1e3 * error.largest_opening, 1e-6 * error.tension_upstream,
-          1e-6 * error.tension_downstream);
+      if (!dam->structure.pairs.empty())
+        log.line("          error by the time step, by estimate: %.2g %% of the joints' openings; %.2g mm of "
+                 "the largest",
+                 100. * error.opening, 1e3 * error.largest_opening);
+      if (std::isfinite(error.tension_upstream))
+        log.line("          error by the time step, by estimate: %.2g and %.2g MPa of the largest tension "
+                 "upstream and downstream",
+                 1e-6 * error.tension_upstream, 1e-6 * error.tension_downstream);
     }
     report_tension();
     if (n_steps > 0)

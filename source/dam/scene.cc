@@ -187,10 +187,11 @@ namespace Voussoir
         "Stresses at the nodes: tractions (from the elements, with the known tractions on faces and "
         "joints) or elements (from these alone).",
         Patterns::Selection("tractions|elements"));
-    prm.add_parameter(
-        "Tensile strength", tensile_strength,
-        "summary.json says how much of each face has tension above it; 0: nothing is said [Pa].",
-        Patterns::Double(0.));
+    prm.add_parameter("Tensile strength", tensile_strength,
+                      "summary.json says how much of each face has tension above it; 0: above Limits/Tensile "
+                      "strength, if that "
+                      "is given [Pa].",
+                      Patterns::Double(0.));
     prm.leave_subsection();
   }
 

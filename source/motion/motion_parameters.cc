@@ -84,7 +84,10 @@ namespace Voussoir
     prm.add_parameter("Peak acceleration", peak_acceleration, "Source = artificial: in x and in y [g].");
     prm.add_parameter("Vertical ratio", vertical_ratio,
                       "Source = artificial: peak and spectrum in z over those in x and y [-].");
-    prm.add_parameter("Damping", damping, "Source = artificial: damping ratio [-] of the spectrum.");
+    prm.add_parameter(
+        "Damping", damping,
+        "Damping ratio [-] of the spectrum: of spectrum.csv, and with Source = artificial of the design "
+        "spectrum.");
     prm.add_parameter(
         "Seed", seed,
         "Source = artificial: number [-] that selects the random phases; equal seeds give equal "

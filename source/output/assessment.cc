@@ -59,12 +59,35 @@ namespace Voussoir
                          const EnvelopeRecorder *envelope, const JointRecorder *joints)
       : limits(limits)
   {
+    const std::string no_stress = "Output/Envelope interval is 0", no_joint = "no joint can move";
     if (envelope != nullptr)
       add_stresses(model, *envelope);
+    else
+    {
+      leave("tension", limits.tension, no_stress);
+      leave("compression", limits.compression, no_stress);
+    }
     if (envelope != nullptr && envelope->overstress.watches())
       add_demand(model, *envelope);
+    else
+      for (const auto &[name, limit] : {std::make_pair("demand_capacity", limits.demand_capacity),
+                                        {"overstressed_share", limits.overstress_share},
+                                        {"overstress_duration", limits.overstress_seconds}})
+        leave(name, limit, envelope == nullptr ? no_stress : "there is no Limits/Tensile strength");
     if (joints != nullptr)
       add_joints(*joints);
+    else
+      for (const auto &[name, limit] : {std::make_pair("opening", limits.opening),
+                                        {"slip", limits.slip},
+                                        {"waterstop_opening", limits.waterstop_opening},
+                                        {"waterstop_slip", limits.waterstop_slip}})
+        leave(name, limit, no_joint);
+  }
+
+  void Assessment::leave(const std::string &name, const double limit, const std::string &reason)
+  {
+    if (limit > 0.)
+      unjudged.emplace_back(name, reason);
   }
 
   void Assessment::hold(const std::string &name, const std::string &unit, const double value,
@@ -123,15 +146,22 @@ namespace Voussoir
   void Assessment::add_joints(const JointRecorder &joints)
   {
     const JointPoints &points = joints.points;
-    waterstop.emplace();
-    waterstop->add("depth", limits.waterstop_depth)
-        .add("max_opening", json_of(points.waterstop_opening))
-        .add("max_slip", json_of(points.waterstop_slip));
     residual.emplace();
     residual->add("max_opening", json_of(points.residual(false)))
         .add("max_slip", json_of(points.residual(true)));
     hold("opening", "m", joints.opening.value, limits.opening);
     hold("slip", "m", joints.slip.value, limits.slip);
+    if (!points.has_waterstops())
+    {
+      const std::string reason = "every joint is thinner than Limits/Waterstop depth";
+      leave("waterstop_opening", limits.waterstop_opening, reason);
+      leave("waterstop_slip", limits.waterstop_slip, reason);
+      return;
+    }
+    waterstop.emplace();
+    waterstop->add("depth", limits.waterstop_depth)
+        .add("max_opening", json_of(points.waterstop_opening))
+        .add("max_slip", json_of(points.waterstop_slip));
     hold("waterstop_opening", "m", points.waterstop_opening.value, limits.waterstop_opening);
     hold("waterstop_slip", "m", points.waterstop_slip.value, limits.waterstop_slip);
   }
@@ -141,7 +171,14 @@ namespace Voussoir
     if (overstress)
       summary.add("overstress", *overstress);
     if (waterstop)
-      summary.add("waterstop", *waterstop).add("residual", *residual);
+      summary.add("waterstop", *waterstop);
+    if (residual)
+      summary.add("residual", *residual);
+    Json open;
+    for (const auto &[name, reason] : unjudged)
+      open.add(name, reason);
+    if (!unjudged.empty())
+      summary.add("limits_not_judged", open);
     if (verdicts.empty())
       return;
     Json all;
@@ -175,6 +212,15 @@ namespace Voussoir
       if (!verdict.kept())
         exceeded += (exceeded.empty() ? "exceeded: " : ", ") + std::string(text);
     }
-    return verdicts.empty() ? "" : exceeded.empty() ? "all are kept" : exceeded;
+    std::string text = verdicts.empty()    ? ""
+                       : !exceeded.empty() ? exceeded
+                       : unjudged.empty()  ? "all are kept"
+                                           : "the others are kept";
+    for (const auto &[name, reason] : unjudged)
+    {
+      text += (text.empty() ? "not judged: " : "; not judged: ") + name + " (" + reason + ")";
+      std::replace(text.end() - name.size() - reason.size() - 3, text.end() - reason.size() - 3, '_', ' ');
+    }
+    return text;
   }
 } // namespace Voussoir

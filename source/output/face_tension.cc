@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_values.h>
-
 #include <voussoir/output/face_tension.h>
+#include <voussoir/solid/face_quads.h>
 
 #include <algorithm>
 #include <limits>
@@ -16,21 +14,11 @@ namespace Voussoir
     /** The share of each node in the area of a surface [m^2]. */
     std::map<unsigned int, double> areas(const SolidModel &model, const int surface)
     {
-      std::map<unsigned int, double> area;
-      FEFaceValues<3> values(model.fe, QGauss<2>(model.fe.degree + 1), update_values | update_JxW_values);
-      std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-      for (const auto &cell : model.dof_handler.active_cell_iterators())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() && static_cast<int>(cell->face(f)->boundary_id()) == surface)
-          {
-            values.reinit(cell, f);
-            cell->get_dof_indices(dofs);
-            for (unsigned int i = 0; i < dofs.size(); ++i)
-              if (model.fe.has_support_on_face(i, f))
-                for (const unsigned int q : values.quadrature_point_indices())
-                  area[dofs[i]] += values.shape_value(i, q) * values.JxW(q);
-          }
-      return area;
+      std::map<unsigned int, double> result;
+      for (const FaceQuad &quad : face_quads(model, surface))
+        for (const unsigned int node : quad.nodes)
+          result[node] += area(model, quad) / 4.;
+      return result;
     }
   } // namespace
 

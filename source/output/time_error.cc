@@ -44,7 +44,8 @@ namespace Voussoir
   TimeError TimeErrorEstimate::of(const JointRecorder &of_run, const EnvelopeRecorder &stresses,
                                   const FaceTension &tension) const
   {
-    constexpr double part = .4; // of the difference
+    constexpr double part = .4;        // of the difference
+    constexpr double round_off = 1e-9; // [m]
     TimeError        error;
     double           difference = 0., sum = 0.;
     for (std::size_t j = 0; j < joints.largest.size(); ++j)
@@ -53,7 +54,7 @@ namespace Voussoir
       difference += (fine - coarse) * (fine - coarse);
       sum += fine * fine;
     }
-    error.opening = sum > 0. ? part * std::sqrt(difference / sum) : 0.;
+    error.opening = sum > round_off * round_off ? part * std::sqrt(difference / sum) : 0.;
     error.largest_opening = part * std::abs(of_run.opening.value - joints.opening.value);
     if (!envelope)
       return error;

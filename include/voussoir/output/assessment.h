@@ -7,6 +7,7 @@
 #include <voussoir/output/recorders.h>
 
 #include <optional>
+#include <utility>
 
 namespace Voussoir
 {
@@ -28,20 +29,24 @@ namespace Voussoir
     Assessment(const LimitParameters &limits, const SolidModel &model, const EnvelopeRecorder *envelope,
                const JointRecorder *joints);
 
-    /** "overstress", "waterstop", "residual", and "limits": name -> value, limit, kept. */
+    /** "overstress", "waterstop", "residual", "limits": name -> value, limit, kept, and "limits_not_judged":
+     * name -> why there is no result to hold against it. */
     void add_to(Json &summary) const;
 
-    std::string in_words() const; ///< which limits are exceeded, by how much; empty: there are none
+    std::string
+    in_words() const; ///< which limits are exceeded, by how much, or not judged; empty: there are none
 
   private:
     void hold(const std::string &name, const std::string &unit, double value, double limit);
+    void leave(const std::string &name, double limit, const std::string &reason); ///< not judged
     void add_stresses(const SolidModel &model, const EnvelopeRecorder &envelope);
     void add_demand(const SolidModel &model, const EnvelopeRecorder &envelope);
     void add_joints(const JointRecorder &joints);
 
-    const LimitParameters limits;
-    std::vector<Verdict>  verdicts;
-    std::optional<Json>   overstress, waterstop, residual;
+    const LimitParameters                            limits;
+    std::vector<Verdict>                             verdicts;
+    std::vector<std::pair<std::string, std::string>> unjudged; ///< names of limits, and why
+    std::optional<Json>                              overstress, waterstop, residual;
   };
 
   Json json_of(const Extreme &extreme); ///< value, place, time

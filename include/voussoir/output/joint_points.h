@@ -46,11 +46,15 @@ namespace Voussoir
     /** The largest that remains at the last time. */
     Extreme residual(bool slip) const;
 
+    bool has_waterstops() const { return !waterstops.empty(); }
+
     Extreme waterstop_opening, waterstop_slip;
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
-      archive &opening &slip &waterstop_opening &waterstop_slip;
+      archive &opening &slip &waterstop_opening &waterstop_slip &last_time;
+      for (Vector3 &moved : now) // as many as there are pairs
+        archive &moved[0] & moved[1] & moved[2];
     }
 
   private:

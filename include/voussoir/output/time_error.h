@@ -6,6 +6,7 @@
 #include <voussoir/dam/tractions.h>
 #include <voussoir/output/face_tension.h>
 
+#include <limits>
 #include <optional>
 
 namespace Voussoir
@@ -16,8 +17,9 @@ namespace Voussoir
     /** Of the joints' largest openings at the crest: root of the sum of squares over the joints, over that of
      * the openings [-]. */
     double opening = 0.;
-    double largest_opening = 0.;                           ///< of the largest anywhere [m]
-    double tension_upstream = 0., tension_downstream = 0.; ///< of the largest above the foot [Pa]
+    double largest_opening = 0.; ///< of the largest anywhere [m]
+    /** Of the largest principal stresses above the foot [Pa]; not a number: not recorded. */
+    double tension_upstream = std::numeric_limits<double>::quiet_NaN(), tension_downstream = tension_upstream;
   };
 
   /** The same dam on its moving base at twice the time step, beside the run. The estimate is 0.4 of the
