@@ -21,6 +21,7 @@ import csv
 import itertools
 import json
 import math
+import re
 import shutil
 import sys
 import time
@@ -77,12 +78,10 @@ def solve_order(quotient, coarse, fine):
 def choices_of(entries):
     """What this scene can refine, the level it has now included."""
     result = []
-    steps, substeps = int(entries[STEPS]), int(entries[SUBSTEPS])
+    steps = int(entries[STEPS])
     on_rock = entries["Foundation/Model"] == "rock"
     counts = ([steps // 2] if steps % 2 == 0 and not on_rock else []) + [steps, 2 * steps] + ([] if on_rock else [4 * steps])
     result.append(Choice("time step", [{STEPS: n} for n in counts], [1 / n for n in counts], counts.index(steps)))
-    if on_rock and substeps > 1:
-        result.append(Choice("sub-steps", [{SUBSTEPS: substeps}, {SUBSTEPS: 1}], [substeps, 1], 0, 1.0))
     if entries["Mesh/Source"] == "arch210":
         monoliths = int(entries["Mesh/Arch210/Joints"]) + 1
         per_monolith = max(1, math.ceil(int(entries[ALONG]) / monoliths))
@@ -96,6 +95,13 @@ def choices_of(entries):
     elif int(entries[DEGREE]) == 1:
         result.append(Choice("degree", [{DEGREE: 1}, {DEGREE: 2}], [1, 0.5], 0, 3.0))
     return result
+
+
+def add_substeps(scene, common, changes):
+    """Smaller elements of rock have a smaller critical time step: as many steps of the rock in one of the dam as they need."""
+    refused = voussoir(scene, "--validate", *settings({**common, **changes})).stderr
+    if needed := re.search(r'"Foundation/Substeps" to (\d+)', refused):
+        changes[SUBSTEPS] = int(needed[1])
 
 
 def strongest(motion, seconds):
@@ -300,6 +306,11 @@ def prepare(options, wish):
                    "Motion/Unit": "m/s^2", "Motion/Duration": -1, "Motion/Factor": 1, "Motion/Scale x": 1, "Motion/Scale y": 1,
                    "Motion/Scale z": 1, "Output/Figures": "false", "Output/Solution interval": 0})
     choices = choices_of(entries)
+    if entries["Foundation/Model"] == "rock":
+        for choice in choices:
+            for k, level in enumerate(choice.levels):
+                if k != choice.current:
+                    add_substeps(options.scene, common, level)
     n_runs = 2 + sum(len(choice.levels) - 1 for choice in choices)
     print(f"{options.scene}: the strongest {part[-1, 0]:.4g} s, from {start:.4g} s on; {n_runs} runs; wish: {percent(wish)}")
     return choices, Ladder(Path(options.scene).resolve(), common, directory, n_runs), entries
@@ -329,6 +340,8 @@ def propose(choices, ladder, wish):
     for choice, k in zip(choices, chosen[2]):
         if k != choice.current:
             changes.update(choice.levels[k])
+    if changes:
+        add_substeps(ladder.scene, ladder.common, changes)
     proposal = {"changes": changes, "predicted": chosen[1], "meets": best is not None}
     if best is None:
         return proposal

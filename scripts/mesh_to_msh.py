@@ -43,43 +43,63 @@ def known(name, pattern):
     return pattern.match(name.strip().lower()) is not None
 
 
-def element_ids(file):
-    """The numbers of the elements of an .inp file in its order, which meshio does not keep."""
-    ids, n_nodes, words = [], 0, []
+def lines_of_inp(file):
+    """Its keywords in capitals, their parameters and their lines of data."""
+    blocks = []
     for line in Path(file).read_text(errors="replace").splitlines():
-        if line.startswith("**") or not line.strip():
-            continue
-        if line.startswith("*"):
-            kind = re.search(r"TYPE\s*=\s*(\w+)", line, re.I)
-            is_element = re.match(r"\*ELEMENT\s*,", line, re.I) and kind
-            name = meshio.abaqus._abaqus.abaqus_to_meshio_type.get(kind[1].upper()) if is_element else None
-            n_nodes, words = (meshio._mesh.num_nodes_per_cell[name] if name else 0), []
-        elif n_nodes:
-            words += [word for word in line.replace(",", " ").split()]
-            if len(words) > n_nodes:
-                ids.append(int(words[0]))
-                words = []
-    return ids
+        if line.startswith("*") and not line.startswith("**"):
+            words = [word.strip() for word in line[1:].split(",")]
+            pairs = (word.partition("=") for word in words[1:])
+            blocks.append((words[0].upper(), {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}, []))
+        elif blocks and line.strip() and not line.startswith("**"):
+            blocks[-1][2].append([word.strip() for word in line.split(",") if word.strip()])
+    return blocks
 
 
-def surfaces_of_inp(file):
+def elements_of_inp(blocks):
+    """Numbers of the elements in the order of the file, and the sets of them by name in capitals. meshio keeps no numbers, mixes up
+    sets where a block of elements has none or shares its name, and knows one block of nodes alone."""
+    if sum(keyword == "NODE" for keyword, _, _ in blocks) > 1 or any(
+            keyword == "INCLUDE" or keyword == "INSTANCE" and data for keyword, _, data in blocks):
+        refuse("it has several *NODE blocks, an *INCLUDE or a moved *INSTANCE, which meshio does not put together. Write a flat "
+               "file, with all nodes in one block.")
+    ids, sets = [], {}
+    for keyword, parameters, data in blocks:
+        name = parameters.get("ELSET", "").upper()
+        if keyword == "ELEMENT":
+            kind = meshio.abaqus._abaqus.abaqus_to_meshio_type.get(parameters.get("TYPE", "").upper())
+            words = [word for line in data for word in line]
+            here = [int(word) for word in words[::meshio._mesh.num_nodes_per_cell[kind] + 1]] if kind else []
+            ids += here
+            if name:
+                sets.setdefault(name, []).extend(here)
+        elif keyword == "ELSET":
+            members = sets.setdefault(name, [])
+            for line in data:
+                if "GENERATE" in parameters:
+                    first, last, step = (int(word) for word in (line + ["1"])[:3])
+                    members += range(first, last + 1, step)
+                else:
+                    for word in line:
+                        members += [int(word)] if word.isdigit() else sets.get(word.upper(), [])
+    return ids, sets
+
+
+def surfaces_of_inp(blocks):
     """*SURFACE, TYPE=ELEMENT: name -> (set or element, label)."""
-    surfaces, name = {}, None
-    for line in Path(file).read_text(errors="replace").splitlines():
-        if line.startswith("**"):
-            continue
-        if line.startswith("*"):
-            found = re.search(r"NAME\s*=\s*\"?([^,\"]+)", line, re.I)
-            name = found[1].strip() if re.match(r"\*SURFACE\s*,", line, re.I) and found else None
-        elif name and line.strip():
-            surfaces.setdefault(name, []).append([word.strip() for word in line.split(",")[:2]])
+    surfaces = {}
+    for keyword, parameters, data in blocks:
+        if keyword == "SURFACE":
+            surfaces.setdefault(parameters.get("NAME", ""), []).extend((line + [""])[:2] for line in data)
     return surfaces
 
 
 class Converter:
     def __init__(self, file):
         self.file, self.inp = file, Path(file).suffix.lower() == ".inp"
-        self.mesh = meshio.read(file)
+        self.blocks_of_inp = lines_of_inp(file) if self.inp else []
+        self.ids, self.sets_of_inp = elements_of_inp(self.blocks_of_inp)
+        self.mesh = (meshio.abaqus if self.inp else meshio.med).read(file)  # meshio.read() ends the program where these say why
         self.cells, start, self.blocks = [], 0, []  # [type, corners, group]; first number of each block
         for block in self.mesh.cells:
             self.blocks.append(start)
@@ -95,6 +115,9 @@ class Converter:
 
     def sets(self):
         """Element sets by name: numbers of cells."""
+        if self.inp:
+            number = {i: k for k, i in enumerate(self.ids)}
+            return {name: [number[i] for i in dict.fromkeys(members) if i in number] for name, members in self.sets_of_inp.items()}
         sets = {name: [first + int(i) for first, part in zip(self.blocks, parts) if part is not None for i in part]
                 for name, parts in self.mesh.cell_sets.items()}
         for tags, first in zip(self.mesh.cell_data.get("cell_tags", []), self.blocks):  # of .med
@@ -140,15 +163,12 @@ class Converter:
         return sets
 
     def take_surfaces(self, sets):
-        by_name = {name.upper(): numbers for name, numbers in sets.items()}
-        number = {}
-        for name, parts in surfaces_of_inp(self.file).items():
+        number = {i: k for k, i in enumerate(self.ids)}
+        for name, parts in surfaces_of_inp(self.blocks_of_inp).items():
             if not known(name, SURFACE):
                 continue
             for of, label in parts:
-                if of.isdigit() and not number:
-                    number = {i: k for k, i in enumerate(element_ids(self.file))}
-                cells = [number[int(of)]] if of.isdigit() and int(of) in number else by_name.get(of.upper())
+                cells = [number[int(of)]] if of.isdigit() and int(of) in number else sets.get(of.upper())
                 if cells is None or not re.fullmatch(r"S[1-6]", label.upper()):
                     refuse(f"the surface '{name}' has the line '{of}, {label}', which is no face of a known element or set.")
                 for k in cells:

@@ -208,6 +208,13 @@ def uplift():
     expect(wet["static"]["crest_displacement"] != dry["static"]["crest_displacement"], f"{openings}")
     warm, shown = result("warm", *settings(Loads__Uplift__Joints="true", Loads__Temperature__Upstream_face=20,
                                            Loads__Temperature__Downstream_face=20))
+    # Joints that were not grouted while the water rose stay dry: nothing opens afterwards.
+    lifts = settings(Statics__Stages="grout 100, fill 190, grout 210")
+    crests = [result(f"lifts{joints}", *lifts, *settings(Loads__Uplift__Joints=joints))[0]["static"]["crest_displacement"]
+              for joints in ("false", "true")]
+    expect(crests[0] == crests[1], f"no water in joints that are grouted later: {crests}")
+    for entry in ("Tail water", "Silt"):
+        refused(["static.prm", "--validate", "--set", f"Loads/{entry}/Level=500"], f"Loads/{entry}/Level", "above the dam")
     meshes.wall("wall.msh", monoliths=(1, 1, 2, 2), width=20.)
     file = scene("wall", "wall.msh", Reservoir={"Density": 1000, "Water level": 50})
     runs(file, "--output", "without")

@@ -79,10 +79,20 @@ def inp():
     for name, text in (("shells", shells), ("surfaces", by_set), ("nodes", by_nodes)):
         write(f"{name}.inp", "\n".join(text) + "\n")
         alike(crest(name, f"{name}.inp"), expected)
+    # Blocks of elements that share a set's name, and one without a set.
+    first = lines.index("*ELEMENT, TYPE=C3D8, ELSET=MONOLITH_1")
+    shared = [*by_nodes[:first + 4], by_nodes[first], *by_nodes[first + 4:]]
+    unnamed = [line.replace(", ELSET=MONOLITH_1", "") for line in shells]
+    unnamed += ["*ELSET, ELSET=Monolith_1, GENERATE", f"1, {sum(m == 1 for m, _ in hexes)}, 1"]
+    for name, text in (("shared", shared), ("unnamed", unnamed)):
+        write(f"{name}.inp", "\n".join(text) + "\n")
+        alike(crest(name, f"{name}.inp"), expected)
+    write("parts.inp", "\n".join([*lines[:5], "*NODE", *lines[5:]]) + "\n")
+    refused([scene("parts", "parts.inp"), "--validate"], "parts.inp", "*NODE", "flat file")
     write("bare.inp", "\n".join(lines).replace("MONOLITH_", "BLOCK") + "\n")
     refused([scene("bare", "bare.inp"), "--validate"], "bare.inp", "no volumes are in a group", "'BLOCK1'")
     write("broken.inp", "*NODE\n1, 2\n*ELEMENT, TYPE=C3D8\n1, 2, 3\n")
-    refused([scene("broken", "broken.inp"), "--validate"], "broken.inp", "cannot be converted")
+    refused([scene("broken", "broken.inp"), "--validate"], "broken.inp", "cannot be converted", "Expected number of data items")
     write("label.inp", "\n".join(by_set).replace(f"_upstream_S{labels[0]}, S{labels[0]}", f"_upstream_S{labels[0]}, SNEG") + "\n")
     refused([scene("label", "label.inp"), "--validate"], "label.inp", "'upstream'", "SNEG")
     refused([scene("none", "none.inp"), "--validate"], "none.inp", "does not exist")

@@ -30,7 +30,7 @@ def artificial():
     expect(all(abs(3 * a - b) < 1e-9 for p, q in zip(motions["one"], motions["three"]) for a, b in zip(p[1:], q[1:])),
            "Motion/Factor of an artificial motion")
     shown = runs(QUICKSTART, "--validate", "--set", "Motion/Duration=5")
-    expect("500 of 0.01 s" in shown, shown)
+    expect("1000 of 0.005 s" in shown, shown)
     Path("none.csv").unlink(missing_ok=True)
     for entry, parts in {"Motion/Peak acceleration=1e308": ("Motion/Peak acceleration", "1e+308"),
                          "Motion/Maximum beta=1e308": ("Motion/Maximum beta",),

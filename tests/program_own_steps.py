@@ -119,8 +119,10 @@ def entries():
     expect("mean tractions" in runs("scene.prm", "--validate", *OWN), "--validate names the coupling")
     expect("mean tractions" not in runs("scene.prm", "--validate", *ROCK, *settings("Dynamics/Steps per sample=8")),
            "one step for all is the partition")
-    refused(["scene.prm", "--output", "none", *OWN, *settings("Dynamics/Impact=paper")], "mean-force", "Dynamics/Impact")
-    refused(["scene.prm", "--output", "none", *OWN, *settings("Contact/Write problems=true")], "Foundation/Coupling")
+    refused(["scene.prm", "--validate", *OWN, *settings("Dynamics/Impact=paper")], "mean-force", "Dynamics/Impact")
+    for coupling in ("auto", "partition"):
+        refused(["scene.prm", "--validate", *OWN, *settings("Contact/Write problems=true", f"Foundation/Coupling={coupling}",
+                                                            "Foundation/Stiffness damping=1.9e-4")], "Foundation/Model")
     refused(["scene.prm", "--validate", *ROCK, *settings("Foundation/Substeps=50", "Dynamics/Steps per sample=1")],
             "layers", "Foundation/Substeps")
 

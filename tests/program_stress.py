@@ -12,6 +12,9 @@ from collections import Counter
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parent / "golden"))
+import meshes  # noqa: E402
+from compare import E, GRAVITY, STRESS, at_places, read_vtu as read_fields, scene  # noqa: E402
 from run_program import run_cases, expect, runs, summary, table, write_scene  # noqa: E402
 from vtu import read_vtu  # noqa: E402
 
@@ -82,5 +85,68 @@ def pressures():
             expect(all(s["joint_pressure"][i] == 0 for i in mine if s["joint_state"][i] == 0), "an open pair has none")
 
 
+def block(lean_upstream, lean_downstream):
+    """Two monoliths of 10 m, 60 m high, 10 m thick at the foot, their joint at y = 0; the faces lean inwards."""
+    def place(i, j, k):
+        z, s = 5. * k, j / 2
+        return ((1 - s) * lean_upstream * z + s * (10 - lean_downstream * z), 10. * (i - 1), z)
+    meshes.write("block.msh", *meshes.block(place, (1, 2), 2, 12, {**meshes.DAM, "right": None, "left": None}))
+
+
+def stresses(name, **entries):
+    """Static stresses in Pa at places in 10 mm, one row for each monolith there. Loads__Silt__Level=3: that entry; _ is a blank."""
+    file = scene(name, "block.msh", Concrete={"Young's modulus": E, "Poisson's ratio": .2, "Density": 2500}, Joints={"Model": "FJA"})
+    runs(file, "--output", name, *(x for entry, value in entries.items()
+                                   for x in ("--set", f"{entry.replace('__', '/').replace('_', ' ')}={value}")))
+    (solution,) = Path(name).glob("solution-*.vtu")
+    return at_places(read_fields(solution), STRESS)
+
+
+def traction(s, n):
+    return tuple(sum(s[c] * x for c, x in zip(row, n)) for row in ((0, 3, 5), (3, 1, 4), (5, 4, 2)))
+
+
+def temperature():
+    """Cooled, two monoliths part, and far above their foot they are free: no stress, inside, on faces and at the joint, with the
+    known tractions as without."""
+    block(0, 0)
+    for faces in ((-10, -10), (-15, -5)):
+        for recovery in ("tractions", "elements"):
+            name = f"{recovery}{faces[0]}"
+            found = stresses(name, Output__Stress_recovery=recovery, Loads__Temperature__Upstream_face=faces[0],
+                             Loads__Temperature__Downstream_face=faces[1])
+            worst = max(abs(s) for (_, _, z), rows in found.items() if z > 4000 for row in rows for s in row) / (E * 1e-5 * 10)
+            print(f"    {name}: {worst:.1e} E alpha dT")
+            expect(worst < 1e-4, f"a free dam has no stress: {worst}")
+
+
+def loads():
+    """Water, silt, tail water and the water in an open joint, each with its factor, and a temperature: the stress has their
+    tractions on both faces and on both sides of the joint."""
+    block(.1, .05)
+    found = stresses("loads", Loads__Combination="all", Loads__Combinations="all: water 1.5, silt 2, tail water 0.5, temperature, uplift 0.8",
+                     Reservoir__Density=1000, Reservoir__Water_level=52, Loads__Silt__Level=37, Loads__Silt__Density=900,
+                     Loads__Silt__Coefficient=.4, Loads__Tail_water__Level=28, Loads__Uplift__Joints="true",
+                     Loads__Temperature__Upstream_face=-30, Loads__Temperature__Downstream_face=-30)
+    of = lambda density, level, z: density * GRAVITY * max(0, level - z)
+    worst, n = dict.fromkeys(("upstream", "downstream", "joint"), 0), dict.fromkeys(("upstream", "downstream", "joint"), 0)
+    for place, rows in found.items():
+        x, y, z = (c / 100 for c in place)
+        if z < 1:  # held
+            continue
+        water, silt, tail = of(1500, 52, z), of(1800, 37, z), of(500, 28, z)
+        cases = [("upstream", abs(x - .1 * z) < .02, (-1, 0, .1), (water + .4 * silt, 0, -.1 * (water + silt))),
+                 ("downstream", abs(x - 10 + .05 * z) < .02, (1, 0, .05), (-tail, 0, -.05 * tail)),
+                 ("joint", y == 0, (0, 1, 0), (0, -.8 * water, 0))]
+        for face, is_there, normal, known in cases:  # normals are not of length 1: nor are the tractions per area
+            for row in rows if is_there else ():
+                n[face] += 1
+                worst[face] = max(worst[face], math.dist(traction(row, normal), known) / of(1500, 52, 0))
+    print(f"    {n}; tractions missed, of the water's at the foot: {worst}")
+    expect(all(x >= 36 for x in n.values()), f"{n}")
+    for face, error in worst.items():
+        expect(error < 1e-4, f"{face}: {error}")
+
+
 if __name__ == "__main__":
-    run_cases(faces, pressures)
+    run_cases(faces, pressures, temperature, loads)

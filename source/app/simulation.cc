@@ -205,8 +205,9 @@ namespace Voussoir
     joints->reach = JointReach(*dam->model, structure.pairs);
     joints->points =
         JointPoints(*dam->model, structure.pairs, structure.n_joints, scene.limits.waterstop_depth);
-    tractions = std::make_unique<Tractions>(*dam->model, structure, known_traction(scene),
-                                            dam->initial_stress, statics.joint_water);
+    tractions = std::make_unique<Tractions>(
+        *dam->model, structure, known_traction(scene), dam->initial_stress, statics.joint_water,
+        dam->added_mass > 0. ? added_mass_per_area(*dam->model, scene.reservoir) : std::vector<double>());
     stress = std::make_unique<StressRecovery>(
         *dam->model, dam->materials, scene.elements.incompatible_modes,
         scene.output.stress_recovery == "tractions" ? tractions->faces : std::vector<NodeFace>());
@@ -248,13 +249,17 @@ namespace Voussoir
     const SystemTimes   before = newmark->joint_system().times;
     const Vector3       base_velocity = dam->foundation->base_velocity();
     const double        memory_before = newmark->memory();
+    const Unknowns      v_before = newmark->state().v;
     const ContactResult result = newmark->advance(load, base_velocity);
+    const Vector3       ground = ground_acceleration(step + 1);
+    acceleration =
+        mean_acceleration(v_before, newmark->state().v, motion.dt, ground_acceleration(step), ground);
     if (const double more = newmark->memory() - memory_before; more > 0.)
       log.line(
           "          smaller steps from t = %.4g s on, where joints ask for them: factors of %.2f GiB more",
           newmark->state().time, more / std::pow(2., 30));
     dam->foundation->follow(newmark->state());
-    advance_companion(load, base_velocity);
+    advance_companion(load, base_velocity, ground);
     ++count.path[static_cast<unsigned int>(result.path)];
     ++step;
     const double rock_seconds = dam->foundation->seconds() - rock_before;
@@ -274,13 +279,20 @@ namespace Voussoir
         std::max(count.imbalance, std::abs(newmark->state().energy.balance(newmark->initial_energy())));
   }
 
+  /** Of the base that the displacements count from, after so many steps [m/s^2]. */
+  Vector3 Simulation::ground_acceleration(const unsigned int after) const
+  {
+    return dam->foundation->moves_base() ? motion.acceleration[after] : Vector3{};
+  }
+
   /** An estimate that cannot be had is no reason to end the run. */
-  void Simulation::advance_companion(const Unknowns &load, const Vector3 &base_velocity)
+  void Simulation::advance_companion(const Unknowns &load, const Vector3 &base_velocity,
+                                     const Vector3 &ground)
   {
     try
     {
       if (companion)
-        companion->advance(step + 1, load, base_velocity);
+        companion->advance(step + 1, load, base_velocity, ground);
     }
     catch (const ComputationError &error)
     {
@@ -294,7 +306,7 @@ namespace Voussoir
   /** Those that the recovery takes. */
   std::vector<Vector3> Simulation::known_tractions()
   {
-    return scene.output.stress_recovery == "tractions" ? tractions->at(newmark->state().force)
+    return scene.output.stress_recovery == "tractions" ? tractions->at(newmark->state().force, acceleration)
                                                        : std::vector<Vector3>();
   }
 

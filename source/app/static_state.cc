@@ -42,8 +42,8 @@ namespace Voussoir
       statics.memory = committed; // the events of rounds before the last are none
       return system.solve(load, offset, start, statics.memory, statics.force, gap, statics.u);
     };
-    const auto pressure = [&](const double z)
-    { return scene.loads.factor("uplift") * path.water_pressure(i, z); };
+    const auto pressure = [&](const double z) // a joint that is not grouted has no faces that it could part
+    { return z > path.part(i).grouted ? 0. : scene.loads.factor("uplift") * path.water_pressure(i, z); };
     ContactResult total;
     total.converged = true;
     do

@@ -12,6 +12,7 @@ namespace Voussoir
     constexpr const char *names[3] = {"SIGINT", "SIGTERM", "SIGHUP"};
 
     volatile std::sig_atomic_t noted = 0;
+    bool                       living = false;
 
     void note(const int signal)
     {
@@ -26,6 +27,7 @@ namespace Voussoir
 
   InterruptGuard::InterruptGuard()
   {
+    living = true;
     noted = 0;
     std::signal(SIGPIPE, SIG_IGN); // a reader of the screen that goes away does not end the run
     for (unsigned int i = 0; i < 3; ++i)
@@ -37,6 +39,12 @@ namespace Voussoir
   {
     for (unsigned int i = 0; i < 3; ++i)
       std::signal(numbers[i], before[i]);
+    living = false;
+  }
+
+  bool InterruptGuard::lives()
+  {
+    return living;
   }
 
   const char *InterruptGuard::received() const

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_values.h>
-
 #include <voussoir/dam/base_uplift.h>
 #include <voussoir/dam/face_distance.h>
+#include <voussoir/solid/for_faces.h>
 
 #include <algorithm>
 
@@ -27,34 +25,27 @@ namespace Voussoir
                  tail = scene.loads.tail_water.level,
                  of_reservoir = scene.reservoir.density * gravity * scene.loads.factor("water"),
                  of_tail = scene.loads.tail_water.density * gravity * scene.loads.factor("tail water");
-    BaseUplift                           uplift{Unknowns(3 * std::size_t(model.n_nodes()), 0.), {}};
-    FEFaceValues<3>                      values(model.fe, QGauss<2>(8),
-                                                update_values | update_normal_vectors | update_JxW_values |
-                                                    update_quadrature_points);
-    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
-      for (const unsigned int face : cell->face_indices())
-        if (cell->face(face)->at_boundary() && cell->face(face)->boundary_id() == PhysicalId::base)
-        {
-          values.reinit(cell, face);
-          cell->get_dof_indices(dofs);
-          for (const unsigned int q : values.quadrature_point_indices())
-          {
-            const double z = values.quadrature_point(q)[2];
-            double       s = 0.;
-            for (unsigned int i = 0; i < dofs.size(); ++i)
-              s += values.shape_value(i, q) * place[dofs[i]];
-            const double p = uplift_head(s, of_reservoir * std::max(0., scene.reservoir.level - z),
-                                         of_tail * std::max(0., tail - z), scene.loads.uplift);
-            for (unsigned int c = 0; c < 3; ++c)
-            {
-              const double f = -factor * p * values.normal_vector(q)[c] * values.JxW(q);
-              uplift.of_monolith[cell->material_id()][c] += f;
-              for (unsigned int i = 0; i < dofs.size(); ++i)
-                uplift.force[3 * dofs[i] + c] += f * values.shape_value(i, q);
-            }
-          }
-        }
+    BaseUplift uplift{Unknowns(3 * std::size_t(model.n_nodes()), 0.), {}};
+    for_faces(model, PhysicalId::base, 8,
+              [&](const FEFaceValues<3> &values, const auto &dofs)
+              {
+                for (const unsigned int q : values.quadrature_point_indices())
+                {
+                  const double z = values.quadrature_point(q)[2];
+                  double       s = 0.;
+                  for (unsigned int i = 0; i < dofs.size(); ++i)
+                    s += values.shape_value(i, q) * place[dofs[i]];
+                  const double p = uplift_head(s, of_reservoir * std::max(0., scene.reservoir.level - z),
+                                               of_tail * std::max(0., tail - z), scene.loads.uplift);
+                  for (unsigned int c = 0; c < 3; ++c)
+                  {
+                    const double f = -factor * p * values.normal_vector(q)[c] * values.JxW(q);
+                    uplift.of_monolith[values.get_cell()->material_id()][c] += f;
+                    for (unsigned int i = 0; i < dofs.size(); ++i)
+                      uplift.force[3 * dofs[i] + c] += f * values.shape_value(i, q);
+                  }
+                }
+              });
     return uplift;
   }
 } // namespace Voussoir

@@ -185,10 +185,16 @@ namespace Voussoir
         top = std::max(top, model->points[i][2]);
         bottom = std::min(bottom, model->points[i][2]);
       }
-    if (scene.reservoir.density > 0. && scene.reservoir.level > top + 1e-6 * (top - bottom))
-      throw InputError("Entry \"Reservoir/Water level\" is " + std::to_string(scene.reservoir.level) +
-                       " m, above the dam, which ends at " + std::to_string(top) +
-                       " m. Lower the water, or check the axes and the length unit of the mesh.");
+    const auto check = [&](const bool acts, const char *entry, const double level)
+    {
+      if (acts && level > top + 1e-6 * (top - bottom))
+        throw InputError(std::string("Entry \"") + entry + "\" is " + std::to_string(level) +
+                         " m, above the dam, which ends at " + std::to_string(top) +
+                         " m. Lower it, or check the axes and the length unit of the mesh.");
+    };
+    check(scene.reservoir.density > 0., "Reservoir/Water level", scene.reservoir.level);
+    check(scene.loads.tail_water.acts(), "Loads/Tail water/Level", scene.loads.tail_water.level);
+    check(scene.loads.silt.acts(), "Loads/Silt/Level", scene.loads.silt.level);
     has_water =
         scene.reservoir.density > 0. && scene.reservoir.level > bottom && scene.loads.factor("water") != 0.;
   }

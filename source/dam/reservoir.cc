@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/parameter_handler.h>
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_values.h>
 
 #include <voussoir/base/names.h>
 #include <voussoir/dam/reservoir.h>
-#include <voussoir/solid/solid_model.h>
+#include <voussoir/solid/for_faces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,46 +34,25 @@ namespace Voussoir
     prm.leave_subsection();
   }
 
-  namespace
-  {
-    /** Calls f(values, dofs) for each face of the surface "upstream". */
-    template <class Function>
-    void for_upstream_faces(const SolidModel &model, const unsigned int n_points, const Function &f)
-    {
-      FEFaceValues<3>                      values(model.fe, QGauss<2>(n_points),
-                                                  update_values | update_normal_vectors | update_JxW_values |
-                                                      update_quadrature_points);
-      std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-      for (const auto &cell : model.dof_handler.active_cell_iterators())
-        for (const unsigned int face : cell->face_indices())
-          if (cell->face(face)->at_boundary() && cell->face(face)->boundary_id() == PhysicalId::upstream)
-          {
-            values.reinit(cell, face);
-            cell->get_dof_indices(dofs);
-            f(values, dofs);
-          }
-    }
-  } // namespace
-
   void add_water_pressure(const SolidModel &model, const ReservoirParameters &reservoir, const double gravity,
                           Unknowns &load)
   {
     // More points than the pressure needs: the water line cuts through faces.
-    for_upstream_faces(model, 8,
-                       [&](const FEFaceValues<3> &values, const auto &dofs)
-                       {
-                         for (const unsigned int q : values.quadrature_point_indices())
-                         {
-                           const double depth = reservoir.level - values.quadrature_point(q)[2];
-                           if (depth > 0.)
-                             for (unsigned int i = 0; i < dofs.size(); ++i)
-                               if (const unsigned int e = model.equation[dofs[i]]; e != rigid_ground)
-                                 for (unsigned int c = 0; c < 3; ++c)
-                                   load[3 * e + c] -= reservoir.density * gravity * depth *
-                                                      values.normal_vector(q)[c] * values.shape_value(i, q) *
-                                                      values.JxW(q);
-                         }
-                       });
+    for_faces(model, PhysicalId::upstream, 8,
+              [&](const FEFaceValues<3> &values, const auto &dofs)
+              {
+                for (const unsigned int q : values.quadrature_point_indices())
+                {
+                  const double depth = reservoir.level - values.quadrature_point(q)[2];
+                  if (depth > 0.)
+                    for (unsigned int i = 0; i < dofs.size(); ++i)
+                      if (const unsigned int e = model.equation[dofs[i]]; e != rigid_ground)
+                        for (unsigned int c = 0; c < 3; ++c)
+                          load[3 * e + c] -= reservoir.density * gravity * depth *
+                                             values.normal_vector(q)[c] * values.shape_value(i, q) *
+                                             values.JxW(q);
+                }
+              });
   }
 
   namespace
@@ -184,26 +161,26 @@ namespace Voussoir
     std::vector<double>       mass;
     std::vector<Tensor<1, 3>> normal;
     // More points than a smooth mass needs: the water line cuts through faces.
-    for_upstream_faces(model, 8,
-                       [&](const FEFaceValues<3> &values, const auto &dofs)
-                       {
-                         mass.assign(dofs.size(), 0.);
-                         normal.assign(dofs.size(), Tensor<1, 3>());
-                         for (const unsigned int q : values.quadrature_point_indices())
-                         {
-                           const double m = westergaard.at(values.quadrature_point(q)) * values.JxW(q);
-                           for (unsigned int i = 0; i < dofs.size(); ++i)
-                           {
-                             mass[i] += values.shape_value(i, q) * m;
-                             normal[i] += std::abs(values.shape_value(i, q)) * m * values.normal_vector(q);
-                           }
-                         }
-                         if (*std::min_element(mass.begin(), mass.end()) < 0.)
-                           mass = hat_masses(model, values, westergaard);
-                         for (unsigned int i = 0; i < dofs.size(); ++i)
-                           if (const double size = normal[i].norm(); mass[i] > 0. && size > 0.)
-                             total += add_mass(model.equation[dofs[i]], mass[i], normal[i] / size, structure);
-                       });
+    for_faces(model, PhysicalId::upstream, 8,
+              [&](const FEFaceValues<3> &values, const auto &dofs)
+              {
+                mass.assign(dofs.size(), 0.);
+                normal.assign(dofs.size(), Tensor<1, 3>());
+                for (const unsigned int q : values.quadrature_point_indices())
+                {
+                  const double m = westergaard.at(values.quadrature_point(q)) * values.JxW(q);
+                  for (unsigned int i = 0; i < dofs.size(); ++i)
+                  {
+                    mass[i] += values.shape_value(i, q) * m;
+                    normal[i] += std::abs(values.shape_value(i, q)) * m * values.normal_vector(q);
+                  }
+                }
+                if (*std::min_element(mass.begin(), mass.end()) < 0.)
+                  mass = hat_masses(model, values, westergaard);
+                for (unsigned int i = 0; i < dofs.size(); ++i)
+                  if (const double size = normal[i].norm(); mass[i] > 0. && size > 0.)
+                    total += add_mass(model.equation[dofs[i]], mass[i], normal[i] / size, structure);
+              });
     return total;
   }
 
@@ -211,14 +188,13 @@ namespace Voussoir
                                     Structure &structure)
   {
     std::vector<Tensor<1, 3>> area(model.n_nodes());
-    for_upstream_faces(model, model.fe.degree + 1,
-                       [&](const FEFaceValues<3> &values, const auto &dofs)
-                       {
-                         for (const unsigned int q : values.quadrature_point_indices())
-                           for (unsigned int i = 0; i < dofs.size(); ++i)
-                             area[dofs[i]] +=
-                                 values.shape_value(i, q) * values.JxW(q) * values.normal_vector(q);
-                       });
+    for_faces(model, PhysicalId::upstream, model.fe.degree + 1,
+              [&](const FEFaceValues<3> &values, const auto &dofs)
+              {
+                for (const unsigned int q : values.quadrature_point_indices())
+                  for (unsigned int i = 0; i < dofs.size(); ++i)
+                    area[dofs[i]] += values.shape_value(i, q) * values.JxW(q) * values.normal_vector(q);
+              });
     const Westergaard westergaard(model, reservoir);
     double            total = 0.;
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
@@ -235,14 +211,37 @@ namespace Voussoir
     {
       const char *name, *doc;
       double (*add)(const SolidModel &, const ReservoirParameters &, Structure &); ///< in x [kg]
+      std::vector<double> (*per_area)(const SolidModel &, const ReservoirParameters &);
     };
 
+    std::vector<double> westergaard_per_area(const SolidModel &model, const ReservoirParameters &reservoir)
+    {
+      const Westergaard   westergaard(model, reservoir);
+      std::vector<double> result(model.n_nodes(), 0.);
+      for (unsigned int i = 0; i < model.n_nodes(); ++i)
+        if (model.on_surface(i, PhysicalId::upstream))
+          result[i] = westergaard.at(model.points[i]);
+      return result;
+    }
+
+    std::vector<double> no_mass(const SolidModel &, const ReservoirParameters &)
+    {
+      return {};
+    }
+
     const AddedMassRow added_masses[] = {
-        {"Westergaard", "his formula, in the normal direction of the upstream face", add_westergaard_mass},
+        {"Westergaard", "his formula, in the normal direction of the upstream face", add_westergaard_mass,
+         westergaard_per_area},
         {"Westergaard-nodal", "the same at the nodes, by their areas: coarser, for comparison",
-         add_nodal_westergaard_mass},
+         add_nodal_westergaard_mass, westergaard_per_area},
         {"none", "the water is a static load only",
-         [](const SolidModel &, const ReservoirParameters &, Structure &) { return 0.; }}};
+         [](const SolidModel &, const ReservoirParameters &, Structure &) { return 0.; }, no_mass}};
+
+    const AddedMassRow &row_of_added_mass(const ReservoirParameters &reservoir)
+    {
+      return row_of(added_masses, reservoir.added_mass, "is no added mass",
+                    "Entry \"Reservoir/Added mass\" may be");
+    }
   } // namespace
 
   std::string added_mass_names()
@@ -257,8 +256,11 @@ namespace Voussoir
 
   double add_added_mass(const SolidModel &model, const ReservoirParameters &reservoir, Structure &structure)
   {
-    return row_of(added_masses, reservoir.added_mass, "is no added mass",
-                  "Entry \"Reservoir/Added mass\" may be")
-        .add(model, reservoir, structure);
+    return row_of_added_mass(reservoir).add(model, reservoir, structure);
+  }
+
+  std::vector<double> added_mass_per_area(const SolidModel &model, const ReservoirParameters &reservoir)
+  {
+    return row_of_added_mass(reservoir).per_area(model, reservoir);
   }
 } // namespace Voussoir

@@ -319,6 +319,16 @@ namespace Voussoir
           "Entry \"Dynamics/Error estimate\" is for a dam on a rigid base or on massless rock: rock "
           "with mass moves at steps of its own. Leave it out; `voussoir accuracy` estimates the "
           "error there.");
+    if (foundation.model == "rock" && foundation.has_own_steps() && impact_rule != "mean-force")
+      throw InputError(
+          "Rock with steps of its own (\"Foundation/Substeps\" above 1, or "
+          "\"Foundation/Coupling\" = mean traction) needs \"Dynamics/Impact\" = mean-force, not " +
+          impact_rule + ".");
+    if (foundation.model == "rock" && contact.write_problems)
+      throw InputError(
+          "Entry \"Contact/Write problems\" is for a dam on a rigid base or on massless rock: on "
+          "rock the feet of the joints are tied, or couple all joints, which no problem file "
+          "has. Leave it out, or set \"Foundation/Model\" to rigid or massless.");
     joints.check();
     loads.check();
     static_stages(statics.stages);

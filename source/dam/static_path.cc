@@ -53,8 +53,11 @@ namespace Voussoir
       throw InputError(entry +
                        " grouts joints, but the dam has none that are open: all are tied. Choose another "
                        "\"Joints/Model\", or leave the lifts out.");
-    Scene at = dam.scene; // as it is at a stage
-    at.reservoir.level = -endless;
+    Scene at = dam.scene;         // as it is at a stage
+    at.reservoir.level = endless; // empty: its surface is at the foot of the face
+    for (unsigned int i = 0; i < dam.model->n_nodes(); ++i)
+      if (dam.model->on_surface(i, PhysicalId::upstream))
+        at.reservoir.level = std::min(at.reservoir.level, dam.model->points[i][2]);
     if (has_days) // until the first of them
       at.loads.temperature = TemperatureParameters();
     double grouted = has_lifts ? -endless : endless;

@@ -16,8 +16,18 @@ namespace Voussoir
     }
   } // namespace
 
-  Tractions::Tractions(const SolidModel &model, const Structure &structure, const KnownTraction &known,
-                       const std::vector<Stress> &initial_stress, std::vector<double> water)
+  Unknowns mean_acceleration(const Unknowns &v_before, const Unknowns &v, const double dt,
+                             const Vector3 &ground_before, const Vector3 &ground)
+  {
+    Unknowns a(v.size());
+    for (std::size_t k = 0; k < v.size(); ++k)
+      a[k] = (v[k] - v_before[k]) / dt + .5 * (ground_before[k % 3] + ground[k % 3]);
+    return a;
+  }
+
+  Tractions::Tractions(const SolidModel &model, const Structure &structure,
+                       const KnownTraction &known_traction, const std::vector<Stress> &initial_stress,
+                       std::vector<double> water, const std::vector<double> &moving_water)
       : structure(structure), joints(model, structure), joint_water(std::move(water))
   {
     joint_water.resize(structure.pairs.size(), 0.);
@@ -41,10 +51,13 @@ namespace Voussoir
       else
       {
         pair.push_back(rigid_ground);
-        pressed = known(face.surface, model.points[face.node][2], face.normal);
+        pressed = known_traction(face.surface, model.points[face.node][2], face.normal);
       }
       faces.push_back(face);
-      traction.push_back(pressed);
+      known.push_back(pressed);
+      const bool is_wet = face.surface == PhysicalId::upstream && !moving_water.empty();
+      water_mass.push_back(is_wet ? moving_water[face.node] : 0.);
+      free_node.push_back(model.equation[face.node]);
       initial.push_back(initial_stress.empty() ? Vector3{} : times(initial_stress[face.node], face.normal));
     }
     for (unsigned int f = 0; f < faces.size(); ++f)
@@ -54,8 +67,24 @@ namespace Voussoir
           edges.push_back({f, other});
   }
 
-  const std::vector<Vector3> &Tractions::at(const Unknowns &force)
+  /** Water that is moved along pushes back with its mass times the acceleration, normal to the face. */
+  void Tractions::add_moving_water(const Unknowns &acceleration)
   {
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      if (water_mass[f] > 0. && free_node[f] != rigid_ground)
+      {
+        const Vector3 &n = faces[f].normal;
+        const double   pressure = water_mass[f] * dot(get(acceleration, free_node[f]), n);
+        for (unsigned int c = 0; c < 3; ++c)
+          traction[f][c] -= pressure * n[c];
+      }
+  }
+
+  const std::vector<Vector3> &Tractions::at(const Unknowns &force, const Unknowns &acceleration)
+  {
+    traction = known;
+    if (!acceleration.empty())
+      add_moving_water(acceleration);
     const std::vector<Vector3> &of_pair = joints.at(force);
     for (std::size_t f = 0; f < faces.size(); ++f)
       if (pair[f] != rigid_ground)

@@ -108,8 +108,7 @@ namespace Voussoir
 
   void FootElimination::solve(Unknowns &x) const
   {
-    factor[0].apply_load(x.data(), nullptr);
-    factor[0].apply_joint_forces(nullptr, x.data());
+    factor[0].solve(x.data(), x.data());
   }
 
   void FootElimination::take_from(const std::vector<std::vector<double>> &values, Unknowns &x) const

@@ -107,6 +107,7 @@ namespace Voussoir
   {
     eliminated = std::move(feet);
     single.clear();
+    diagonals.clear();
     if (eliminated)
     {
       auto whole = blocks;

@@ -58,9 +58,6 @@ namespace Voussoir
         throw InputError(
             "Contact/Write problems: only problems with Coulomb friction can be written; use the "
             "joint model FJA or KSM.");
-    if (parameters.write_problems && given_feet)
-      throw InputError("Contact/Write problems: on rock with steps of its own all joints are coupled, which "
-                       "no problem file has; set \"Foundation/Coupling\" to partition.");
     const int                                 n_bodies = structure.bodies.size();
     std::vector<std::optional<CondensedBody>> condensed(n_bodies);
     for_each_parallel(n_bodies,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/interrupt.h>
 #include <voussoir/base/output_file.h>
 #include <voussoir/base/python_script.h>
 #include <voussoir/mesh/foreign_mesh.h>
@@ -10,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 namespace Voussoir
 {
@@ -23,9 +25,12 @@ namespace Voussoir
     public:
       Scratch()
       {
-        std::string name = (fs::temp_directory_path() / "voussoir-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr)
-          throw WriteError("No directory can be made in " + fs::temp_directory_path().string() +
+        std::error_code error;
+        const fs::path  place = fs::temp_directory_path(error);
+        std::string     name = (place / "voussoir-XXXXXX").string();
+        if (error || mkdtemp(name.data()) == nullptr)
+          throw WriteError("No directory can be made " +
+                           (error ? std::string("where TMPDIR says") : "in " + place.string()) +
                            ", where a mesh is to be converted. Make room there, or set TMPDIR.");
         path = name;
       }
@@ -83,6 +88,9 @@ namespace Voussoir
           ": it is to be converted by the script mesh_to_msh.py, which was not found. "
           "The environment variable VOUSSOIR_SCRIPTS may name its directory; or convert the mesh to MSH "
           "4.1 yourself.");
+    std::optional<InterruptGuard> guard; // a run has one; others, too, leave no files behind
+    if (!InterruptGuard::lives())
+      guard.emplace();
     const Scratch     scratch;
     const std::string made = (scratch.path / "mesh.msh").string(), said = (scratch.path / "log").string();
     int               status = lacks_meshio;
@@ -90,6 +98,8 @@ namespace Voussoir
       if (status = run_process({python, script.string(), fs::absolute(file).string(), made}, said);
           status != lacks_meshio)
         break;
+    if (guard && guard->received() != nullptr)
+      throw Interrupted(guard->received() + std::string(" came while the mesh was converted."));
     if (status == lacks_meshio)
       throw InputError(
           "mesh " + file +

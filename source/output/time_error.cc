@@ -28,14 +28,21 @@ namespace Voussoir
   {
     const DynamicState &state = newmark.state();
     envelope->record(state.time, state.u,
-                     tractions == nullptr ? std::vector<Vector3>() : tractions->at(state.force));
+                     tractions == nullptr ? std::vector<Vector3>()
+                                          : tractions->at(state.force, acceleration));
   }
 
-  void TimeErrorEstimate::advance(const unsigned int step, const Unknowns &load, const Vector3 &base_velocity)
+  void TimeErrorEstimate::advance(const unsigned int step, const Unknowns &load, const Vector3 &base_velocity,
+                                  const Vector3 &ground)
   {
     if (step % 2 == 1)
       return;
+    const Unknowns v_before = newmark.state().v;
+    const double   t_before = newmark.state().time;
     newmark.advance(load, base_velocity);
+    acceleration = mean_acceleration(v_before, newmark.state().v, newmark.state().time - t_before,
+                                     ground_before, ground);
+    ground_before = ground;
     joints.record(newmark);
     if (envelope)
       record_stresses();

@@ -40,29 +40,30 @@ namespace Voussoir
     void run();
 
   private:
-    void                 read_input();
-    TimeGrid             grid() const { return {motion.dt, scene.foundation.substeps, n_steps}; }
-    void                 report_setup();
-    void                 report_motion_notes();
-    void                 report_motion_and_warnings();
-    void                 find_static_state();
-    Vector3              relative_to_base(unsigned int node) const;
-    ContactParameters    contact_parameters(const std::string &stage) const;
-    void                 start_shaking();
-    void                 declare_tables();
-    void                 declare_history(Recorder &table);
-    void                 declare_energy(Recorder &table);
-    void                 shake();
-    void                 advance();
-    void                 advance_companion(const Unknowns &load, const Vector3 &base_velocity);
-    void                 step_once();
-    void                 record();
-    void                 report_step();
-    void                 write_solution();
-    void                 open_tables();
-    void                 write_tables();
-    void                 write_fields();
-    void                 report_tension();
+    void              read_input();
+    TimeGrid          grid() const { return {motion.dt, scene.foundation.substeps, n_steps}; }
+    void              report_setup();
+    void              report_motion_notes();
+    void              report_motion_and_warnings();
+    void              find_static_state();
+    Vector3           relative_to_base(unsigned int node) const;
+    ContactParameters contact_parameters(const std::string &stage) const;
+    void              start_shaking();
+    void              declare_tables();
+    void              declare_history(Recorder &table);
+    void              declare_energy(Recorder &table);
+    void              shake();
+    void              advance();
+    void    advance_companion(const Unknowns &load, const Vector3 &base_velocity, const Vector3 &ground);
+    Vector3 ground_acceleration(unsigned int after) const;
+    void    step_once();
+    void    record();
+    void    report_step();
+    void    write_solution();
+    void    open_tables();
+    void    write_tables();
+    void    write_fields();
+    void    report_tension();
     std::vector<Vector3> known_tractions();
     void                 write_results();
     void                 write_summary();
@@ -142,17 +143,18 @@ namespace Voussoir
       }
     } count;
 
-    std::unique_ptr<Newmark>                    newmark;
-    std::unique_ptr<StabilityWatch>             stability;
-    std::unique_ptr<Tractions>                  tractions;
-    std::unique_ptr<StressRecovery>             stress;
-    std::unique_ptr<EnvelopeRecorder>           envelope;
-    std::unique_ptr<FaceTension>                tension;
-    std::unique_ptr<JointRecorder>              joints;
-    std::unique_ptr<TimeErrorEstimate>          companion;               ///< if the scene asks for it
-    Table                                       history, energy, stages; ///< stages: of the static state
-    std::unique_ptr<Recorder>                   history_columns, energy_columns;
-    TableFile                                   history_file, energy_file, joint_file;
+    std::unique_ptr<Newmark>           newmark;
+    std::unique_ptr<StabilityWatch>    stability;
+    std::unique_ptr<Tractions>         tractions;
+    Unknowns                           acceleration; ///< mean of the last step, of the base, too [m/s^2]
+    std::unique_ptr<StressRecovery>    stress;
+    std::unique_ptr<EnvelopeRecorder>  envelope;
+    std::unique_ptr<FaceTension>       tension;
+    std::unique_ptr<JointRecorder>     joints;
+    std::unique_ptr<TimeErrorEstimate> companion;               ///< if the scene asks for it
+    Table                              history, energy, stages; ///< stages: of the static state
+    std::unique_ptr<Recorder>          history_columns, energy_columns;
+    TableFile                          history_file, energy_file, joint_file;
     std::vector<std::pair<double, std::string>> solutions; ///< time and file of solution.pvd
   };
 } // namespace Voussoir

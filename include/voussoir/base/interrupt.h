@@ -26,6 +26,8 @@ namespace Voussoir
     InterruptGuard(const InterruptGuard &) = delete;
     InterruptGuard &operator=(const InterruptGuard &) = delete;
 
+    static bool lives(); ///< is there one?
+
     /** "SIGINT", "SIGTERM" or "SIGHUP" if one has come, else a null pointer. */
     const char *received() const;
 

@@ -6,18 +6,8 @@
 #include <voussoir/dam/tractions.h>
 #include <voussoir/solid/solid_model.h>
 
-#include <functional>
-
 namespace Voussoir
 {
-  /** Traction on a face from the depth under a surface [m] and the outward normal [Pa]. */
-  using Traction = std::function<dealii::Tensor<1, 3>(double depth, const dealii::Tensor<1, 3> &normal)>;
-
-  /** Forces of a traction on the faces of the surface @p surface below the level @p level, on all nodes of
-   * the model, also those that are held: 3 per node [N]. With 8 x 8 points per face, since the level cuts
-   * through faces. */
-  Unknowns nodal_forces(const SolidModel &model, int surface, double level, const Traction &traction);
-
   /** Hydrostatic pressure on the surface "downstream" [N]. */
   void add_tail_water(const SolidModel &model, const TailWaterParameters &water, double gravity,
                       Unknowns &load);

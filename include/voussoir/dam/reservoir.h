@@ -46,6 +46,9 @@ namespace Voussoir
    * horizontal motion along x [kg]. */
   double add_added_mass(const SolidModel &model, const ReservoirParameters &reservoir, Structure &structure);
 
+  /** The added mass per area of the surface "upstream" at the nodes of the model [kg/m^2]; empty: none. */
+  std::vector<double> added_mass_per_area(const SolidModel &model, const ReservoirParameters &reservoir);
+
   std::string added_mass_names(); ///< as a ParameterHandler selection: "Westergaard|Westergaard-nodal|none"
   std::string added_mass_docs();  ///< what they are
 } // namespace Voussoir

@@ -36,15 +36,17 @@ namespace Voussoir
     /** Tensions, too, from now on; @p tractions: known to @p stress, or null. Both are kept. */
     void record_stresses(const StressRecovery &stress, Tractions *tractions);
 
-    /** After each step of the run, under @p load at its end; every second one is a step here. */
-    void advance(unsigned int step, const Unknowns &load, const Vector3 &base_velocity);
+    /** After each step of the run, under @p load at its end and with the acceleration @p ground of the base
+     * there [m/s^2]; every second one is a step here. */
+    void advance(unsigned int step, const Unknowns &load, const Vector3 &base_velocity,
+                 const Vector3 &ground);
 
     TimeError of(const JointRecorder &joints, const EnvelopeRecorder &envelope,
                  const FaceTension &tension) const;
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
-      archive &joints;
+      archive &joints &ground_before[0] & ground_before[1] & ground_before[2];
       if (envelope)
         archive &*envelope;
     }
@@ -58,6 +60,8 @@ namespace Voussoir
     JointRecorder                   joints;
     std::optional<EnvelopeRecorder> envelope;
     Tractions                      *tractions = nullptr;
+    Vector3                         ground_before{}; ///< at the end of the last step [m/s^2]
+    Unknowns                        acceleration;    ///< mean of the last step [m/s^2]
   };
 } // namespace Voussoir
 

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_for_faces_h
+#define voussoir_for_faces_h
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <voussoir/solid/solid_model.h>
+
+namespace Voussoir
+{
+  /** Calls f(values, dofs) for each face of the surface @p surface, with @p n_points Gauss points along each
+   * side of it; dofs: the nodes of its cell. */
+  template <class Function>
+  void for_faces(const SolidModel &model, const int surface, const unsigned int n_points, const Function &f)
+  {
+    using namespace dealii;
+    FEFaceValues<3>                      values(model.fe, QGauss<2>(n_points),
+                                                update_values | update_normal_vectors | update_JxW_values |
+                                                    update_quadrature_points);
+    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+    for (const auto &cell : model.dof_handler.active_cell_iterators())
+      for (const unsigned int face : cell->face_indices())
+        if (cell->face(face)->at_boundary() && static_cast<int>(cell->face(face)->boundary_id()) == surface)
+        {
+          values.reinit(cell, face);
+          cell->get_dof_indices(dofs);
+          f(values, dofs);
+        }
+  }
+} // namespace Voussoir
+
+#endif
