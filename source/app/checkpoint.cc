@@ -73,21 +73,34 @@ namespace Voussoir
     note.check();
   }
 
+  /** The signal to stop that has come to this process or another one of the run, or null. */
+  const char *Simulation::signal() const
+  {
+    const char *own = interrupt->received();
+    if (Ranks::any(own != nullptr ? 1 : 0) == 0)
+      return nullptr;
+    return own != nullptr ? own : "A signal to another process";
+  }
+
   void Simulation::stop_if_asked() const
   {
-    if (const char *signal = interrupt->received())
+    if (const char *signal = this->signal())
       throw Interrupted(signal +
                         std::string(" came before the shaking began: there is nothing to go on from") +
                         (options.resume ? " but the checkpoint that is there." : "."));
   }
 
-  void Simulation::keep_and_stop()
+  void Simulation::keep_and_stop(const char *signal)
   {
-    save_checkpoint();
-    write_tables();
+    Ranks::on_first(
+        [this]
+        {
+          save_checkpoint();
+          write_tables();
+        });
     std::ostringstream message;
-    message << interrupt->received() << " at t = " << newmark->state().time << " s, after step " << step
-            << " of " << n_steps << ". The tables so far and a checkpoint are in " << directory
+    message << signal << " at t = " << newmark->state().time << " s, after step " << step << " of " << n_steps
+            << ". The tables so far and a checkpoint are in " << directory
             << ": the same command with --resume goes on.";
     throw Interrupted(message.str());
   }

@@ -154,6 +154,19 @@ namespace Voussoir
     }
   } // namespace
 
+  bool runs_scene(const std::vector<std::string> &words)
+  {
+    try
+    {
+      const Arguments arguments = read_arguments(words);
+      return arguments.command.empty() && !arguments.words.empty() && !arguments.version && !arguments.help;
+    }
+    catch (const InputError &)
+    {
+      return false;
+    }
+  }
+
   int run_command(const std::vector<std::string> &words)
   {
     openblas_set_num_threads(1); // bodies and joints are what runs in parallel

@@ -5,6 +5,7 @@
 #include <voussoir/app/program.h>
 #include <voussoir/base/interrupt.h>
 #include <voussoir/base/output_file.h>
+#include <voussoir/base/ranks.h>
 
 #include <cerrno>
 #include <csignal>
@@ -32,54 +33,63 @@ namespace Voussoir
     }
   } // namespace
 
+  namespace
+  {
+    /** Does what the words say; returns the status, and what is to be told of an error. */
+    std::pair<int, std::string> run_guarded(const std::vector<std::string> &words)
+    {
+      try
+      {
+        const int status = run_command(words);
+        errno = 0;
+        if ((!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) && errno != EPIPE)
+          throw WriteError("Standard output cannot be written. Is the disk full?");
+        return {status, ""};
+      }
+      catch (const Ranks::FailedElsewhere &)
+      {
+        return {1, ""};
+      }
+      catch (const InputError &error)
+      {
+        return {2, std::string("voussoir: error: ") + error.what()};
+      }
+      catch (const Interrupted &error)
+      {
+        return {1, std::string("voussoir: stopped: ") + error.what()};
+      }
+      catch (const ComputationError &error)
+      {
+        return {1, std::string("voussoir: failed: ") + error.what()};
+      }
+      catch (const std::bad_alloc &)
+      {
+        return {1,
+                "voussoir: failed: there is not enough memory. Use fewer elements; --validate estimates what "
+                "is needed."};
+      }
+      catch (const std::exception &error)
+      {
+        return {1, std::string("voussoir: internal error, please report it: ") + error.what()};
+      }
+    }
+  } // namespace
+
   int run_program(const std::vector<std::string> &words)
   {
-    try
+    // Nothing of a single process needs MPI, which takes longer to start than many a command to run.
+    dealii::MultithreadInfo::set_thread_limit(1);
+    if (const auto [rank, n_ranks] = rank_of_launcher(); n_ranks > 1)
     {
-      // Nothing here needs MPI, which takes longer to start than many a command to run.
-      dealii::MultithreadInfo::set_thread_limit(1);
-      if (const auto [rank, n_ranks] = rank_of_launcher(); n_ranks > 1)
-      {
-        if (rank != 0)
-          return 0; // a failure here would make the launcher end the first one before it speaks
-        std::cerr << "voussoir: error: This version runs on one rank: start it without mpirun. It uses all "
-                     "cores, or as many as OMP_NUM_THREADS says."
-                  << std::endl;
-        return 2;
-      }
-      std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of the write
-      const int status = run_command(words);
-      errno = 0;
-      if ((!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) && errno != EPIPE)
-        throw WriteError("Standard output cannot be written. Is the disk full?");
-      return status;
+      if (runs_scene(words))
+        Ranks::start(n_ranks);
+      else if (rank != 0)
+        return 0; // the first one does alone what is not a run
     }
-    catch (const InputError &error)
-    {
-      std::cerr << "voussoir: error: " << error.what() << std::endl;
-      return 2;
-    }
-    catch (const Interrupted &error)
-    {
-      std::cerr << "voussoir: stopped: " << error.what() << std::endl;
-      return 1;
-    }
-    catch (const ComputationError &error)
-    {
-      std::cerr << "voussoir: failed: " << error.what() << std::endl;
-      return 1;
-    }
-    catch (const std::bad_alloc &)
-    {
-      std::cerr << "voussoir: failed: there is not enough memory. Use fewer elements; --validate estimates "
-                   "what is needed."
-                << std::endl;
-      return 1;
-    }
-    catch (const std::exception &error)
-    {
-      std::cerr << "voussoir: internal error, please report it: " << error.what() << std::endl;
-      return 1;
-    }
+    std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of the write
+    const auto [status, message] = run_guarded(words);
+    if (!message.empty())
+      std::cerr << message << std::endl;
+    return Ranks::finish(status, message);
   }
 } // namespace Voussoir

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/ranks.h>
 #include <voussoir/dam/face_pressure.h>
 #include <voussoir/dam/static_path.h>
 #include <voussoir/motion/motion.h>
@@ -54,7 +55,7 @@ namespace Voussoir
       std::vector<std::string> inputs = scene.sources;
       for (const auto &input : scene.input_files())
         inputs.push_back(input.second);
-      run_directory.claim(options.resume, options.overwrite, inputs);
+      Ranks::on_first([&] { run_directory.claim(options.resume, options.overwrite, inputs); });
       if (options.resume)
         open_checkpoint();
     }
@@ -69,6 +70,12 @@ namespace Voussoir
     if (options.resume)
       load_checkpoint();
 
+    Ranks::on_first([this] { begin_files(); });
+    shake();
+  }
+
+  void Simulation::begin_files()
+  {
     run_directory.begin(options.resume, scene.contact.write_problems); // all input is read and found good
     log.open(directory + "/log.txt", options.resume);
     OutputFile out(directory + "/scene.prm");
@@ -80,7 +87,6 @@ namespace Voussoir
     else if (scene.output.solution_interval > 0 && step % scene.output.solution_interval == 0 &&
              (solutions.empty() || solutions.back().first != newmark->state().time))
       write_solution(); // what a full disk kept from being written
-    shake();
   }
 
   /** All files that the scene names; InputError for what cannot be run. */
@@ -109,18 +115,26 @@ namespace Voussoir
       for (first_step = step; step < n_steps;)
       {
         step_once();
-        record();
-        count.seconds_shaking = before + shaking_clock.seconds();
-        if (step % scene.output.progress_interval == 0 || step == n_steps)
-          report_step();
-        if (step < n_steps && interrupt->received() != nullptr)
-          keep_and_stop();
+        Ranks::on_first(
+            [&]
+            {
+              record();
+              count.seconds_shaking = before + shaking_clock.seconds();
+              if (step % scene.output.progress_interval == 0 || step == n_steps)
+                report_step();
+            });
+        if (const char *signal = step < n_steps ? this->signal() : nullptr)
+          keep_and_stop(signal);
         if (scene.output.checkpoint_interval > 0 && step % scene.output.checkpoint_interval == 0 &&
             step < n_steps)
-          save_checkpoint();
+          Ranks::on_first([this] { save_checkpoint(); });
       }
-      write_results();
-      check_balance();
+      Ranks::on_first(
+          [this]
+          {
+            write_results();
+            check_balance();
+          });
     }
     catch (const WriteError &error)
     {
@@ -140,7 +154,8 @@ namespace Voussoir
     {
       try
       {
-        write_tables(); // what there is, to see what went wrong
+        if (Ranks::is_first())
+          write_tables(); // what there is, to see what went wrong
       }
       catch (const WriteError &) // the first error is the one to tell
       {

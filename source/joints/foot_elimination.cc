@@ -111,20 +111,20 @@ namespace Voussoir
     factor[0].solve(x.data(), x.data());
   }
 
-  void FootElimination::take_from(const std::vector<std::vector<double>> &values, Unknowns &x) const
+  void FootElimination::take_from(const InterfaceValues &values, Unknowns &x) const
   {
     x.resize(n());
     for (unsigned int b = 0; b + 1 < first.size(); ++b)
       for (unsigned int i = first[b]; i < first[b + 1]; ++i)
-        std::copy_n(values[b].begin() + 3 * interface[i], 3, x.begin() + 3 * std::size_t(i));
+        std::copy_n(values.of_body(b) + 3 * interface[i], 3, x.begin() + 3 * std::size_t(i));
   }
 
-  void FootElimination::add_to(std::vector<std::vector<double>> &values, const Unknowns &x) const
+  void FootElimination::add_to(InterfaceValues &values, const Unknowns &x) const
   {
     for (unsigned int b = 0; b + 1 < first.size(); ++b)
       for (unsigned int i = first[b]; i < first[b + 1]; ++i)
         for (unsigned int c = 0; c < 3; ++c)
-          values[b][3 * interface[i] + c] += x[3 * std::size_t(i) + c];
+          values.of_body(b)[3 * interface[i] + c] += x[3 * std::size_t(i) + c];
   }
 
   void FootElimination::add_gaps(const double factor, const Unknowns &f, double *gap) const

@@ -7,6 +7,7 @@
 #include <voussoir/joints/interface_operator.h>
 
 #include <algorithm>
+#include <set>
 
 extern "C" void dgemv_(const char *, const int *, const int *, const double *, const double *, const int *,
                        const double *, const int *, const double *, double *, const int *);
@@ -16,8 +17,8 @@ extern "C" void sgemv_(const char *, const int *, const int *, const float *, co
 
 namespace Voussoir
 {
-  InterfaceOperator::InterfaceOperator(const std::vector<unsigned int> &n_pairs)
-      : offset(1, 0), coupled(n_pairs.size())
+  InterfaceOperator::InterfaceOperator(const std::vector<unsigned int> &n_pairs, Shares given)
+      : share(std::move(given)), offset(1, 0), coupled(n_pairs.size())
   {
     for (const unsigned int n : n_pairs)
       offset.push_back(offset.back() + 3 * n);
@@ -30,7 +31,7 @@ namespace Voussoir
     const auto inserted = blocks.try_emplace({j, k});
     if (inserted.second)
     {
-      inserted.first->second.assign(std::size_t(size(j)) * size(k), 0.);
+      inserted.first->second.assign(holds(j, k) ? std::size_t(size(j)) * size(k) : 0, 0.);
       if (j != k)
       {
         coupled[j].push_back(k);
@@ -61,15 +62,19 @@ namespace Voussoir
     // in the order of the blocks, so that the result does not depend on the number of threads.
     std::vector<const std::pair<const std::pair<unsigned int, unsigned int>, std::vector<double>> *> list;
     for (const auto &b : blocks)
-      list.push_back(&b);
+      if (!b.second.empty())
+        list.push_back(&b);
     std::vector<std::array<std::vector<double>, 2>> products(list.size());
     for_each_parallel(list.size(),
                       [&](const int i)
                       {
                         const unsigned int j = list[i]->first.first, k = list[i]->first.second;
-                        products[i][0].assign(size(j), 0.);
-                        add_coupling(j, k, 1., x.data() + offset[k], products[i][0].data());
-                        if (j != k)
+                        if (is_mine(j))
+                        {
+                          products[i][0].assign(size(j), 0.);
+                          add_coupling(j, k, 1., x.data() + offset[k], products[i][0].data());
+                        }
+                        if (j != k && is_mine(k))
                         {
                           products[i][1].assign(size(k), 0.);
                           add_coupling(k, j, 1., x.data() + offset[j], products[i][1].data());
@@ -83,6 +88,7 @@ namespace Voussoir
         for (const double p : products[i][side])
           *out++ += p;
       }
+    gather(y);
     if (eliminated)
       eliminated->subtract(x.data(), y.data());
   }
@@ -112,7 +118,7 @@ namespace Voussoir
     {
       auto whole = blocks;
       eliminated->for_blocks([&](const unsigned int j, const unsigned int k)
-                             { return find_block(j, k) != nullptr; },
+                             { return find_block(j, k) != nullptr && holds(j, k); },
                              [&](const unsigned int j, const unsigned int k, const std::vector<double> &part)
                              {
                                std::vector<double> &block = whole.at({j, k});
@@ -120,16 +126,43 @@ namespace Voussoir
                                  block[i] -= part[i];
                              });
       blocks.swap(whole);
-      for (unsigned int pair = 0; pair < n_pairs(); ++pair)
-        diagonals.push_back(diagonal_of_blocks(pair));
+      find_diagonals();
       for (const auto &b : blocks)
         single[b.first].assign(b.second.begin(), b.second.end());
       blocks.swap(whole);
     }
     else
+    {
+      if (!share.are_trivial())
+        find_diagonals();
       for (const auto &b : blocks)
         single[b.first].assign(b.second.begin(), b.second.end());
+    }
     find_colours();
+    to_neighbours.assign(groups_of_colour.size(), {});
+    for (unsigned int g = 0; g < n_groups() && !share.are_trivial(); ++g)
+    {
+      std::set<unsigned int> to;
+      for (const unsigned int k : coupled[g])
+        if (share.owner(k) != share.owner(g) && size(k) > 0 && size(g) > 0)
+          to.insert(share.owner(k));
+      for (const unsigned int r : to)
+        to_neighbours[colour[g]].push_back({g, begin(g), size(g), share.owner(g), r});
+    }
+  }
+
+  void InterfaceOperator::find_diagonals()
+  {
+    diagonals.assign(n_pairs(), Matrix3{});
+    for (unsigned int g = 0; g < n_groups(); ++g)
+      for (unsigned int pair = offset[g] / 3; is_mine(g) && pair < offset[g + 1] / 3; ++pair)
+        diagonals[pair] = diagonal_of_blocks(pair);
+    if (share.are_trivial() || diagonals.empty())
+      return;
+    auto parts = share.parts(offset);
+    for (std::size_t &begin : parts)
+      begin *= 3; // nine numbers per pair
+    Ranks::gather(diagonals[0].data(), parts);
   }
 
   std::vector<double> InterfaceOperator::own_block(const unsigned int group) const
@@ -163,6 +196,7 @@ namespace Voussoir
                       change.data() + first);
         },
         change, moved);
+    gather(force);
     for (unsigned int i = 0; i < n(); ++i)
       gap[i] += moved[i];
   }
@@ -199,7 +233,7 @@ namespace Voussoir
 
   Matrix3 InterfaceOperator::diagonal(const unsigned int pair) const
   {
-    return eliminated ? diagonals[pair] : diagonal_of_blocks(pair);
+    return diagonals.empty() ? diagonal_of_blocks(pair) : diagonals[pair];
   }
 
   Matrix3 InterfaceOperator::diagonal_of_blocks(const unsigned int pair) const

@@ -148,7 +148,8 @@ namespace Voussoir
       factorise();
     else
     {
-      factor.assemble(*W, group, present);
+      factor.find_active(*W, group, present);
+      factor.assemble(*W, group);
       factor.factorise();
     }
     return true;

@@ -43,19 +43,37 @@ namespace Voussoir
     {
       JointFactor &factor = factors[g];
       if (W.size(g) > 0)
-        factor.assemble(W, g, equations.data() + W.begin(g) / 3);
+        factor.find_active(W, g, equations.data() + W.begin(g) / 3);
       const int n = factor.size();
+      if (n > 0 && W.is_mine(g))
+        factor.assemble(W, g);
       if (n > 0 && before > 0)
       {
-        fill_coupling(g, g - 1, below[g]);
-        fill_coupling(g - 1, g, above[g]);
-        factors[g - 1].solve(above[g].data(), n);
-        sgemm_("N", "N", &n, &n, &before, &minus, below[g].data(), &n, above[g].data(), &before, &one,
-               factor.lu.data(), &n);
+        if (W.is_mine(g - 1))
+        {
+          fill_coupling(g - 1, g, above[g]);
+          factors[g - 1].solve(above[g].data(), n);
+        }
+        above[g].resize(std::size_t(n) * before);
+        give(g - 1, g, above[g]);
+        if (W.is_mine(g))
+        {
+          fill_coupling(g, g - 1, below[g]);
+          sgemm_("N", "N", &n, &n, &before, &minus, below[g].data(), &n, above[g].data(), &before, &one,
+                 factor.lu.data(), &n);
+        }
       }
-      factor.factorise();
+      if (W.is_mine(g))
+        factor.factorise();
       before = n;
     }
+  }
+
+  /** What the rank of joint @p from has made is needed for joint @p to. */
+  void JointChain::give(const unsigned int from, const unsigned int to, std::vector<float> &values) const
+  {
+    if (const unsigned int owner = W.shares().owner(from); owner != W.shares().owner(to))
+      Ranks::broadcast(values.data(), values.size(), owner);
   }
 
   void JointChain::solve(const std::vector<float> &v, std::vector<float> &z) const
@@ -69,6 +87,10 @@ namespace Voussoir
       const JointFactor &factor = factors[g];
       const int          n = factor.size(), before = g > 0 ? static_cast<int>(y[g - 1].size()) : 0;
       y[g].resize(n);
+      if (g > 0)
+        give(g - 1, g, y[g - 1]);
+      if (!W.is_mine(g))
+        continue;
       for (int i = 0; i < n; ++i)
         y[g][i] = v[W.begin(g) + factor.active[i]];
       if (n > 0 && before > 0)
@@ -80,11 +102,16 @@ namespace Voussoir
     {
       const int n = static_cast<int>(y[g].size()),
                 after = g + 1 < n_groups ? static_cast<int>(y[g + 1].size()) : 0;
+      if (g + 1 < n_groups)
+        give(g + 1, g, y[g + 1]);
+      if (!W.is_mine(g))
+        continue;
       if (n > 0 && after > 0)
         sgemv_("N", &n, &after, &minus, above[g + 1].data(), &n, y[g + 1].data(), &stride, &one, y[g].data(),
                &stride);
       for (int i = 0; i < n; ++i)
         z[W.begin(g) + factors[g].active[i]] = y[g][i];
     }
+    W.gather(z);
   }
 } // namespace Voussoir

@@ -18,8 +18,8 @@ namespace Voussoir
     return true;
   }
 
-  void JointFactor::assemble(const InterfaceOperator &W, const unsigned int group,
-                             const PairEquations *present)
+  void JointFactor::find_active(const InterfaceOperator &W, const unsigned int group,
+                                const PairEquations *present)
   {
     const unsigned int n_pairs = W.size(group) / 3;
     equations.assign(present, present + n_pairs);
@@ -28,6 +28,10 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
         if (!row_is_trivial(present[i], c))
           active.push_back(3 * i + c);
+  }
+
+  void JointFactor::assemble(const InterfaceOperator &W, const unsigned int group)
+  {
     lu.resize(active.size() * active.size());
     pivots.resize(active.size());
     const std::vector<float> &w = W.single_block(group, group);

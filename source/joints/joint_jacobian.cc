@@ -25,12 +25,18 @@ namespace Voussoir
   {
     for (unsigned int g = 0; g < W.n_groups(); ++g)
       for (unsigned int k = g; k < W.n_groups(); ++k)
-        if (const std::vector<double> *block = W.find_block(g, k); block && !block->empty())
+        if (W.find_block(g, k) && W.size(g) > 0 && W.size(k) > 0)
         {
-          keys.push_back({g, k});
+          if (W.holds(g, k))
+            keys.push_back({g, k});
           is_chain = is_chain && k <= g + 1;
         }
-    for_each_parallel(W.n_groups(), [&](const int g) { joints[g].initialise(W, g); });
+    for_each_parallel(W.n_groups(),
+                      [&](const int g)
+                      {
+                        if (W.is_mine(g))
+                          joints[g].initialise(W, g);
+                      });
   }
 
   unsigned int JointJacobian::update(const std::vector<PairEquations> &new_equations)
@@ -47,8 +53,14 @@ namespace Voussoir
       return W.n_groups();
     }
     std::vector<unsigned int> made(W.n_groups(), 0);
-    for_each_parallel(W.n_groups(),
-                      [&](const int g) { made[g] = W.size(g) > 0 && joints[g].update(present(g)); });
+    for_each_parallel(W.n_groups(), [&](const int g)
+                      { made[g] = W.size(g) > 0 && W.is_mine(g) && joints[g].update(present(g)); });
+    if (!W.shares().are_trivial())
+    {
+      std::vector<unsigned int> number(W.n_groups() + 1);
+      std::iota(number.begin(), number.end(), 0);
+      Ranks::gather(made.data(), W.shares().parts(number));
+    }
     return std::accumulate(made.begin(), made.end(), 0u);
   }
 
@@ -72,9 +84,12 @@ namespace Voussoir
                       [&](const int i)
                       {
                         const unsigned int j = keys[i].first, k = keys[i].second;
-                        products[i][0].assign(W.size(j), 0.f);
-                        W.add_single(j, k, x.data() + W.begin(k), products[i][0].data());
-                        if (j != k)
+                        if (W.is_mine(j))
+                        {
+                          products[i][0].assign(W.size(j), 0.f);
+                          W.add_single(j, k, x.data() + W.begin(k), products[i][0].data());
+                        }
+                        if (j != k && W.is_mine(k))
                         {
                           products[i][1].assign(W.size(k), 0.f);
                           W.add_single(k, j, x.data() + W.begin(j), products[i][1].data());
@@ -88,6 +103,7 @@ namespace Voussoir
         for (const float p : products[i][side])
           *out++ += p;
       }
+    W.gather(y);
   }
 
   /** y = W x for an @p x with few entries. */
@@ -106,6 +122,8 @@ namespace Voussoir
       groups.push_back(k);
       for (const unsigned int j : groups)
       {
+        if (!W.is_mine(j))
+          continue;
         const Floats     &block = W.single_block(std::min(j, k), std::max(j, k));
         const std::size_t along = j <= k ? 1 : W.size(k), across = j <= k ? W.size(j) : 1; // strides
         float            *out = y.data() + W.begin(j);
@@ -118,6 +136,7 @@ namespace Voussoir
         }
       }
     }
+    W.gather(y);
   }
 
   /** z = P^-1 v, and W z. */

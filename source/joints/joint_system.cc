@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <optional>
 
 namespace Voussoir
 {
@@ -23,6 +22,20 @@ namespace Voussoir
       for (const Pair &pair : structure.pairs)
         ++n[pair.joint];
       return n;
+    }
+
+    /** Each joint is the work of the rank that has its first body. */
+    Shares shares_of_joints(const Structure &structure)
+    {
+      if (structure.share.are_trivial())
+        return Shares();
+      std::vector<unsigned int> owner(structure.n_joints, 0);
+      for (const Pair &pair : structure.pairs)
+        if (const unsigned int node = std::min(pair.node_1, pair.node_2); node != rigid_ground)
+          owner[pair.joint] = structure.share.owner(structure.body_of(node));
+      for (unsigned int j = 1; j < owner.size(); ++j) // joints without pairs; and parts must ascend
+        owner[j] = std::max(owner[j], owner[j - 1]);
+      return Shares::of_owners(owner);
     }
 
     double now()
@@ -50,32 +63,65 @@ namespace Voussoir
                            const ForceMeaning meaning, const Unknowns &springs,
                            const FootElimination::Feet *given_feet)
       : structure(structure), parameters(parameters), laws(laws), meaning(meaning),
-        is_static(mass_factor == 0.), sides(structure.pairs.size()), W(pairs_per_joint(structure)),
-        n_solved(parameters.first_problem)
+        is_static(mass_factor == 0.), sides(structure.pairs.size()),
+        W(pairs_per_joint(structure), shares_of_joints(structure)), n_solved(parameters.first_problem)
   {
     for (const JointLaw *law : laws.of_pair)
       if (parameters.write_problems && law->flat_friction() < 0. && !law->surfaces_law())
         throw InputError(
             "Contact/Write problems: only problems with Coulomb friction can be written; use the "
             "joint model FJA or KSM.");
-    const int                                 n_bodies = structure.bodies.size();
-    std::vector<std::optional<CondensedBody>> condensed(n_bodies);
-    for_each_parallel(n_bodies,
-                      [&](const int i)
-                      {
-                        condensed[i].emplace(structure, structure.bodies[i], mass_factor, stiffness_factor,
-                                             dashpot_factor, springs);
-                      });
-    for (auto &body : condensed)
-    {
-      interface.emplace_back(body->n_interface());
-      bodies.push_back(std::move(*body));
-    }
+    if (parameters.write_problems && Ranks::size() > 1)
+      throw InputError(
+          "Contact/Write problems: with several ranks none has a whole problem. Start the program "
+          "without mpirun.");
+    bodies.resize(structure.bodies.size());
+    for_each_own_body(
+        [&](const unsigned int b)
+        {
+          bodies[b] = std::make_unique<CondensedBody>(structure, structure.bodies[b], mass_factor,
+                                                      stiffness_factor, dashpot_factor, springs);
+        });
+    for (const Body &body : structure.bodies)
+      interface.begin.push_back(interface.begin.back() + 3 * body.interface.size());
+    interface.value.resize(interface.begin.back());
     if (given_feet)
       feet = std::make_shared<FootElimination>(structure, *given_feet);
     condense();
     W.finish(feet);
     solver = std::make_unique<ContactSolver>(W, laws.of_pair, parameters);
+  }
+
+  template <class Action> void JointSystem::for_each_own_body(const Action &action)
+  {
+    for_each_parallel(static_cast<int>(bodies.size()),
+                      [&](const int b)
+                      {
+                        if (structure.share.is_mine(b))
+                          action(b);
+                      });
+  }
+
+  /** Of a body's interface: made here, or by another rank if rows of W here need it; else empty. */
+  std::vector<double>
+  JointSystem::flexibility_of(const unsigned int                                        b,
+                              const std::vector<std::pair<unsigned int, unsigned int>> &sides_of_body)
+  {
+    std::vector<double> F;
+    if (structure.share.is_mine(b))
+      F = bodies[b]->take_flexibility();
+    const unsigned int owner = structure.share.owner(b);
+    const bool         needed_elsewhere =
+        Ranks::size() > 1 &&
+        (feet || std::any_of(sides_of_body.begin(), sides_of_body.end(),
+                             [&](const auto &side)
+                             { return W.shares().owner(structure.pairs[side.first].joint) != owner; }));
+    if (needed_elsewhere)
+    {
+      F.resize(9 * structure.bodies[b].interface.size() * structure.bodies[b].interface.size());
+      Ranks::broadcast(F.data(), F.size(), owner);
+    }
+    return F;
   }
 
   /** W = G A^-1 G^T from the flexibilities of the bodies. */
@@ -89,15 +135,12 @@ namespace Voussoir
         const unsigned int node = side == 0 ? pair.node_1 : pair.node_2;
         if (node == rigid_ground)
           continue;
-        const auto after =
-            std::upper_bound(structure.bodies.begin(), structure.bodies.end(), node,
-                             [](const unsigned int n, const Body &b) { return n < b.first_node; });
-        const Body &body = *(after - 1);
-        const auto &nodes = body.interface;
+        const unsigned int b = structure.body_of(node);
+        const Body        &body = structure.bodies[b];
+        const auto        &nodes = body.interface;
         sides[p][side] = {
-            static_cast<unsigned int>(after - 1 - structure.bodies.begin()),
-            static_cast<unsigned int>(std::lower_bound(nodes.begin(), nodes.end(), node - body.first_node) -
-                                      nodes.begin())};
+            b, static_cast<unsigned int>(
+                   std::lower_bound(nodes.begin(), nodes.end(), node - body.first_node) - nodes.begin())};
         of_body[sides[p][side].body].push_back({p, side});
       }
 
@@ -105,8 +148,8 @@ namespace Voussoir
       W.block(j, j); // joints without pairs have one, too: an empty one
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
-      const std::vector<double> F = bodies[b].take_flexibility();
-      const std::size_t         m = bodies[b].n_interface();
+      const std::vector<double> F = flexibility_of(b, of_body[b]);
+      const std::size_t         m = 3 * structure.bodies[b].interface.size();
       if (feet)
         feet->add_body(b, F);
       for (const auto &q : of_body[b]) // columns
@@ -115,6 +158,9 @@ namespace Voussoir
           const Pair &pair_p = structure.pairs[p.first], &pair_q = structure.pairs[q.first];
           if (pair_p.joint > pair_q.joint)
             continue;
+          std::vector<double> &block = W.block(pair_p.joint, pair_q.joint);
+          if (block.empty())
+            continue;
           Matrix3      f;
           const double sign = p.second == q.second ? 1. : -1.;
           for (unsigned int j = 0; j < 3; ++j)
@@ -122,9 +168,8 @@ namespace Voussoir
               f[3 * i + j] =
                   sign *
                   F[(3 * sides[q.first][q.second].node + j) * m + 3 * sides[p.first][p.second].node + i];
-          const Matrix3        w = rotate(pair_p.frame, f, pair_q.frame);
-          std::vector<double> &block = W.block(pair_p.joint, pair_q.joint);
-          const std::size_t    rows = W.size(pair_p.joint), row = 3 * p.first - W.begin(pair_p.joint),
+          const Matrix3     w = rotate(pair_p.frame, f, pair_q.frame);
+          const std::size_t rows = W.size(pair_p.joint), row = 3 * p.first - W.begin(pair_p.joint),
                             column = 3 * q.first - W.begin(pair_q.joint);
           for (unsigned int j = 0; j < 3; ++j)
             for (unsigned int i = 0; i < 3; ++i)
@@ -144,7 +189,7 @@ namespace Voussoir
         if (const Side &s = sides[p][side]; s.body != rigid_ground)
           for (unsigned int c = 0; c < 3; ++c)
           {
-            const double x = (side == 0 ? -1. : 1.) * interface[s.body][3 * s.node + c];
+            const double x = (side == 0 ? -1. : 1.) * interface.of_body(s.body)[3 * s.node + c];
             for (unsigned int i = 0; i < 3; ++i)
               b[3 * p + i] += structure.pairs[p].frame[i][c] * x;
           }
@@ -156,14 +201,13 @@ namespace Voussoir
   /** The interface's work space: G^T force. */
   void JointSystem::put_on_interface(const Unknowns &force)
   {
-    for (auto &f : interface)
-      std::fill(f.begin(), f.end(), 0.);
+    std::fill(interface.value.begin(), interface.value.end(), 0.);
     for (unsigned int p = 0; p < sides.size(); ++p)
       for (unsigned int side = 0; side < 2; ++side)
         if (const Side &s = sides[p][side]; s.body != rigid_ground)
           for (unsigned int c = 0; c < 3; ++c)
             for (unsigned int i = 0; i < 3; ++i)
-              interface[s.body][3 * s.node + c] +=
+              interface.of_body(s.body)[3 * s.node + c] +=
                   (side == 0 ? -1. : 1.) * structure.pairs[p].frame[i][c] * force[3 * p + i];
   }
 
@@ -176,14 +220,15 @@ namespace Voussoir
     AssertDimension(start.size(), 3 * sides.size());
     AssertDimension(force.size(), 3 * sides.size());
     const double begin = now();
-    const int    n_bodies = bodies.size();
     u.resize(load.size());
-    for_each_parallel(n_bodies,
-                      [&](const int i)
-                      {
-                        bodies[i].apply_load(load.data() + 3 * std::size_t(structure.bodies[i].first_node),
-                                             interface[i].data());
-                      });
+    for_each_own_body(
+        [&](const unsigned int b)
+        {
+          bodies[b]->apply_load(load.data() + 3 * std::size_t(structure.bodies[b].first_node),
+                                interface.of_body(b));
+        });
+    if (!structure.share.are_trivial())
+      Ranks::gather(interface.value.data(), structure.share.parts(interface.begin));
 
     const double  middle = now();
     ContactResult result;
@@ -217,12 +262,13 @@ namespace Voussoir
     }
 
     const double after = now();
-    for_each_parallel(n_bodies,
-                      [&](const int i)
-                      {
-                        bodies[i].apply_joint_forces(
-                            interface[i].data(), u.data() + 3 * std::size_t(structure.bodies[i].first_node));
-                      });
+    for_each_own_body(
+        [&](const unsigned int b)
+        {
+          bodies[b]->apply_joint_forces(interface.of_body(b),
+                                        u.data() + 3 * std::size_t(structure.bodies[b].first_node));
+        });
+    structure.gather(u);
     times.sweeps += middle - begin + now() - after;
     times.joints += after - middle;
     return result;
@@ -267,19 +313,20 @@ namespace Voussoir
   {
     AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
     u.resize(load.size());
-    for_each_parallel(static_cast<int>(bodies.size()),
-                      [&](const int i)
-                      {
-                        const std::size_t first = 3 * std::size_t(structure.bodies[i].first_node);
-                        bodies[i].solve(load.data() + first, u.data() + first);
-                      });
+    for_each_own_body(
+        [&](const unsigned int b)
+        {
+          const std::size_t first = 3 * std::size_t(structure.bodies[b].first_node);
+          bodies[b]->solve(load.data() + first, u.data() + first);
+        });
+    structure.gather(u);
   }
 
   double JointSystem::memory() const
   {
     double bytes = W.memory();
-    for (const CondensedBody &body : bodies)
-      bytes += body.memory();
+    for (const auto &body : bodies)
+      bytes += body ? body->memory() : 0.;
     return bytes;
   }
 } // namespace Voussoir

@@ -3,6 +3,9 @@
 
 #include <voussoir/solid/structure.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace Voussoir
 {
   void Structure::collect_interfaces()
@@ -19,15 +22,39 @@ namespace Voussoir
         if (in_pair[body.first_node + i])
           body.interface.push_back(i);
     }
+    std::vector<double> work; // a sweep through the factor, and its joints' dense blocks
+    for (const Body &body : bodies)
+      work.push_back(60. * std::pow(body.n_nodes(), 4. / 3.) + std::pow(body.interface.size(), 2.));
+    share = Shares(work);
+  }
+
+  unsigned int Structure::body_of(const unsigned int node) const
+  {
+    const auto after = std::upper_bound(bodies.begin(), bodies.end(), node,
+                                        [](const unsigned int n, const Body &b) { return n < b.first_node; });
+    return static_cast<unsigned int>(after - 1 - bodies.begin());
   }
 
   void Structure::multiply_stiffness(const Unknowns &u, Unknowns &Ku) const
   {
     AssertDimension(u.size(), 3 * std::size_t(n_nodes()));
     Ku.resize(u.size());
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (share.is_mine(b))
+        bodies[b].stiffness.multiply(u.data() + 3 * std::size_t(bodies[b].first_node),
+                                     Ku.data() + 3 * std::size_t(bodies[b].first_node));
+    gather(Ku);
+  }
+
+  void Structure::gather(Unknowns &u) const
+  {
+    if (share.are_trivial())
+      return;
+    std::vector<std::size_t> first;
     for (const Body &body : bodies)
-      body.stiffness.multiply(u.data() + 3 * std::size_t(body.first_node),
-                              Ku.data() + 3 * std::size_t(body.first_node));
+      first.push_back(3 * std::size_t(body.first_node));
+    first.push_back(u.size());
+    Ranks::gather(u.data(), share.parts(first));
   }
 
   Vector3 Structure::jump(const Pair &pair, const Unknowns &u) const

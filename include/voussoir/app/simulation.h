@@ -41,6 +41,7 @@ namespace Voussoir
 
   private:
     void              read_input();
+    void              begin_files();
     TimeGrid          grid() const { return {motion.dt, scene.foundation.substeps, n_steps}; }
     void              report_setup();
     void              report_motion_notes();
@@ -79,7 +80,8 @@ namespace Voussoir
     void                 check_balance() const;  ///< ComputationError where an account does not close
     void                 draw_figures();
     void                 stop_if_asked() const;
-    void                 keep_and_stop();
+    const char          *signal() const;
+    void                 keep_and_stop(const char *signal);
     std::string          keep_last_state();
     std::string          checkpoint_name() const { return directory + "/checkpoint.bin"; }
     void                 save_checkpoint();

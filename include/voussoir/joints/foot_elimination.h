@@ -8,6 +8,16 @@
 
 namespace Voussoir
 {
+  /** Three numbers for each node of the interfaces, body after body. */
+  struct InterfaceValues
+  {
+    std::vector<double>      value;
+    std::vector<std::size_t> begin = {0}; ///< of each body, and the end
+
+    double       *of_body(const unsigned int b) { return value.data() + begin[b]; }
+    const double *of_body(const unsigned int b) const { return value.data() + begin[b]; }
+  };
+
   /** Feet on a support that gives way: L u = place - R f, L u the displacement of the feet, f the forces on
    * them, eliminated from the problem of the joints. With F = L A^-1 L^T, B = G A^-1 L^T and H = F + R,
    *
@@ -35,8 +45,8 @@ namespace Voussoir
     unsigned int n() const { return 3 * static_cast<unsigned int>(feet.node.size()); }
 
     /** Of each body what its interface's @p values say of the feet, and back. */
-    void take_from(const std::vector<std::vector<double>> &values, Unknowns &of_feet) const;
-    void add_to(std::vector<std::vector<double>> &values, const Unknowns &of_feet) const;
+    void take_from(const InterfaceValues &values, Unknowns &of_feet) const;
+    void add_to(InterfaceValues &values, const Unknowns &of_feet) const;
 
     void solve(Unknowns &x) const;                                      ///< x = H^-1 x
     void add_gaps(double factor, const Unknowns &f, double *gap) const; ///< gap += factor B f

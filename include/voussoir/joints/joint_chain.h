@@ -20,6 +20,7 @@ namespace Voussoir
     void solve(const std::vector<float> &v, std::vector<float> &z) const;
 
   private:
+    void give(unsigned int from, unsigned int to, std::vector<float> &values) const;
     void fill_coupling(unsigned int row_group, unsigned int column_group, std::vector<float> &block) const;
 
     const InterfaceOperator        &W;

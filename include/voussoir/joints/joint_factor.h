@@ -13,8 +13,11 @@ namespace Voussoir
    *  decomposition, in single precision. */
   struct JointFactor
   {
-    /** The block of joint @p group; @p present: the equations of its first pair, the others following. */
-    void assemble(const InterfaceOperator &W, unsigned int group, const PairEquations *present);
+    /** Takes the equations of joint @p group; @p present: that of its first pair, the others following. */
+    void find_active(const InterfaceOperator &W, unsigned int group, const PairEquations *present);
+
+    /** The block of joint @p group, which must be held here; after find_active(). */
+    void assemble(const InterfaceOperator &W, unsigned int group);
 
     void factorise();
 

@@ -74,6 +74,9 @@ namespace Voussoir
     {
       unsigned int body = rigid_ground, node = 0;
     };
+    template <class Action> void for_each_own_body(const Action &action); ///< action(b) by all threads
+    std::vector<double>
+    flexibility_of(unsigned int b, const std::vector<std::pair<unsigned int, unsigned int>> &sides_of_body);
     void          condense();
     Unknowns      gaps_without_forces(const Unknowns &offset, const Unknowns &foot_force) const;
     void          put_on_interface(const Unknowns &force);
@@ -82,18 +85,18 @@ namespace Voussoir
     void          write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &memory,
                                 const Unknowns &force) const;
 
-    const Structure                 &structure;
-    const ContactParameters          parameters;
-    const PairLaws                   laws;
-    const ForceMeaning               meaning;
-    const bool                       is_static; ///< without masses
-    std::vector<CondensedBody>       bodies;
-    std::vector<std::array<Side, 2>> sides; ///< per pair
-    InterfaceOperator                W;
-    std::shared_ptr<FootElimination> feet; ///< or null
-    std::unique_ptr<ContactSolver>   solver;
-    std::vector<std::vector<double>> interface; ///< work space per body
-    unsigned int                     n_solved;  ///< also before this object was made
+    const Structure                            &structure;
+    const ContactParameters                     parameters;
+    const PairLaws                              laws;
+    const ForceMeaning                          meaning;
+    const bool                                  is_static; ///< without masses
+    std::vector<std::unique_ptr<CondensedBody>> bodies;    ///< null where another rank has it
+    std::vector<std::array<Side, 2>>            sides;     ///< per pair
+    InterfaceOperator                           W;
+    std::shared_ptr<FootElimination>            feet; ///< or null
+    std::unique_ptr<ContactSolver>              solver;
+    InterfaceValues                             interface; ///< work space
+    unsigned int                                n_solved;  ///< also before this object was made
   };
 } // namespace Voussoir
 

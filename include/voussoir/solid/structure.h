@@ -3,6 +3,7 @@
 #define voussoir_structure_h
 
 #include <voussoir/base/node_matrix.h>
+#include <voussoir/base/ranks.h>
 
 namespace Voussoir
 {
@@ -37,6 +38,7 @@ namespace Voussoir
   struct Structure
   {
     std::vector<Body>    bodies;     ///< contiguous and ascending in their nodes
+    Shares               share;      ///< of the bodies: which rank does their work; collect_interfaces()
     std::vector<Matrix3> mass;       ///< per node, lumped, with the added mass of the water [kg]
     std::vector<Matrix3> added_mass; ///< per node, that of the water alone [kg]
     Unknowns             dashpots;   ///< viscous dashpots to the ground per component [N s/m]; empty = none
@@ -47,12 +49,18 @@ namespace Voussoir
 
     unsigned int n_nodes() const { return static_cast<unsigned int>(mass.size()); }
 
-    /** Mark the nodes of the pairs as interface of their bodies. Call once when bodies and pairs are there.
-     */
+    /** Mark the nodes of the pairs as interface of their bodies, and share out the bodies. Call once when
+     * bodies and pairs are there. */
     void collect_interfaces();
+
+    /** The body of a node. */
+    unsigned int body_of(unsigned int node) const;
 
     /** Stiffness times displacement, all bodies [N]. */
     void multiply_stiffness(const Unknowns &u, Unknowns &Ku) const;
+
+    /** All ranks get what each has made of @p u, three values per node, for its bodies. */
+    void gather(Unknowns &u) const;
 
     /** R (u_2 - u_1) of a pair. */
     Vector3 jump(const Pair &pair, const Unknowns &u) const;

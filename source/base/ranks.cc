@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/ranks.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fcntl.h>
+#include <mpi.h>
+#include <numeric>
+#include <thread>
+#include <unistd.h>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace Voussoir
+{
+  namespace
+  {
+    unsigned int this_rank = 0, n_ranks = 1;
+    std::size_t  messages = 0;
+    int          screen = STDERR_FILENO; ///< kept for what only this rank has to tell
+
+    template <class T> MPI_Datatype type_of();
+    template <> MPI_Datatype        type_of<double>()
+    {
+      return MPI_DOUBLE;
+    }
+    template <> MPI_Datatype type_of<float>()
+    {
+      return MPI_FLOAT;
+    }
+    template <> MPI_Datatype type_of<unsigned int>()
+    {
+      return MPI_UNSIGNED;
+    }
+
+    template <class T> void gather_any(T *data, const std::vector<std::size_t> &begin)
+    {
+      if (n_ranks == 1)
+        return;
+      std::vector<int> n(n_ranks), first(n_ranks);
+      for (unsigned int r = 0; r < n_ranks; ++r)
+      {
+        first[r] = static_cast<int>(begin[r]);
+        n[r] = static_cast<int>(begin[r + 1] - begin[r]);
+      }
+      ++messages;
+      MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, data, n.data(), first.data(), type_of<T>(),
+                     MPI_COMM_WORLD);
+    }
+
+    template <class T> void broadcast_any(T *data, const std::size_t n, const unsigned int root)
+    {
+      if (n_ranks == 1)
+        return;
+      constexpr std::size_t most = 1u << 30; // of one message
+      for (std::size_t i = 0; i < n; i += most)
+      {
+        ++messages;
+        MPI_Bcast(data + i, static_cast<int>(std::min(most, n - i)), type_of<T>(), root, MPI_COMM_WORLD);
+      }
+    }
+
+    /** The threads of this rank: its share of the cores of its machine, unless the user says otherwise. */
+    void share_cores()
+    {
+#ifdef _OPENMP
+      if (std::getenv("OMP_NUM_THREADS") != nullptr)
+        return;
+      MPI_Comm machine;
+      MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+      int n_beside = 1;
+      MPI_Comm_size(machine, &n_beside);
+      MPI_Comm_free(&machine);
+      // mpirun may have bound this rank to a part of the cores already.
+      const int n_cores = static_cast<int>(std::thread::hardware_concurrency());
+      omp_set_num_threads(std::max(1, std::min(omp_get_num_procs(), n_cores / n_beside)));
+#endif
+    }
+  } // namespace
+
+  unsigned int Ranks::rank()
+  {
+    return this_rank;
+  }
+
+  unsigned int Ranks::size()
+  {
+    return n_ranks;
+  }
+
+  std::size_t Ranks::n_messages()
+  {
+    return messages;
+  }
+
+  void Ranks::start(const unsigned int n)
+  {
+    if (n == 1)
+      return;
+    int provided, rank, size;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    this_rank = rank;
+    n_ranks = size;
+    share_cores();
+    if (rank > 0)
+    {
+      screen = dup(STDERR_FILENO);
+      if (const int nothing = open("/dev/null", O_WRONLY); nothing >= 0)
+      {
+        dup2(nothing, STDOUT_FILENO);
+        dup2(nothing, STDERR_FILENO);
+        close(nothing);
+      }
+    }
+  }
+
+  int Ranks::finish(const int status, const std::string &message)
+  {
+    if (n_ranks == 1)
+      return status;
+    MPI_Request request;
+    MPI_Ibarrier(MPI_COMM_WORLD, &request);
+    constexpr double patience = 20.; // [s] for ranks that are slower on their way to the same error
+    const auto       begin = std::chrono::steady_clock::now();
+    for (int all_here = 0; true;)
+    {
+      MPI_Test(&request, &all_here, MPI_STATUS_IGNORE);
+      if (all_here)
+        break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5)); // the first one may be drawing
+      const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
+      if (status != 0 && waited.count() > patience)
+      {
+        if (this_rank > 0 && !message.empty())
+          dprintf(screen, "%s (rank %u)\n", message.c_str(), this_rank);
+        MPI_Abort(MPI_COMM_WORLD, status);
+      }
+    }
+    int largest = status;
+    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    MPI_Finalize();
+    return largest;
+  }
+
+  void Ranks::gather(double *data, const std::vector<std::size_t> &begin)
+  {
+    gather_any(data, begin);
+  }
+
+  void Ranks::gather(float *data, const std::vector<std::size_t> &begin)
+  {
+    gather_any(data, begin);
+  }
+
+  void Ranks::gather(unsigned int *data, const std::vector<std::size_t> &begin)
+  {
+    gather_any(data, begin);
+  }
+
+  void Ranks::broadcast(double *data, const std::size_t n, const unsigned int root)
+  {
+    broadcast_any(data, n, root);
+  }
+
+  void Ranks::broadcast(float *data, const std::size_t n, const unsigned int root)
+  {
+    broadcast_any(data, n, root);
+  }
+
+  unsigned int Ranks::any(unsigned int bits)
+  {
+    if (n_ranks > 1)
+    {
+      ++messages;
+      MPI_Allreduce(MPI_IN_PLACE, &bits, 1, MPI_UNSIGNED, MPI_BOR, MPI_COMM_WORLD);
+    }
+    return bits;
+  }
+
+  void Ranks::on_first(const std::function<void()> &action)
+  {
+    std::exception_ptr failure;
+    if (is_first())
+      try
+      {
+        action();
+      }
+      catch (...)
+      {
+        failure = std::current_exception();
+      }
+    const bool failed = any(failure ? 1 : 0) != 0;
+    if (failure)
+      std::rethrow_exception(failure);
+    if (failed)
+      throw FailedElsewhere();
+  }
+
+  void Ranks::exchange(float *data, const std::vector<Transfer> &list)
+  {
+    std::vector<MPI_Request> requests;
+    for (const Transfer &t : list)
+      if (t.from == this_rank || t.to == this_rank)
+      {
+        requests.emplace_back();
+        ++messages;
+        if (t.from == this_rank)
+          MPI_Isend(data + t.first, static_cast<int>(t.n), MPI_FLOAT, t.to, 0, MPI_COMM_WORLD,
+                    &requests.back());
+        else
+          MPI_Irecv(data + t.first, static_cast<int>(t.n), MPI_FLOAT, t.from, 0, MPI_COMM_WORLD,
+                    &requests.back());
+      }
+    if (!requests.empty())
+      MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  }
+
+  Shares::Shares(const std::vector<double> &weight)
+  {
+    const unsigned int n = Ranks::size();
+    if (n == 1)
+      return;
+    const double total = std::accumulate(weight.begin(), weight.end(), 0.);
+    double       before = 0.;
+    for (const double w : weight)
+    {
+      owners.push_back(std::min<unsigned int>(n - 1, total > 0. ? n * (before + .5 * w) / total : 0.));
+      before += w;
+    }
+    *this = of_owners(owners);
+  }
+
+  Shares Shares::of_owners(const std::vector<unsigned int> &owner)
+  {
+    Shares result;
+    if (Ranks::size() == 1)
+      return result;
+    result.owners = owner;
+    for (unsigned int r = 0; r <= Ranks::size(); ++r)
+      result.first.push_back(std::lower_bound(owner.begin(), owner.end(), r) - owner.begin());
+    return result;
+  }
+} // namespace Voussoir
