@@ -115,7 +115,7 @@ namespace Voussoir
       for (first_step = step; step < n_steps;)
       {
         step_once();
-        Ranks::on_first(
+        record_on_first(
             [&]
             {
               record();
@@ -127,7 +127,10 @@ namespace Voussoir
           keep_and_stop(signal);
         if (scene.output.checkpoint_interval > 0 && step % scene.output.checkpoint_interval == 0 &&
             step < n_steps)
+        {
+          dam->foundation->collect();
           Ranks::on_first([this] { save_checkpoint(); });
+        }
       }
       Ranks::on_first(
           [this]
@@ -139,6 +142,21 @@ namespace Voussoir
     catch (const WriteError &error)
     {
       throw WriteError(error.what() + keep_last_state());
+    }
+  }
+
+  /** An error of the first rank finds the whole state there, to be kept. */
+  void Simulation::record_on_first(const std::function<void()> &action)
+  {
+    try
+    {
+      Ranks::on_first(action);
+    }
+    catch (...)
+    {
+      if (Ranks::size() > 1)
+        dam->foundation->collect();
+      throw;
     }
   }
 

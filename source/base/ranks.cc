@@ -221,6 +221,26 @@ namespace Voussoir
       MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   }
 
+  void Ranks::exchange(const std::vector<Message> &list)
+  {
+    std::vector<MPI_Request> requests;
+    for (const Message &m : list)
+    {
+      if (m.n_in > 0)
+      {
+        requests.emplace_back();
+        MPI_Irecv(m.in, static_cast<int>(m.n_in), MPI_DOUBLE, m.rank, 1, MPI_COMM_WORLD, &requests.back());
+      }
+      if (m.n_out > 0)
+      {
+        requests.emplace_back();
+        ++messages;
+        MPI_Isend(m.out, static_cast<int>(m.n_out), MPI_DOUBLE, m.rank, 1, MPI_COMM_WORLD, &requests.back());
+      }
+    }
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  }
+
   Shares::Shares(const std::vector<double> &weight)
   {
     const unsigned int n = Ranks::size();

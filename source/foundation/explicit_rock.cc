@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/excess.h>
 #include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/motion/ground_motion.h>
 
@@ -86,12 +87,17 @@ namespace Voussoir
   }
 
   /** The region, at rest; the earthquake comes @p delay late [s]. */
-  void ExplicitRock::make_rock(const GroundMotion &outcrop, const TimeGrid &steps, const double delay)
+  void ExplicitRock::make_rock(const GroundMotion &outcrop, const TimeGrid &steps, const double delay,
+                               const std::vector<unsigned int> &of_first)
   {
     statics.reset(); // its memory
     grid = steps;
     const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
-    region = make_region(model, p);
+    RockSplit                  split(n_nodes());
+    split.step_everywhere(feet_of_rock());
+    if (!split.is_trivial())
+      split.step(of_first, 0);
+    region = make_region(model, p, std::move(split));
     const IncidentWave wave = incident_wave(outcrop);
     if (grid.n > 0) // else without an earthquake
       shake(
@@ -105,10 +111,7 @@ namespace Voussoir
     make_rock(outcrop, steps, 0.);
     if (grid.substeps == 1)
       model.stiffness = BlockSparseMatrix(); // its memory: the region has what it needs
-    std::vector<unsigned int> nodes;
-    for (const Foot &f : foot)
-      nodes.push_back(f.rock);
-    region->set_prescribed(nodes);
+    region->set_prescribed(feet_of_rock());
     const std::size_t n = 3 * foot.size();
     rest.assign(n, 0.);
     for (std::size_t i = 0; i < foot.size(); ++i)
@@ -180,9 +183,26 @@ namespace Voussoir
     keep_account();
   }
 
+  std::vector<unsigned int> ExplicitRock::feet_of_rock() const
+  {
+    std::vector<unsigned int> result;
+    for (const Foot &f : foot)
+      result.push_back(f.rock);
+    return result;
+  }
+
   void ExplicitRock::keep_account()
   {
-    const RegionEnergy &e = energy();
+    region->gather_energy();
+    constexpr unsigned int interval = 10; // of the steps at which somebody looks, see StabilityWatch
+    if (region->is_split() && bounds.velocity > 0. && ++n_followed % interval == 0)
+    {
+      const Unknowns &u = region->displacement(), &w = region->half_step_velocity();
+      if (Ranks::any(find_excess(w, bounds.velocity) < w.size() ||
+                     find_excess(u, bounds.displacement) < u.size()))
+        region->gather_motion(); // for the first rank to see and say
+    }
+    const RegionEnergy e = energy();
     account[1] = std::max({account[1], e.kinetic + e.strain, e.damping, std::abs(e.prescribed + e.external),
                            std::abs(e.transmitted)});
     account[2] = std::max(account[2], std::abs(e.balance()));

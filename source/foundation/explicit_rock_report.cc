@@ -46,7 +46,7 @@ namespace Voussoir
   {
     if (!region)
       return {};
-    const RegionEnergy &e = energy();
+    const RegionEnergy e = energy();
     return {{"rock_kinetic", e.kinetic},
             {"rock_strain", e.strain},
             {"rock_damping", e.damping},

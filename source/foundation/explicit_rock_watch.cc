@@ -46,9 +46,9 @@ namespace Voussoir
 
   std::string ExplicitRock::trouble_of_energy() const
   {
-    const RegionEnergy &rock = energy();
-    const double        coupling = work_of_feet() + work_on_dam();
-    std::ostringstream  text;
+    const RegionEnergy rock = energy();
+    const double       coupling = work_of_feet() + work_on_dam();
+    std::ostringstream text;
     text.precision(3);
     if (region->artificial_boundary()->absorbs() && !(-rock.transmitted <= energy_bound))
       text << "the artificial boundary " << parameters.boundary << " has let " << -rock.transmitted

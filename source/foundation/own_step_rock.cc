@@ -13,14 +13,6 @@ namespace Voussoir
     return std::make_unique<ExplicitRock>(site);
   }
 
-  std::vector<unsigned int> OwnStepRock::feet_of_rock() const
-  {
-    std::vector<unsigned int> result;
-    for (const Foot &f : foot)
-      result.push_back(f.rock);
-    return result;
-  }
-
   RayleighDamping OwnStepRock::damping() const
   {
     return region_parameters(parameters, centre, 0.).damping;
@@ -44,8 +36,8 @@ namespace Voussoir
 
   void OwnStepRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
   {
-    make_rock(outcrop, steps, .5 * steps.substep());
-    patch = std::make_unique<RockPatch>(model, damping(), grid.substep(), feet_of_rock(), grid.substeps);
+    patch = std::make_unique<RockPatch>(model, damping(), steps.substep(), feet_of_rock(), steps.substeps);
+    make_rock(outcrop, steps, .5 * steps.substep(), patch->nodes()); // the first rank looks ahead for all
     model.stiffness = BlockSparseMatrix(); // its memory: region and patch have what they need
     region->force.assign(3 * std::size_t(n_nodes()), 0.);
     std::vector<std::pair<unsigned int, unsigned int>> standing;
@@ -111,8 +103,11 @@ namespace Voussoir
   Unknowns OwnStepRock::predict(const unsigned int n)
   {
     const Stopwatch watch;
-    const Unknowns  place = patch->places(n, region->displacement(), region->half_step_velocity());
-    Unknowns        result = rest;
+    Unknowns        place(3 * foot.size());
+    if (Ranks::is_first())
+      place = patch->places(n, region->displacement(), region->half_step_velocity());
+    Ranks::broadcast(place.data(), place.size(), 0);
+    Unknowns result = rest;
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
         result[3 * i + c] += place[3 * std::size_t(foot_of[i]) + c];

@@ -3,6 +3,7 @@
 #include <voussoir/rock/artificial_boundary.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace Voussoir
 {
@@ -17,38 +18,58 @@ namespace Voussoir
 
   void ArtificialBoundary::start(const RegionStep &) {}
 
-  double work_of_motion(const RegionStep &step, const std::vector<unsigned int> &nodes,
-                        const Unknowns &w_before)
+  void ArtificialBoundary::keep(const std::vector<bool> &)
   {
-    constexpr int                      per_chunk = 256; // nodes, added in their order whatever the threads
-    const int                          n = nodes.size(), n_chunks = (n + per_chunk - 1) / per_chunk;
-    std::vector<std::array<double, 3>> sums(n_chunks); // work, losses, work of forces
-#pragma omp parallel for schedule(static) if (n_chunks > 4)
-    for (int chunk = 0; chunk < n_chunks; ++chunk)
+    throw InputError("This artificial boundary knows one rank only: start the program without mpirun.");
+  }
+
+  std::vector<unsigned int> all_of(const std::size_t n)
+  {
+    std::vector<unsigned int> result(n);
+    std::iota(result.begin(), result.end(), 0);
+    return result;
+  }
+
+  std::vector<unsigned int> stepped_of(const std::vector<unsigned int> &nodes,
+                                       const std::vector<bool>         &stepped)
+  {
+    std::vector<unsigned int> result;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      if (stepped[nodes[i]])
+        result.push_back(i);
+    return result;
+  }
+
+  void add_work_of_motion(const RegionStep &step, const std::vector<unsigned int> &nodes,
+                          const std::vector<unsigned int> &kept, const Unknowns &w_before,
+                          const RegionWork kind, const double factor)
+  {
+    const int                          n = kept.size();
+    std::vector<std::array<double, 3>> sums(n); // work, losses, work of forces
+#pragma omp parallel for schedule(static) if (n > 1000)
+    for (int k = 0; k < n; ++k)
     {
-      double sum = 0., lost = 0., external = 0.;
-      for (int i = chunk * per_chunk; i < std::min(n, (chunk + 1) * per_chunk); ++i)
-        for (unsigned int c = 0; c < 3; ++c)
-        {
-          const std::size_t k = 3 * std::size_t(nodes[i]) + c;
-          const double      m = step.mass[nodes[i]], old = w_before[3 * std::size_t(i) + c],
-                       f = step.force.empty() ? 0. : step.force[k];
-          const double reaction =
-              m * ((step.w[k] - old) / step.dt + step.damping.mass * old) + step.K_x[k] - f;
-          sum += .5 * step.dt * reaction * (old + step.w[k]);
-          lost += .5 * step.dt * (step.damping.mass * m * old + step.K_x[k] - step.K_u[k]) * step.w[k];
-          external += .5 * step.dt * f * step.w[k];
-        }
-      sums[chunk] = {{sum, lost, external}};
+      const unsigned int i = kept[k];
+      double             sum = 0., lost = 0., external = 0.;
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const std::size_t at = 3 * std::size_t(nodes[i]) + c;
+        const double      m = step.mass[nodes[i]], old = w_before[3 * std::size_t(i) + c],
+                     f = step.force.empty() ? 0. : step.force[at];
+        const double reaction =
+            m * ((step.w[at] - old) / step.dt + step.damping.mass * old) + step.K_x[at] - f;
+        sum += .5 * step.dt * reaction * (old + step.w[at]);
+        lost += .5 * step.dt * (step.damping.mass * m * old + step.K_x[at] - step.K_u[at]) * step.w[at];
+        external += .5 * step.dt * f * step.w[at];
+      }
+      sums[k] = {{sum, lost, external}};
     }
-    double sum = 0.;
-    for (const auto &part : sums)
+    for (int k = 0; k < n; ++k) // in their order whatever the threads
     {
-      sum += part[0];
-      step.work[lost_in_damping] += part[1];
-      step.work[done_by_forces] += part[2];
+      step.add_work(kind, nodes[kept[k]], factor * sums[k][0]);
+      step.add_work(lost_in_damping, nodes[kept[k]], sums[k][1]);
+      step.add_work(done_by_forces, nodes[kept[k]], sums[k][2]);
     }
-    return sum;
   }
 
   void check_apart(const std::vector<unsigned int> &nodes, const std::vector<unsigned int> &prescribed,

@@ -88,6 +88,8 @@ namespace Voussoir
     u.assign(3 * std::size_t(n_nodes()), 0.);
     w = K_x = u;
     x = u;
+    pieces = split.pieces(n_nodes());
+    work.assign(n_region_works * ((n_nodes() + per_chunk - 1) / per_chunk), 0.);
     is_fixed.assign(u.size(), false);
     inverse_mass.resize(u.size());
     for (std::size_t i = 0; i < u.size(); ++i)
@@ -175,14 +177,17 @@ namespace Voussoir
       move_prescribed(u_prescribed, v_prescribed);
     const bool with_energy = !K_u.empty();
     if (with_energy)
-      work[done_by_prescribed] += work_of_motion(step_of_region(), prescribed, prescribed_w);
-    const int n = u.size();
-#pragma omp parallel for simd schedule(static)
-    for (int i = 0; i < n; ++i)
-    {
-      u[i] += dt * w[i];
-      x[i] = u[i] + damping.stiffness * w[i];
-    }
+      add_work_of_motion(step_of_region(), prescribed, all_of(prescribed.size()), prescribed_w,
+                         done_by_prescribed, 1.);
+    const int n = pieces.size();
+#pragma omp parallel for schedule(static)
+    for (int p = 0; p < n; ++p)
+#pragma omp simd
+      for (int i = 3 * pieces[p].first; i < 3 * pieces[p].second; ++i)
+      {
+        u[i] += dt * w[i];
+        x[i] = u[i] + damping.stiffness * w[i];
+      }
     stiffness.multiply(x.data(), K_x.data());
     clock[0] += 1.;
     for (std::size_t i = 0; i < prescribed.size(); ++i)
@@ -240,26 +245,80 @@ namespace Voussoir
 
   template <bool with_energy> void ExplicitRegion::step_explicit_nodes()
   {
-    const int         n = n_nodes(), n_chunks = (n + per_chunk - 1) / per_chunk;
-    std::vector<Sums> sums(n_chunks);
+    const int         n = pieces.size();
+    std::vector<Sums> sums(n);
 #pragma omp parallel for schedule(static)
-    for (int c = 0; c < n_chunks; ++c)
-      sums[c] = step_nodes<with_energy>(c * per_chunk, std::min(n, (c + 1) * per_chunk));
+    for (int p = 0; p < n; ++p)
+      sums[p] = step_nodes<with_energy>(pieces[p].first, pieces[p].second);
     if (!with_energy)
       return;
-    Sums total{};
-    for (const Sums &part : sums)
-      for (unsigned int k = 0; k < 4; ++k)
-        total[k] += part[k];
-    // Until now; what follows belongs to the next half step.
-    account.damping = work[lost_in_damping];
-    account.external = work[done_by_forces];
-    account.transmitted = work[gone_through_boundary];
-    account.prescribed = work[done_by_prescribed];
-    account.kinetic = .5 * total[0];
-    account.strain = .5 * total[1];
-    work[lost_in_damping] += .5 * dt * total[2];
-    work[done_by_forces] += .5 * dt * total[3];
+    constexpr unsigned int n_kept = 2 + n_region_works;
+    account.assign(n_kept * (work.size() / n_region_works), 0.);
+    for (std::size_t c = 0; c < work.size() / n_region_works;
+         ++c) // until now; what follows belongs to the next
+      std::copy_n(work.begin() + n_region_works * c, +n_region_works, account.begin() + n_kept * c + 2);
+    for (int p = 0; p < n; ++p)
+    {
+      const std::size_t c = pieces[p].first / per_chunk; // whole where it is this rank's own
+      account[n_kept * c] += sums[p][0];
+      account[n_kept * c + 1] += sums[p][1];
+      work[n_region_works * c + lost_in_damping] += .5 * dt * sums[p][2];
+      work[n_region_works * c + done_by_forces] += .5 * dt * sums[p][3];
+    }
+  }
+
+  RegionEnergy ExplicitRegion::energy() const
+  {
+    std::array<double, 2 + n_region_works> sum{};
+    for (std::size_t i = 0; i < account.size(); ++i)
+      sum[i % sum.size()] += account[i];
+    RegionEnergy result;
+    result.kinetic = .5 * sum[0];
+    result.strain = .5 * sum[1];
+    result.damping = sum[2 + lost_in_damping];
+    result.external = sum[2 + done_by_forces];
+    result.transmitted = sum[2 + gone_through_boundary];
+    result.prescribed = sum[2 + done_by_prescribed];
+    return result;
+  }
+
+  void ExplicitRegion::split_up(RockSplit given, RockOperator part)
+  {
+    split = std::move(given);
+    stiffness = std::move(part);
+    pieces = split.pieces(n_nodes());
+    if (boundary)
+      boundary->keep(split.stepped());
+  }
+
+  void ExplicitRegion::gather_energy()
+  {
+    if (!account.empty())
+      split.gather_chunks(account, 2 + n_region_works);
+  }
+
+  void ExplicitRegion::gather_motion()
+  {
+    split.gather(u, 3);
+    split.gather(w, 3);
+  }
+
+  void ExplicitRegion::collect()
+  {
+    if (!is_split())
+      return;
+    gather_motion();
+    split.gather(K_x, 3);
+    split.gather(K_u, 3);
+    split.gather_chunks(work, n_region_works);
+    if (!boundary)
+      return;
+    split.collect(boundary_w, 3, boundary->nodes());
+    const std::vector<unsigned int> node = boundary->nodes_of_points();
+    for (Unknowns *values : {&field, &field_before, &field_next})
+      split.collect(*values, 3, node);
+    for (auto *values : boundary->state())
+      split.collect(*values, 3, node);
   }
 
   RegionStep ExplicitRegion::step_of_region()
@@ -309,7 +368,8 @@ namespace Voussoir
       x[i] = u[i] + dt * w[i];
     stiffness.multiply(x.data(), K_x.data());
     for (std::size_t i = 0; i < u.size(); ++i)
-      work[done_by_forces] += .5 * (mass[i / 3] * w[i] * w[i] + u[i] * K_x[i]);
+      work[n_region_works * (i / 3 / per_chunk) + done_by_forces] +=
+          .5 * (mass[i / 3] * w[i] * w[i] + u[i] * K_x[i]);
     stiffness.multiply(u.data(), K_u.data());
     std::fill(K_x.begin(), K_x.end(), 0.);
   }

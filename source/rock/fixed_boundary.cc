@@ -7,6 +7,7 @@ namespace Voussoir
   {
     for (const BoundaryLine &line : model.lines)
       node.push_back(line.nodes[0]);
+    kept = all_of(node.size());
   }
 
   void FixedBoundary::check_prescribed(const std::vector<unsigned int> &prescribed) const
@@ -16,7 +17,7 @@ namespace Voussoir
 
   void FixedBoundary::advance(const RegionStep &step)
   {
-    for (std::size_t i = 0; i < node.size(); ++i)
+    for (const std::size_t i : kept)
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * std::size_t(node[i]) + c;
@@ -24,6 +25,6 @@ namespace Voussoir
         step.w[k] = (next - step.u[k]) / step.dt;
       }
     if (!step.K_u.empty())
-      step.work[gone_through_boundary] -= work_of_motion(step, node, step.w_before);
+      add_work_of_motion(step, node, kept, step.w_before, gone_through_boundary, -1.);
   }
 } // namespace Voussoir

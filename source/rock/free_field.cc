@@ -189,6 +189,11 @@ namespace Voussoir
     }
   }
 
+  void FreeField::keep(std::vector<unsigned int> given)
+  {
+    kept = std::move(given);
+  }
+
   void FreeField::advance()
   {
     const int n = columns.size();
@@ -200,16 +205,17 @@ namespace Voussoir
   void FreeField::evaluate(Unknowns &u) const
   {
     u.resize(3 * points.size());
-    const int n = points.size();
+    const int n = kept.empty() ? points.size() : kept.size();
 #pragma omp parallel for schedule(static)
-    for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k)
       for (unsigned int c = 0; c < 3; ++c)
       {
-        const Point &p = points[i];
+        const std::size_t i = kept.empty() ? k : kept[k];
+        const Point      &p = points[i];
         u[3 * i + c] = p.weight[0] * p.value[0][c];
-        for (unsigned int k = 1; k < 4; ++k)
-          if (p.weight[k] != 0.)
-            u[3 * i + c] += p.weight[k] * p.value[k][c];
+        for (unsigned int j = 1; j < 4; ++j)
+          if (p.weight[j] != 0.)
+            u[3 * i + c] += p.weight[j] * p.value[j][c];
       }
   }
 

@@ -310,4 +310,13 @@ namespace Voussoir
   {
     return {model.stiffness, model.points, model.nodal_cells, model.in_other_cell, kernel};
   }
+
+  RockOperator make_operator(const RockModel &model, RockSplit &split)
+  {
+    std::vector<std::vector<unsigned int>> lines;
+    for (const BoundaryLine &line : model.lines)
+      lines.push_back(line.nodes);
+    split.set_lines(std::move(lines));
+    return {model.stiffness, model.points, model.nodal_cells, model.in_other_cell, nodal_kernel(), split};
+  }
 } // namespace Voussoir

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <numeric>
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -65,8 +66,11 @@ namespace Voussoir
       shared,
       of_matrix
     };
-    std::vector<Kind>         kind;  ///< of the region's nodes
-    std::vector<unsigned int> local; ///< number in the block at hand
+    std::vector<std::pair<unsigned int, unsigned int>> in_block; ///< nodes and their blocks, ascending
+    std::vector<unsigned int>                          rank;     ///< of the blocks
+    std::map<std::pair<unsigned int, unsigned int>, unsigned int> place; ///< of shared nodes' forces
+    std::vector<Kind>                                             kind;  ///< of the region's nodes
+    std::vector<unsigned int>                                     local; ///< number in the block at hand
 
     std::map<std::array<double, 2 * n_lanes>, unsigned int> lame; ///< places of the sets
 
@@ -84,21 +88,65 @@ namespace Voussoir
           {
             if (block[i] != none && block[i] != b)
               kind[i] = shared;
+            if (block[i] != b)
+              in_block.emplace_back(i, b);
             block[i] = b;
           }
+      std::sort(in_block.begin(), in_block.end());
+      in_block.erase(std::unique(in_block.begin(), in_block.end()), in_block.end());
       for (std::size_t i = 0; i < has_row.size(); ++i)
         if (has_row[i])
           kind[i] = of_matrix;
     }
+
+    /** Blocks in the order of their nodes' numbers, in parts of about the same number of cells. */
+    void share_blocks(const std::vector<std::size_t> &ends)
+    {
+      const unsigned int  n_blocks = ends.size(), n_ranks = Ranks::size();
+      std::vector<double> sum(n_blocks, 0.), count(n_blocks, 0.);
+      for (const auto &[i, b] : in_block)
+      {
+        sum[b] += i;
+        count[b] += 1.;
+      }
+      std::vector<unsigned int> by_place(n_blocks);
+      std::iota(by_place.begin(), by_place.end(), 0);
+      std::sort(by_place.begin(), by_place.end(),
+                [&](const unsigned int a, const unsigned int b)
+                { return std::make_pair(sum[a] / count[a], a) < std::make_pair(sum[b] / count[b], b); });
+      rank.resize(n_blocks);
+      std::size_t before = 0;
+      for (const unsigned int b : by_place)
+      {
+        const std::size_t n = ends[b] - (b == 0 ? 0 : ends[b - 1]);
+        rank[b] = std::min<std::size_t>(n_ranks - 1, (2 * before + n) * n_ranks / (2 * ends.back()));
+        before += n;
+      }
+    }
   };
+
+  namespace
+  {
+    RockSplit &no_split()
+    {
+      static RockSplit split;
+      return split;
+    }
+  } // namespace
 
   RockOperator::RockOperator(const BlockSparseMatrix &stiffness, const std::vector<Vector3> &points,
                              const std::vector<NodalCell> &cells, const std::vector<bool> &keeps_row,
                              const NodalKernel kernel)
+      : RockOperator(stiffness, points, cells, keeps_row, kernel, no_split())
+  {
+  }
+
+  RockOperator::RockOperator(const BlockSparseMatrix &stiffness, const std::vector<Vector3> &points,
+                             const std::vector<NodalCell> &cells, const std::vector<bool> &keeps_row,
+                             const NodalKernel kernel, RockSplit &split)
       : kernel(kernel), n_nodes(stiffness.n_rows())
   {
-    const std::vector<bool> has_row = kernel ? keeps_row : std::vector<bool>(n_nodes, true);
-    keep_rows(stiffness, has_row);
+    const std::vector<bool>   has_row = kernel ? keeps_row : std::vector<bool>(n_nodes, true);
     std::vector<unsigned int> order;
     std::vector<Vector3>      centre(cells.size(), Vector3{}); // times eight
     for (unsigned int k = 0; k < cells.size(); ++k)
@@ -112,14 +160,36 @@ namespace Voussoir
     std::vector<std::size_t> ends;
     if (!order.empty())
       sort_into_blocks(centre, order, 0, order.size(), number_of_blocks(order.size()), ends);
-    Numbering   numbering(cells, order, ends, has_row);
-    std::size_t first = 0;
-    for (const std::size_t end : ends)
+    Numbering numbering(cells, order, ends, has_row);
+    if (!split.is_trivial())
     {
-      add_block(cells, {order.begin() + first, order.begin() + end}, points, numbering);
-      first = end;
+      numbering.share_blocks(ends);
+      for (const auto &[i, b] : numbering.in_block)
+        split.step({i}, numbering.rank[b]);
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        if (has_row[i])
+          split.step({stiffness.column.begin() + stiffness.start[i],
+                      stiffness.column.begin() + stiffness.start[i + 1]},
+                     split.owner(i));
+      split.follow_lines();
     }
-    find_shared_nodes();
+    std::vector<bool> keeps = has_row;
+    for (unsigned int i = 0; i < n_nodes; ++i)
+      keeps[i] = has_row[i] && split.owner(i) == Ranks::rank();
+    keep_rows(stiffness, keeps);
+    std::size_t first = 0;
+    for (unsigned int b = 0; b < ends.size(); ++b)
+    {
+      if (split.is_trivial() || numbering.rank[b] == Ranks::rank())
+      {
+        add_block(cells, {order.begin() + first, order.begin() + ends[b]}, points, numbering);
+        blocks.back().number = b;
+      }
+      first = ends[b];
+    }
+    find_shared_nodes(split, numbering);
+    if (!split.is_trivial())
+      find_partners(split, numbering);
   }
 
   void RockOperator::keep_rows(const BlockSparseMatrix &stiffness, const std::vector<bool> &has_row)
@@ -206,15 +276,24 @@ namespace Voussoir
     lame_of.push_back(set->second);
   }
 
-  void RockOperator::find_shared_nodes()
+  void RockOperator::find_shared_nodes(const RockSplit &split, Numbering &numbering)
   {
-    std::vector<std::pair<unsigned int, unsigned int>> places; // of nodes in shared_force
+    auto &places = numbering.place;
     for (const Block &block : blocks)
       for (unsigned int i = 0; i < block.n_shared; ++i)
-        places.emplace_back(node[block.first_node + block.n_own + i], block.first_shared + i);
-    std::sort(places.begin(), places.end());
-    for (const auto &[i, at] : places)
+        places[{node[block.first_node + block.n_own + i], block.number}] = block.first_shared + i;
+    if (!split.is_trivial())
     {
+      unsigned int next = shared_force.size() / 3;
+      for (const auto &[i, b] : numbering.in_block)
+        if (numbering.kind[i] == Numbering::shared && split.is_stepped(i) &&
+            numbering.rank[b] != Ranks::rank())
+          places[{i, b}] = next++;
+      shared_force.resize(3 * std::size_t(next));
+    }
+    for (const auto &[of, at] : places) // by node, in the order of the blocks
+    {
+      const unsigned int i = of.first;
       if (shared_node.empty() || shared_node.back() != i)
       {
         shared_node.push_back(i);
@@ -223,6 +302,66 @@ namespace Voussoir
       shared_place.push_back(at);
     }
     shared_start.push_back(shared_place.size());
+  }
+
+  void RockOperator::find_partners(const RockSplit &split, const Numbering &numbering)
+  {
+    const unsigned int              me = Ranks::rank();
+    std::map<unsigned int, Partner> found;
+    const auto                      give = [&](const unsigned int from, const unsigned int i, const auto &at)
+    {
+      for (unsigned int r = 0; r < Ranks::size(); ++r)
+        if (r != from && (r == me || from == me) && split.is_stepped(i, r))
+        {
+          Partner &partner = found[r == me ? from : r];
+          partner.rank = r == me ? from : r;
+          (r == me ? partner.receive : partner.send).push_back(at());
+        }
+    };
+    for (const auto &[i, b] : numbering.in_block)
+      if (numbering.kind[i] == Numbering::own)
+        give(numbering.rank[b], i, [&, i = i] { return 3 * std::size_t(i); });
+      else if (numbering.kind[i] == Numbering::shared)
+        give(numbering.rank[b], i,
+             [&, i = i, b = b] {
+               return 3 * (std::size_t(n_nodes) + numbering.place.at({i, b}));
+             });
+    for (unsigned int i = 0; i < n_nodes; ++i)
+      if (numbering.kind[i] == Numbering::of_matrix)
+        give(split.owner(i), i, [&] { return 3 * std::size_t(i); });
+    for (auto &[r, partner] : found)
+    {
+      partner.out.resize(3 * partner.send.size());
+      partner.in.resize(3 * partner.receive.size());
+      partners.push_back(std::move(partner));
+    }
+  }
+
+  std::size_t RockOperator::n_sent() const
+  {
+    std::size_t n = 0;
+    for (const Partner &partner : partners)
+      n += partner.out.size();
+    return n;
+  }
+
+  /** The forces of other ranks' cells on the nodes that this one steps. */
+  void RockOperator::exchange(double *y) const
+  {
+    const auto force = [&](const std::size_t at)
+    { return at < 3 * std::size_t(n_nodes) ? y + at : shared_force.data() + at - 3 * std::size_t(n_nodes); };
+    std::vector<Ranks::Message> messages;
+    for (const Partner &partner : partners)
+    {
+      for (std::size_t k = 0; k < partner.send.size(); ++k)
+        std::copy_n(force(partner.send[k]), 3, partner.out.begin() + 3 * k);
+      messages.push_back(
+          {partner.rank, partner.out.data(), partner.out.size(), partner.in.data(), partner.in.size()});
+    }
+    Ranks::exchange(messages);
+    for (const Partner &partner : partners)
+      for (std::size_t k = 0; k < partner.receive.size(); ++k)
+        std::copy_n(partner.in.begin() + 3 * k, 3, force(partner.receive[k]));
   }
 
   void RockOperator::multiply_row(const std::size_t r, const double *x, double *y) const
@@ -294,6 +433,12 @@ namespace Voussoir
 #pragma omp for schedule(dynamic)
       for (int b = 0; b < n_blocks; ++b)
         multiply_block(blocks[b], x, y, scratch.get() + thread * scratch_size());
+      if (!partners.empty())
+      {
+#pragma omp master
+        exchange(y);
+#pragma omp barrier
+      }
 #pragma omp for schedule(static)
       for (int i = 0; i < n_shared; ++i)
         sum_shared(i, y);

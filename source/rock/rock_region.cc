@@ -15,13 +15,19 @@ namespace Voussoir
     return parameters.boundary_maker ? parameters.boundary_maker() : make_boundary(parameters.boundary);
   }
 
-  std::unique_ptr<ExplicitRegion> make_region(const RockModel &model, const RockRegionParameters &parameters)
+  std::unique_ptr<ExplicitRegion> make_region(const RockModel &model, const RockRegionParameters &parameters,
+                                              RockSplit split)
   {
     auto region =
         std::make_unique<ExplicitRegion>(make_operator(model), model.mass, parameters.damping, parameters.dt);
     auto boundary = make_boundary(parameters);
     boundary->attach(model, parameters.rock.centre, parameters.dt);
     region->set_boundary(std::move(boundary));
+    if (!split.is_trivial())
+    {
+      RockOperator part = make_operator(model, split);
+      region->split_up(std::move(split), std::move(part));
+    }
     return region;
   }
 
@@ -98,6 +104,8 @@ namespace Voussoir
   {
     auto field = make_free_field(model, parameters, wave, n_steps);
     add_points(*field, *region.artificial_boundary(), model);
+    if (region.is_split())
+      field->keep(region.artificial_boundary()->kept_points());
     region.set_free_field(std::move(field));
   }
 } // namespace Voussoir

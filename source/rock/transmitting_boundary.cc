@@ -153,6 +153,7 @@ namespace Voussoir
       for (const auto &row : transmitting_weights(courant, gamma, position, formula.interpolation))
         weights.insert(weights.end(), row.begin(), row.end());
     }
+    kept = all_of(boundary_node.size());
     history.assign(formula.order(), Unknowns(3 * node.size(), 0.));
   }
 
@@ -162,14 +163,15 @@ namespace Voussoir
     if (!history.empty())
       std::rotate(history.begin(), history.end() - 1, history.end());
     const bool         incident = !free_field.empty();
-    const int          lines = static_cast<int>(boundary_node.size());
+    const int          lines = static_cast<int>(kept.size());
     const unsigned int n = known == 0 ? n_points : known;
     constexpr int      ahead = 4; // lines whose displacements are on their way
 #pragma omp parallel for schedule(static)
-    for (int line = 0; line < lines; ++line)
+    for (int l = 0; l < lines; ++l)
     {
+      const unsigned int  line = kept[l];
       const std::size_t   first = std::size_t(line) * n;
-      const unsigned int *soon = node.data() + n * std::size_t(std::min(line + ahead, lines - 1));
+      const unsigned int *soon = node.data() + n * std::size_t(kept[std::min(l + ahead, lines - 1)]);
       for (unsigned int k = 0; k < n; ++k)
         __builtin_prefetch(u.data() + 3 * std::size_t(soon[k]));
       double       *latest = history.empty() ? nullptr : history.front().data() + 3 * first;
@@ -199,7 +201,24 @@ namespace Voussoir
     else
       move_nodes<0>(step);
     if (!step.K_u.empty())
-      step.work[gone_through_boundary] -= work_of_motion(step, boundary_node, step.w_before);
+      add_work_of_motion(step, boundary_node, kept, step.w_before, gone_through_boundary, -1.);
+  }
+
+  std::vector<unsigned int> TransmittingBoundary::kept_points() const
+  {
+    std::vector<unsigned int> result;
+    for (const unsigned int line : kept)
+      for (unsigned int k = 0; k < n_points; ++k)
+        result.push_back(line * n_points + k);
+    return result;
+  }
+
+  std::vector<unsigned int> TransmittingBoundary::nodes_of_points() const
+  {
+    std::vector<unsigned int> result;
+    for (const unsigned int i : boundary_node)
+      result.insert(result.end(), n_points, i);
+    return result;
   }
 
   void TransmittingBoundary::check_prescribed(const std::vector<unsigned int> &prescribed) const

@@ -69,6 +69,18 @@ namespace Voussoir
       }
     }
     first_neighbour.push_back(neighbour_number.size());
+    kept = all_of(dashpots.size());
+  }
+
+  void ViscousBoundary::keep(const std::vector<bool> &stepped)
+  {
+    kept = stepped_of(node, stepped);
+    points = stepped_of(neighbours, stepped);
+    for (const unsigned int d : kept)
+      points.insert(points.end(), neighbour_number.begin() + first_neighbour[d],
+                    neighbour_number.begin() + first_neighbour[d + 1]);
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
   }
 
   Vector3 ViscousBoundary::free_field_force(const RegionStep &step, const unsigned int d) const
@@ -116,12 +128,15 @@ namespace Voussoir
     const double           dt = step.dt;
     const Unknowns        &u = step.u, &K_x = step.K_x, &K_u = step.K_u, &force = step.force;
     Unknowns              &w = step.w;
-    const int              n = dashpots.size();
+    const int              n = kept.size();
     const bool with_energy = !K_u.empty(), loaded = !force.empty(), incident = !step.field.empty();
-    double     transmitted = 0., lost = 0., external = 0.;
-#pragma omp parallel for schedule(static) reduction(+ : transmitted, lost, external)
-    for (int d = 0; d < n; ++d)
+    std::vector<std::array<double, 3>> sums(n); // transmitted, lost, work of forces
+#pragma omp parallel for schedule(static)
+    for (int k = 0; k < n; ++k)
     {
+      double            &transmitted = sums[k][0], &lost = sums[k][1], &external = sums[k][2];
+      const unsigned int d = kept[k];
+      transmitted = lost = external = 0.;
       const Dashpot    &dashpot = dashpots[d];
       const std::size_t first = 3 * std::size_t(dashpot.node);
       const double      m = step.mass[dashpot.node];
@@ -153,8 +168,11 @@ namespace Voussoir
         external += loaded ? .5 * dt * force[k] * w[k] : 0.;
       }
     }
-    step.work[gone_through_boundary] += transmitted;
-    step.work[lost_in_damping] += lost;
-    step.work[done_by_forces] += external;
+    for (int k = 0; with_energy && k < n; ++k) // in their order whatever the threads
+    {
+      step.add_work(gone_through_boundary, node[kept[k]], sums[k][0]);
+      step.add_work(lost_in_damping, node[kept[k]], sums[k][1]);
+      step.add_work(done_by_forces, node[kept[k]], sums[k][2]);
+    }
   }
 } // namespace Voussoir

@@ -14,6 +14,7 @@
 #include <voussoir/output/stability_watch.h>
 #include <voussoir/output/time_error.h>
 
+#include <functional>
 #include <optional>
 
 namespace Voussoir
@@ -58,6 +59,7 @@ namespace Voussoir
     void    advance_companion(const Unknowns &load, const Vector3 &base_velocity, const Vector3 &ground);
     Vector3 ground_acceleration(unsigned int after) const;
     void    step_once();
+    void    record_on_first(const std::function<void()> &action);
     void    record();
     void    report_step();
     void    write_solution();

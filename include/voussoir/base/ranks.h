@@ -63,6 +63,19 @@ namespace Voussoir
       unsigned int from, to;
     };
 
+    /** To and from another rank. */
+    struct Message
+    {
+      unsigned int  rank;
+      const double *out;
+      std::size_t   n_out;
+      double       *in;
+      std::size_t   n_in;
+    };
+
+    /** All at once; both sides must name each other. */
+    void exchange(const std::vector<Message> &list);
+
     /** @p list: the same on all ranks; those who are concerned move their parts of @p data. */
     void exchange(float *data, const std::vector<Transfer> &list);
   } // namespace Ranks

@@ -71,6 +71,7 @@ namespace Voussoir
     double                                      balance_error() const override;
     void                                        report_balance(Log &log) const override;
     std::vector<std::vector<double> *>          state() override;
+    void                                        collect() override { region->collect(); }
 
     void        watch(const GroundMotion &motion, const WatchBounds &bounds) override;
     std::string trouble_of_energy() const override;
@@ -78,7 +79,7 @@ namespace Voussoir
     std::string remedies() const override;
 
     /** Energies of the rock, half a step of its own before the dam's time, after start() [J]. */
-    const RegionEnergy &energy() const { return region->energy(); }
+    RegionEnergy energy() const { return region->energy(); }
 
     /** Work of the rock on the feet so far, as the dam counts it, and of the feet on the rock [J]: they add
      * up to what the coupling made. */
@@ -86,8 +87,11 @@ namespace Voussoir
     virtual double work_of_feet() const { return energy().prescribed; }
 
   protected:
-    void make_rock(const GroundMotion &outcrop, const TimeGrid &steps, double delay);
-    void keep_account();
+    /** @p of_first: nodes that the first rank asks for, besides the feet, which all do. */
+    void                      make_rock(const GroundMotion &outcrop, const TimeGrid &steps, double delay,
+                                        const std::vector<unsigned int> &of_first = {});
+    void                      keep_account();
+    std::vector<unsigned int> feet_of_rock() const; ///< nodes of the region
 
   private:
     void     check_stability(const TimeGrid &grid) const;
@@ -116,6 +120,7 @@ namespace Voussoir
     std::vector<double> account = {0., 0., 0.}; ///< work on the dam, largest energy, largest imbalance [J]
     WatchBounds         bounds;
     double              energy_bound = 0.; ///< that the rock may take in [J]
+    unsigned int        n_followed = 0;    ///< steps
   };
 } // namespace Voussoir
 

@@ -108,6 +108,9 @@ namespace Voussoir
 
     virtual std::vector<std::vector<double> *> state() { return {}; } ///< for checkpoints, after start()
 
+    /** With several ranks, by all: the first one's state() is the whole one after that. */
+    virtual void collect() {}
+
     /** For StabilityWatch: bounds, what is wrong now (or empty), and what may help (empty: nothing of its
      * own). */
     virtual void        watch(const GroundMotion &, const WatchBounds &) {}

@@ -42,9 +42,8 @@ namespace Voussoir
     void                             push(unsigned int n, const Unknowns &force, double work) override;
 
   private:
-    std::vector<unsigned int> feet_of_rock() const;
-    RayleighDamping           damping() const;
-    Unknowns                  places() const;
+    RayleighDamping damping() const;
+    Unknowns        places() const;
 
     std::unique_ptr<RockPatch> patch;
     std::vector<unsigned int>  nodes, foot_of; ///< the dam's, ascending, and the foot below each

@@ -14,7 +14,8 @@ namespace Voussoir
     lost_in_damping,
     done_by_forces,
     gone_through_boundary,
-    done_by_prescribed
+    done_by_prescribed,
+    n_region_works
   };
 
   /** A region at time t, as its boundary sees it: all but the boundary's nodes have made their step. Three
@@ -35,7 +36,13 @@ namespace Voussoir
     const Unknowns &field_before, &field, &field_next;
 
     Unknowns            &w;    ///< (u(t + dt) - u(t)) / dt: to be set at the boundary's nodes [m/s]
-    std::vector<double> &work; ///< by RegionWork: to be added to, if K_u is not empty [J]
+    std::vector<double> &work; ///< by chunk of nodes and RegionWork: see add_work() [J]
+
+    /** If K_u is not empty: @p done at one of the nodes, by other nodes in their order. */
+    void add_work(const RegionWork kind, const unsigned int node, const double done) const
+    {
+      work[n_region_works * (node / RockSplit::per_chunk) + kind] += done;
+    }
   };
 
   /** Where the mesh ends and the rock does not: gives the motion of its nodes from that of the region and of
@@ -85,14 +92,32 @@ namespace Voussoir
     /** Sets the velocities w of its nodes, and adds to the works. */
     virtual void advance(const RegionStep &step) = 0;
 
-    /** All that it remembers, for checkpoints. */
+    /** Only the nodes that are @p stepped here count from now on, with several ranks. */
+    virtual void keep(const std::vector<bool> &stepped);
+
+    /** Places among free_field_nodes() that the kept nodes, and all stepped ones, ask for; after keep(). */
+    virtual std::vector<unsigned int> kept_points() const { return {}; }
+
+    /** For each of free_field_nodes(), and what it remembers of them, the node whose owner has it. */
+    virtual std::vector<unsigned int> nodes_of_points() const { return free_field_nodes(); }
+
+    /** All that it remembers, for checkpoints; of each of free_field_nodes() three numbers. */
     virtual std::vector<std::vector<double> *> state() { return {}; }
   };
 
-  /** Work on the region, in the last step, of nodes whose motion is not its own but given, from the force
-   * that this motion takes [J]. Adds the losses and the work of forces there to the works. */
-  double work_of_motion(const RegionStep &step, const std::vector<unsigned int> &nodes,
-                        const Unknowns &w_before);
+  /** Adds to the works what nodes whose motion is not the region's own but given have done in the last step,
+   * by the force that this motion takes: @p factor times it as @p kind; losses and the work of forces there.
+   * @p kept: places among @p nodes. */
+  void add_work_of_motion(const RegionStep &step, const std::vector<unsigned int> &nodes,
+                          const std::vector<unsigned int> &kept, const Unknowns &w_before, RegionWork kind,
+                          double factor);
+
+  /** 0, 1, ... n - 1. */
+  std::vector<unsigned int> all_of(std::size_t n);
+
+  /** Places of the @p stepped ones among the @p nodes. */
+  std::vector<unsigned int> stepped_of(const std::vector<unsigned int> &nodes,
+                                       const std::vector<bool>         &stepped);
 
   /** InputError if one of the @p prescribed nodes is one of @p nodes: there must be @p layers of cells
    * between the base of the dam and the boundary. */

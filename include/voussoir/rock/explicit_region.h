@@ -56,6 +56,21 @@ namespace Voussoir
     /** External forces, three per node [N], kept until changed. Empty at first: none. */
     Unknowns force;
 
+    /** This rank shall step its part of the region: to be done with several, before the first step, by all.
+     * @p part: of the operator, made with the @p split. */
+    void split_up(RockSplit split, RockOperator part);
+    bool is_split() const { return !split.is_trivial(); }
+
+    /** With several ranks: all get the whole region's energies up to now, and displacement() and
+     * half_step_velocity() of all nodes. */
+    void gather_energy();
+    void gather_motion();
+
+    /** With several ranks: what state() has is the whole region's after that, on the first rank. */
+    void collect();
+
+    const RockOperator &stiffness_operator() const { return stiffness; }
+
     /** One step, to t + dt. @p u, @p v: predicted displacement [m] and velocity [m/s] of the prescribed nodes
      * at t + dt, three values each, in the order of set_prescribed(). Returns what the region's elements and
      * their damping take from these nodes, K u + C v [N]. */
@@ -74,8 +89,8 @@ namespace Voussoir
     double critical_time_step() const { return dt_critical; }
 
     /** The energy account costs a tenth of a step; off at first. Switch on at rest. */
-    void                keep_energy() { K_u.assign(u.size(), 0.); }
-    const RegionEnergy &energy() const { return account; }
+    void         keep_energy() { K_u.assign(u.size(), 0.); }
+    RegionEnergy energy() const; ///< with several ranks: at the last gather_energy()
 
     std::vector<std::vector<double> *> state();
 
@@ -86,7 +101,7 @@ namespace Voussoir
     /** Kinetic energy and strain energy, twice; losses and work of forces over dt/2. Chunks of nodes are
      * added in their order, so that sums do not depend on the number of threads. */
     using Sums = std::array<double, 4>;
-    static constexpr int             per_chunk = 256; ///< nodes
+    static constexpr int             per_chunk = RockSplit::per_chunk;
     template <bool with_energy> Sums step_nodes(int first, int last);
 
     void                             move_prescribed(const Unknowns &u_new, const Unknowns &v_new);
@@ -114,8 +129,11 @@ namespace Voussoir
 
     std::unique_ptr<IncidentField> free_field;
     Unknowns            field_before, field, field_next; ///< at its points: last, this and next time
-    std::vector<double> work = {0., 0., 0., 0.};         ///< by RegionWork
-    RegionEnergy        account;
+    std::vector<double> work;                            ///< by chunk and RegionWork
+    /** Of each chunk: kinetic and twice the strain energy half a step before the time, and the works then. */
+    std::vector<double>              account;
+    RockSplit                        split;
+    std::vector<std::pair<int, int>> pieces; ///< nodes that are stepped here, in parts of chunks
   };
 
   /** Largest circular frequency of M^-1 K [1/s], from above: power iteration, with the residual added. */

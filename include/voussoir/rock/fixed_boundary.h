@@ -24,8 +24,11 @@ namespace Voussoir
     void start(const RegionStep &step) override { advance(step); }
     void advance(const RegionStep &step) override;
 
+    void keep(const std::vector<bool> &stepped) override { kept = stepped_of(node, stepped); }
+    std::vector<unsigned int> kept_points() const override { return kept; }
+
   private:
-    std::vector<unsigned int> node;
+    std::vector<unsigned int> node, kept; ///< kept: places among them
   };
 } // namespace Voussoir
 

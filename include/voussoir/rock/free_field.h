@@ -30,6 +30,9 @@ namespace Voussoir
     /** These nodes become points. Nodes of lines move like their line. */
     void add_nodes(const RockModel &model, const std::vector<unsigned int> &nodes);
 
+    /** Only these points are asked for from now on. */
+    void keep(std::vector<unsigned int> points);
+
     void advance() override;
     void evaluate(Unknowns &u) const override;
 
@@ -54,6 +57,7 @@ namespace Voussoir
     unsigned int                                  highest = 0;
     std::vector<std::unique_ptr<Section>>         sections;
     std::vector<Point>                            points;
+    std::vector<unsigned int>                     kept; ///< of them; empty: all
   };
 } // namespace Voussoir
 

@@ -75,6 +75,9 @@ namespace Voussoir
 
   /** For products with the model's stiffness; @p kernel: of nodal_kernel(). */
   RockOperator make_operator(const RockModel &model, NodalKernel kernel = nodal_kernel());
+
+  /** This rank's part of it; @p split: receives what the parts ask for. */
+  RockOperator make_operator(const RockModel &model, RockSplit &split);
 } // namespace Voussoir
 
 #endif

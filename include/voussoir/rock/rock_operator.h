@@ -4,6 +4,7 @@
 
 #include <voussoir/base/node_matrix.h>
 #include <voussoir/rock/nodal_kernel.h>
+#include <voussoir/rock/rock_split.h>
 
 namespace Voussoir
 {
@@ -20,7 +21,11 @@ namespace Voussoir
    *
    *  Cells are parted into blocks of neighbours, whose displacements and forces fit into a core's cache.
    * Nodes of several blocks get the sum of theirs in the blocks' order, so that products do not depend on the
-   * number of threads. One product at a time: they share an array. */
+   * number of threads. One product at a time: they share an array.
+   *
+   *  With several ranks each has its share of the blocks, and the rows of its own nodes. A product is right
+   * at all nodes that the rank steps: it gets the forces that other ranks' blocks and rows give them, and
+   * adds them up in the same order. */
   class RockOperator
   {
   public:
@@ -30,6 +35,15 @@ namespace Voussoir
     RockOperator(const BlockSparseMatrix &stiffness, const std::vector<Vector3> &points,
                  const std::vector<NodalCell> &cells, const std::vector<bool> &has_row,
                  NodalKernel kernel = nodal_kernel());
+
+    /** This rank's part of it. @p split: receives the nodes that the ranks' parts ask for. */
+    RockOperator(const BlockSparseMatrix &stiffness, const std::vector<Vector3> &points,
+                 const std::vector<NodalCell> &cells, const std::vector<bool> &has_row, NodalKernel kernel,
+                 RockSplit &split);
+
+    /** Numbers that a product sends, and messages. */
+    std::size_t n_sent() const;
+    std::size_t n_partners() const { return partners.size(); }
 
     /** y = K x; both arrays have 3 n_rows() entries. */
     void multiply(const double *x, double *y) const;
@@ -46,6 +60,7 @@ namespace Voussoir
       std::size_t  first_node; ///< in node and place
       unsigned int n_own, n_shared, n_nodes;
       unsigned int first_shared; ///< in shared_force, over 3
+      unsigned int number;       ///< among those of all ranks
       unsigned int first_pack, n_packs;
     };
 
@@ -57,11 +72,21 @@ namespace Voussoir
 
     struct Numbering;
 
+    /** Forces to and from another rank: place in y, or in shared_force behind 3 n_nodes. */
+    struct Partner
+    {
+      unsigned int                rank;
+      std::vector<std::size_t>    send, receive;
+      mutable std::vector<double> out, in;
+    };
+
     void        keep_rows(const BlockSparseMatrix &stiffness, const std::vector<bool> &has_row);
+    void        find_partners(const RockSplit &split, const Numbering &numbering);
+    void        exchange(double *y) const;
     void        add_block(const std::vector<NodalCell> &cells, const std::vector<unsigned int> &part,
                           const std::vector<Vector3> &points, Numbering &numbering);
     void        add_pack(const std::vector<const NodalCell *> &cells, Numbering &numbering);
-    void        find_shared_nodes();
+    void        find_shared_nodes(const RockSplit &split, Numbering &numbering);
     std::size_t scratch_size() const
     {
       return std::size_t(most_nodes) + (most_nodes + 1) / 2;
@@ -85,6 +110,8 @@ namespace Voussoir
     std::vector<unsigned int>   shared_node;  ///< of several blocks
     std::vector<unsigned int>   shared_start; ///< of each of them, in shared_place
     std::vector<unsigned int>   shared_place; ///< in shared_force, over 3
+
+    std::vector<Partner> partners;
 
     std::vector<unsigned int> row; ///< nodes that have one
     std::vector<std::size_t>  start;

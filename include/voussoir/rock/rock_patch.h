@@ -26,6 +26,8 @@ namespace Voussoir
      * one step dt^2/(2 M). */
     BlockSparseMatrix compliance(unsigned int n_steps) const;
 
+    const std::vector<unsigned int> &nodes() const { return node; } ///< of the region
+
     unsigned int n_feet() const { return n_layer[0]; }
     double       memory() const; ///< [bytes]
 

@@ -10,8 +10,9 @@ namespace Voussoir
   /** The boundary that the parameters choose, not yet attached. */
   std::unique_ptr<ArtificialBoundary> make_boundary(const RockRegionParameters &parameters);
 
-  /** The region of a model with its artificial boundary. */
-  std::unique_ptr<ExplicitRegion> make_region(const RockModel &model, const RockRegionParameters &parameters);
+  /** The region of a model with its artificial boundary. @p split: if several ranks are to step it. */
+  std::unique_ptr<ExplicitRegion> make_region(const RockModel &model, const RockRegionParameters &parameters,
+                                              RockSplit split = RockSplit());
 
   /** A check of stability: kinetic energy of the region after @p n_steps from random motion, relative to that
    * after a tenth of them. Stable regions lose energy: below 1. */

@@ -40,6 +40,10 @@ namespace Voussoir
     void start(const RegionStep &step) override { advance(step); }
     void advance(const RegionStep &step) override;
 
+    void keep(const std::vector<bool> &stepped) override { kept = stepped_of(boundary_node, stepped); }
+    std::vector<unsigned int> kept_points() const override;
+    std::vector<unsigned int> nodes_of_points() const override;
+
     std::vector<std::vector<double> *> state() override;
 
     const TransmittingFormula &transmitting_formula() const { return formula; }
@@ -51,6 +55,7 @@ namespace Voussoir
     TransmittingFormula       formula;
     unsigned int              n_points;            ///< per line
     std::vector<unsigned int> boundary_node, node; ///< of each line the first, and all
+    std::vector<unsigned int> kept;                ///< lines
     std::vector<double>       weights;             ///< by line, step back and point
     std::vector<Unknowns>     history;             ///< scattered field of all nodes, the latest first
   };

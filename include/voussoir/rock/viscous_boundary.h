@@ -36,12 +36,17 @@ namespace Voussoir
 
     void advance(const RegionStep &step) override;
 
+    void                      keep(const std::vector<bool> &stepped) override;
+    std::vector<unsigned int> kept_points() const override { return points; }
+
   private:
     Vector3 free_field_force(const RegionStep &step, unsigned int dashpot) const;
 
     double                    normal_spring, tangential_spring;
     std::vector<Dashpot>      dashpots;
     std::vector<unsigned int> node;             ///< of each dashpot
+    std::vector<unsigned int> kept;             ///< dashpots
+    std::vector<unsigned int> points;           ///< neighbours that are needed; after keep()
     std::vector<Matrix3>      effective;        ///< inverse of M + dt/2 C
     std::vector<unsigned int> neighbours;       ///< own nodes included, ascending
     std::vector<unsigned int> own_number;       ///< of the dashpots' nodes among them
