@@ -724,21 +724,6 @@ def contact():
         sys.exit(77)
 
 
-def ranks():
-    """Until the program is parallel, more than one rank is refused: both would write the same files."""
-    mpirun = shutil.which("mpirun")
-    if mpirun is None:
-        print("SKIPPED: there is no mpirun")
-        sys.exit(77)
-    write_scene()
-    command = [mpirun, "--oversubscribe", "-np", "2", VOUSSOIR, "scene.prm", "--output", "two"]
-    root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-    result = subprocess.run(command, capture_output=True, text=True, timeout=120, env={**os.environ, **root})
-    expect(result.returncode != 0, "two ranks: status 0")
-    expect(result.stderr.count("voussoir: error: ") == 1 and "one rank" in result.stderr, result.stderr)
-    expect(not Path("two").exists(), "two ranks: files were written")
-
-
 def run_cases(*cases):
     """Runs the cases that the command line names, each in a directory of its own; ends the script."""
     known = {case.__name__: case for case in cases}
@@ -760,4 +745,4 @@ def run_cases(*cases):
 
 if __name__ == "__main__":
     run_cases(command_line, scenes, meshes, motions, outputs, laws, resume, threads, rock, stiff_rock, foundations, doubled,
-              contact, ranks)
+              contact)

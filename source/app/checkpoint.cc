@@ -92,7 +92,7 @@ namespace Voussoir
 
   void Simulation::keep_and_stop(const char *signal)
   {
-    dam->foundation->collect();
+    collect();
     Ranks::on_first(
         [this]
         {

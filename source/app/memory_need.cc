@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/memory_need.h>
+#include <voussoir/base/ranks.h>
 #include <voussoir/joints/body_factor.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/mesh/mesh_source.h>
@@ -9,6 +10,7 @@
 #include <cstdio>
 #include <functional>
 #include <new>
+#include <numeric>
 #include <set>
 
 namespace Voussoir
@@ -105,6 +107,7 @@ namespace Voussoir
       double operators = 0.; ///< of W
       double diagonal = 0.;  ///< of W's own blocks of the joints
       double feet = 0.;      ///< of what eliminates feet on rock with steps of its own
+      double share = 1.;     ///< of all this but the feet's, the largest of a rank
     };
 
     /** Those of FootElimination: the feet's flexibility and its factor, and what couples feet and joints. */
@@ -155,6 +158,17 @@ namespace Voussoir
                          [&](const Joint &joint) { return scene.joints.model_of(joint.number) == "tied"; });
     }
 
+    /** Of a rank, over the sum. */
+    double largest_share(const std::vector<double> &of_body)
+    {
+      const Shares        shares(of_body);
+      std::vector<double> of_rank(Ranks::size(), 0.);
+      for (unsigned int b = 0; b < of_body.size(); ++b)
+        of_rank[shares.are_trivial() ? 0 : shares.owner(b)] += of_body[b];
+      const double sum = std::accumulate(of_body.begin(), of_body.end(), 0.);
+      return sum > 0. ? *std::max_element(of_rank.begin(), of_rank.end()) / sum : 1.;
+    }
+
     /** The dam: its matrices, and its factors in @p factors. */
     double of_dam(const Scene &scene, const HexMesh &mesh, Factors &factors)
     {
@@ -178,7 +192,8 @@ namespace Voussoir
       const bool   quadratic = scene.elements.degree == 2;
       const double nodes_2 = quadratic ? 8. : 1., blocks_2 = quadratic ? 19. : 1.,
                    entries_2 = quadratic ? 32. : 1., surface_2 = quadratic ? 16. : 1.;
-      double n_nodes = 0., n_blocks = 0.;
+      double              n_nodes = 0., n_blocks = 0.;
+      std::vector<double> of_body; // what is shared out
       for (const int volume : volumes)
       {
         Graph graph = graph_of(
@@ -190,11 +205,13 @@ namespace Voussoir
         factors.entries += entries_2 * size.entries;
         factors.dense += surface_2 * size.interface;
         factors.kept += surface_2 * size.kept;
+        of_body.push_back(entries_2 * size.entries + surface_2 * (size.kept + 2. * size.interface));
         if (own_steps)
           factors.feet += of_feet(graph, on_base);
         n_nodes += nodes_2 * graph.neighbours.size();
         n_blocks += blocks_2 * graph.n_blocks();
       }
+      factors.share = largest_share(of_body);
       if (!tied)
         add_operator(joints, joint_unknowns(dam, joints, own_steps ? on_base : held), factors);
       factors.operators *= surface_2;
@@ -215,13 +232,14 @@ namespace Voussoir
     }
 
     /** Rock with mass: its stiffness, and at the peak, the static state, multigrid levels. */
-    double of_rock(const Scene &scene, const HexMesh &mesh)
+    double of_rock(const Scene &scene, const HexMesh &mesh, double &without_levels)
     {
       const std::vector<bool> no(mesh.nodes.size(), false);
       const Graph             rock = graph_of(mesh, is_rock, no, no);
       double                  n_blocks = rock.n_blocks();
       if (scene.foundation.nodal_everywhere) // does not couple the ends of a cell's diagonals
         n_blocks -= 8. * std::count_if(mesh.cells.begin(), mesh.cells.end(), is_rock);
+      without_levels = 2. * block * n_blocks + per_rock_node * rock.neighbours.size();
       return 5. * block * n_blocks + per_rock_node * rock.neighbours.size();
     }
   } // namespace
@@ -233,21 +251,31 @@ namespace Voussoir
     const double dam = of_dam(scene, mesh, factors);
     // Of the operator also single precision; inverses and LU factors of the joints' blocks in that, too.
     need.halved_step =
-        8. * (factors.entries + factors.feet) +
-        std::max(8. * factors.dense, 8. * factors.kept + 12. * factors.operators + 8. * factors.diagonal);
-    need.run = program + dam + need.halved_step * (scene.error_estimate ? 2. : 1.);
+        factors.share *
+            (8. * factors.entries + std::max(8. * factors.dense, 8. * factors.kept + 12. * factors.operators +
+                                                                     8. * factors.diagonal)) +
+        8. * factors.feet;
+    need.run = need.of_others = program + dam + need.halved_step * (scene.error_estimate ? 2. : 1.);
     if (scene.foundation.model == "rock")
-      need.run += of_rock(scene, mesh);
+    {
+      double without_levels = 0.;
+      need.run += of_rock(scene, mesh, without_levels);
+      need.of_others += without_levels;
+    }
     else if (scene.foundation.model == "massless") // before the dam has factors
-      need.run = std::max(need.run, program + dam + of_massless_rock(mesh));
+      need.run = need.of_others = std::max(need.run, program + dam + of_massless_rock(mesh));
     return need;
   }
 
   std::string in_words(const MemoryNeed &need)
   {
-    char text[200];
-    std::snprintf(text, sizeof(text), "about %.2f GiB, and %.2f GiB more for each halving of a step",
-                  need.run / std::pow(2., 30), need.halved_step / std::pow(2., 30));
+    constexpr double gib = 1024. * 1024. * 1024.;
+    char             others[60] = "", text[200];
+    if (Ranks::size() > 1)
+      std::snprintf(others, sizeof(others), " for the first rank, %.2f GiB for each other one",
+                    need.of_others / gib);
+    std::snprintf(text, sizeof(text), "about %.2f GiB%s, and %.2f GiB more for each halving of a step",
+                  need.run / gib, others, need.halved_step / gib);
     return text;
   }
 

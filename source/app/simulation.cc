@@ -70,6 +70,8 @@ namespace Voussoir
     if (options.resume)
       load_checkpoint();
 
+    if (!options.resume)
+      record_stresses();
     Ranks::on_first([this] { begin_files(); });
     shake();
   }
@@ -109,12 +111,15 @@ namespace Voussoir
   void Simulation::shake()
   {
     shaking_clock = Stopwatch();
+    per_rank.work_before = Ranks::work();
+    per_rank.messages_before = Ranks::n_messages();
     const double before = count.seconds_shaking;
     try
     {
       for (first_step = step; step < n_steps;)
       {
         step_once();
+        record_stresses();
         record_on_first(
             [&]
             {
@@ -128,10 +133,11 @@ namespace Voussoir
         if (scene.output.checkpoint_interval > 0 && step % scene.output.checkpoint_interval == 0 &&
             step < n_steps)
         {
-          dam->foundation->collect();
+          collect();
           Ranks::on_first([this] { save_checkpoint(); });
         }
       }
+      gather_per_rank();
       Ranks::on_first(
           [this]
           {
@@ -145,6 +151,13 @@ namespace Voussoir
     }
   }
 
+  /** The first rank gets all that is to be kept. */
+  void Simulation::collect()
+  {
+    dam->foundation->collect();
+    collect_stresses();
+  }
+
   /** An error of the first rank finds the whole state there, to be kept. */
   void Simulation::record_on_first(const std::function<void()> &action)
   {
@@ -154,8 +167,7 @@ namespace Voussoir
     }
     catch (...)
     {
-      if (Ranks::size() > 1)
-        dam->foundation->collect();
+      collect();
       throw;
     }
   }
@@ -343,15 +355,28 @@ namespace Voussoir
                                                        : std::vector<Vector3>();
   }
 
+  /** Of this rank's nodes; of all where the first rank is about to read them. */
+  void Simulation::record_stresses()
+  {
+    if (scene.output.envelope_interval == 0)
+      return;
+    const Stopwatch watch;
+    if (step % scene.output.envelope_interval == 0)
+      envelope->record(newmark->state().time, newmark->state().u, known_tractions());
+    if (step % scene.output.progress_interval == 0 || step == n_steps)
+      collect_stresses();
+    count.seconds_stresses += watch.seconds();
+  }
+
+  void Simulation::collect_stresses()
+  {
+    envelope->collect();
+    if (companion)
+      companion->collect();
+  }
+
   void Simulation::record()
   {
-    const DynamicState &state = newmark->state();
-    if (scene.output.envelope_interval > 0 && step % scene.output.envelope_interval == 0)
-    {
-      const Stopwatch watch;
-      envelope->record(state.time, state.u, known_tractions());
-      count.seconds_stresses += watch.seconds();
-    }
     const Stopwatch watch;
     joints->record(*newmark);
     if (const std::string trouble = stability->trouble(*newmark, *joints, step, step == n_steps);

@@ -63,6 +63,27 @@ namespace Voussoir
     return json;
   }
 
+  void Simulation::gather_per_rank()
+  {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const double n = std::max(1u, step - first_step);
+    per_rank.work = Ranks::of_all(Ranks::work() - per_rank.work_before);
+    per_rank.rock_work = Ranks::of_all(dam->foundation->work());
+    per_rank.messages = Ranks::of_all((Ranks::n_messages() - per_rank.messages_before) / n);
+    per_rank.memory = Ranks::of_all(1024. * usage.ru_maxrss);
+  }
+
+  Json Simulation::json_per_rank() const
+  {
+    Json json;
+    json.add_list("work_seconds", per_rank.work)
+        .add_list("rock_work_seconds", per_rank.rock_work)
+        .add_list("messages_per_step", per_rank.messages)
+        .add_list("memory_bytes", per_rank.memory);
+    return json;
+  }
+
   Json Simulation::json_of_newton() const
   {
     const double n = std::max(1u, step);
@@ -147,7 +168,7 @@ namespace Voussoir
         .add("version", VOUSSOIR_VERSION)
         .add("revision", VOUSSOIR_REVISION)
         .add("dealii", DEAL_II_PACKAGE_VERSION)
-        .add("ranks", 1.)
+        .add("ranks", double(Ranks::size()))
         .add("mesh", json_of_mesh())
         .add("zones", zones)
         .add("steps", step)
@@ -167,6 +188,7 @@ namespace Voussoir
                                 dam->structure.pairs.empty() ? nullptr : joints.get());
     assessment.add_to(summary);
     summary.add_texts("warnings", log.warnings());
+    summary.add("per_rank", json_per_rank());
     if (companion)
       summary.add("error_estimate", json_of_time_error());
     if (scene.output.envelope_interval > 0 && scene.strength_of_area() > 0.)

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fcntl.h>
 #include <mpi.h>
 #include <numeric>
@@ -22,6 +23,23 @@ namespace Voussoir
     unsigned int this_rank = 0, n_ranks = 1;
     std::size_t  messages = 0;
     int          screen = STDERR_FILENO; ///< kept for what only this rank has to tell
+
+    double waited = 0.; ///< processor time in messages [s]
+
+    double processor_time()
+    {
+      timespec now;
+      clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+      return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+    }
+
+    /** While one lives, this process is in messages. */
+    struct InMessage
+    {
+      InMessage() : begin(processor_time()) { ++messages; }
+      ~InMessage() { waited += processor_time() - begin; }
+      const double begin;
+    };
 
     template <class T> MPI_Datatype type_of();
     template <> MPI_Datatype        type_of<double>()
@@ -47,7 +65,7 @@ namespace Voussoir
         first[r] = static_cast<int>(begin[r]);
         n[r] = static_cast<int>(begin[r + 1] - begin[r]);
       }
-      ++messages;
+      const InMessage now;
       MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, data, n.data(), first.data(), type_of<T>(),
                      MPI_COMM_WORLD);
     }
@@ -59,7 +77,7 @@ namespace Voussoir
       constexpr std::size_t most = 1u << 30; // of one message
       for (std::size_t i = 0; i < n; i += most)
       {
-        ++messages;
+        const InMessage now;
         MPI_Bcast(data + i, static_cast<int>(std::min(most, n - i)), type_of<T>(), root, MPI_COMM_WORLD);
       }
     }
@@ -95,6 +113,20 @@ namespace Voussoir
   std::size_t Ranks::n_messages()
   {
     return messages;
+  }
+
+  double Ranks::work()
+  {
+    return processor_time() - waited;
+  }
+
+  std::vector<double> Ranks::of_all(const double value)
+  {
+    std::vector<double>      result(n_ranks, value);
+    std::vector<std::size_t> begin(n_ranks + 1);
+    std::iota(begin.begin(), begin.end(), 0);
+    gather(result.data(), begin);
+    return result;
   }
 
   void Ranks::start(const unsigned int n)
@@ -177,7 +209,7 @@ namespace Voussoir
   {
     if (n_ranks > 1)
     {
-      ++messages;
+      const InMessage now;
       MPI_Allreduce(MPI_IN_PLACE, &bits, 1, MPI_UNSIGNED, MPI_BOR, MPI_COMM_WORLD);
     }
     return bits;
@@ -204,12 +236,16 @@ namespace Voussoir
 
   void Ranks::exchange(float *data, const std::vector<Transfer> &list)
   {
+    const bool concerned = std::any_of(
+        list.begin(), list.end(), [](const Transfer &t) { return t.from == this_rank || t.to == this_rank; });
+    if (!concerned)
+      return;
+    const InMessage          now;
     std::vector<MPI_Request> requests;
     for (const Transfer &t : list)
       if (t.from == this_rank || t.to == this_rank)
       {
         requests.emplace_back();
-        ++messages;
         if (t.from == this_rank)
           MPI_Isend(data + t.first, static_cast<int>(t.n), MPI_FLOAT, t.to, 0, MPI_COMM_WORLD,
                     &requests.back());
@@ -217,12 +253,14 @@ namespace Voussoir
           MPI_Irecv(data + t.first, static_cast<int>(t.n), MPI_FLOAT, t.from, 0, MPI_COMM_WORLD,
                     &requests.back());
       }
-    if (!requests.empty())
-      MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   }
 
   void Ranks::exchange(const std::vector<Message> &list)
   {
+    if (list.empty())
+      return;
+    const InMessage          now;
     std::vector<MPI_Request> requests;
     for (const Message &m : list)
     {
@@ -234,7 +272,6 @@ namespace Voussoir
       if (m.n_out > 0)
       {
         requests.emplace_back();
-        ++messages;
         MPI_Isend(m.out, static_cast<int>(m.n_out), MPI_DOUBLE, m.rank, 1, MPI_COMM_WORLD, &requests.back());
       }
     }

@@ -92,6 +92,7 @@ namespace Voussoir
     for (std::size_t i = 0; i < law.size(); ++i)
     {
       number.push_back(no_surfaces);
+      beside_of_pair.push_back(begin);
       if (const SurfacesLaw *surfaces = law[i]->surfaces_law())
       {
         number.back() = with_surfaces.size();
@@ -99,6 +100,7 @@ namespace Voussoir
         begin += 3 * surfaces->n_beside();
       }
     }
+    beside_of_pair.push_back(begin);
     mean_rho = trace > 0. ? 3. * law.size() / trace : 1.;
     for (double &r : rho)
       if (!(r > 0.))
@@ -244,7 +246,10 @@ namespace Voussoir
       return with.surfaces.solve(H, free, accuracy, get(x.force, pair), x.beside.data() + with.begin);
     };
     for (unsigned int i = 0; i < count && !out_of_time(); ++i, ++result.sweeps)
+    {
       W.sweep(solve_pair, x.force, x.gap);
+      W.gather_pairs(x.beside, beside_of_pair);
+    }
     drift += 1e-6;
     if (!W.is_in_blocks() && count > 0)
       refresh_gap(x);

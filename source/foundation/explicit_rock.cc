@@ -125,6 +125,7 @@ namespace Voussoir
   void ExplicitRock::advance(Unknowns &load)
   {
     const Stopwatch    watch;
+    const double       worked = Ranks::work();
     const double       dt = grid.dt;
     const unsigned int m = grid.substeps;
     const std::size_t  n = 3 * foot.size();
@@ -159,6 +160,7 @@ namespace Voussoir
           load[3 * node + c] += force[k] / foot[i].nodes.size();
       }
     seconds_advancing += watch.seconds();
+    work_advancing += Ranks::work() - worked;
   }
 
   void ExplicitRock::follow(const DynamicState &state)

@@ -103,6 +103,7 @@ namespace Voussoir
   Unknowns OwnStepRock::predict(const unsigned int n)
   {
     const Stopwatch watch;
+    const double    worked = Ranks::work();
     Unknowns        place(3 * foot.size());
     if (Ranks::is_first())
       place = patch->places(n, region->displacement(), region->half_step_velocity());
@@ -112,6 +113,7 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
         result[3 * i + c] += place[3 * std::size_t(foot_of[i]) + c];
     seconds_advancing += watch.seconds();
+    work_advancing += Ranks::work() - worked;
     return result;
   }
 
@@ -132,6 +134,7 @@ namespace Voussoir
   void OwnStepRock::push(const unsigned int n, const Unknowns &on_dam, const double work)
   {
     const Stopwatch watch;
+    const double    worked = Ranks::work();
     Unknowns        on_rock(3 * foot.size(), 0.);
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
@@ -146,6 +149,7 @@ namespace Voussoir
       account[3] += on_rock[k] * (after[k] - before[k]);
     account[0] += work;
     seconds_advancing += watch.seconds();
+    work_advancing += Ranks::work() - worked;
   }
 
   /** The forces come by the Support; only the mean velocity of the feet is needed beforehand. */

@@ -8,6 +8,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/ranks.h>
 #include <voussoir/foundation/rock_statics.h>
 
 #include <cmath>
@@ -167,11 +168,18 @@ namespace Voussoir
   RockStatics::RockStatics(const BlockSparseMatrix                  &stiffness,
                            const std::vector<std::array<double, 3>> &points, const std::vector<bool> &held)
   {
-    const Stopwatch    watch;
-    static LoneProcess mpi;
+    const Stopwatch watch;
     for (unsigned int i = 0; i < points.size(); ++i)
       if (!held[i])
         free_node.push_back(i);
+    Ranks::on_first([&] { make_levels(stiffness, points); });
+    setup = watch.seconds();
+  }
+
+  void RockStatics::make_levels(const BlockSparseMatrix                  &stiffness,
+                                const std::vector<std::array<double, 3>> &points)
+  {
+    static LoneProcess mpi;
     multigrid = std::make_unique<Multigrid>(stiffness, free_node);
     std::vector<double> modes = rigid_motions(points, free_node); // deal.II's own take ones and zeros only
     try
@@ -183,12 +191,21 @@ namespace Voussoir
       throw ComputationError("The multigrid levels for the static state of the rock cannot be made: its "
                              "elements may be badly shaped (see voussoir mesh).");
     }
-    setup = watch.seconds();
   }
 
   RockStatics::~RockStatics() = default;
 
   unsigned int RockStatics::solve(const Unknowns &b, Unknowns &x, Log &log, const double tolerance)
+  {
+    x.assign(b.size(), 0.);
+    double iterations = 0.;
+    Ranks::on_first([&] { iterations = solve_here(b, x, log, tolerance); });
+    Ranks::broadcast(x.data(), x.size(), 0);
+    Ranks::broadcast(&iterations, 1, 0);
+    return static_cast<unsigned int>(iterations);
+  }
+
+  unsigned int RockStatics::solve_here(const Unknowns &b, Unknowns &x, Log &log, const double tolerance)
   {
     constexpr unsigned int most = 1000, most_kept = 60;
     constexpr double       interval = 10.; // [s]
@@ -224,7 +241,6 @@ namespace Voussoir
                              std::to_string(control.last_step()) +
                              " steps: its elements may be badly shaped (see voussoir mesh).");
     }
-    x.assign(b.size(), 0.);
     for (unsigned int k = 0; k < n; ++k)
       x[3 * std::size_t(free_node[k / 3]) + k % 3] = u[k];
     guess -= u;

@@ -201,6 +201,16 @@ namespace Voussoir
       gap[i] += moved[i];
   }
 
+  void InterfaceOperator::gather_pairs(Unknowns &values, const std::vector<std::size_t> &begin) const
+  {
+    if (share.are_trivial() || values.empty())
+      return;
+    std::vector<std::size_t> of_group;
+    for (const unsigned int i : offset)
+      of_group.push_back(begin[i / 3]);
+    Ranks::gather(values.data(), share.parts(of_group));
+  }
+
   /** The pairs of group @p j, one after the other, several times; @p gap is to be taken with what has
    * @p moved; @p change: receives that of @p force. */
   void InterfaceOperator::sweep_group(const unsigned int j, const PairSolver &solve_pair, double *force,

@@ -170,14 +170,17 @@ namespace Voussoir
       : maximum(initial.size(), -1e30f), minimum(initial.size(), 1e30f), time_of_maximum(initial.size(), 0.f),
         time_of_minimum(initial.size(), 0.f), recovery(recovery), initial(std::move(initial))
   {
+    for (unsigned int r = 0; r <= Ranks::size(); ++r)
+      begin.push_back(maximum.size() * r / Ranks::size());
   }
 
   void EnvelopeRecorder::record(const double time, const Unknowns &u, const std::vector<Vector3> &tractions)
   {
-    recovery.apply(u, tractions, stress);
+    const std::size_t first = begin[Ranks::rank()], last = begin[Ranks::rank() + 1];
+    recovery.apply(u, tractions, first, last, stress);
     overstress.begin(time);
 #pragma omp parallel for schedule(static)
-    for (int i = 0; i < static_cast<int>(stress.size()); ++i)
+    for (std::size_t i = first; i < last; ++i)
     {
       for (unsigned int c = 0; c < 6; ++c)
         stress[i][c] += initial[i][c];
@@ -188,6 +191,13 @@ namespace Voussoir
       if (p[1] < minimum[i])
         minimum[i] = p[1], time_of_minimum[i] = static_cast<float>(time);
     }
+  }
+
+  void EnvelopeRecorder::collect()
+  {
+    for (auto *values : {&maximum, &minimum, &time_of_maximum, &time_of_minimum})
+      Ranks::gather(values->data(), begin);
+    overstress.collect(begin);
   }
 
   Extreme EnvelopeRecorder::extreme(const SolidModel &model, const int surface, const bool largest) const

@@ -130,11 +130,12 @@ namespace Voussoir
   }
 
   void StressRecovery::apply(const Unknowns &u, const std::vector<Vector3> &tractions,
+                             const std::size_t first, const std::size_t last,
                              std::vector<Stress> &stress) const
   {
     stress.resize(start.size() - 1);
 #pragma omp parallel for schedule(static)
-    for (int i = 0; i < static_cast<int>(stress.size()); ++i)
+    for (std::size_t i = first; i < last; ++i)
     {
       // By displacement component: 18 independent sums are what a vector unit likes.
       float sum[18] = {};
@@ -150,7 +151,9 @@ namespace Voussoir
       for (unsigned int c = 0; c < 6; ++c)
         stress[i][c] = sum[3 * c] + sum[3 * c + 1] + sum[3 * c + 2];
     }
-    for (std::size_t f = 0; f < tractions.size(); ++f)
+    const auto face = [this](const std::size_t node) -> std::size_t
+    { return std::lower_bound(node_of_face.begin(), node_of_face.end(), node) - node_of_face.begin(); };
+    for (std::size_t f = face(first); f < std::min(face(last), tractions.size()); ++f)
       for (unsigned int c = 0; c < 6; ++c)
         for (unsigned int d = 0; d < 3; ++d)
           stress[node_of_face[f]][c] += of_traction[f][3 * c + d] * static_cast<float>(tractions[f][d]);

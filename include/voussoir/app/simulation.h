@@ -60,6 +60,10 @@ namespace Voussoir
     Vector3 ground_acceleration(unsigned int after) const;
     void    step_once();
     void    record_on_first(const std::function<void()> &action);
+    void    record_stresses();
+    void    collect_stresses();
+    void    collect();
+    void    gather_per_rank();
     void    record();
     void    report_step();
     void    write_solution();
@@ -73,6 +77,7 @@ namespace Voussoir
     Json                 json_of_mesh() const;
     Json                 json_of_times() const;
     Json                 json_of_newton() const;
+    Json                 json_per_rank() const;
     Json                 json_of_statics() const;
     Json                 json_of_extremes() const;
     Json                 json_of_time_error() const;
@@ -146,6 +151,12 @@ namespace Voussoir
             &seconds_stresses &seconds_output &seconds_shaking;
       }
     } count;
+
+    struct PerRank ///< of the shaking of this process, gathered at its end
+    {
+      double              work_before = 0., messages_before = 0.;
+      std::vector<double> work, rock_work, messages, memory; ///< [s], [s], per step, [bytes]
+    } per_rank;
 
     std::unique_ptr<Newmark>           newmark;
     std::unique_ptr<StabilityWatch>    stability;

@@ -42,8 +42,14 @@ namespace Voussoir
     /** The or of all ranks' @p bits. */
     unsigned int any(unsigned int bits);
 
-    /** Messages of this process so far; a gathering or a broadcast counts once. */
+    /** Messages of this process so far; one call counts once. */
     std::size_t n_messages();
+
+    /** Processor time of this process so far, but for that in messages, which is mostly waiting [s]. */
+    double work();
+
+    /** @p value of each rank. */
+    std::vector<double> of_all(double value);
 
     /** The first rank has ended with an error: no message is due from here. */
     class FailedElsewhere : public std::exception

@@ -42,6 +42,10 @@ namespace Voussoir
     /** One Gauss-Seidel sweep over the pairs; @p gap = W force + b before and after, if is_in_blocks(). */
     virtual void sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const = 0;
 
+    /** After a sweep by several ranks: all get what the solver of the pairs has left elsewhere, @p begin[p]
+     * to begin[p + 1] of @p values for pair p. */
+    virtual void gather_pairs(Unknowns & /*values*/, const std::vector<std::size_t> & /*begin*/) const {}
+
     /** Does sweep() know all of W? Else its gaps are to be made afresh. */
     virtual bool is_in_blocks() const { return true; }
 

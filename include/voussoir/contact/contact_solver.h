@@ -106,9 +106,10 @@ namespace Voussoir
     std::vector<PairEquations>          equations;
     std::vector<WithSurfaces>           with_surfaces;
     std::vector<std::size_t>            number; ///< of each pair in with_surfaces, or none
-    std::vector<PairState>              state;
-    std::vector<unsigned char>          touch;
-    std::vector<double>                 of_pair; ///< work space
+    std::vector<std::size_t>   beside_of_pair;  ///< where its part of Iterate::beside begins, and the end
+    std::vector<PairState>     state;
+    std::vector<unsigned char> touch;
+    std::vector<double>        of_pair; ///< work space
 
     Unknowns                     multiplied, product; ///< product = W multiplied, of the last refresh
     const Unknowns              *b = nullptr;         ///< of the present problem, as the next

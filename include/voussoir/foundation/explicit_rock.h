@@ -66,6 +66,7 @@ namespace Voussoir
     void    follow(const DynamicState &state) override;
     Vector3 base_velocity() const override;
     double  seconds() const override { return seconds_advancing; }
+    double  work() const override { return work_advancing; }
 
     std::vector<std::pair<std::string, double>> energies() const override;
     double                                      balance_error() const override;
@@ -113,6 +114,7 @@ namespace Voussoir
     TimeGrid                        grid;
     double                          dt_critical = 0.;         ///< for the rock [s]
     double                          seconds_advancing = 0.;   ///< of wall time [s]
+    double                          work_advancing = 0.;      ///< of processor time, without messages [s]
     Unknowns                        rest;                     ///< of the feet [m]
     Unknowns                        u_feet, v, a;             ///< of the feet
     Unknowns                        force, force_before;      ///< of the rock's elements on them [N]

@@ -17,6 +17,9 @@ namespace Voussoir
    * A solve begins with the A-orthogonal projection of its solution on the solutions so far (Fischer 1998,
    * Comput. Methods Appl. Mech. Engrg. 163), since the loads of an iteration differ by less and less.
    *
+   * With several ranks the first one solves for all: a solution by all would differ in the order of its
+   * tolerance from one number of ranks to the next, and what slides later would make much of that.
+   *
    * ML needs MPI, which is started here when nobody has, for this process alone, and ended with the program.
    */
   class RockStatics
@@ -38,6 +41,9 @@ namespace Voussoir
 
   private:
     struct Multigrid;
+    void make_levels(const BlockSparseMatrix &stiffness, const std::vector<std::array<double, 3>> &points);
+    unsigned int solve_here(const Unknowns &b, Unknowns &x, Log &log, double tolerance);
+
     std::vector<unsigned int>  free_node;
     std::unique_ptr<Multigrid> multigrid;
     double                     setup = 0.; ///< [s]

@@ -70,6 +70,8 @@ namespace Voussoir
      * of that size. */
     void sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const override;
 
+    void gather_pairs(Unknowns &values, const std::vector<std::size_t> &begin) const override;
+
     std::unique_ptr<ContactJacobian> make_jacobian() const override;
 
     /** One block Gauss-Seidel pass in single precision: @p own(g) for each group g, those of one colour (not

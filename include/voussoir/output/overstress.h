@@ -2,6 +2,8 @@
 #ifndef voussoir_overstress_h
 #define voussoir_overstress_h
 
+#include <voussoir/base/ranks.h>
+
 #include <cstddef>
 #include <vector>
 
@@ -44,6 +46,15 @@ namespace Voussoir
     double duration(const std::size_t node, const unsigned int k) const
     {
       return seconds[n_levels * node + k];
+    }
+
+    /** With several ranks, of nodes from begin[r] to begin[r + 1] each: all get all. */
+    void collect(std::vector<std::size_t> begin)
+    {
+      for (std::size_t &i : begin)
+        i *= n_levels;
+      if (watches())
+        Ranks::gather(seconds.data(), begin);
     }
 
     template <class Archive> void serialize(Archive &archive, unsigned int) { archive &seconds &last; }

@@ -102,6 +102,9 @@ namespace Voussoir
     /** @p tractions: as StressRecovery::apply(). */
     void record(double time, const Unknowns &u, const std::vector<Vector3> &tractions);
 
+    /** With several ranks each records its share of the nodes; after this all have all. */
+    void collect();
+
     /** The largest of the maxima (or the smallest of the minima) of the nodes on a surface, 0: of all nodes.
      */
     Extreme extreme(const SolidModel &model, int surface, bool largest) const;
@@ -115,8 +118,9 @@ namespace Voussoir
     }
 
   private:
-    const StressRecovery &recovery;
-    std::vector<Stress>   initial, stress;
+    const StressRecovery    &recovery;
+    std::vector<Stress>      initial, stress;
+    std::vector<std::size_t> begin; ///< node of each rank
   };
 
   /** Writes results on the mesh: VTU files for ParaView, and the developed faces for the figures. */

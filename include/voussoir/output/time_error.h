@@ -41,6 +41,12 @@ namespace Voussoir
     void advance(unsigned int step, const Unknowns &load, const Vector3 &base_velocity,
                  const Vector3 &ground);
 
+    void collect() ///< as EnvelopeRecorder
+    {
+      if (envelope)
+        envelope->collect();
+    }
+
     TimeError of(const JointRecorder &joints, const EnvelopeRecorder &envelope,
                  const FaceTension &tension) const;
 

@@ -33,7 +33,14 @@ namespace Voussoir
 
     /** @p u: 3 per free node [m]; @p tractions: force per area on each of the faces [Pa], empty where all are
      * zero; result: one per node of the model. */
-    void apply(const Unknowns &u, const std::vector<Vector3> &tractions, std::vector<Stress> &stress) const;
+    void apply(const Unknowns &u, const std::vector<Vector3> &tractions, std::vector<Stress> &stress) const
+    {
+      apply(u, tractions, 0, start.size() - 1, stress);
+    }
+
+    /** Only at the nodes from @p first to before @p last. */
+    void apply(const Unknowns &u, const std::vector<Vector3> &tractions, std::size_t first, std::size_t last,
+               std::vector<Stress> &stress) const;
 
     double memory() const { return 4. * 18. * (blocks.size() + of_traction.size()); } ///< [bytes]
 
