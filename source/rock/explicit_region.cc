@@ -311,6 +311,8 @@ namespace Voussoir
     split.gather(K_x, 3);
     split.gather(K_u, 3);
     split.gather_chunks(work, n_region_works);
+    if (free_field)
+      free_field->collect();
     if (!boundary)
       return;
     split.collect(boundary_w, 3, boundary->nodes());

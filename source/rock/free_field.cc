@@ -189,15 +189,41 @@ namespace Voussoir
     }
   }
 
-  void FreeField::keep(std::vector<unsigned int> given)
+  void FreeField::split_up(std::vector<unsigned int> given)
   {
     kept = std::move(given);
+    is_split = true;
+    std::vector<double> work;
+    begin.assign(1, 0);
+    for (const auto &column : columns)
+    {
+      work.push_back(column->motion().size());
+      begin.push_back(begin.back() + column->motion().size());
+    }
+    share = Shares(work);
+    exchanged.resize(begin.back());
   }
 
   void FreeField::advance()
   {
     const int n = columns.size();
-    for_each_parallel(n, [&](const int c) { columns[c]->advance(); });
+    for_each_parallel(n,
+                      [&](const int c)
+                      {
+                        if (!is_split || share.is_mine(c))
+                          columns[c]->advance();
+                      });
+    if (is_split)
+    {
+      for (int c = 0; c < n; ++c)
+        if (share.is_mine(c))
+          std::copy(columns[c]->motion().begin(), columns[c]->motion().end(), exchanged.begin() + begin[c]);
+      Ranks::gather(exchanged.data(), share.parts(begin));
+      for (int c = 0; c < n; ++c)
+        if (!share.is_mine(c))
+          std::copy_n(exchanged.begin() + begin[c], columns[c]->motion().size(),
+                      columns[c]->motion().begin());
+    }
     for (const auto &section : sections)
       section->region->advance();
   }
@@ -205,18 +231,27 @@ namespace Voussoir
   void FreeField::evaluate(Unknowns &u) const
   {
     u.resize(3 * points.size());
-    const int n = kept.empty() ? points.size() : kept.size();
+    const int n = is_split ? kept.size() : points.size();
 #pragma omp parallel for schedule(static)
     for (int k = 0; k < n; ++k)
       for (unsigned int c = 0; c < 3; ++c)
       {
-        const std::size_t i = kept.empty() ? k : kept[k];
+        const std::size_t i = is_split ? kept[k] : k;
         const Point      &p = points[i];
         u[3 * i + c] = p.weight[0] * p.value[0][c];
         for (unsigned int j = 1; j < 4; ++j)
           if (p.weight[j] != 0.)
             u[3 * i + c] += p.weight[j] * p.value[j][c];
       }
+  }
+
+  void FreeField::collect()
+  {
+    for (unsigned int c = 0; is_split && c < columns.size(); ++c)
+      for (auto *array : columns[c]->state())
+        Ranks::broadcast(array->data(), array->size(), share.owner(c));
+    for (const auto &section : sections)
+      section->region->collect();
   }
 
   std::vector<std::vector<double> *> FreeField::state()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/mesh/coincident.h>
 #include <voussoir/rock/boundary_table.h>
 #include <voussoir/rock/rock_region.h>
 #include <voussoir/rock/sections.h>
@@ -77,8 +78,47 @@ namespace Voussoir
     return result;
   }
 
+  namespace
+  {
+    /** A rank steps what its nodes of the @p model, and their neighbours, see of the section. */
+    RockSplit split_of_section(const RockModel &slice, const unsigned int direction, const RockModel &model,
+                               const RockSplit &split)
+    {
+      if (split.is_trivial())
+        return RockSplit();
+      RockSplit result(slice.points.size());
+      auto      places = slice.points;
+      double    size = 0.;
+      for (auto &p : places)
+      {
+        p[direction] = 0.;
+        size = std::max(size, std::abs(p[2] - places.front()[2]));
+      }
+      const PointFinder                      finder(places, 1e-6 * size);
+      std::vector<std::vector<unsigned int>> seen(Ranks::size());
+      for (unsigned int i = 0; i < model.points.size(); ++i)
+      {
+        auto p = model.points[i];
+        p[direction] = 0.;
+        const unsigned int found = finder.find(p);
+        for (unsigned int r = 0; found != PointFinder::none && r < Ranks::size(); ++r)
+        {
+          bool is_near = split.is_stepped(i, r);
+          for (std::size_t k = model.stiffness.start[i]; k < model.stiffness.start[i + 1] && !is_near; ++k)
+            is_near = split.is_stepped(model.stiffness.column[k], r);
+          if (is_near)
+            seen[r].push_back(found);
+        }
+      }
+      for (unsigned int r = 0; r < Ranks::size(); ++r)
+        result.step(seen[r], r);
+      return result;
+    }
+  } // namespace
+
   std::unique_ptr<FreeField> make_free_field(const RockModel &model, const RockRegionParameters &parameters,
-                                             const IncidentWave &wave, const unsigned int n_steps)
+                                             const IncidentWave &wave, const unsigned int n_steps,
+                                             const RockSplit &split)
   {
     auto field = std::make_unique<FreeField>(model, parameters.damping, parameters.dt, n_steps, wave);
     if (parameters.free_field == "sections")
@@ -90,7 +130,7 @@ namespace Voussoir
         RockRegionParameters plane = of_sections(parameters);
         plane.rock.centre[0] = section.nodes[0][0]; // its waves come from its own middle
         RockModel slice = make_rock_model(section, plane.rock, tie_layer(section, 0));
-        auto      motion = make_region(slice, plane);
+        auto      motion = make_region(slice, plane, split_of_section(slice, 0, model, split));
         shake(*motion, slice, plane, wave, n_steps); // has no such faces itself
         field->add_section(std::move(slice), std::move(motion), 0);
       }
@@ -102,10 +142,10 @@ namespace Voussoir
   void shake(ExplicitRegion &region, const RockModel &model, const RockRegionParameters &parameters,
              const IncidentWave &wave, const unsigned int n_steps)
   {
-    auto field = make_free_field(model, parameters, wave, n_steps);
+    auto field = make_free_field(model, parameters, wave, n_steps, region.parts());
     add_points(*field, *region.artificial_boundary(), model);
     if (region.is_split())
-      field->keep(region.artificial_boundary()->kept_points());
+      field->split_up(region.artificial_boundary()->kept_points());
     region.set_free_field(std::move(field));
   }
 } // namespace Voussoir

@@ -58,8 +58,9 @@ namespace Voussoir
 
     /** This rank shall step its part of the region: to be done with several, before the first step, by all.
      * @p part: of the operator, made with the @p split. */
-    void split_up(RockSplit split, RockOperator part);
-    bool is_split() const { return !split.is_trivial(); }
+    void             split_up(RockSplit split, RockOperator part);
+    bool             is_split() const { return !split.is_trivial(); }
+    const RockSplit &parts() const { return split; }
 
     /** With several ranks: all get the whole region's energies up to now, and displacement() and
      * half_step_velocity() of all nodes. */

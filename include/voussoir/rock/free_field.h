@@ -30,8 +30,8 @@ namespace Voussoir
     /** These nodes become points. Nodes of lines move like their line. */
     void add_nodes(const RockModel &model, const std::vector<unsigned int> &nodes);
 
-    /** Only these points are asked for from now on. */
-    void keep(std::vector<unsigned int> points);
+    /** With several ranks: each steps its share of the columns, and asks for these points only. */
+    void split_up(std::vector<unsigned int> points);
 
     void advance() override;
     void evaluate(Unknowns &u) const override;
@@ -39,6 +39,7 @@ namespace Voussoir
     unsigned int n_columns() const { return static_cast<unsigned int>(columns.size()); }
 
     std::vector<std::vector<double> *> state() override;
+    void                               collect() override;
 
   private:
     struct Section;
@@ -57,7 +58,11 @@ namespace Voussoir
     unsigned int                                  highest = 0;
     std::vector<std::unique_ptr<Section>>         sections;
     std::vector<Point>                            points;
-    std::vector<unsigned int>                     kept; ///< of them; empty: all
+    std::vector<unsigned int>                     kept; ///< of them
+    bool                                          is_split = false;
+    Shares                                        share;     ///< of the columns, if split
+    std::vector<std::size_t>                      begin;     ///< of their displacements in ...
+    std::vector<double>                           exchanged; ///< ... what goes between the ranks
   };
 } // namespace Voussoir
 

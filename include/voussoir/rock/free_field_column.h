@@ -45,6 +45,7 @@ namespace Voussoir
 
     const std::vector<double> &z() const { return height; }
     const double              *displacement(const unsigned int level) const { return &u[3 * level]; }
+    std::vector<double>       &motion() { return u; } ///< of all levels, three components each [m]
 
     std::vector<std::vector<double> *> state();
 

@@ -20,6 +20,9 @@ namespace Voussoir
     virtual void evaluate(Unknowns &u) const = 0;
 
     virtual std::vector<std::vector<double> *> state() = 0;
+
+    /** With several ranks, by all: state() is the whole one after that. */
+    virtual void collect() {}
   };
 } // namespace Voussoir
 

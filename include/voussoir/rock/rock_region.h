@@ -23,9 +23,11 @@ namespace Voussoir
    * throw back must leave them; they have the default boundary then. */
   RockRegionParameters of_sections(const RockRegionParameters &parameters);
 
-  /** The motion without dam, as yet without points. InputError for an unknown kind of free field. */
+  /** The motion without dam, as yet without points; @p split: of the region. InputError for an unknown kind
+   * of free field. */
   std::unique_ptr<FreeField> make_free_field(const RockModel &model, const RockRegionParameters &parameters,
-                                             const IncidentWave &wave, unsigned int n_steps);
+                                             const IncidentWave &wave, unsigned int n_steps,
+                                             const RockSplit &split = RockSplit());
 
   /** Lets the earthquake in. @p n_steps: as many as will be made at most. */
   void shake(ExplicitRegion &region, const RockModel &model, const RockRegionParameters &parameters,
