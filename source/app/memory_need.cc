@@ -239,7 +239,7 @@ namespace Voussoir
       double                  n_blocks = rock.n_blocks();
       if (scene.foundation.nodal_everywhere) // does not couple the ends of a cell's diagonals
         n_blocks -= 8. * std::count_if(mesh.cells.begin(), mesh.cells.end(), is_rock);
-      without_levels = 2. * block * n_blocks + per_rock_node * rock.neighbours.size();
+      without_levels = per_rock_node * rock.neighbours.size();
       return 5. * block * n_blocks + per_rock_node * rock.neighbours.size();
     }
   } // namespace
