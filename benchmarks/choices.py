@@ -23,7 +23,8 @@ import numpy as np
 from program import ROOT, add_program_argument, run, simulate
 
 sys.path.insert(0, str(ROOT / "scripts"))
-from accuracy import read, strongest, zone_means  # noqa: E402
+from accuracy import strongest  # noqa: E402
+from zone_tension import read, zone_means  # noqa: E402
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
