@@ -148,8 +148,20 @@ def tutorial(name):
         result = subprocess.run(["bash", "-euo", "pipefail", "-c", shortened(text, options)], capture_output=True, text=True, env=environment)
         expect(result.returncode == 0, f"{text}{result.stdout[-2000:]}{result.stderr}")
         print("    " + text.strip().replace("\n", "\n    "))
+        if "small" in remarks:
+            would_run(text, environment)
         n += 1
     expect(n > 0, f"{name} has no commands")
+
+
+def would_run(text, environment):
+    """The commands as the page has them, at full size: the program takes each scene."""
+    for line in text.strip().splitlines():
+        check = "--dry-run" if line.startswith("voussoir study ") else "--validate"
+        if line.startswith("voussoir motion ") or check in line:
+            check = ""
+        result = subprocess.run(["bash", "-c", f"{line} {check}"], capture_output=True, text=True, env=environment)
+        expect(result.returncode == 0, f"{line} {check}: {result.stdout[-2000:]}{result.stderr}")
 
 
 def tutorial_1_first_run():
