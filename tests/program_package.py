@@ -61,6 +61,38 @@ def package():
             print("   ", error)
         else:
             raise AssertionError(f"no error: {parts}")
+    damaged(run, voussoir)
+
+
+def damaged(run, voussoir):
+    """Files that are damaged are InputErrors, with file and line; the last line of a run that was killed is left out."""
+    shutil.copytree("out", "broken")
+    broken = voussoir.load("broken")
+    lines = Path("out/history.csv").read_text().splitlines()
+    write("broken/history.csv", "\n".join([*lines[:5], lines[5][:9]]))
+    expect((broken.history["time"] == run.history["time"][:4]).all(), f"{broken.history['time']}")
+    write("broken/short.csv", "\n".join([*lines[:3], "1,2", *lines[3:]]) + "\n")
+    write("broken/long.csv", "\n".join([*lines[:3], lines[3] + ",7"]) + "\n")
+    Path("broken/binary.csv").write_bytes(b"\xff\xfe\x00")
+    write("broken/endless.csv", "a,b\n1," + 200000 * "x" + "\n")
+    write("broken/summary.json", Path("out/summary.json").read_text()[:40])
+    write("broken/bad.vtu", "no mesh")
+    calls = [(lambda: broken.table("short"), ("short.csv, line 4", "2 values")), (lambda: broken.table("long"), ("long.csv, line 4",)),
+             (lambda: broken.table("binary"), ("binary.csv", "no table")),
+             (lambda: broken.table("endless"), ("endless.csv", "no table")), (lambda: broken.summary, ("summary.json", "not whole"))]
+    try:
+        import meshio  # noqa: F401
+        calls.append((lambda: broken.mesh("bad.vtu"), ("bad.vtu", "mesh")))
+    except ImportError:
+        pass
+    for call, parts in calls:
+        try:
+            call()
+        except voussoir.InputError as error:
+            expect(all(part in str(error) for part in parts), f"{error}")
+            print("   ", error)
+        else:
+            raise AssertionError(f"no error: {parts}")
 
 
 def arcs():
@@ -83,7 +115,12 @@ def arcs():
     expect(abs(float(re.search(r"crest ([\d.]+) m", text)[1]) - math.radians(70) * 100) < .06, text)
     scene = write("ring.prm", "subsection Mesh\nset Source = file\nset File = dam.msh\nend\nsubsection Reservoir\nset Water level = 50\nend\n")
     expect("4 monoliths" in runs(scene, "--validate"), "the ring's monoliths")
-    for name, rows, part in (("few", "0,0,100,20,80,30,40\n", "two arcs"), ("text", "0,0,100,20,80,30,40\n60,a,100,20,80,30,40\n", "numbers"),
+    ring = "0,0,100,20,80,30,40\n60,0,100,20,80,30,40"
+    for name, rows, part in (("few", "0,0,100,20,80,30,40\n", "two arcs"),
+                             ("text", "0,0,100,20,80,30,40\n60,a,100,20,80,30,40\n", 'line 3, upstream_x: "a"'),
+                             ("extra", ring + ",7\n", "line 3: 8 values for 7"), ("missing", ring[:-3] + "\n", "line 3: 6 values for 7"),
+                             ("huge", ring.replace("60,0", "60,1e300") + "\n", 'line 3, upstream_x: "1e300"'),
+                             ("nan", ring.replace("60,0", "60,nan") + "\n", '"nan"'),
                              ("thick", "0,0,100,20,80,30,40\n60,0,10,20,80,30,40\n", "thicker"),
                              ("valley", "0,0,100,20,80,30,40\n60,0,100,20,80,20,40\n", "right_angle"),
                              ("meet", "0,0,100,20,20,60,60\n60,0,100,20,20,60,60\n", "meet")):
@@ -91,6 +128,11 @@ def arcs():
         expect(part in mesh(f"{name}.csv", status=2), name)
     write("column.csv", "elevation,thickness\n1,2\n")
     expect("upstream_x" in mesh("column.csv", status=2), "a missing column")
+    write("twice.csv", head.replace("thickness", "thickness,thickness") + "0,0,100,20,20,80,30,40\n")
+    expect("thickness is there twice" in mesh("twice.csv", status=2), "a column twice")
+    for options, part in ((("--along", "10001"), "1 to 10000"), (("--up", "99999999999999999999"), "1 to 10000"), (("--through", "0"), "1 to 10000"),
+                          (("--along", "9000", "--up", "9000"), "more than 5000000 elements"), (("--end-height", "nan"), "--end-height")):
+        expect(part in mesh("ring.csv", *options, status=2), f"{options}")
     # Morrow Point on a rigid base, empty: 3.81 and 4.27 Hz are quoted (doc/mesh.md); the table has its outer dimensions and its volume
     text = mesh(str(ROOT / "meshes" / "morrow_point.csv"), "--joints", "9", "--along", "40", "--up", "12")
     expect(abs(float(re.search(r"volume (\d+) m3", text)[1]) / 275e3 - 1) < .03, text)

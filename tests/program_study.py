@@ -78,6 +78,10 @@ def refusals():
                         (STUDY.replace("= scene.prm", "= nowhere.prm"), ("line 2", "nowhere.prm", "not there")),
                         (STUDY.replace("0.4 | 0.8", "0.4 | 0.4"), ("line 8", '"0.4"', "twice")),
                         (STUDY.replace("0.4 | 0.8", "0.4 | | 0.8"), ("line 8", "missing")),
+                        (STUDY.replace("0.4 | 0.8", "0.4 | 0.40"), ("line 8", '"0.40"', 'as "0.4"', "twice")),
+                        (STUDY.replace("= scene.prm", "="), ("which scene",)),
+                        (STUDY.replace("0.5 | 1", "1 ... " + "9" * 30), ("line 5", "9" * 30 + " values", "1 to 10000")),
+                        (STUDY.replace("0.5 | 1", "5 ... 1"), ("line 5", "0 values")),
                         (STUDY.replace("0.4 | 0.8", "1 ... x"), ("line 8", "1 ... 10")),
                         (STUDY.replace("0.5 | 1", "1 ... 5001"), ("10002 scenes", "Combine")),
                         (STUDY + "set Combine = some\n", ("line 11", "one by one", '"some"')),
@@ -96,7 +100,11 @@ def refusals():
     write("table.csv", "Motion/Seed\n1\n1\n")
     write("bad.prm", "set Scene = scene.prm\nset Table = table.csv\n")
     refused(["study", "bad.prm"], "table.csv, line 3", "twice")
+    write("table.csv", "Motion/Factor\n1\n1.0\n")
+    refused(["study", "bad.prm"], "table.csv, line 3", "twice")
     refused(["study", "nowhere.prm"], "nowhere.prm", "cannot be read")
+    for profile in ("/nowhere/profile", "no_such_profile", "."):
+        refused(["study", "bad.prm", "--profile", profile], "--profile", profile, "config.yaml")
     write("bad.prm", STUDY.replace("0.4 | 0.8", "0.4 | much"))
     refused(["study", "bad.prm"], "bad.prm, line 8", '"Joints/Friction"', '"much"', "a number")
     # Not valid as a scene: a duration that the records do not have
