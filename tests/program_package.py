@@ -240,6 +240,35 @@ def tutorial_6_study():
     expect(len(list(Path("output/openings/runs").iterdir())) == 4, "runs")
 
 
+def notebook():
+    """The cells of python/paper.ipynb run in order, without Jupyter; their numbers are of FJA, FJB and keys."""
+    try:
+        import matplotlib  # noqa: F401
+        import numpy  # noqa: F401
+    except ImportError as error:
+        print(f"the notebook is not tried: {error}")
+        sys.exit(77)
+    Path("prm").symlink_to(ROOT / "prm")
+    Path("python").symlink_to(ROOT / "python")
+    page = json.loads((ROOT / "python" / "paper.ipynb").read_text())
+    try:
+        import nbformat
+        nbformat.validate(nbformat.from_dict(page))
+    except ImportError:
+        print("    without nbformat")
+    cells = ["".join(cell["source"]) for cell in page["cells"] if cell["cell_type"] == "code"]
+    expect(len(cells) > 4 and all(not cell.get("outputs") for cell in page["cells"]), f"{len(cells)} cells, with outputs?")
+    write("cells.py", "space = {'__name__': '__main__'}\nfor number, cell in enumerate(" + repr(cells) + ", 1):\n"
+          "    exec(compile(cell, f'cell {number}', 'exec'), space)\n")
+    result = subprocess.run([sys.executable, "cells.py"], capture_output=True, text=True,
+                            env={**os.environ, "MPLBACKEND": "Agg", "VOUSSOIR_PROGRAM": VOUSSOIR})
+    print("    " + result.stdout.replace("\n", "\n    "))
+    expect(result.returncode == 0, result.stderr)
+    distance = re.search(r"KSM from FJB ([\d.]+) mm, KSM from FJA ([\d.]+) mm", result.stdout)
+    expect(distance and float(distance[1]) < 1 < float(distance[2]), "tight keys are not like FJB")
+    expect(all(Path(f"output/notebook/{name}/summary.json").is_file() for name in ("fja", "fjb", "ksm", "play")), "runs")
+
+
 def editor():
     """Snippets are scenes, and the schema takes the defaults and refuses what the program refuses."""
     result = subprocess.run([sys.executable, str(ROOT / "scripts" / "editor.py"), "--output", "editor", "--voussoir", VOUSSOIR], capture_output=True, text=True)
@@ -287,5 +316,5 @@ def site():
 
 
 if __name__ == "__main__":
-    run_cases(package, arcs, editor, site, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records, tutorial_4_rock, tutorial_5_own_law,
+    run_cases(package, arcs, notebook, editor, site, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records, tutorial_4_rock, tutorial_5_own_law,
               tutorial_6_study)

@@ -8,6 +8,7 @@
 import csv
 import math
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -17,7 +18,8 @@ from pathlib import Path
 
 from run_program import VOUSSOIR, expect, refused, run_cases, runs, summary, voussoir, write, write_scene
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "scripts"))
 STUDY = """
 set Scene = scene.prm
 subsection Factors
@@ -278,9 +280,9 @@ def fits():
 def examples():
     """The studies of the tree: what they would run; the small one is run."""
     needs_snakemake()
-    studies = Path(__file__).resolve().parent.parent / "studies"
+    studies = ROOT / "studies"
     from study_file import read_study
-    for name, scenes in (("ida/ida", 50), ("ida/small", 4), ("joints/joints", 15)):
+    for name, scenes in (("ida/ida", 50), ("ida/small", 4), ("joints/joints", 15), ("joints/small", 9)):
         found = read_study(studies / f"{name}.prm")
         expect(len(found.scenes) == scenes, f"{name}: {len(found.scenes)} scenes")
     study(str(studies / "ida/small.prm"), "--set", "Settings/Motion/Duration=0.64", "--output", "small")
@@ -294,6 +296,31 @@ def examples():
     expect(len(rows_of("other")) == 4, text)
 
 
+def joints():
+    """The small study of joints and foundations: every foundation, tied and not, and the figure over the number of joints."""
+    needs_snakemake()
+    study(str(ROOT / "studies/joints/small.prm"), "--output", "joints", "--set", "Settings/Motion/Duration=0.32",
+          "--set", "Settings/Motion/Rise end=0.05", "--set", "Settings/Motion/Decay begin=0.2")
+    rows = rows_of("joints")
+    expect(len(rows) == 9 and {row["foundation"] for row in rows.values()} == {"rigid", "massless", "rock"}, f"{list(rows)}")
+    for name, row in rows.items():
+        expect((row["Joints/Model"] == "tied") == (row["opening"] == "" or float(row["opening"]) == 0), f"{name}: opening {row['opening']}")
+    expect(Path("joints/figures/over_scale.png").exists(), "the figure over the number of joints")
+
+
+def throughput():
+    """The benchmark of a study's throughput comes to its end, with two small scenes."""
+    needs_snakemake()
+    small = ("Joints=2", "Elements along=6", "Elements up=3", "Elements through=1")
+    words = [sys.executable, str(ROOT / "benchmarks/study_throughput.py"), "--voussoir", VOUSSOIR, "--scenes", "2", "--duration", "0.32",
+             *[word for entry in small for word in ("--set", f"Mesh/Arch210/{entry}")]]
+    result = subprocess.run(words, capture_output=True, text=True, timeout=280)
+    expect(result.returncode == 0, f"{result.stdout}{result.stderr}")
+    print("   ", result.stdout.strip())
+    expect(re.fullmatch(r"2 scenes on \d+ cores: by hand [\d.]+ s, as a study [\d.]+ s: \d+ % of the throughput; "
+                        r"CPU time [\d.]+ and [\d.]+ s: \d+ %", result.stdout.strip()), result.stdout)
+
+
 if __name__ == "__main__":
     os.environ["VOUSSOIR_PROGRAM"] = VOUSSOIR
-    run_cases(refusals, table, killed, stopped, failing, fits, examples)
+    run_cases(refusals, table, killed, stopped, failing, fits, examples, joints, throughput)
