@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Errors of the stress envelopes of the quick start, node by node, with and without the known tractions.
+"""Errors of the stress envelopes of prm/coarse.prm, node by node, with and without the known tractions.
 
     benchmarks/stress_error.py [--duration 4] [--fine 2] [--voussoir PROGRAM]
 

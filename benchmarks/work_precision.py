@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Accuracy against cost of the quick start: time steps on one mesh, then elements and meshes at one time step.
+"""Accuracy against cost of prm/coarse.prm: time steps on one mesh, then elements and meshes at one time step.
 
     benchmarks/work_precision.py [--duration 6] [--law FJA] [--voussoir PROGRAM]
 
@@ -112,7 +112,7 @@ def main():
         axis.set_ylabel(label)
         axis.grid(True, which="both", alpha=0.3)
     axes[0].legend()
-    figure.suptitle(f"Quick start, 5 joints, {options.law}: differences from the finest run of each study")
+    figure.suptitle(f"coarse.prm, 5 joints, {options.law}: differences from the finest run of each study")
     figure.tight_layout()
     options.figure.parent.mkdir(exist_ok=True)
     figure.savefig(options.figure, dpi=130)

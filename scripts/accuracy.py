@@ -18,6 +18,7 @@ Writes accuracy.csv, accuracy.json and accuracy.png into DIR; runs, with their t
 
 import argparse
 import csv
+import hashlib
 import itertools
 import json
 import math
@@ -30,13 +31,13 @@ from pathlib import Path
 import numpy as np
 
 from command import ComputationError, InputError, end_with, entries_of, results_of, settings, voussoir
+from study_file import is_file_entry
+from zone_tension import read, zone_means
 
 ALONG, UP, THROUGH = (f"Mesh/Arch210/Elements {way}" for way in ("along", "up", "through"))
 STEPS, SUBSTEPS, DEGREE = "Dynamics/Steps per sample", "Foundation/Substeps", "Elements/Degree"
 ROCK_SIZE = "Mesh/Arch210/Rock/Element size"
 TAPER = 0.2  # of the motion's beginning [s]
-ZONES = 3  # of either face, along and up
-FOOT = 0.1  # of the height: nearer to the base is no zone
 FIRST, LAST = "base", "wish"  # names of the runs of the scene as it is, and of what is proposed
 
 
@@ -56,7 +57,7 @@ class Choice:
             first, last = (np.linalg.norm(values[k] - values[k + 1]) for k in (-3, -2))
             if last > 0 and first > 0:
                 self.order = solve_order(first / last, self.sizes[-3] / self.sizes[-2], self.sizes[-2] / self.sizes[-1])
-                self.fitted = True
+                self.fitted = 1 < self.order < 4
         coarsest = max(-3, -len(values))  # the widest pair, whose scatter is enlarged least
         gain = 1 / ((self.sizes[coarsest] / self.sizes[-1]) ** self.order - 1)
         self.limit = values[-1] + gain * (values[-1] - values[coarsest])
@@ -67,8 +68,8 @@ def solve_order(quotient, coarse, fine):
     def of(p):
         return fine ** p * (coarse ** p - 1) / (fine ** p - 1)
     low, high = 1.0, 4.0
-    if quotient <= of(low):
-        return low
+    if quotient <= of(low) or quotient >= of(high):
+        return low if quotient <= of(low) else high
     for _ in range(50):
         middle = (low + high) / 2
         low, high = (middle, high) if of(middle) < quotient else (low, middle)
@@ -89,19 +90,12 @@ def choices_of(entries):
                                        ("through", THROUGH, int(entries[THROUGH]), 1)):
             numbers = [now, math.ceil(1.5 * now), max(2 * now, math.ceil(1.5 * now) + 1)]
             result.append(Choice(name, [{entry: unit * n} for n in numbers], [1 / n for n in numbers], 0))
-        if on_rock:
+        if entries["Foundation/Model"] != "rigid":
             size = float(entries[ROCK_SIZE])
             result.append(Choice("rock size", [{ROCK_SIZE: s} for s in (size, round(size / 1.4, 3))], [1.4, 1], 0))
     elif int(entries[DEGREE]) == 1:
         result.append(Choice("degree", [{DEGREE: 1}, {DEGREE: 2}], [1, 0.5], 0, 3.0))
     return result
-
-
-def add_substeps(scene, common, changes):
-    """Smaller elements of rock have a smaller critical time step: as many steps of the rock in one of the dam as they need."""
-    refused = voussoir(scene, "--validate", *settings({**common, **changes})).stderr
-    if needed := re.search(r'"Foundation/Substeps" to (\d+)', refused):
-        changes[SUBSTEPS] = int(needed[1])
 
 
 def strongest(motion, seconds):
@@ -118,73 +112,24 @@ def strongest(motion, seconds):
     return part, motion[first, 0]
 
 
-def read(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
-
-
-def outline(x, corners):
-    """Places of the nodes where the faces end, but for the crest: on the base."""
-    places = np.round(x[:, :3], 2)
-    number = np.unique(places, axis=0, return_inverse=True)[1].ravel()[corners]  # joints have two nodes at each place
-    edges = np.sort(np.stack([number, np.roll(number, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
-    _, first, count = np.unique(edges, axis=0, return_index=True, return_counts=True)
-    ends = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2)[first[count == 1]]
-    below = x[ends, 2].min(axis=1) < x[:, 2].max() - 0.1
-    return places[np.unique(ends[below])]
-
-
-def zone_means(directory):
-    """Means of the largest tension [Pa] over the zones of both faces, by the area of their quadrilaterals' parts; and the
-    zones' areas [m2]."""
-    nodes, quads = read(directory / "faces.csv"), read(directory / "faces_cells.csv")
-    x = np.array([[float(n[k]) for k in ("x", "y", "z", "s", "max_principal")] for n in nodes])
-    corners = np.array([[int(q[f"n{i}"]) for i in range(4)] for q in quads])
-    face = np.array([q["face"] for q in quads])
-    parts = 8
-    at = (np.arange(parts) + 0.5) / parts
-    weights = np.array([[(1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b] for a in at for b in at])
-    inside = np.einsum("pk,qkc->qpc", weights, x[corners])  # quad, part, column
-    diagonals = x[corners[:, 2], :3] - x[corners[:, 0], :3], x[corners[:, 3], :3] - x[corners[:, 1], :3]
-    area = np.repeat(np.linalg.norm(np.cross(*diagonals), axis=1) / 2, parts * parts).reshape(len(quads), -1)
-    base = outline(x, corners)
-    foot = FOOT * (x[:, 2].max() - x[:, 2].min())
-    means, areas = [], []
-    for name in ("upstream", "downstream"):
-        s, z, tension, weight = (values[face == name].ravel() for values in (inside[:, :, 3], inside[:, :, 2], inside[:, :, 4], area))
-        places = inside[face == name][:, :, :3].reshape(-1, 3)
-        far = np.concatenate([np.linalg.norm(part[:, None] - base, axis=2).min(axis=1) > foot
-                              for part in np.array_split(places, 1 + len(places) // 2000)])
-        for value in (s, z):
-            value -= value.min()
-            value /= value.max() / ZONES
-        zone = np.minimum(s.astype(int), ZONES - 1) * ZONES + np.minimum(z.astype(int), ZONES - 1)
-        area_of, sum_of = (np.bincount(zone[far], w[far], ZONES ** 2) for w in (weight, weight * tension))
-        means.extend(sum_of / np.maximum(area_of, 1e-300))
-        areas.extend(area_of)
-    return np.array(means), np.array(areas)
-
-
 class Ladder:
     """The runs, each in a directory of its own; measures and costs by their names."""
 
     def __init__(self, scene, common, directory, n_expected):
         self.scene, self.common, self.directory = scene, common, directory
         self.n_expected, self.began, self.spent = n_expected, time.monotonic(), 0
-        self.openings, self.tensions, self.areas, self.cost = {}, {}, {}, {}
+        self.openings, self.tensions, self.areas, self.cost, self.changes, self.scale = {}, {}, {}, {}, {}, None
 
     def run(self, name, changes):
         directory = self.directory / "runs" / name.replace(" ", "_").replace("/", "-")
-        words = settings({**self.common, **changes})
-        stamp = directory / "settings.json"
-        if not (stamp.exists() and json.loads(stamp.read_text()) == [str(self.scene), words]):
-            shutil.rmtree(directory, ignore_errors=True)
-            result = voussoir(self.scene, "--output", directory, "--quiet", *words)
-            if result.returncode != 0:
-                error = InputError if result.returncode == 2 else ComputationError
-                raise error(f"the run \"{name}\" ({', '.join(f'{k} = {v}' for k, v in changes.items()) or 'the scene as it is'}"
-                            f") says: {result.stderr.strip().removeprefix('voussoir: ')}")
-            stamp.write_text(json.dumps([str(self.scene), words]))
+        stamp, key = directory / "digest.json", self.key_of(changes)
+        known = json.loads(stamp.read_text()) if stamp.exists() else {}
+        if known.get("key") == key:
+            changes = known["changes"]
+        else:
+            changes = self.start(name, changes, directory)
+            stamp.write_text(json.dumps({"key": key, "changes": changes}))
+        self.changes[name] = changes
         summary = results_of(directory)
         joints = read(directory / "joints.csv")
         self.openings[name] = np.array([max(float(j["opening_upstream"]), float(j["opening_downstream"])) for j in joints])
@@ -196,13 +141,40 @@ class Ladder:
         print(f"  {name:24s} {opening}, largest zone mean {1e-6 * self.tensions[name].max():6.3f} MPa, "
               f"{self.cost[name]:7.3f} s per s;  {done}/{self.n_expected}, about {left:.0f} s left", flush=True)
 
+    def start(self, name, changes, directory):
+        """Runs the scene with the changes and returns them. Smaller elements of rock have a smaller critical time step: then
+        with as many steps of the rock in one of the dam as the program asks for or, if it refuses these, steps of both."""
+        shutil.rmtree(directory, ignore_errors=True)
+        result = voussoir(self.scene, "--output", directory, "--quiet", *settings({**self.common, **changes}))
+        first, tried = result.stderr, changes
+        for entry in (SUBSTEPS, STEPS) if name != FIRST else ():
+            if result.returncode == 2 and (needed := re.search(rf'"{entry}" to (\d+)', first)):
+                tried = {**changes, entry: int(needed[1])}
+                result = voussoir(self.scene, "--output", directory, "--quiet", *settings({**self.common, **tried}))
+        if result.returncode != 0:
+            error = InputError if result.returncode == 2 else ComputationError
+            said = [line for line in result.stderr.splitlines() if not line.startswith("voussoir: warning: ")] or ["nothing"]
+            raise error(f"the run \"{name}\" ({', '.join(f'{k} = {v}' for k, v in tried.items()) or 'the scene as it is'}"
+                        f") says: {said[-1].removeprefix('voussoir: ').removeprefix('error: ').removeprefix('failed: ')}")
+        return tried
+
+    def key_of(self, changes):
+        """A digest of all that a run reads: every entry of the scene, and the contents of its files."""
+        entries = entries_of(self.scene, settings({**self.common, **changes})[1::2])
+        digest = hashlib.sha256(json.dumps(entries).encode() + self.common["Motion/File"].read_bytes())
+        for entry, value in entries.items():
+            file = self.scene.parent / value
+            digest.update(file.read_bytes() if is_file_entry(entry) and file.is_file() else b"")
+        return digest.hexdigest()
+
     def measures(self, name):
-        """Openings and tensions (by the roots of their zones' areas) as one vector, each part relative to the largest of all
-        runs; openings of less than a hundredth of a millimetre are none."""
+        """Openings and tensions (by the roots of their zones' areas) as one vector, each part relative to the largest of the
+        runs of single choices; openings of less than a hundredth of a millimetre are none."""
         share = np.sqrt(self.areas[FIRST] / self.areas[FIRST].sum())
         parts, least = (self.openings, {run: share * means for run, means in self.tensions.items()}), (1e-5, 1.)
-        scale = [max([smallest, *(np.linalg.norm(v) for v in part.values())]) for part, smallest in zip(parts, least)]
-        return np.concatenate([part[name] / s for part, s in zip(parts, scale)])
+        if self.scale is None:  # once: limits are of this scale
+            self.scale = [max([smallest, *(np.linalg.norm(v) for v in part.values())]) for part, smallest in zip(parts, least)]
+        return np.concatenate([part[name] / s for part, s in zip(parts, self.scale)])
 
     def norm(self, vector):
         """Relative error of openings and of tensions, and the larger of both."""
@@ -219,10 +191,8 @@ def plan(choices, ladder, wish):
         options.append([(k, ladder.measures(choice.key(k)) - choice.limit, cost[k]) for k in range(len(choice.levels))])
     best, closest = None, None
     for levels in itertools.product(*options):
-        vector = sum(error for _, error, _ in levels)
-        single = math.sqrt(sum(ladder.norm(error)[2] ** 2 for _, error, _ in levels))
-        error, cost = max(ladder.norm(vector)[2], single), math.prod(c for _, _, c in levels)
-        candidate = (cost, error, [k for k, _, _ in levels], vector)
+        error, cost = combined(ladder, [error for _, error, _ in levels])[2], math.prod(c for _, _, c in levels)
+        candidate = (cost, error, [k for k, _, _ in levels])
         if error <= wish and (best is None or cost < best[0]):
             best = candidate
         if closest is None or error < closest[1]:
@@ -252,7 +222,7 @@ def draw(choices, ladder, wish, total, proposal, file):
         axes.plot([ladder.cost[key] for key in keys], errors, mark + "-", label=f"{choice.name} alone, "
                   + (f"order {choice.order:.1f}" if choice.fitted else f"order {choice.order:.0f} taken"))
     axes.plot(ladder.cost[FIRST], 100 * total[2], "k*", markersize=14, label=f"the scene as it is, {percent(total[2])}")
-    if proposal["meets"]:
+    if "cost" in proposal:
         axes.plot(proposal["cost"], 100 * proposal["error"], "kD", markersize=9, label=f"proposed, {percent(proposal['error'])}")
     axes.axhline(100 * wish, color="0.5", linewidth=1, linestyle="--", label=f"the wish, {percent(wish)}")
     axes.set(xscale="log", yscale="log", xlabel="cost: seconds of wall time per second of earthquake",
@@ -274,13 +244,13 @@ def write_table(choices, ladder, file):
                                 *(f"{e:.6g}" for e in errors[:2]), f"{choice.order:.3g}", choice.fitted])
 
 
-def number(text, what, percent_allowed=False):
+def number(text, what, unit=""):
     try:
-        value = float(text.removesuffix("%")) / (100 if text.endswith("%") and percent_allowed else 1)
+        value = float(text.removesuffix(unit)) if text.endswith(unit) else math.nan
     except ValueError:
         value = math.nan
     if not (math.isfinite(value) and value > 0):
-        raise InputError(f"{what} must be a positive number, not \"{text}\".")
+        raise InputError(f"{what} must be a positive number{f' with its {unit}, such as 1{unit}' if unit else ''}, not \"{text}\".")
     return value
 
 
@@ -293,7 +263,10 @@ def prepare(options, wish):
     if entries["Output/Envelope interval"] == "0":
         options.set.append("Output/Envelope interval=1")
     directory = Path(options.output or f"output/{Path(options.scene).stem}-accuracy")
-    directory.mkdir(parents=True, exist_ok=True)
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"The directory {directory} cannot be written to: {error.strerror}. Choose another with --output.") from None
     result = voussoir("motion", options.scene, "--output", directory / "whole.csv",
                       *[word for entry in options.set for word in ("--set", entry)])
     if result.returncode != 0:
@@ -306,11 +279,6 @@ def prepare(options, wish):
                    "Motion/Unit": "m/s^2", "Motion/Duration": -1, "Motion/Factor": 1, "Motion/Scale x": 1, "Motion/Scale y": 1,
                    "Motion/Scale z": 1, "Output/Figures": "false", "Output/Solution interval": 0})
     choices = choices_of(entries)
-    if entries["Foundation/Model"] == "rock":
-        for choice in choices:
-            for k, level in enumerate(choice.levels):
-                if k != choice.current:
-                    add_substeps(options.scene, common, level)
     n_runs = 2 + sum(len(choice.levels) - 1 for choice in choices)
     print(f"{options.scene}: the strongest {part[-1, 0]:.4g} s, from {start:.4g} s on; {n_runs} runs; wish: {percent(wish)}")
     return choices, Ladder(Path(options.scene).resolve(), common, directory, n_runs), entries
@@ -339,20 +307,20 @@ def propose(choices, ladder, wish):
     changes = {}
     for choice, k in zip(choices, chosen[2]):
         if k != choice.current:
-            changes.update(choice.levels[k])
-    if changes:
-        add_substeps(ladder.scene, ladder.common, changes)
+            level = ladder.changes[choice.key(k)]
+            changes.update({entry: max(value, changes.get(entry, value)) for entry, value in level.items()})
     proposal = {"changes": changes, "predicted": chosen[1], "meets": best is not None}
     if best is None:
         return proposal
     if changes:
         ladder.run(LAST, changes)
+        changes = proposal["changes"] = ladder.changes[LAST]
     name = LAST if changes else FIRST
     # Its own measures against the limit of all choices: what the sum of single refinements predicts for size zero.
     limit = ladder.measures(FIRST) + sum(choice.limit - ladder.measures(FIRST) for choice in choices)
     measured = ladder.norm(ladder.measures(name) - limit)
-    return {**proposal, "openings": measured[0], "tension": measured[1], "error": max(measured[2], chosen[1]),
-            "cost": ladder.cost[name]}
+    return {**proposal, "meets": measured[2] <= wish, "openings": measured[0], "tension": measured[1],
+            "error": max(measured[2], chosen[1]), "cost": ladder.cost[name]}
 
 
 def main():
@@ -366,7 +334,7 @@ def main():
     if len(options.scene) != 1:
         raise InputError("`voussoir accuracy` needs one scene file. `voussoir accuracy --help` shows how.")
     options.scene = options.scene[0]
-    wish = number(options.wish, "--for", True)
+    wish = number(options.wish, "--for", "%") / 100
     choices, ladder, _ = prepare(options, wish)
     for choice in choices:
         for k, level in enumerate(choice.levels):
@@ -380,9 +348,10 @@ def main():
           f"at {ladder.cost[FIRST]:.3g} s per second of earthquake.")
     proposal = propose(choices, ladder, wish)
     lines = " ".join(f"--set '{entry}={value}'" for entry, value in proposal["changes"].items()) or "(as it is)"
-    if proposal["meets"]:
-        print(f"For {percent(wish)}: {lines}\n    at {proposal['cost']:.3g} s per second of earthquake; error estimated "
-              f"{percent(proposal['predicted'])}, measured against the extrapolated limit {percent(max(proposal['openings'], proposal['tension']))}.")
+    if "cost" in proposal:
+        print(f"{'For' if proposal['meets'] else 'Not quite'} {percent(wish)}: {lines}\n    at {proposal['cost']:.3g} s per "
+              f"second of earthquake; error estimated {percent(proposal['predicted'])}, measured against the extrapolated limit "
+              f"{percent(max(proposal['openings'], proposal['tension']))}.")
     else:
         print(f"No setting that was tried meets {percent(wish)}. The closest, by estimate {percent(proposal['predicted'])}: "
               f"{lines}\n    Start from it, with `voussoir accuracy` again.")

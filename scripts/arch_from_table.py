@@ -26,6 +26,8 @@ from pathlib import Path
 import numpy as np
 
 COLUMNS = ("elevation", "upstream_x", "upstream_radius", "thickness", "downstream_radius", "right_angle", "left_angle")
+LARGEST = 1e5  # of a table's numbers [m, degrees]
+MOST_ELEMENTS = 10000, 5000000  # each way, in all
 FACES = {1: "base", 2: "upstream", 3: "downstream", 4: "crest"}
 
 
@@ -57,30 +59,42 @@ def monotone(x, y):
 def read_table(path):
     """{column: values over the elevation, which rises}."""
     try:
-        lines = [line for line in Path(path).read_text(encoding="utf-8-sig").splitlines() if line.strip() and not line.startswith("#")]
-    except (OSError, UnicodeDecodeError) as error:
+        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
+        rows = [(number, [cell.strip() for cell in next(csv.reader([line]))]) for number, line in enumerate(lines, 1)
+                if line.strip() and not line.startswith("#")]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"The table {path} cannot be read: {getattr(error, 'strerror', None) or 'it is no text'}.") from None
-    rows = list(csv.DictReader(lines, skipinitialspace=True))
-    missing = [name for name in COLUMNS if not rows or name not in rows[0]]
-    if missing:
-        raise InputError(f"{path}: the column {missing[0]} is missing, or the table is empty. The first line must name {', '.join(COLUMNS)}.")
-    try:
-        table = {name: np.array([float(row[name]) for row in rows]) for name in COLUMNS}
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{path}: every line needs {len(COLUMNS)} numbers ({error}).") from None
+    names = rows[0][1] if len(rows) > 1 else []
+    for name in COLUMNS:
+        if names.count(name) != 1:
+            raise InputError(f"{path}: the column {name} is {'there twice' if name in names else 'missing, or the table is empty'}. "
+                             f"The first line must name {', '.join(COLUMNS)}.")
+    for number, row in rows[1:]:
+        if len(row) != len(names):
+            raise InputError(f"{path}, line {number}: {len(row)} values for {len(names)} columns. Each column needs one.")
+    table = {name: np.array([number_of(row[names.index(name)], f"{path}, line {number}, {name}") for number, row in rows[1:]])
+             for name in COLUMNS}
     order = np.argsort(table["elevation"])
     table = {name: values[order] for name, values in table.items()}
     check(table, path)
     return table
 
 
+def number_of(text, place):
+    """Throws InputError for what is no number of a dam."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = np.nan
+    if not abs(value) <= LARGEST:
+        raise InputError(f'{place}: "{text}" must be a number between -{LARGEST:g} and {LARGEST:g}, in metres or degrees.')
+    return value
+
+
 def check(table, path):
     """Throws InputError for arcs that are no dam."""
     if len(table["elevation"]) < 2 or np.diff(table["elevation"]).min() <= 0:
         raise InputError(f"{path}: at least two arcs, of different elevations, are needed.")
-    for name in COLUMNS:
-        if not np.isfinite(table[name]).all():
-            raise InputError(f"{path}: the column {name} has a value that is no finite number.")
     for name in ("upstream_radius", "thickness", "downstream_radius", "right_angle", "left_angle"):
         if table[name].min() <= 0:
             raise InputError(f"{path}: the column {name} must be positive.")
@@ -199,14 +213,17 @@ def main():
     parser.add_argument("--through", type=int, default=2, help="elements through the thickness")
     parser.add_argument("--end-height", type=float, default=5., help="height of the dam's two ends [m]")
     options = parser.parse_args()
-    if not (0 <= options.joints < 999 and min(options.along, options.up, options.through) > 0):
-        raise InputError("--joints must be 0 to 998, --along, --up and --through at least 1.")
+    counts, (each, in_all) = (options.along, options.up, options.through), MOST_ELEMENTS
+    if not (0 <= options.joints < 999 and min(counts) > 0 and max(counts) <= each):
+        raise InputError(f"--joints must be 0 to 998, --along, --up and --through 1 to {each}.")
+    if max(options.along, options.joints + 1) * options.up * options.through > in_all:
+        raise InputError(f"--along, --up and --through make more than {in_all} elements. Take fewer.")
     dam = Dam(read_table(options.table))
     if not 0 < options.end_height < dam.top - dam.low:
         raise InputError(f"--end-height must lie between 0 and the height of the dam, {dam.top - dam.low:g} m.")
     nodes, cells, sides = build(dam, options.joints, options.along, options.up, options.through, options.end_height)
     worst = smallest_jacobian(nodes, cells)
-    if worst <= 0:
+    if not worst > 0:  # or not a number
         raise InputError("Elements are folded: the arcs of neighbouring elevations cross, or the end height is too small.")
     write(options.output, nodes, cells, sides)
     crest = np.array([dam.place(angle, dam.top, 0.) for angle in crest_angles(dam, 500)])

@@ -5,10 +5,10 @@ largest principal stress or by the opening of the joints.
 
     scripts/picture.py SOLUTION.vtu PICTURE.png [--magnify 250] [--azimuth -10] [--elevation 38] [--title TEXT]
 
-The picture of the README, from the quick start:
+The picture of doc/report.md, from coarse.prm:
 
-    scripts/run.sh prm/quickstart.prm --set 'Output/Solution interval=1'
-    scripts/picture.py output/quickstart doc/figures/dam.png
+    scripts/run.sh prm/coarse.prm --set 'Output/Solution interval=1'
+    scripts/picture.py output/coarse doc/figures/dam.png
 
 With a directory, the solution whose joints are widest open is taken.
 """

@@ -21,7 +21,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from command import PROGRAM, ComputationError, InputError, end_with, entries_of, voussoir
-from study_file import is_file_entry, read_study
+from study_file import is_file_entry, read_study, value_in
 from study_scene import end_with_parent, record_of, revision_of, row_in_words, write_whole
 
 SNAKEFILE = """# Written by `voussoir study`, which runs it, and gathers the results when all scenes are done.
@@ -56,7 +56,18 @@ def arguments():
         raise InputError("`voussoir study` needs one study file. `voussoir study --help` shows how.")
     if options.jobs and not (options.jobs.isdecimal() and 0 < int(options.jobs) <= 10000):
         raise InputError(f'--jobs must be a positive number, not "{options.jobs}".')
+    if options.profile:
+        check_profile(options.profile)
     return options
+
+
+def check_profile(profile):
+    """Throws InputError unless Snakemake will find it: a directory, or one by its name among the user's or the machine's."""
+    homes = [os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config", *(os.environ.get("XDG_CONFIG_DIRS") or "/etc/xdg").split(":")]
+    places = [Path(profile), *(Path(home) / "snakemake" / profile for home in homes)]
+    if not any(list(place.glob("config*.yaml")) for place in places if place.is_dir()):
+        raise InputError(f"--profile: {profile} is no profile of Snakemake: no directory {' or '.join(dict.fromkeys(map(str, places[:2])))} "
+                         "with a config.yaml.")
 
 
 def jobs_and_threads(options, study):
@@ -90,10 +101,13 @@ def names_of(study):
         if count[names[i].lower()] > 1 or len(names[i]) > 100:
             text = repr((str(base), sorted((value.entry, value.text) for value in values.values())))
             names[i] = f"{names[i][:90]}-{hashlib.sha256(text.encode()).hexdigest()[:8]}"
-    for i, name in enumerate(names):
-        if name in names[:i]:
-            place = list(study.scenes[i][2].values())[-1].place
+    seen = set()
+    for name, (base, _, values) in zip(names, study.scenes):
+        scene = (base, tuple(sorted((entry, value_in(entry, value.text)) for entry, value in values.items() if entry != "Scene")))
+        if scene in seen:
+            place = list(values.values())[-1].place
             raise InputError(f"{place}: this scene ({name}) is in the study twice. Leave one.")
+        seen.add(scene)
     return names
 
 

@@ -109,23 +109,34 @@ def check_entry(entry, place, known):
                          "`voussoir parameters` prints all entries.")
 
 
-def values_of(text, place):
-    """The list "a | b | c", or the whole numbers "a ... b"."""
+def value_in(entry, text):
+    """What a text means: 0.5 and 0.50 are the same value, files 1 and 01 are not."""
+    first, *rest = text.split() or [""]
+    try:
+        return text if is_file_entry(entry) or entry == "Scene" else (float(first), *rest)
+    except ValueError:
+        return text
+
+
+def values_of(text, place, entry=""):
+    """The list "a | b | c", or the whole numbers "a ... b", of an entry."""
     low, dots, high = (part.strip() for part in text.partition("..."))
     if dots and "|" not in text:
         try:
-            numbers = range(int(low), int(high) + 1)
+            low, high = int(low), int(high)
         except ValueError:
             raise InputError(f'{place}: "{text}" is no range of whole numbers such as 1 ... 10.') from None
-        if not 0 < len(numbers) <= MOST_SCENES:
-            raise InputError(f'{place}: "{text}" has {len(numbers)} values. Give 1 to {MOST_SCENES}.')
-        return [str(number) for number in numbers]
+        if not 0 <= high - low < MOST_SCENES:
+            raise InputError(f'{place}: "{text}" has {max(0, high - low + 1)} values. Give 1 to {MOST_SCENES}.')
+        return [str(number) for number in range(low, high + 1)]
     values = [value.strip() for value in text.split("|")]
     for i, value in enumerate(values):
         if value == "" and len(values) > 1:
             raise InputError(f'{place}: a value is missing in "{text}". Values stand between bars: a | b | c.')
-        if value in values[:i]:
-            raise InputError(f'{place}: the value "{value}" is there twice. Leave one.')
+        same = [other for other in values[:i] if value_in(entry, other) == value_in(entry, value)]
+        if same:
+            how = "" if same[0] == value else f' (as "{same[0]}")'
+            raise InputError(f'{place}: the value "{value}" is there twice{how}. Leave one.')
     return values
 
 
@@ -206,11 +217,9 @@ def study_of_itself(study, entries):
 
 
 def base_scenes(study, own):
-    """The values of "Scene" as an axis: paths relative to the study."""
-    if "Scene" not in own:
-        return None
-    text, place = own["Scene"]
-    return [(Value("Scene", value, place),) for value in values_of(text, place)]
+    """The values of "Scene" as an axis: paths relative to the study. None without."""
+    text, place = own.get("Scene", ("", ""))
+    return [(Value("Scene", value, place),) for value in values_of(text, place, "Scene")] if text else None
 
 
 def path_of(value, study):
@@ -251,7 +260,7 @@ def read_study(path, overrides=()):
         if kind == "Settings":
             settings[name] = Value(name, text, place)
         else:
-            axes.append([(Value(name, value, place),) for value in values_of(text, place)])
+            axes.append([(Value(name, value, place),) for value in values_of(text, place, name)])
             names.append(name)
     if "Scene" not in names:
         raise InputError(f'{path}: which scene? Add "set Scene = FILE.prm", relative to the study.')

@@ -6,12 +6,16 @@
 """
 
 import json
+import os
 import signal
+import sys
 from math import sqrt
 from pathlib import Path
 
 from program_safety import failed, stopped_by
-from run_program import expect, refused, run_cases, runs, same, summary, table, write_scene
+from run_program import VOUSSOIR, expect, refused, run_cases, runs, same, summary, table, write_scene
+
+SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
 
 DURATION = ["--set", "Motion/Duration=1.5"]
 
@@ -64,11 +68,103 @@ def command():
     before = {p: p.stat().st_mtime for p in Path("out/runs").glob("*/summary.json")}
     expect(runs(*arguments).count("s per s") > 3, "the second time")
     expect(before == {p: p.stat().st_mtime for p in Path("out/runs").glob("*/summary.json")}, "runs are repeated")
-    refused([*arguments[:-1], "0"], "--for", "positive")
+    refused([*arguments[:-1], "0%"], "--for", "positive")
+    refused([*arguments[:-1], "1"], "--for", "1%")
+    refused([*arguments[:-1], "x%"], "--for", "1%")
+    refused([*arguments[:-3], "scene.prm"], "scene.prm", "--output")
     refused(["accuracy"], "one scene file")
     refused(["accuracy", "nothing.prm"], "nothing.prm")
     refused(["accuracy", "scene.prm", "--set", "Motion/Source=none"], "has no motion")
     refused(["accuracy", "scene.prm", "--set", "Motion/Fatcor=2"], "Motion/Factor")
+
+
+def on_rock():
+    """Rock of finer elements, whose critical time step is smaller, is run with as many sub-steps as the program asks for."""
+    write_scene()
+    rock = [word for entry in ("Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
+                               "Dynamics/Steps per sample=4") for word in ("--set", entry)]
+    text = runs("accuracy", "scene.prm", *rock, "--seconds", "0.1", "--output", "out", "--for", "500%")
+    runs_of = {p.parent.name: json.loads(p.read_text())["changes"] for p in Path("out/runs").glob("*/digest.json")}
+    finer = [changes for changes in runs_of.values() if changes.get("Foundation/Substeps", 1) > 1]
+    expect(finer and "Foundation/Substeps" not in runs_of["base"], f"{runs_of}: {text}")
+
+
+def maths():
+    """Orders and limits of known series; a retry that the program asks for; what several errors come to."""
+    os.environ["VOUSSOIR_PROGRAM"] = VOUSSOIR
+    sys.path.insert(0, str(SCRIPTS))
+    import accuracy
+    import numpy as np
+    for order in (1.3, 2., 3.):
+        for sizes in ([1, 2 / 3, 1 / 2], [1, 1 / 2, 1 / 4], [1 / 3, 1 / 5, 1 / 6]):
+            choice = accuracy.Choice("x", [{}] * 3, sizes, 0)
+            choice.fit([np.array([2., -1., 4.]) + np.array([1., .5, 0.]) * h ** order for h in sizes])
+            expect(choice.fitted and abs(choice.order - order) < 1e-6, f"order {choice.order}, not {order}")
+            expect(np.abs(choice.limit - [2, -1, 4]).max() < 1e-6, f"limit {choice.limit}")
+    for values, bound in (((0., 1., 3.), 1.), ((0., 100., 101.), 4.)):  # beyond the bounds: no fit
+        choice = accuracy.Choice("x", [{}] * 3, [1, 1 / 2, 1 / 4], 0)
+        choice.fit([np.array([value]) for value in values])
+        expect(not choice.fitted and choice.order == bound, f"order {choice.order} of {values} is said to be fitted")
+    choice = accuracy.Choice("x", [{}] * 2, [1, 1 / 2], 0)  # two levels: the order is taken, 2
+    choice.fit([np.array([5.]), np.array([2.])])
+    expect(not choice.fitted and abs(choice.limit[0] - 1) < 1e-12, f"limit {choice.limit}")
+
+    class Norms:
+        def norm(self, vector):
+            return abs(vector[0]), abs(vector[1]), max(abs(vector))
+
+    total = accuracy.combined(Norms(), [np.array([.3, 0]), np.array([-.3, .4])])
+    expect(np.allclose(total, (.5 * np.hypot(.3, .3), .4, .4)), f"{total}")
+    expect(accuracy.number("2%", "--for", "%") == 2 and accuracy.number("5", "--seconds") == 5, "numbers")
+    digests(accuracy)
+    asked_for(accuracy, np)
+
+
+def digests(accuracy):
+    """A run is known by what it reads: the scene's entries and the contents of its files, not by their names."""
+    write_scene()
+    Path("motion.csv").write_text("0 0 0 0\n")
+    ladder = accuracy.Ladder(Path("scene.prm").resolve(), {"Motion/File": Path("motion.csv").resolve()}, Path("."), 1)
+    first = ladder.key_of({})
+    write_scene(extra="# a remark\n")
+    expect(ladder.key_of({}) == first, "a remark is another scene")
+    expect(ladder.key_of({"Joints/Friction": .7}) != first, "changes are not in the digest")
+    write_scene(extra="subsection Joints\n set Friction = 0.7\nend\n")
+    expect(ladder.key_of({}) != first, "the scene is not in the digest")
+    write_scene()
+    expect(ladder.key_of({}) == first, "the same scene has another digest")
+    Path("motion.csv").write_text("0 0 0 1\n")
+    expect(ladder.key_of({}) != first, "the motion is not in the digest")
+
+
+def asked_for(accuracy, np):
+    """Steps instead of sub-steps where these are refused, too; the measures' scale does not move with later runs."""
+    class Result:
+        stdout = ""
+
+        def __init__(self, words):
+            few = "Foundation/Substeps=7" in words
+            self.returncode = 0 if "Dynamics/Steps per sample=12" in words else 2
+            self.stderr = ("voussoir: error: More damping.\n" if few else "voussoir: warning: Rock.\nvoussoir: error: Beyond. "
+                           'Raise "Dynamics/Steps per sample" to 12 or "Foundation/Substeps" to 7, or larger elements.\n')
+
+    accuracy.voussoir = lambda *words: Result(words)
+    ladder = accuracy.Ladder(Path("scene.prm"), {}, Path("."), 1)
+    done = ladder.start("rock size 5", {"size": 5}, Path("nowhere"))
+    expect(done == {"size": 5, "Dynamics/Steps per sample": 12}, f"{done}")
+    try:
+        ladder.start(accuracy.FIRST, {}, Path("nowhere"))
+        raise AssertionError("the scene itself is run with other steps")
+    except accuracy.InputError as error:
+        expect(str(error).endswith("says: Beyond. Raise \"Dynamics/Steps per sample\" to 12 or \"Foundation/Substeps\" to 7, "
+                                   "or larger elements."), str(error))
+    ladder.areas[accuracy.FIRST] = np.array([3., 1.])
+    for name, size in ((accuracy.FIRST, 1.), ("fine", 2.), ("wish", 8.)):
+        ladder.openings[name], ladder.tensions[name] = np.array([size]), 1e6 * size * np.array([1., 0.])
+        if name == "fine":
+            before = ladder.measures(accuracy.FIRST)
+    expect(np.array_equal(ladder.measures(accuracy.FIRST), before) and abs(before[0] - .5) < 1e-12, f"{before}")
+    expect(abs(np.linalg.norm(before[1:]) - .5) < 1e-12 and before[2] == 0, f"{before}")
 
 
 def table_of_text(name):
@@ -77,4 +173,4 @@ def table_of_text(name):
 
 
 if __name__ == "__main__":
-    run_cases(estimate, command)
+    run_cases(estimate, command, on_rock, maths)

@@ -61,6 +61,38 @@ def package():
             print("   ", error)
         else:
             raise AssertionError(f"no error: {parts}")
+    damaged(run, voussoir)
+
+
+def damaged(run, voussoir):
+    """Files that are damaged are InputErrors, with file and line; the last line of a run that was killed is left out."""
+    shutil.copytree("out", "broken")
+    broken = voussoir.load("broken")
+    lines = Path("out/history.csv").read_text().splitlines()
+    write("broken/history.csv", "\n".join([*lines[:5], lines[5][:9]]))
+    expect((broken.history["time"] == run.history["time"][:4]).all(), f"{broken.history['time']}")
+    write("broken/short.csv", "\n".join([*lines[:3], "1,2", *lines[3:]]) + "\n")
+    write("broken/long.csv", "\n".join([*lines[:3], lines[3] + ",7"]) + "\n")
+    Path("broken/binary.csv").write_bytes(b"\xff\xfe\x00")
+    write("broken/endless.csv", "a,b\n1," + 200000 * "x" + "\n")
+    write("broken/summary.json", Path("out/summary.json").read_text()[:40])
+    write("broken/bad.vtu", "no mesh")
+    calls = [(lambda: broken.table("short"), ("short.csv, line 4", "2 values")), (lambda: broken.table("long"), ("long.csv, line 4",)),
+             (lambda: broken.table("binary"), ("binary.csv", "no table")),
+             (lambda: broken.table("endless"), ("endless.csv", "no table")), (lambda: broken.summary, ("summary.json", "not whole"))]
+    try:
+        import meshio  # noqa: F401
+        calls.append((lambda: broken.mesh("bad.vtu"), ("bad.vtu", "mesh")))
+    except ImportError:
+        pass
+    for call, parts in calls:
+        try:
+            call()
+        except voussoir.InputError as error:
+            expect(all(part in str(error) for part in parts), f"{error}")
+            print("   ", error)
+        else:
+            raise AssertionError(f"no error: {parts}")
 
 
 def arcs():
@@ -83,7 +115,12 @@ def arcs():
     expect(abs(float(re.search(r"crest ([\d.]+) m", text)[1]) - math.radians(70) * 100) < .06, text)
     scene = write("ring.prm", "subsection Mesh\nset Source = file\nset File = dam.msh\nend\nsubsection Reservoir\nset Water level = 50\nend\n")
     expect("4 monoliths" in runs(scene, "--validate"), "the ring's monoliths")
-    for name, rows, part in (("few", "0,0,100,20,80,30,40\n", "two arcs"), ("text", "0,0,100,20,80,30,40\n60,a,100,20,80,30,40\n", "numbers"),
+    ring = "0,0,100,20,80,30,40\n60,0,100,20,80,30,40"
+    for name, rows, part in (("few", "0,0,100,20,80,30,40\n", "two arcs"),
+                             ("text", "0,0,100,20,80,30,40\n60,a,100,20,80,30,40\n", 'line 3, upstream_x: "a"'),
+                             ("extra", ring + ",7\n", "line 3: 8 values for 7"), ("missing", ring[:-3] + "\n", "line 3: 6 values for 7"),
+                             ("huge", ring.replace("60,0", "60,1e300") + "\n", 'line 3, upstream_x: "1e300"'),
+                             ("nan", ring.replace("60,0", "60,nan") + "\n", '"nan"'),
                              ("thick", "0,0,100,20,80,30,40\n60,0,10,20,80,30,40\n", "thicker"),
                              ("valley", "0,0,100,20,80,30,40\n60,0,100,20,80,20,40\n", "right_angle"),
                              ("meet", "0,0,100,20,20,60,60\n60,0,100,20,20,60,60\n", "meet")):
@@ -91,6 +128,11 @@ def arcs():
         expect(part in mesh(f"{name}.csv", status=2), name)
     write("column.csv", "elevation,thickness\n1,2\n")
     expect("upstream_x" in mesh("column.csv", status=2), "a missing column")
+    write("twice.csv", head.replace("thickness", "thickness,thickness") + "0,0,100,20,20,80,30,40\n")
+    expect("thickness is there twice" in mesh("twice.csv", status=2), "a column twice")
+    for options, part in ((("--along", "10001"), "1 to 10000"), (("--up", "99999999999999999999"), "1 to 10000"), (("--through", "0"), "1 to 10000"),
+                          (("--along", "9000", "--up", "9000"), "more than 5000000 elements"), (("--end-height", "nan"), "--end-height")):
+        expect(part in mesh("ring.csv", *options, status=2), f"{options}")
     # Morrow Point on a rigid base, empty: 3.81 and 4.27 Hz are quoted (doc/mesh.md); the table has its outer dimensions and its volume
     text = mesh(str(ROOT / "meshes" / "morrow_point.csv"), "--joints", "9", "--along", "40", "--up", "12")
     expect(abs(float(re.search(r"volume (\d+) m3", text)[1]) / 275e3 - 1) < .03, text)
@@ -148,8 +190,20 @@ def tutorial(name):
         result = subprocess.run(["bash", "-euo", "pipefail", "-c", shortened(text, options)], capture_output=True, text=True, env=environment)
         expect(result.returncode == 0, f"{text}{result.stdout[-2000:]}{result.stderr}")
         print("    " + text.strip().replace("\n", "\n    "))
+        if "small" in remarks:
+            would_run(text, environment)
         n += 1
     expect(n > 0, f"{name} has no commands")
+
+
+def would_run(text, environment):
+    """The commands as the page has them, at full size: the program takes each scene."""
+    for line in text.strip().splitlines():
+        check = "--dry-run" if line.startswith("voussoir study ") else "--validate"
+        if line.startswith("voussoir motion ") or check in line:
+            check = ""
+        result = subprocess.run(["bash", "-c", f"{line} {check}"], capture_output=True, text=True, env=environment)
+        expect(result.returncode == 0, f"{line} {check}: {result.stdout[-2000:]}{result.stderr}")
 
 
 def tutorial_1_first_run():
@@ -184,6 +238,35 @@ def tutorial_5_own_law():
 def tutorial_6_study():
     tutorial("6_study")
     expect(len(list(Path("output/openings/runs").iterdir())) == 4, "runs")
+
+
+def notebook():
+    """The cells of python/paper.ipynb run in order, without Jupyter; their numbers are of FJA, FJB and keys."""
+    try:
+        import matplotlib  # noqa: F401
+        import numpy  # noqa: F401
+    except ImportError as error:
+        print(f"the notebook is not tried: {error}")
+        sys.exit(77)
+    Path("prm").symlink_to(ROOT / "prm")
+    Path("python").symlink_to(ROOT / "python")
+    page = json.loads((ROOT / "python" / "paper.ipynb").read_text())
+    try:
+        import nbformat
+        nbformat.validate(nbformat.from_dict(page))
+    except ImportError:
+        print("    without nbformat")
+    cells = ["".join(cell["source"]) for cell in page["cells"] if cell["cell_type"] == "code"]
+    expect(len(cells) > 4 and all(not cell.get("outputs") for cell in page["cells"]), f"{len(cells)} cells, with outputs?")
+    write("cells.py", "space = {'__name__': '__main__'}\nfor number, cell in enumerate(" + repr(cells) + ", 1):\n"
+          "    exec(compile(cell, f'cell {number}', 'exec'), space)\n")
+    result = subprocess.run([sys.executable, "cells.py"], capture_output=True, text=True,
+                            env={**os.environ, "MPLBACKEND": "Agg", "VOUSSOIR_PROGRAM": VOUSSOIR})
+    print("    " + result.stdout.replace("\n", "\n    "))
+    expect(result.returncode == 0, result.stderr)
+    distance = re.search(r"KSM from FJB ([\d.]+) mm, KSM from FJA ([\d.]+) mm", result.stdout)
+    expect(distance and float(distance[1]) < 1 < float(distance[2]), "tight keys are not like FJB")
+    expect(all(Path(f"output/notebook/{name}/summary.json").is_file() for name in ("fja", "fjb", "ksm", "play")), "runs")
 
 
 def editor():
@@ -233,5 +316,5 @@ def site():
 
 
 if __name__ == "__main__":
-    run_cases(package, arcs, editor, site, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records, tutorial_4_rock, tutorial_5_own_law,
+    run_cases(package, arcs, notebook, editor, site, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records, tutorial_4_rock, tutorial_5_own_law,
               tutorial_6_study)

@@ -8,6 +8,7 @@
 import csv
 import math
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -17,7 +18,8 @@ from pathlib import Path
 
 from run_program import VOUSSOIR, expect, refused, run_cases, runs, summary, voussoir, write, write_scene
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "scripts"))
 STUDY = """
 set Scene = scene.prm
 subsection Factors
@@ -78,6 +80,10 @@ def refusals():
                         (STUDY.replace("= scene.prm", "= nowhere.prm"), ("line 2", "nowhere.prm", "not there")),
                         (STUDY.replace("0.4 | 0.8", "0.4 | 0.4"), ("line 8", '"0.4"', "twice")),
                         (STUDY.replace("0.4 | 0.8", "0.4 | | 0.8"), ("line 8", "missing")),
+                        (STUDY.replace("0.4 | 0.8", "0.4 | 0.40"), ("line 8", '"0.40"', 'as "0.4"', "twice")),
+                        (STUDY.replace("= scene.prm", "="), ("which scene",)),
+                        (STUDY.replace("0.5 | 1", "1 ... " + "9" * 30), ("line 5", "9" * 30 + " values", "1 to 10000")),
+                        (STUDY.replace("0.5 | 1", "5 ... 1"), ("line 5", "0 values")),
                         (STUDY.replace("0.4 | 0.8", "1 ... x"), ("line 8", "1 ... 10")),
                         (STUDY.replace("0.5 | 1", "1 ... 5001"), ("10002 scenes", "Combine")),
                         (STUDY + "set Combine = some\n", ("line 11", "one by one", '"some"')),
@@ -96,7 +102,11 @@ def refusals():
     write("table.csv", "Motion/Seed\n1\n1\n")
     write("bad.prm", "set Scene = scene.prm\nset Table = table.csv\n")
     refused(["study", "bad.prm"], "table.csv, line 3", "twice")
+    write("table.csv", "Motion/Factor\n1\n1.0\n")
+    refused(["study", "bad.prm"], "table.csv, line 3", "twice")
     refused(["study", "nowhere.prm"], "nowhere.prm", "cannot be read")
+    for profile in ("/nowhere/profile", "no_such_profile", "."):
+        refused(["study", "bad.prm", "--profile", profile], "--profile", profile, "config.yaml")
     write("bad.prm", STUDY.replace("0.4 | 0.8", "0.4 | much"))
     refused(["study", "bad.prm"], "bad.prm, line 8", '"Joints/Friction"', '"much"', "a number")
     # Not valid as a scene: a duration that the records do not have
@@ -270,9 +280,9 @@ def fits():
 def examples():
     """The studies of the tree: what they would run; the small one is run."""
     needs_snakemake()
-    studies = Path(__file__).resolve().parent.parent / "studies"
+    studies = ROOT / "studies"
     from study_file import read_study
-    for name, scenes in (("ida/ida", 50), ("ida/small", 4), ("joints/joints", 15)):
+    for name, scenes in (("ida/ida", 50), ("ida/small", 4), ("joints/joints", 15), ("joints/small", 9)):
         found = read_study(studies / f"{name}.prm")
         expect(len(found.scenes) == scenes, f"{name}: {len(found.scenes)} scenes")
     study(str(studies / "ida/small.prm"), "--set", "Settings/Motion/Duration=0.64", "--output", "small")
@@ -286,6 +296,31 @@ def examples():
     expect(len(rows_of("other")) == 4, text)
 
 
+def joints():
+    """The small study of joints and foundations: every foundation, tied and not, and the figure over the number of joints."""
+    needs_snakemake()
+    study(str(ROOT / "studies/joints/small.prm"), "--output", "joints", "--set", "Settings/Motion/Duration=0.32",
+          "--set", "Settings/Motion/Rise end=0.05", "--set", "Settings/Motion/Decay begin=0.2")
+    rows = rows_of("joints")
+    expect(len(rows) == 9 and {row["foundation"] for row in rows.values()} == {"rigid", "massless", "rock"}, f"{list(rows)}")
+    for name, row in rows.items():
+        expect((row["Joints/Model"] == "tied") == (row["opening"] == "" or float(row["opening"]) == 0), f"{name}: opening {row['opening']}")
+    expect(Path("joints/figures/over_scale.png").exists(), "the figure over the number of joints")
+
+
+def throughput():
+    """The benchmark of a study's throughput comes to its end, with two small scenes."""
+    needs_snakemake()
+    small = ("Joints=2", "Elements along=6", "Elements up=3", "Elements through=1")
+    words = [sys.executable, str(ROOT / "benchmarks/study_throughput.py"), "--voussoir", VOUSSOIR, "--scenes", "2", "--duration", "0.32",
+             *[word for entry in small for word in ("--set", f"Mesh/Arch210/{entry}")]]
+    result = subprocess.run(words, capture_output=True, text=True, timeout=280)
+    expect(result.returncode == 0, f"{result.stdout}{result.stderr}")
+    print("   ", result.stdout.strip())
+    expect(re.fullmatch(r"2 scenes on \d+ cores: by hand [\d.]+ s, as a study [\d.]+ s: \d+ % of the throughput; "
+                        r"CPU time [\d.]+ and [\d.]+ s: \d+ %", result.stdout.strip()), result.stdout)
+
+
 if __name__ == "__main__":
     os.environ["VOUSSOIR_PROGRAM"] = VOUSSOIR
-    run_cases(refusals, table, killed, stopped, failing, fits, examples)
+    run_cases(refusals, table, killed, stopped, failing, fits, examples, joints, throughput)

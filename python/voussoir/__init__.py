@@ -60,17 +60,27 @@ class Results:
                 rows = [row for row in csv.reader(file) if row]
         except OSError as error:
             raise InputError(f"{path} cannot be read: {error.strerror}.") from None
+        except (UnicodeDecodeError, csv.Error) as error:
+            raise InputError(f"{path} cannot be read: it is no table ({getattr(error, 'reason', error)}).") from None
         if len(rows) > 1 and len(rows[-1]) < len(rows[0]):
             rows.pop()  # half a line of a run that was killed
+        for number, row in enumerate(rows, 1):
+            if len(row) != len(rows[0]):
+                raise InputError(f"{path}, line {number}: {len(row)} values for {len(rows[0])} columns. The file is damaged.")
         return {column: _array([row[i] for row in rows[1:]]) for i, column in enumerate(rows[0] if rows else [])}
 
     @cached_property
     def summary(self) -> Dict[str, Any]:
         """summary.json; a run that has not ended has none."""
         try:
-            return dict(json.loads((self.directory / "summary.json").read_text(encoding="utf-8")))
+            found = json.loads((self.directory / "summary.json").read_text(encoding="utf-8"))
         except OSError:
             raise InputError(f"{self.directory} has no summary.json: its run has not come to its end.") from None
+        except ValueError:
+            found = None
+        if not isinstance(found, dict):
+            raise InputError(f"{self.directory / 'summary.json'} is not whole: run the scene again.")
+        return found
 
     @cached_property
     def history(self) -> Table:
@@ -106,7 +116,11 @@ class Results:
         path = self.directory / name
         if not path.is_file():
             raise InputError(f"{path} is not there.")
-        return meshio.read(path)
+        try:
+            return meshio.read(path)
+        except (Exception, SystemExit) as error:  # meshio ends the program for some files  # pylint: disable=broad-exception-caught
+            why = "meshio does not know it" if isinstance(error, SystemExit) else str(error) or type(error).__name__
+            raise InputError(f"{path} cannot be read as a mesh: {why}.") from None
 
 
 def _array(texts: Sequence[str]) -> np.ndarray:

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Means of a run's largest tension over zones of the dam's faces: what `voussoir accuracy` measures stresses by."""
+
+import csv
+
+import numpy as np
+
+ZONES = 3  # of either face, along and up
+FOOT = 0.1  # of the height: nearer to the base is no zone
+
+
+def read(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def outline(x, corners):
+    """Places of the nodes where the faces end, but for the crest: on the base."""
+    places = np.round(x[:, :3], 2)
+    number = np.unique(places, axis=0, return_inverse=True)[1].ravel()[corners]  # joints have two nodes at each place
+    edges = np.sort(np.stack([number, np.roll(number, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    _, first, count = np.unique(edges, axis=0, return_index=True, return_counts=True)
+    ends = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2)[first[count == 1]]
+    below = x[ends, 2].min(axis=1) < x[:, 2].max() - 0.1
+    return places[np.unique(ends[below])]
+
+
+def zone_means(directory):
+    """Means of the largest tension [Pa] over the zones of both faces, by the area of their quadrilaterals' parts; and the
+    zones' areas [m2]."""
+    nodes, quads = read(directory / "faces.csv"), read(directory / "faces_cells.csv")
+    x = np.array([[float(n[k]) for k in ("x", "y", "z", "s", "max_principal")] for n in nodes])
+    corners = np.array([[int(q[f"n{i}"]) for i in range(4)] for q in quads])
+    face = np.array([q["face"] for q in quads])
+    parts = 8
+    at = (np.arange(parts) + 0.5) / parts
+    weights = np.array([[(1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b] for a in at for b in at])
+    inside = np.einsum("pk,qkc->qpc", weights, x[corners])  # quad, part, column
+    diagonals = x[corners[:, 2], :3] - x[corners[:, 0], :3], x[corners[:, 3], :3] - x[corners[:, 1], :3]
+    area = np.repeat(np.linalg.norm(np.cross(*diagonals), axis=1) / 2, parts * parts).reshape(len(quads), -1)
+    base = outline(x, corners)
+    foot = FOOT * (x[:, 2].max() - x[:, 2].min())
+    means, areas = [], []
+    for name in ("upstream", "downstream"):
+        s, z, tension, weight = (values[face == name].ravel() for values in (inside[:, :, 3], inside[:, :, 2], inside[:, :, 4], area))
+        places = inside[face == name][:, :, :3].reshape(-1, 3)
+        far = np.concatenate([np.linalg.norm(part[:, None] - base, axis=2).min(axis=1) > foot
+                              for part in np.array_split(places, 1 + len(places) // 2000)])
+        for value in (s, z):
+            value -= value.min()
+            value /= value.max() / ZONES
+        zone = np.minimum(s.astype(int), ZONES - 1) * ZONES + np.minimum(z.astype(int), ZONES - 1)
+        area_of, sum_of = (np.bincount(zone[far], w[far], ZONES ** 2) for w in (weight, weight * tension))
+        means.extend(sum_of / np.maximum(area_of, 1e-300))
+        areas.extend(area_of)
+    return np.array(means), np.array(areas)
