@@ -161,22 +161,30 @@ namespace
         steady[k] += load.force[k];
     dam.foundation->start(motion, grid, zero);
     dam.foundation->add_interface_mass(dam.structure, grid);
-    Newmark newmark(dam.structure, dam.laws, scene.contact, dt, ImpactRule::mean_force,
-                    dam.foundation->support(dam.structure));
-    newmark.start(zero, zero, none, steady, none);
-    double worst = 0.;
-    for (unsigned int k = 1; k <= n; ++k)
+    Newmark    newmark(dam.structure, dam.laws, scene.contact, dt, ImpactRule::mean_force,
+                       dam.foundation->support(dam.structure));
+    const bool moves = dam.foundation->moves_base();
+    const auto load_at = [&](const unsigned int k)
     {
-      const bool moves = dam.foundation->moves_base();
-      Unknowns   load = steady;
+      Unknowns load = steady;
       for (std::size_t i = 0; moves && i < load.size(); ++i)
         for (unsigned int d = 0; d < 3; ++d)
           load[i] += motion.acceleration[k][d] * dam.inertia[d][i];
+      return load;
+    };
+    newmark.start(zero, zero, none, load_at(0), none);
+    double worst = 0.;
+    bool   moved = false;
+    for (unsigned int k = 1; k <= n; ++k)
+    {
+      Unknowns load = load_at(k);
       dam.foundation->advance(load);
       const DynamicState  before = newmark.state();
       const ContactResult result = newmark.advance(load, dam.foundation->base_velocity());
       expect(result.path != ContactPath::smaller_step, "no step is halved");
       dam.foundation->follow(newmark.state());
+      for (const PairState state : newmark.pair_states())
+        moved = moved || state != PairState::stick;
       const DynamicState &after = newmark.state();
       Vector3             ground{}, velocity{};
       for (unsigned int c = 0; c < 3; ++c)
@@ -206,6 +214,7 @@ namespace
       }
       worst = std::max(worst, difference(our_sum, their_sum));
     }
+    expect(moved || dam.tied, "joints open or slide");
     return worst;
   }
 
@@ -248,25 +257,24 @@ namespace
     stepped.joints.model = "FJA";
     stepped.reservoir.level = 28.;
     write_step(stepped.mesh.file);
-    below("a base with a step", momentum(stepped, true), 1e-9);
-    below("joints that open and slide, each monolith", momentum(arch(), true), 1e-9);
+    below("a base with a step", momentum(stepped, true), 1e-11);
+    below("joints that open and slide, each monolith", momentum(arch(), true), 1e-11);
+    stepped.elements.degree = 2;
+    stepped.statics.self_weight = "monolithic";
+    below("degree 2, weight on the finished dam", momentum(stepped, true), 1e-11);
     Scene scene = arch();
-    scene.elements.degree = 2;
-    scene.statics.self_weight = "monolithic";
-    below("degree 2, weight on the finished dam", momentum(scene, true), 1e-9);
-    scene = arch();
     scene.joints.model = "tied";
-    below("tied joints, all monoliths", momentum(scene, false), 1e-9);
+    below("tied joints, all monoliths", momentum(scene, false), 1e-11);
     scene = arch();
     scene.loads.temperature.upstream = 20.;
     scene.loads.temperature.downstream = 5.;
     scene.loads.temperature.grouting = 10.;
     scene.loads.silt.level = 90.;
     scene.loads.tail_water.level = 40.;
-    below("temperature, silt and tail water", momentum(scene, true), 1e-9);
+    below("temperature, silt and tail water", momentum(scene, true), 1e-11);
     scene.reservoir.density = 0.;
     scene.damping.ratio = 0.;
-    below("no water, no damping", momentum(scene, true), 1e-9);
+    below("no water, no damping", momentum(scene, true), 1e-11);
   }
 
   void rock()
@@ -275,13 +283,13 @@ namespace
     scene.mesh.arch210_rock.enabled = true;
     scene.mesh.arch210_rock.element_size = 60.;
     scene.foundation.model = "massless";
-    below("massless rock, each monolith", momentum(scene, true), 1e-9);
+    below("massless rock, each monolith", momentum(scene, true), 1e-11);
     scene.foundation.model = "rock";
-    below("rock, each monolith", momentum(scene, true, .002, 60), 1e-9);
+    below("rock, each monolith", momentum(scene, true, .002, 60), 1e-11);
     scene.foundation.substeps = 2;
-    below("rock with steps of its own", momentum(scene, true, .004, 40), 1e-9);
+    below("rock with steps of its own", momentum(scene, true, .004, 40), 1e-11);
     scene.foundation.coupling = "partition";
-    below("rock with sub-steps, partition", momentum(scene, true, .004, 40), 1e-9);
+    below("rock with sub-steps, partition", momentum(scene, true, .004, 40), 1e-11);
   }
 
   /** A wall of two monoliths, 10 m x (10 + 10) m, 30 m high, in one axis with the river: closed forms. */
