@@ -180,7 +180,8 @@ def bases(page, runs):
         if len(runs) > 1:
             page.add(f"<h3>{escape(run.name)}</h3>")
         page.add(blocks(run))
-    page.add('<p class="sub">Force of the foundation on the base of each monolith: normal to its mean plane, and in it.</p>')
+    page.add('<p class="sub">Force of the foundation on the base of each monolith: normal to its mean plane, and in it. Forces in MN, times [s] in '
+             'brackets; safety is that against sliding.</p>')
     safe = [run for run in shown if any("min_sliding_safety" in block for block in blocks_of(run).values())]
     if safe:
         page.row("Safety against sliding on the base over time, of the monoliths that have the least.",

@@ -116,18 +116,16 @@ def blocks_of(run):
 def blocks(run):
     """The extremes of the forces on the bases, monolith by monolith."""
     found = blocks_of(run)
-    columns = [("max_compression", "largest compression", "MN"), ("min_compression", "smallest compression", "MN"),
-               ("max_shear", "largest shear", "MN")]
+    columns = [("max_compression", "compression at most", "MN"), ("min_compression", "at least", "MN"), ("max_shear", "shear at most", "MN")]
     if any("min_sliding_safety" in block for block in found.values()):
-        columns.append(("min_sliding_safety", "least safety against sliding", ""))
-    head = '<th>monolith</th><th class="n">area [m²]</th><th class="n">uplift [MN]</th>' + "".join(
-        f'<th class="n">{title}{f" [{unit}]" if unit else ""}, at [s]</th>' for _, title, unit in columns)
+        columns.append(("min_sliding_safety", "safety at least", ""))
+    head = "<th>monolith</th>" + "".join(f'<th class="n">{title}</th>' for title in ["area [m²]", "uplift", *(title for _, title, _ in columns)])
     rows = ""
     for name, block in found.items():
         cells = [name.removeprefix("monolith "), number(block["area"], ""), number(block["uplift"], "MN")]
         for key, _, unit in columns:
             value, time = block[key]["value"], block[key]["time"]
-            cells.append(f"{number(value, unit)}, {time:.2f}" if is_number(value) else "–")  # of no shear at all
+            cells.append(f"{number(value, unit)} ({time:.2f})" if is_number(value) else "–")  # of no shear at all
         rows += f"<tr><td>{cells[0]}</td>" + "".join(f'<td class="n">{cell}</td>' for cell in cells[1:]) + "</tr>"
     return f'<div class="table"><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
 
@@ -201,7 +199,8 @@ def extremes(runs):
             cells.append(f'<td class="n">{", ".join(given)}</td>')
         if single:
             if limited:
-                cells.append(f'<td class="{item.state}">{item.state}</td>')
+                words = "not reached" if item.state == "exceeded" and item.limit.get("is_least") else item.state
+                cells.append(f'<td class="{item.state}">{words}</td>')
             cells += [f'<td class="n">{text}</td>' for text in item.where()]
         rows.append(f'<tr>{"".join(cells)}</tr>')
     names = ["largest"] if single else [escape(run.name) for run in runs]
