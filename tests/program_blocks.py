@@ -193,7 +193,8 @@ def interrupted(name, arguments):
 def limits():
     """What is not asked for is not there; what cannot be judged is said; the report has all of it."""
     write_scene()
-    runs("scene.prm", "--output", "none", *settings("Output/Block forces=false", "Limits/Sliding safety=1"))
+    shown = runs("scene.prm", "--output", "none", *settings("Output/Block forces=false", "Limits/Sliding safety=1", "Limits/Base friction=1"))
+    expect("Limits/Base friction" in shown and "Output/Block forces is false" in shown, shown)
     expect(not Path("none/blocks.csv").exists() and "blocks" not in summary("none"), "no blocks.csv")
     expect("Block forces" in summary("none")["limits_not_judged"]["sliding_safety"], "not judged")
     shown = runs("scene.prm", "--output", "plain", *settings("Limits/Sliding safety=1"))
