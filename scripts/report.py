@@ -21,7 +21,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import report_figures as figures  # noqa: E402
 from command import ComputationError, InputError, end_with  # noqa: E402
-from report_tables import differences, extremes, facts, number, tiles, verdict  # noqa: E402
+from report_tables import blocks, blocks_of, differences, extremes, facts, number, tiles, verdict  # noqa: E402
 from runs import Run, Skip, name_apart, scene_of  # noqa: E402
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
@@ -171,6 +171,23 @@ def stresses(page, runs):
                  [(named(runs, run), f"duration of overstress of {run.name}", lambda run=run: figures.overstress(run)) for run in runs])
 
 
+def bases(page, runs):
+    shown = [run for run in runs if blocks_of(run)]
+    if not shown:
+        return
+    page.section("Monoliths on their bases")
+    for run in shown:
+        if len(runs) > 1:
+            page.add(f"<h3>{escape(run.name)}</h3>")
+        page.add(blocks(run))
+    page.add('<p class="sub">Force of the foundation on the base of each monolith: normal to its mean plane, and in it. Forces in MN, times [s] in '
+             'brackets; safety is that against sliding.</p>')
+    safe = [run for run in shown if any("min_sliding_safety" in block for block in blocks_of(run).values())]
+    if safe:
+        page.row("Safety against sliding on the base over time, of the monoliths that have the least.",
+                 [(named(runs, run), f"safety against sliding of {run.name}", lambda run=run: figures.sliding(run, safe)) for run in safe])
+
+
 def checks(page, runs):
     page.section("Energy and checks")
     page.row("Energies; on rock also what has left through the artificial boundary.",
@@ -216,7 +233,7 @@ def repeat(page, runs):
 def page_of(runs):
     page = Page()
     head(page, runs)
-    for section in (results, dam_and_scene, motion, response, stresses, checks, repeat):
+    for section in (results, dam_and_scene, motion, response, stresses, bases, checks, repeat):
         section(page, runs)
     if page.missing:
         page.add('<h3>Not shown</h3><ul>' + "".join(f"<li>{escape(text)}</li>" for text in dict.fromkeys(page.missing)) + "</ul>")

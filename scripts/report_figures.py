@@ -196,6 +196,28 @@ def overstress(run):
     return made
 
 
+# ---------------------------------------------------------------- the bases
+
+def sliding(run, runs):
+    """Safety against sliding over time, of the three monoliths that have the least."""
+    least = lambda one: {name: column.min() for name, column in one.blocks.items() if name.startswith("safety_")}
+    limit = run.limit("Sliding safety")
+    limits = [one.limit("Sliding safety") for one in runs]
+    top = 3. * max([0.5, *limits, *(x for one in runs for x in [min(least(one).values())] if np.isfinite(x))])
+
+    @panel(2.5)
+    def made(_, axes):
+        axes = axes[0]
+        for name, colour in zip(sorted(least(run), key=least(run).get)[:3], COLOURS):
+            axes.plot(run.blocks["time"], run.blocks[name], color=colour, linewidth=0.9, label=f"monolith {name[7:]}")
+        if limit > 0.:
+            axes.axhline(limit, **LIMIT, label="asked for")
+        axes.set(xlabel="time [s]", ylabel="safety against sliding [-]", ylim=(0, top))
+        axes.margins(x=0)
+        axes.legend(loc="upper right", borderaxespad=0.2)
+    return made
+
+
 # ---------------------------------------------------------------- energy
 
 def energies(run, runs):

@@ -41,7 +41,7 @@ def with_unit(value, unit):
 
 
 WORDS = {"demand_capacity": "demand-capacity ratio", "overstressed_share": "share of a face above the tensile strength",
-         "overstress_duration": "duration of overstress"}
+         "overstress_duration": "duration of overstress", "sliding_safety": "least safety against sliding on the base"}
 
 
 class Item:
@@ -92,6 +92,10 @@ def items(run):
                 found[f"{key}_{name}"] = Item(f"{name.capitalize()} {of}", "mm", run.summary[key][f"max_{name}"],
                                               limits.get(f"{key}_{name}"))
     found.update(demands(run, limits))
+    if safeties := [block["min_sliding_safety"] | {"place": block["centroid"]} for block in blocks_of(run).values()
+                    if is_number(block.get("min_sliding_safety", {}).get("value"))]:
+        found["sliding_safety"] = Item("Least safety of a monolith against sliding on its base", "",
+                                       min(safeties, key=lambda safety: safety["value"]), limits.get("sliding_safety"))
     try:
         crest, time = run.history["crest_x"], run.history["time"]
         for name, k in (("downstream", crest.argmax()), ("upstream", crest.argmin())):
@@ -99,6 +103,31 @@ def items(run):
     except (Skip, KeyError):
         pass
     return found
+
+
+def is_number(value):
+    return isinstance(value, (int, float))
+
+
+def blocks_of(run):
+    return run.summary.get("blocks", {})
+
+
+def blocks(run):
+    """The extremes of the forces on the bases, monolith by monolith."""
+    found = blocks_of(run)
+    columns = [("max_compression", "compression at most", "MN"), ("min_compression", "at least", "MN"), ("max_shear", "shear at most", "MN")]
+    if any("min_sliding_safety" in block for block in found.values()):
+        columns.append(("min_sliding_safety", "safety at least", ""))
+    head = "<th>monolith</th>" + "".join(f'<th class="n">{title}</th>' for title in ["area [m²]", "uplift", *(title for _, title, _ in columns)])
+    rows = ""
+    for name, block in found.items():
+        cells = [name.removeprefix("monolith "), number(block["area"], ""), number(block["uplift"], "MN")]
+        for key, _, unit in columns:
+            value, time = block[key]["value"], block[key]["time"]
+            cells.append(f"{number(value, unit)} ({time:.2f})" if is_number(value) else "–")  # of no shear at all
+        rows += f"<tr><td>{cells[0]}</td>" + "".join(f'<td class="n">{cell}</td>' for cell in cells[1:]) + "</tr>"
+    return f'<div class="table"><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
 
 
 def demands(run, limits):
@@ -132,7 +161,8 @@ def verdict(run):
     for name, limit in limits.items():
         if not limit["kept"]:
             unit = {"Pa": "MPa", "m": "mm"}.get(limit.get("unit", ""), limit.get("unit", "")) or ("%" if "share" in name else "")
-            texts.append(f"{WORDS.get(name, name.replace('_', ' '))} {number(limit['value'], unit)} of {with_unit(limit['limit'], unit)}")
+            texts.append(f"{WORDS.get(name, name.replace('_', ' '))} {number(limit['value'], unit)} "
+                         f"{'instead of' if limit.get('is_least') else 'of'} {with_unit(limit['limit'], unit)}")
     if not texts:
         return ("", f"{len(limits)} of {len(limits) + len(unjudged)} limits are kept.{rest}") if unjudged else ("kept", "All limits of the scene are kept.")
     return "exceeded", f"{len(texts)} of {len(limits)} limits {'is' if len(texts) == 1 else 'are'} exceeded: {'; '.join(texts)}.{rest}"
@@ -169,7 +199,8 @@ def extremes(runs):
             cells.append(f'<td class="n">{", ".join(given)}</td>')
         if single:
             if limited:
-                cells.append(f'<td class="{item.state}">{item.state}</td>')
+                words = "not reached" if item.state == "exceeded" and item.limit.get("is_least") else item.state
+                cells.append(f'<td class="{item.state}">{words}</td>')
             cells += [f'<td class="n">{text}</td>' for text in item.where()]
         rows.append(f'<tr>{"".join(cells)}</tr>')
     names = ["largest"] if single else [escape(run.name) for run in runs]

@@ -121,6 +121,10 @@ class Run:
         return read_history(self.directory / "energy.csv")
 
     @cached_property
+    def blocks(self):
+        return read_history(self.directory / "blocks.csv")
+
+    @cached_property
     def faces(self):
         """Both faces: name -> {x, y, z, s, quads, max_principal [Pa], ...}; quads are numbers on this face."""
         nodes, cells = self.table("faces.csv", ["face"]), self.table("faces_cells.csv", ["face"])

@@ -98,6 +98,11 @@ class Results:
         return self.table("joint_history")
 
     @cached_property
+    def blocks(self) -> Table:
+        """Forces on the bases of the monoliths over time [s, N, N m]."""
+        return self.table("blocks")
+
+    @cached_property
     def energy(self) -> Table:
         """Energies over time [s, J]."""
         return self.table("energy")

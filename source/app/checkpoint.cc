@@ -56,6 +56,8 @@ namespace Voussoir
         pairs.push_back(static_cast<int>(state));
       archive << provenance << step << pairs << n_steps << motion.dt << samples << wall << cpu << state
               << first << largest << count << history << energy << *joints << *envelope << solutions;
+      if (blocks)
+        archive << *blocks;
       const bool is_estimating = companion != nullptr;
       archive << is_estimating;
       if (is_estimating)
@@ -185,6 +187,8 @@ namespace Voussoir
           "from the beginning. Set \"Motion/Duration\" as it was, or run without --resume.");
     archive >> clock_before >> cpu_before >> state >> first >> largest >> count >> history >> energy >>
         *joints >> *envelope >> solutions;
+    if (blocks)
+      archive >> *blocks;
     bool was_estimating = false;
     archive >> was_estimating;
     if (!was_estimating)

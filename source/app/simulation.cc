@@ -294,11 +294,13 @@ namespace Voussoir
     const SystemTimes   before = newmark->joint_system().times;
     const Vector3       base_velocity = dam->foundation->base_velocity();
     const double        memory_before = newmark->memory();
-    const Unknowns      v_before = newmark->state().v;
+    const Unknowns      v_before = newmark->state().v, u_before = newmark->state().u;
+    const Vector3       base_before = newmark->state().base_velocity;
     const ContactResult result = newmark->advance(load, base_velocity);
     const Vector3       ground = ground_acceleration(step + 1);
     acceleration =
         mean_acceleration(v_before, newmark->state().v, motion.dt, ground_acceleration(step), ground);
+    follow_blocks(u_before, base_before);
     if (const double more = newmark->memory() - memory_before; more > 0.)
       log.line(
           "          smaller steps from t = %.4g s on, where joints ask for them: factors of %.2f GiB more",
@@ -328,6 +330,25 @@ namespace Voussoir
   Vector3 Simulation::ground_acceleration(const unsigned int after) const
   {
     return dam->foundation->moves_base() ? motion.acceleration[after] : Vector3{};
+  }
+
+  /** After a step, from these displacements and this velocity of the base. */
+  void Simulation::follow_blocks(const Unknowns &u_before, const Vector3 &base_before)
+  {
+    if (!blocks)
+      return;
+    const Vector3 base = newmark->state().base_velocity, first = ground_acceleration(step),
+                  last = ground_acceleration(step + 1);
+    Vector3 velocity, ground;
+    for (unsigned int c = 0; c < 3; ++c)
+    {
+      velocity[c] = .5 * (base_before[c] + base[c]);
+      ground[c] = .5 * (first[c] + last[c]);
+    }
+    Unknowns force = newmark->impulses();
+    for (double &f : force)
+      f /= motion.dt;
+    blocks->follow({u_before, newmark->state().u, acceleration, force, ground, velocity, motion.dt});
   }
 
   /** An estimate that cannot be had is no reason to end the run. */
@@ -391,6 +412,11 @@ namespace Voussoir
     history_file.append(history);
     energy_file.append(energy);
     joint_file.append(joints->history);
+    if (blocks)
+    {
+      blocks->record(state.time);
+      block_file.append(blocks->history);
+    }
     if (scene.output.solution_interval > 0 && step % scene.output.solution_interval == 0)
       write_solution();
     count.seconds_output += watch.seconds();

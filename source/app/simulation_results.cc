@@ -97,6 +97,8 @@ namespace Voussoir
     history_file.open(directory + "/history.csv", history);
     energy_file.open(directory + "/energy.csv", energy);
     joint_file.open(directory + "/joint_history.csv", joints->history);
+    if (blocks)
+      block_file.open(directory + "/blocks.csv", blocks->history);
     if (n_steps > 0)
     {
       MotionParameters as_run = scene.motion;
@@ -112,6 +114,8 @@ namespace Voussoir
     history_file.append(history);
     energy_file.append(energy);
     joint_file.append(joints->history);
+    if (blocks)
+      block_file.append(blocks->history);
     joints->maxima().write(directory + "/joints.csv");
     if (!dam->structure.pairs.empty())
       joints->points.write(directory, *dam->geometry);

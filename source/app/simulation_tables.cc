@@ -11,6 +11,11 @@ namespace Voussoir
     energy_columns = std::make_unique<Recorder>(energy);
     declare_history(*history_columns);
     declare_energy(*energy_columns);
+    if (scene.output.block_forces)
+    {
+      blocks = std::make_unique<BlockRecorder>(*dam, statics.joint_water);
+      blocks->follow({statics.u, statics.u, {}, statics.force});
+    }
   }
 
   void Simulation::declare_history(Recorder &table)

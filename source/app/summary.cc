@@ -185,8 +185,10 @@ namespace Voussoir
         .add("extremes", json_of_extremes());
     const Assessment assessment(scene.limits, *dam->model,
                                 scene.output.envelope_interval > 0 ? envelope.get() : nullptr,
-                                dam->structure.pairs.empty() ? nullptr : joints.get());
+                                dam->structure.pairs.empty() ? nullptr : joints.get(), blocks.get());
     assessment.add_to(summary);
+    if (blocks)
+      summary.add("blocks", blocks->json());
     summary.add_texts("warnings", log.warnings());
     summary.add("per_rank", json_per_rank());
     if (companion)

@@ -44,6 +44,18 @@ namespace Voussoir
                       "Limit of the openings at the waterstops [m]; 0: none.", not_negative);
     prm.add_parameter("Waterstop slip", waterstop_slip, "Limit of the slips at the waterstops [m]; 0: none.",
                       not_negative);
+    prm.add_parameter(
+        "Base friction", base_friction,
+        "Coefficient of friction, tan(phi), between each monolith and its foundation [-]. With it "
+        "or the cohesion, blocks.csv has each monolith's safety against sliding on its base, "
+        "(cohesion area + tan(phi) (compression - uplift)) / shear; 0 for both: it has not.",
+        not_negative);
+    prm.add_parameter("Base cohesion", base_cohesion,
+                      "Cohesion between each monolith and its foundation [Pa].", not_negative);
+    prm.add_parameter("Sliding safety", sliding_safety,
+                      "Least safety against sliding on the base that every monolith is to have at all times "
+                      "[-]; 0: none.",
+                      not_negative);
     prm.leave_subsection();
   }
 } // namespace Voussoir

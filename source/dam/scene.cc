@@ -183,6 +183,9 @@ namespace Voussoir
     prm.add_parameter("Figures", figures,
                       "Draw the figures at the end of the run (needs python3-matplotlib).");
     prm.add_parameter(
+        "Block forces", block_forces,
+        "Write blocks.csv: the force of the foundation on the base of each monolith over time.");
+    prm.add_parameter(
         "Stress recovery", stress_recovery,
         "Stresses at the nodes: tractions (from the elements, with the known tractions on faces and "
         "joints) or elements (from these alone).",

@@ -56,7 +56,8 @@ namespace Voussoir
   }
 
   Assessment::Assessment(const LimitParameters &limits, const SolidModel &model,
-                         const EnvelopeRecorder *envelope, const JointRecorder *joints)
+                         const EnvelopeRecorder *envelope, const JointRecorder *joints,
+                         const BlockRecorder *blocks)
       : limits(limits)
   {
     const std::string no_stress = "Output/Envelope interval is 0", no_joint = "no joint can move";
@@ -82,6 +83,7 @@ namespace Voussoir
                                         {"waterstop_opening", limits.waterstop_opening},
                                         {"waterstop_slip", limits.waterstop_slip}})
         leave(name, limit, no_joint);
+    add_blocks(blocks);
   }
 
   void Assessment::leave(const std::string &name, const double limit, const std::string &reason)
@@ -166,6 +168,17 @@ namespace Voussoir
     hold("waterstop_slip", "m", points.waterstop_slip.value, limits.waterstop_slip);
   }
 
+  void Assessment::add_blocks(const BlockRecorder *blocks)
+  {
+    if (blocks == nullptr)
+      leave("sliding_safety", limits.sliding_safety, "Output/Block forces is false");
+    else if (!blocks->has_safety())
+      leave("sliding_safety", limits.sliding_safety,
+            "there is neither Limits/Base friction nor Limits/Base cohesion");
+    else if (limits.sliding_safety > 0.)
+      verdicts.push_back({"sliding_safety", "", blocks->least_safety().value, limits.sliding_safety, true});
+  }
+
   void Assessment::add_to(Json &summary) const
   {
     if (overstress)
@@ -189,6 +202,8 @@ namespace Voussoir
           .add("limit", verdict.limit)
           .add("unit", verdict.unit)
           .add_flag("kept", verdict.kept());
+      if (verdict.is_least)
+        one.add_flag("is_least", true);
       all.add(verdict.name, one);
     }
     summary.add("limits", all);
@@ -204,8 +219,9 @@ namespace Voussoir
       const bool   stress = verdict.unit == "Pa", length = verdict.unit == "m";
       const double scale = stress ? 1e-6 : length ? 1e3 : 1.;
       char         text[120];
-      std::snprintf(text, sizeof(text), "%s %.3g of %.3g%s%s", name.c_str(), scale * verdict.value,
-                    scale * verdict.limit, verdict.unit.empty() ? "" : " ",
+      std::snprintf(text, sizeof(text), "%s %.3g %s %.3g%s%s", name.c_str(), scale * verdict.value,
+                    verdict.is_least ? "instead of" : "of", scale * verdict.limit,
+                    verdict.unit.empty() ? "" : " ",
                     stress   ? "MPa"
                     : length ? "mm"
                              : verdict.unit.c_str());

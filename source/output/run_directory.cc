@@ -35,7 +35,7 @@ namespace Voussoir
       if (folder == "contact/static" || folder == "contact/shaking")
         return std::regex_match(name, std::regex("problem-[0-9]{6}\\.hdf5"));
       static const std::regex result(
-          "scene\\.prm|log\\.txt|summary\\.json|(history|energy|stages|joints|joint_"
+          "scene\\.prm|log\\.txt|summary\\.json|(history|energy|stages|blocks|joints|joint_"
           "history|joint_points|joint_cells|joint_pressures|spectrum|faces|faces_cells)\\."
           "csv|"
           "envelope\\.vtu|solution\\.pvd|(solution|joints)-[0-9]{5,}\\.vtu|"

@@ -120,6 +120,10 @@ CALCULIX = {"cells": ((1,) * 3 + (2,) * 3 + (3,) * 3 + (4,) * 3, 2, 6), "level":
             "dt": .005, "steps": 60, "every": 5, "every_node": 5}
 
 
+# An arch of two monoliths for CalculiX's reactions (make_calculix_blocks.py).
+BLOCKS = {"cells": ((1,) * 3 + (2,) * 2, 2, 4), "level": 50.}
+
+
 def calculix_prm(directory, plain):
     c = CALCULIX
     meshes.arch(Path(directory) / "arch.msh", *c["cells"])

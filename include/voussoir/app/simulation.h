@@ -7,6 +7,7 @@
 #include <voussoir/dam/dam.h>
 #include <voussoir/dam/tractions.h>
 #include <voussoir/motion/ground_motion.h>
+#include <voussoir/output/block_recorder.h>
 #include <voussoir/output/checkpoint_file.h>
 #include <voussoir/output/face_tension.h>
 #include <voussoir/output/recorder.h>
@@ -58,6 +59,7 @@ namespace Voussoir
     void              advance();
     void    advance_companion(const Unknowns &load, const Vector3 &base_velocity, const Vector3 &ground);
     Vector3 ground_acceleration(unsigned int after) const;
+    void    follow_blocks(const Unknowns &u_before, const Vector3 &base_before);
     void    step_once();
     void    record_on_first(const std::function<void()> &action);
     void    record_stresses();
@@ -166,10 +168,11 @@ namespace Voussoir
     std::unique_ptr<EnvelopeRecorder>  envelope;
     std::unique_ptr<FaceTension>       tension;
     std::unique_ptr<JointRecorder>     joints;
+    std::unique_ptr<BlockRecorder>     blocks;                  ///< if the scene asks for it
     std::unique_ptr<TimeErrorEstimate> companion;               ///< if the scene asks for it
     Table                              history, energy, stages; ///< stages: of the static state
     std::unique_ptr<Recorder>          history_columns, energy_columns;
-    TableFile                          history_file, energy_file, joint_file;
+    TableFile                          history_file, energy_file, joint_file, block_file;
     std::vector<std::pair<double, std::string>> solutions; ///< time and file of solution.pvd
   };
 } // namespace Voussoir

@@ -23,6 +23,9 @@ namespace Voussoir
     double waterstop_depth = 1.;   ///< from the upstream face [m]
     double waterstop_opening = 0.; ///< [m]
     double waterstop_slip = 0.;    ///< [m]
+    double base_friction = 0.;     ///< tan(phi) of the monoliths on their bases [-]
+    double base_cohesion = 0.;     ///< of their bases [Pa]
+    double sliding_safety = 0.;    ///< the least that is asked for [-]
 
     void add_parameters(dealii::ParameterHandler &prm);
   };

@@ -70,6 +70,7 @@ namespace Voussoir
     unsigned int                       checkpoint_interval = 500; ///< [steps], 0: none
     unsigned int                       progress_interval = 64;    ///< [steps]
     bool                               figures = true;
+    bool                               block_forces = true;           ///< blocks.csv
     std::string                        stress_recovery = "tractions"; ///< or elements
     double                             tensile_strength = 0.;         ///< [Pa], 0: none
     void                               add_parameters(dealii::ParameterHandler &prm);

@@ -4,6 +4,7 @@
 
 #include <voussoir/base/log.h>
 #include <voussoir/dam/limits.h>
+#include <voussoir/output/block_recorder.h>
 #include <voussoir/output/recorders.h>
 
 #include <optional>
@@ -16,7 +17,8 @@ namespace Voussoir
   {
     std::string name, unit;
     double      value, limit;
-    bool        kept() const { return value <= limit; }
+    bool        is_least = false; ///< the limit is a lower one
+    bool        kept() const { return is_least ? value >= limit : value <= limit; }
   };
 
   /** The numbers that reports are written with: demand and capacity with the duration of overstress and its
@@ -25,9 +27,10 @@ namespace Voussoir
   class Assessment
   {
   public:
-    /** @p envelope: of the stresses; null: not recorded. @p joints: null: a tied dam. */
+    /** @p envelope: of the stresses; null: not recorded. @p joints: null: a tied dam. @p blocks: null: not
+     * recorded. */
     Assessment(const LimitParameters &limits, const SolidModel &model, const EnvelopeRecorder *envelope,
-               const JointRecorder *joints);
+               const JointRecorder *joints, const BlockRecorder *blocks);
 
     /** "overstress", "waterstop", "residual", "limits": name -> value, limit, kept, and "limits_not_judged":
      * name -> why there is no result to hold against it. */
@@ -42,6 +45,7 @@ namespace Voussoir
     void add_stresses(const SolidModel &model, const EnvelopeRecorder &envelope);
     void add_demand(const SolidModel &model, const EnvelopeRecorder &envelope);
     void add_joints(const JointRecorder &joints);
+    void add_blocks(const BlockRecorder *blocks);
 
     const LimitParameters                            limits;
     std::vector<Verdict>                             verdicts;

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/dam/base_force.h>
+#include <voussoir/dam/base_uplift.h>
+#include <voussoir/solid/cell_elasticity.h>
+#include <voussoir/solid/for_faces.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace Voussoir
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** While it lives, every node of the model has an equation of its own: no load is lost where the base is
+     * held, and none is shared where monoliths are tied. */
+    class AllNodesFree
+    {
+    public:
+      explicit AllNodesFree(SolidModel &model)
+          : model(model), fixed(model.base_is_fixed), equation(model.equation),
+            first_equation(model.first_equation)
+      {
+        model.free_base();
+      }
+      ~AllNodesFree()
+      {
+        model.base_is_fixed = fixed;
+        model.equation.swap(equation);
+        model.first_equation.swap(first_equation);
+      }
+      AllNodesFree(const AllNodesFree &) = delete;
+      AllNodesFree &operator=(const AllNodesFree &) = delete;
+
+    private:
+      SolidModel               &model;
+      const bool                fixed;
+      std::vector<unsigned int> equation, first_equation;
+    };
+
+    Vector3 cross(const Vector3 &a, const Vector3 &b)
+    {
+      return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+    }
+
+    Vector3 to(const Vector3 &centroid, const Point<3> &p)
+    {
+      return Vector3{{p[0], p[1], p[2]}} - centroid;
+    }
+
+    void add_force(Wrench &wrench, const double factor, const Vector3 &arm, const Vector3 &force)
+    {
+      const Vector3 moment = cross(arm, force);
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        wrench[c] += factor * force[c];
+        wrench[3 + c] += factor * moment[c];
+      }
+    }
+
+    /** The force block * x with its moment. */
+    void add_block(std::array<double, 18> &part, const Vector3 &arm, const Matrix3 &block)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        Wrench column{};
+        add_force(column, 1., arm, {{block[d], block[3 + d], block[6 + d]}});
+        for (unsigned int r = 0; r < 6; ++r)
+          part[3 * r + d] += column[r];
+      }
+    }
+
+    void add_product(Wrench &wrench, const std::array<double, 18> &part, const Vector3 &x)
+    {
+      for (unsigned int r = 0; r < 6; ++r)
+        wrench[r] += part[3 * r] * x[0] + part[3 * r + 1] * x[1] + part[3 * r + 2] * x[2];
+    }
+
+    /** Downstream in the plane, along the arch, inward normal; upward where a base has no mean plane. */
+    std::array<Vector3, 3> axes_of(const Vector3 &outward, const double area)
+    {
+      Vector3      inward{{0., 0., 1.}}, stream{{1., 0., 0.}};
+      const double projection = norm(outward);
+      for (unsigned int c = 0; projection > 1e-9 * area && c < 3; ++c)
+        inward[c] = -outward[c] / projection;
+      if (std::abs(inward[0]) > .999) // across the river: no direction of it is downstream
+        stream = {{0., 0., -1.}};
+      const double out_of_plane = dot(stream, inward);
+      for (unsigned int c = 0; c < 3; ++c)
+        stream[c] -= out_of_plane * inward[c];
+      const double length = norm(stream);
+      for (double &x : stream)
+        x /= length;
+      return {{stream, cross(inward, stream), inward}};
+    }
+  } // namespace
+
+  BaseResultants resultants(const BlockBase &base, const Wrench &wrench)
+  {
+    const Vector3  force{{wrench[0], wrench[1], wrench[2]}}, moment{{wrench[3], wrench[4], wrench[5]}};
+    BaseResultants result;
+    result.normal = -dot(force, base.axes[2]);
+    for (unsigned int k = 0; k < 2; ++k)
+      result.shear[k] = dot(force, base.axes[k]);
+    for (unsigned int k = 0; k < 3; ++k)
+      result.moment[k] = dot(moment, base.axes[k]);
+    return result;
+  }
+
+  double sliding_safety(const BlockBase &base, const BaseResultants &force, const double friction,
+                        const double cohesion)
+  {
+    const double shear = std::hypot(force.shear[0], force.shear[1]);
+    return shear > 0. ? (cohesion * base.area + friction * std::max(0., -force.normal - base.uplift)) / shear
+                      : std::numeric_limits<double>::infinity();
+  }
+
+  BaseForces::BaseForces(Dam &dam, const std::vector<double> &joint_water)
+      : dam(dam), model(*dam.model), equation(dam.model->equation)
+  {
+    find_bases();
+    constant.assign(of_block.size(), Wrench{});
+    stiffness.resize(of_block.size());
+    mass.resize(of_block.size());
+    held_mass.assign(of_block.size(), std::array<double, 18>{});
+    find_supports();
+    find_lone_pairs(joint_water);
+    {
+      const AllNodesFree all_free(model);
+      Structure          whole; // its masses
+      whole.mass.assign(model.n_nodes(), Matrix3{});
+      whole.added_mass = whole.mass;
+      add_cells(whole);
+      add_loads(whole);
+      add_masses(whole);
+    }
+    if (dam.scene.statics.self_weight == "staged")
+      add_staged_weight();
+  }
+
+  void BaseForces::find_bases()
+  {
+    struct Surface
+    {
+      Vector3 outward{}, moment{};
+      double  area = 0.;
+    };
+    std::map<int, Surface> surfaces;
+    for_faces(model, PhysicalId::base, model.fe.degree + 1,
+              [&](const FEFaceValues<3> &values, const auto &)
+              {
+                Surface &surface = surfaces[values.get_cell()->material_id()];
+                for (const unsigned int q : values.quadrature_point_indices())
+                {
+                  surface.area += values.JxW(q);
+                  for (unsigned int c = 0; c < 3; ++c)
+                  {
+                    surface.outward[c] += values.normal_vector(q)[c] * values.JxW(q);
+                    surface.moment[c] += values.quadrature_point(q)[c] * values.JxW(q);
+                  }
+                }
+              });
+    const bool has_uplift = dam.scene.loads.uplift.base && dam.scene.loads.factor("uplift") != 0.;
+    const std::map<int, Vector3> uplift =
+        has_uplift ? base_uplift(dam.scene, model).of_monolith : std::map<int, Vector3>();
+    for (const auto &[monolith, surface] : surfaces)
+    {
+      BlockBase base;
+      base.monolith = monolith;
+      base.area = norm(surface.outward);
+      for (unsigned int c = 0; c < 3; ++c)
+        base.centroid[c] = surface.moment[c] / surface.area;
+      base.axes = axes_of(surface.outward, surface.area);
+      if (const auto found = uplift.find(monolith); found != uplift.end())
+        base.uplift = dot(found->second, base.axes[2]);
+      of_block.push_back(base);
+    }
+  }
+
+  /** That of the cell's monolith; as many as there are where it has no base. */
+  unsigned int BaseForces::block_of(const DoFHandler<3>::active_cell_iterator &cell) const
+  {
+    const int  monolith = cell->material_id();
+    const auto found = std::find_if(of_block.begin(), of_block.end(),
+                                    [&](const BlockBase &base) { return base.monolith == monolith; });
+    return found - of_block.begin();
+  }
+
+  /** Nodes that are held, or move as one with a node of the base. */
+  void BaseForces::find_supports()
+  {
+    std::set<unsigned int> supporting = {rigid_ground};
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      if (model.on_surface(i, PhysicalId::base))
+        supporting.insert(equation[i]);
+    block.assign(model.n_nodes(), rigid_ground);
+    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    {
+      const unsigned int b = block_of(cell);
+      cell->get_dof_indices(dofs);
+      for (const auto i : dofs)
+        if (b < of_block.size() && supporting.count(equation[i]) > 0)
+          block[i] = b;
+    }
+  }
+
+  /** The pairs with one node on the foundation. */
+  void BaseForces::find_lone_pairs(const std::vector<double> &joint_water)
+  {
+    const std::vector<Pair>             &pairs = dam.structure.pairs;
+    std::map<unsigned int, unsigned int> block_at; // free node -> block
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      if (block[i] != rigid_ground && equation[i] != rigid_ground)
+        block_at[equation[i]] = block[i];
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+    {
+      const auto stands = [&](const unsigned int node)
+      { return node == rigid_ground || block_at.count(node) > 0; };
+      const bool first = stands(pairs[p].node_1), second = stands(pairs[p].node_2);
+      if (first == second)
+        continue;
+      const int monolith = static_cast<int>(pairs[p].joint) + (first ? 1 : 2);
+      for (unsigned int b = 0; b < of_block.size(); ++b)
+        if (of_block[b].monolith == monolith)
+        {
+          lone.push_back({p, b, first ? 1. : -1.});
+          water.push_back(joint_water.empty() ? 0. : joint_water[p] * pairs[p].area);
+        }
+    }
+  }
+
+  /** Stiffness and lumped mass of the cells at the supports. */
+  void BaseForces::add_cells(Structure &whole)
+  {
+    std::vector<std::map<unsigned int, std::array<double, 18>>> sums(of_block.size());
+    std::vector<types::global_dof_index>                        dofs(model.fe.n_dofs_per_cell());
+    CellElasticity elasticity(model.fe, dam.scene.elements.incompatible_modes);
+    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      if (std::none_of(dofs.begin(), dofs.end(), [&](const auto i) { return block[i] != rigid_ground; }))
+        continue;
+      elasticity.reinit(cell, model.material_of(cell, dam.materials));
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        if (const unsigned int b = block[dofs[i]]; b != rigid_ground)
+        {
+          const Vector3 arm = to(of_block[b].centroid, model.points[dofs[i]]);
+          for (unsigned int c = 0; c < 3; ++c)
+            whole.mass[model.equation[dofs[i]]][4 * c] += elasticity.mass[i];
+          for (unsigned int j = 0; j < dofs.size(); ++j)
+            if (equation[dofs[j]] != rigid_ground)
+              add_block(sums[b][equation[dofs[j]]], arm, elasticity.stiffness[i * dofs.size() + j]);
+        }
+    }
+    for (unsigned int b = 0; b < sums.size(); ++b)
+      for (const auto &[node, part] : sums[b])
+      {
+        stiffness[b].node.push_back(node);
+        stiffness[b].part.push_back(part);
+      }
+  }
+
+  /** What static loads, and the mass of the water, put on the supports themselves. */
+  void BaseForces::add_loads(Structure &whole)
+  {
+    const Scene &scene = dam.scene;
+    for (const StaticLoad &load : static_loads(scene, {model, whole, dam.materials}))
+      for (unsigned int i = 0; i < model.n_nodes(); ++i)
+        if (const unsigned int b = block[i]; b != rigid_ground)
+          add_force(constant[b], -1., to(of_block[b].centroid, model.points[i]),
+                    get(load.force, model.equation[i]));
+    if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0.)
+      add_added_mass(model, scene.reservoir, whole);
+  }
+
+  void BaseForces::add_masses(const Structure &whole)
+  {
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      if (const unsigned int b = block[i]; b != rigid_ground)
+      {
+        const bool held = equation[i] == rigid_ground;
+        if (!held)
+        {
+          mass[b].node.push_back(equation[i]);
+          mass[b].part.push_back({});
+        }
+        add_block(held ? held_mass[b] : mass[b].part.back(), to(of_block[b].centroid, model.points[i]),
+                  whole.mass[model.equation[i]]);
+      }
+  }
+
+  /** It lies in no displacement: these count from there. */
+  void BaseForces::add_staged_weight()
+  {
+    const double weight = dam.scene.statics.gravity * dam.scene.loads.factor("weight");
+    FEValues<3>  values(model.fe, QGauss<3>(model.fe.degree + 1),
+                        update_quadrature_points | update_JxW_values);
+    for (const auto &cell : model.dof_handler.active_cell_iterators())
+      if (const unsigned int b = block_of(cell); b < of_block.size())
+      {
+        values.reinit(cell);
+        const double density = model.material_of(cell, dam.materials).density;
+        for (const unsigned int q : values.quadrature_point_indices())
+          add_force(constant[b], 1., to(of_block[b].centroid, values.quadrature_point(q)),
+                    {{0., 0., weight * density * values.JxW(q)}});
+      }
+  }
+
+  std::vector<Wrench> BaseForces::of(const StepOfDam &step) const
+  {
+    const Structure &structure = dam.structure;
+    const bool       moves = step.dt > 0.;
+    const double     damping = moves ? structure.stiffness_damping / step.dt : 0.;
+    const auto       change = [&](const unsigned int node)
+    { return get(step.after, node) - get(step.before, node); };
+    std::vector<Wrench> result = constant;
+    for (unsigned int b = 0; b < result.size(); ++b)
+    {
+      for (std::size_t k = 0; k < stiffness[b].node.size(); ++k)
+      {
+        const unsigned int node = stiffness[b].node[k];
+        const Vector3      du = change(node);
+        Vector3            u = get(step.after, node); // the mean, and the damping's
+        for (unsigned int c = 0; c < 3; ++c)
+          u[c] += (damping - .5) * du[c];
+        add_product(result[b], stiffness[b].part[k], u);
+      }
+      for (std::size_t k = 0; moves && k < mass[b].node.size(); ++k)
+      {
+        const unsigned int node = mass[b].node[k];
+        const Vector3      du = change(node);
+        Vector3            a = get(step.acceleration, node);
+        for (unsigned int c = 0; c < 3; ++c)
+          a[c] += structure.mass_damping * (du[c] / step.dt - step.base_velocity[c]);
+        add_product(result[b], mass[b].part[k], a);
+      }
+      if (moves)
+        add_product(result[b], held_mass[b], step.ground);
+    }
+    for (std::size_t k = 0; k < lone.size(); ++k)
+    {
+      const Pair &pair = structure.pairs[lone[k].pair];
+      Vector3     f = get(step.joint_force, lone[k].pair), force{};
+      f[0] += water[k];
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int c = 0; c < 3; ++c)
+          force[c] += pair.frame[i][c] * f[i];
+      add_force(result[lone[k].block], lone[k].sign, pair.place - of_block[lone[k].block].centroid, force);
+    }
+    return result;
+  }
+} // namespace Voussoir
