@@ -41,7 +41,7 @@ def with_unit(value, unit):
 
 
 WORDS = {"demand_capacity": "demand-capacity ratio", "overstressed_share": "share of a face above the tensile strength",
-         "overstress_duration": "duration of overstress"}
+         "overstress_duration": "duration of overstress", "key_shear_stress": "shear stress of the keys"}
 
 
 class Item:
@@ -92,6 +92,9 @@ def items(run):
                 found[f"{key}_{name}"] = Item(f"{name.capitalize()} {of}", "mm", run.summary[key][f"max_{name}"],
                                               limits.get(f"{key}_{name}"))
     found.update(demands(run, limits))
+    if "max_shear_stress" in (keys := run.summary.get("keys", {})):
+        found["keys"] = Item(f"Shear stress of the keys, joint {keys['max_shear_stress']['joint']:.0f}, over its area", "MPa",
+                             keys["max_shear_stress"], limits.get("key_shear_stress"))
     try:
         crest, time = run.history["crest_x"], run.history["time"]
         for name, k in (("downstream", crest.argmax()), ("upstream", crest.argmin())):

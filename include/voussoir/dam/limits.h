@@ -23,6 +23,7 @@ namespace Voussoir
     double waterstop_depth = 1.;   ///< from the upstream face [m]
     double waterstop_opening = 0.; ///< [m]
     double waterstop_slip = 0.;    ///< [m]
+    double key_shear_stress = 0.;  ///< of the keys of a joint, over its area [Pa]
 
     void add_parameters(dealii::ParameterHandler &prm);
   };
