@@ -41,7 +41,8 @@ def with_unit(value, unit):
 
 
 WORDS = {"demand_capacity": "demand-capacity ratio", "overstressed_share": "share of a face above the tensile strength",
-         "overstress_duration": "duration of overstress", "sliding_safety": "least safety against sliding on the base"}
+         "overstress_duration": "duration of overstress", "sliding_safety": "least safety against sliding on the base",
+         "key_shear_stress": "shear stress of the keys"}
 
 
 class Item:
@@ -96,6 +97,9 @@ def items(run):
                     if is_number(block.get("min_sliding_safety", {}).get("value"))]:
         found["sliding_safety"] = Item("Least safety of a monolith against sliding on its base", "",
                                        min(safeties, key=lambda safety: safety["value"]), limits.get("sliding_safety"))
+    if "max_shear_stress" in (keys := run.summary.get("keys", {})):
+        found["keys"] = Item(f"Shear stress of the keys, joint {keys['max_shear_stress']['joint']:.0f}, over its area", "MPa",
+                             keys["max_shear_stress"], limits.get("key_shear_stress"))
     try:
         crest, time = run.history["crest_x"], run.history["time"]
         for name, k in (("downstream", crest.argmax()), ("upstream", crest.argmin())):

@@ -17,24 +17,32 @@ class Skip(Exception):
 
 
 def read_table(path, text_columns=()):
-    """Columns of a .csv file by name; numbers, but for the named text columns."""
+    """Columns of a .csv file by name; numbers, but for the named text columns. InputError for a file that is damaged."""
     if not path.exists():
         raise Skip(f"no {path.name}")
     with open(path, newline="") as file:
         rows = [row for row in csv.reader(file) if row]
+    width = len(rows[0]) if rows else 0
+    if rows and len(rows[-1]) < width:  # a run that was stopped while it wrote
+        rows.pop()
     if len(rows) < 2:
         raise Skip(f"{path.name} is empty")
-    width = len(rows[0])
-    if len(rows[-1]) < width:  # a run that was stopped while it wrote
-        rows.pop()
+    for number, row in enumerate(rows[1:], 1):
+        if len(row) != width:
+            raise InputError(f"{path} is damaged: row {number} has {len(row)} values, and {width} columns have names. Repeat the run.")
     columns = {name.strip(): column for name, column in zip(rows[0], zip(*rows[1:]))}
-    return {name: np.array(column) if name in text_columns else np.array(column, dtype=float)
-            for name, column in columns.items()}
+    try:
+        return {name: np.array(column) if name in text_columns else np.array(column, dtype=float)
+                for name, column in columns.items()}
+    except ValueError as error:
+        raise InputError(f"{path} is damaged: {error}. Repeat the run.") from error
 
 
 def read_history(path):
     """The same, of a table over time."""
     table = read_table(path)
+    if "time" not in table:
+        raise InputError(f"{path} is damaged: it has no column time. Repeat the run.")
     if len(table["time"]) < 2:
         raise Skip(f"{path.name} holds a single time")
     return table

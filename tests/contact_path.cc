@@ -153,15 +153,18 @@ namespace
     static constexpr double dt = 1e-3, speed = 1.;
 
     /** @p part: of the slip of the first step, speed dt, that is allowed; @p push: against the wall [N]. */
-    BlockAtWall(const double part, const double opening, const double push)
+    BlockAtWall(const double part, const double opening, const double push, Support *support = nullptr,
+                const double mass_damping = 0.)
         : column(make_column({bar(0., 1., 2, 1e9, 2400.)}, nullptr, true)), law(part * speed * dt)
     {
       column.structure.pairs.push_back(wall(column.node[0][0]));
       column.structure.collect_interfaces();
+      column.structure.mass_damping = mass_damping;
       laws.add(&law, 1.);
       ContactParameters parameters;
       parameters.max_iterations = 30;
-      newmark = std::make_unique<Newmark>(column.structure, laws, parameters, dt, ImpactRule::mean_force);
+      newmark =
+          std::make_unique<Newmark>(column.structure, laws, parameters, dt, ImpactRule::mean_force, support);
       Unknowns u = column.zero(), v = column.zero();
       load = column.zero();
       column.set(u, 0, {{opening, 0., 0.}});
@@ -241,6 +244,59 @@ namespace
     }
   }
 
+  /** Feet that give way to every force, on a support that makes five steps in each of the block. */
+  class Soft : public Support
+  {
+  public:
+    std::vector<unsigned int> pushes; ///< its steps, push by push
+
+    const std::vector<unsigned int> &feet() const override { return node; }
+    unsigned int                     n_substeps() const override { return 5; }
+    BlockSparseMatrix                compliance(unsigned int) const override
+    {
+      BlockSparseMatrix R(std::vector<std::vector<unsigned int>>{{0}});
+      R.add(0, 0, {1e9, 0., 0., 0., 1e9, 0., 0., 0., 1e9});
+      return R;
+    }
+    Unknowns predict(unsigned int) override { return {0., 0., 0.}; }
+    void     push(const unsigned int n, const Unknowns &, double) override { pushes.push_back(n); }
+
+  private:
+    const std::vector<unsigned int> node = {0};
+  };
+
+  /** Five steps of a support cannot be halved: parts of two and of three, or smaller ones. Load and velocity
+   * of the base are linear in time through all of them. */
+  void test_uneven_halves()
+  {
+    constexpr double A = 100., B = .1,
+                     c = 200.; // growth of a and of the base's velocity in the step; damping
+    for (const auto &[part, expected] :
+         {std::pair<double, std::vector<unsigned int>>{1.5, {5}}, {.75, {2, 3}}, {.5, {2, 1, 2}}})
+    {
+      Soft        soft;
+      BlockAtWall block(part, 1e-2, 0., &soft, c);
+      Unknowns    load = block.load;
+      for (unsigned int i = 0; i < block.column.structure.n_nodes(); ++i)
+        load[3 * i + 1] = A * block.column.structure.mass[i][4];
+      block.newmark->advance(load, {{0., B, 0.}});
+      const std::string what = text(expected.size()) + " parts of five steps";
+      report(what, soft.pushes.size(), "", soft.pushes == expected);
+      double u = 0., v = block.speed, t = 0.;
+      for (const unsigned int n : expected)
+      {
+        const double h = n * block.dt / 5., middle = (t + .5 * h) / block.dt, // of the means
+            v_new = (v * (1. - .5 * c * h) + h * (A * middle + c * B * middle)) / (1. + .5 * c * h);
+        u += .5 * h * (v + v_new);
+        v = v_new;
+        t += h;
+      }
+      below("  velocity - exact [m/s]", block.newmark->state().v[1] - v, 1e-12);
+      below("  slip - exact [m]", block.newmark->opening_and_slip(0)[1] - u, 1e-15);
+      below("  work of the load - change of energy, relative", block.newmark->energy_error(), 1e-12);
+    }
+  }
+
   /** The block slides on the wall: states and impulses of a step that was halved are those of both halves. */
   void test_impulse()
   {
@@ -269,6 +325,6 @@ namespace
 
 int main()
 {
-  return run_all(
-      {test_names, test_sum, test_solver, test_statics, test_smaller_steps, test_load, test_impulse});
+  return run_all({test_names, test_sum, test_solver, test_statics, test_smaller_steps, test_load,
+                  test_uneven_halves, test_impulse});
 }

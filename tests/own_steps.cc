@@ -160,6 +160,35 @@ namespace
     }
   }
 
+  /** The velocity of the base, known before the step by half of its acceleration: twice as near as the one
+   * before. */
+  void base_velocity()
+  {
+    for (const unsigned int m : {2, 5})
+    {
+      Case c = own_steps(m, .01 / 7.);
+      c.pulse_length = .4;
+      c.duration = 280 / m * c.dt;
+      Vector3 before{};
+      double  off = 0., of_last = 0.;
+      partitioned(box(6), c, false,
+                  [&](const Newmark &n, ExplicitRock &r)
+                  {
+                    auto   &own = dynamic_cast<OwnStepRock &>(r);
+                    Vector3 mean{};
+                    for (const unsigned int node : own.feet())
+                      for (unsigned int d = 0; d < 3; ++d)
+                        mean[d] += n.state().v[3 * std::size_t(node) + d] / own.feet().size();
+                    const Vector3 predicted = own.base_velocity() - mean, last = before - mean;
+                    off += dot(predicted, predicted);
+                    of_last += dot(last, last);
+                    before = mean;
+                  });
+      between("base velocity, m = " + std::to_string(m) + ": off, over that of the step before",
+              std::sqrt(off / of_last), .4, .6);
+    }
+  }
+
   /** Against an implicit run of the same step; the partition of as many sub-steps is much farther off. */
   void accuracy()
   {
@@ -236,7 +265,7 @@ int main(int argc, char **argv)
   if (part == "energy")
     return Columns::run_all({closed_box, open_box});
   if (part == "accuracy")
-    return Columns::run_all({accuracy});
+    return Columns::run_all({accuracy, base_velocity});
   if (part == "joints")
     return Columns::run_all({joints});
   std::fprintf(stderr, "usage: own_steps compliance|energy|accuracy|joints\n");

@@ -126,6 +126,13 @@ def stages():
     names, rows = table("filled/stages.csv")
     expect(len(rows) == 6 and [row[names.index("level")] for row in rows] == [80, 80, 140, 140, 195, 195], f"{names} {rows}")
     expect("Stage     fill 140: crest" in shown and not Path("once/stages.csv").exists(), shown)
+    # Once more into the same directory: the same; then without stages: none are left of the run before.
+    stages_then, summary_then = Path("filled/stages.csv").read_bytes(), found["static"]
+    again, _ = result("filled", *settings(Statics__Stages="fill 80, fill 140", Statics__Water_increments=2))
+    expect(again["static"] == summary_then and Path("filled/stages.csv").read_bytes() == stages_then, "the run repeated")
+    result("filled", *settings(Statics__Water_increments=4))
+    expect(not Path("filled/stages.csv").exists(), "stages.csv of the run before is left")
+    expect(summary("filled")["static"]["crest_displacement"] == once["static"]["crest_displacement"], "the run without stages")
     crests = [row[names.index("crest_x")] for row in rows]
     expect(all(a < b for a, b in zip(crests[2:], crests[3:])), f"the crest goes downstream: {crests}")
     a, b = (x["static"]["crest_displacement"] for x in (once, found))
@@ -154,6 +161,13 @@ def stages():
     names, rows = table("shaken/joint_history.csv")
     first = max(abs(x) for x in rows[0][1:])
     expect(first < 5e-3, f"opening and slip at first: {first}")
+    write("seasons.csv", "day,upstream,downstream\n0,0,0\n180,-10,-10\n360,0,0\n")
+    for day, stages_of_days, warned in (("180", "day 90, fill 100, day 180, grout 210", False), ("0", "day 90, fill 100, day 180", True),
+                                        ("180", "day 180, day 90", True), ("0", "fill 100", False)):
+        shown = voussoir("static.prm", "--validate", *settings(Loads__Temperature__Table="seasons.csv", Loads__Temperature__Day=day,
+                                                               Statics__Stages=stages_of_days))
+        said = f"Statics/Stages ends with day {stages_of_days.split('day ')[-1].split(',')[0]}" in shown.stdout + shown.stderr
+        expect(shown.returncode == 0 and said == warned, f"{stages_of_days}, then day {day}: {shown.stdout[-500:]}{shown.stderr}")
     for value, *parts in (("fill", "fill Z"), ("flood 100", "flood 100"), ("fill 300", "above the dam"),
                           ("grout 100, grout 90", "not above"), ("day 4", "Loads/Temperature/Table")):
         refused(["static.prm", "--output", "x", *settings(Statics__Stages=value)], "Statics/Stages", *parts)

@@ -8,13 +8,15 @@ The browser is a headless Chromium; where there is none its case is skipped (sta
 """
 
 import csv
+import math
+import shutil
 import sys
 from html.parser import HTMLParser
 from pathlib import Path
 
 from browser import Browser, find_browser
-from program_physics import Solution, close
-from run_program import expect, refused, run_cases, runs, summary, write_scene
+from program_physics import Solution, close, read_vtu
+from run_program import expect, refused, run_cases, runs, summary, voussoir, write_scene
 
 LIMITS = """
 subsection Limits
@@ -131,6 +133,15 @@ def refusals():
     runs("scene.prm", "--output", "run", "--overwrite", "--set", "Output/Envelope interval=0")
     refused(["report", "run", "--output", "page.txt"], "page.txt", ".html")
     refused(["report", "run", "--output", "no/such/place.html"], "no/such/place.html")
+    history = Path("run/history.csv").read_text().splitlines()
+    for text, said in (("\n".join(history[:9] + [history[9][:12]] + history[10:]), "row 9 has"), ("\n".join(history[:5]) + "\n0.05,what" + ",0" * (len(history[0].split(",")) - 2), "what"),
+                       ("\n".join(line.partition(",")[2] for line in history), "no column time")):
+        Path("run/history.csv").write_text(text)
+        refused(["report", "run"], "run/history.csv is damaged", said, "Repeat the run")
+    for text in (history[0][:30], history[0] + "\n" + history[1][:20], "", "\n".join(history)[:-7]):  # stopped while it wrote
+        Path("run/history.csv").write_text(text)
+        runs("report", "run")
+    Path("run/history.csv").write_text("\n".join(history))
     runs("report", "run")  # without stresses
     expect("Not shown" in Reader("run/report.html").text, "what is missing is not said")
 
@@ -143,6 +154,8 @@ def numbers():
     times = [float(row["time"]) for row in table("run/history.csv")]
     solutions = [Solution(f"run/solution-{k:05d}.vtu") for k in range(len(times))]
     strength, overstress = 0.4e6, found["overstress"]
+    levels, shares, durations = overstress["levels"], [], [0.] * len(overstress["levels"])
+    expect(all(abs(level - 1. - k / 10.) < 1e-12 for k, level in enumerate(levels)) and len(levels) == 11, f"levels {levels}")
     for face in ("upstream", "downstream"):
         nodes = [row for row in faces if row["face"] == face]
         index = {id(row): i for i, row in enumerate(faces)}
@@ -156,7 +169,8 @@ def numbers():
                 whole += 4 * part
                 above += part * sum(most[n] > level for n in quad)
             close(overstress[face]["share"][k], above / whole, 1e-4, f"{face}: share above {level}")
-        for k in (0, 3, 10):
+            shares += [above / whole] if k == 0 else []
+        for k in range(len(levels)):
             longest = 0.
             for row in nodes:
                 at = solutions[0].near([float(row[c]) for c in "xyz"])
@@ -165,6 +179,7 @@ def numbers():
                 longest = max([longest] + [.01 * sum(s.data["max_principal"][i] > limit for s in solutions[1:]) for i in own])
             expect(abs(overstress[face]["duration"][k] - longest) < 1e-5,
                    f"{face}, level {overstress['levels'][k]}: {overstress[face]['duration'][k]} s, by the fields {longest} s")
+            durations[k] = max(durations[k], longest)
     expect(overstress["upstream"]["duration"][0] > 0, "nothing is overstressed: this scene tells nothing")
     last = solutions[-1].data
     for quantity in ("opening", "slip"):
@@ -178,11 +193,100 @@ def numbers():
         expect(limit["kept"] == (limit["value"] <= limit["limit"]), f"{name}: {limit}")
     expect(not found["limits"]["opening"]["kept"] and found["limits"]["slip"]["kept"] and found["limits"]["compression"]["kept"], "limits")
     close(found["limits"]["tension_upstream"]["value"], found["extremes"]["max_tension_upstream"]["value"], 1e-9, "tension")
+    close(found["limits"]["compression"]["value"], -min(min(s.data["min_principal"]) for s in solutions), 1e-5, "compression")
+    close(found["limits"]["overstressed_share"]["value"], max(shares), 1e-4, "share of the worse face")
+    close(found["limits"]["demand_capacity"]["value"], max(most), 1e-5, "demand over capacity of the worse face")
+    for allowed in (0.4, 0.05, 2.):  # at the strength itself; falls to none at twice the strength
+        runs("scene.prm", "--output", "run", *settings("Output/Solution interval=0", "Joints/Friction=0.3", f"Limits/Overstress duration={allowed}"))
+        limit = summary("run")["limits"]["overstress_duration"]
+        excess = [duration - allowed * (2. - level) for duration, level in zip(durations, levels)]
+        k = excess.index(max(excess)) if max(excess) > 0. else 0
+        print(f"    allowed {allowed} s: longest {[round(x, 2) for x in durations]} s, told {limit}")
+        expect(abs(limit["value"] - durations[k]) < 1e-5 and abs(limit["limit"] - allowed * (2. - levels[k])) < 1e-9 and
+               limit["kept"] == (max(excess) <= 1e-9), f"duration of overstress: {limit}, expected level {levels[k]}, {excess}")
     expect("Limits    exceeded: " in Path("run/log.txt").read_text(), "the log does not say which limits are exceeded")
     write_scene()
     runs("scene.prm", "--output", "free", *settings("Joints/Friction=0.3"))
     expect("limits" not in summary("free") and "overstress" not in summary("free"), "limits that nobody gave")
     expect(summary("free")["extremes"] == found["extremes"], "limits change the results")
+
+
+def unjudged():
+    """Limits for which there is no result: they are named with the reason, and not told as kept."""
+    write_scene("scene.prm", LIMITS)
+    stresses = {"tension", "compression", "demand_capacity", "overstressed_share", "overstress_duration"}
+    joints = {"opening", "slip", "waterstop_opening"}
+    for name, reason, missing, *entries in (
+            ("nothing", "", set()),
+            ("no_stress", "Output/Envelope interval", stresses, "Output/Envelope interval=0"),
+            ("no_strength", "Limits/Tensile strength", stresses - {"tension", "compression"}, "Limits/Tensile strength=0"),
+            ("no_motion", "one time only", {"overstress_duration"}, "Motion/Source=none"),
+            ("no_joint", "no joint", joints, "Joints/Model=tied"),
+            ("too_deep", "Waterstop depth", {"waterstop_opening"}, "Limits/Waterstop depth=500"),
+            ("no_keys", "KSM", {"key_shear_stress"}, "Limits/Key shear stress=1 MPa")):
+        runs("scene.prm", "--output", name, *settings(*entries, "Motion/Duration=0.1"))
+        found, log = summary(name), Path(name, "log.txt").read_text()
+        told = found.get("limits_not_judged", {})
+        expect(set(told) == missing and all(reason in why for why in told.values()), f"{name}: {told}")
+        limits = {limit.replace("_upstream", "").replace("_downstream", "") for limit in found["limits"]}
+        expect(limits == (stresses | joints) - missing, f"{name}: {limits}")
+        expect(("not judged" in log) == bool(missing) and "all are kept" not in log, f"{name}: {log[-600:]}")
+    runs("report", "no_motion")
+    text = Reader("no_motion/report.html").text
+    expect("Not judged: duration of overstress (the stresses are of one time only)" in text, "the page does not say what is not judged")
+
+
+def keys():
+    """The shear that the keys of a joint carry beyond the friction of its faces, against the pairs of every step."""
+    write_scene("scene.prm", "subsection Limits\nset Key shear stress = 2e5\nend\n")
+    chosen = settings("Output/Solution interval=1", "Joints/Model=KSM", "Joints/Overrides=2: FJA", "Joints/Friction=0.3")
+    runs("scene.prm", "--output", "run", *chosen)
+    found, points = summary("run"), [row for row in table("run/joint_points.csv") if row["joint"] == "1"]
+    times, forces = [float(row["time"]) for row in table("run/history.csv")], []
+    area_of = {tuple(round(float(row[c]), 2) for c in "xyz"): float(row["area"]) for row in points}
+    for k in range(len(times)):
+        data, force, seen = Solution(f"run/joints-{k:05d}.vtu").data, 0., set()
+        for i, (pressure, *place) in enumerate(zip(data["pressure"], *(data["Points"][c::3] for c in range(3)))):
+            key = tuple(round(x, 2) for x in place)
+            if key in area_of and key not in seen:
+                seen.add(key)
+                shear = math.hypot(*data["shear_stress"][3 * i:3 * i + 3])
+                force += area_of[key] * max(0., shear - .3 * max(0., pressure))
+        expect(len(seen) == len(points), f"{len(seen)} of {len(points)} pairs are in the fields")
+        forces.append(force)
+    largest, whole = max(forces), sum(area_of.values())
+    print(f"    {found['keys']}; by the fields {largest:.6g} N on {whole:.6g} m2 at {times[forces.index(largest)]} s")
+    expect(found["keys"]["joints"] == [1] and largest > 0., f"{found['keys']}")
+    close(found["keys"]["force"][0], largest, 1e-4, "force on the keys")
+    close(found["keys"]["max_shear_stress"]["value"], largest / whole, 1e-4, "shear stress of the keys")
+    expect(found["keys"]["max_shear_stress"]["joint"] == 1, "the joint of the keys")
+    expect(abs(found["keys"]["max_shear_stress"]["time"] - times[forces.index(largest)]) < 1e-6, "the time of the keys' force")
+    limit = found["limits"]["key_shear_stress"]
+    close(limit["value"], largest / whole, 1e-4, "what is held against the limit")
+    expect(limit["kept"] == (largest / whole <= 2e5) and limit["limit"] == 2e5, f"{limit}")
+    runs("report", "run")
+    expect("Shear stress of the keys, joint 1" in Reader("run/report.html").text, "the page leaves out the keys")
+
+
+def ended():
+    """A run that could not write its results goes on after its last step: all numbers are those of the run that could."""
+    write_scene("scene.prm", LIMITS)
+    chosen = settings("Output/Solution interval=25", "Joints/Friction=0.3", "Joints/Model=KSM", "Limits/Key shear stress=1 MPa")
+    runs("scene.prm", "--output", "whole", *chosen)
+    for in_the_way in ("envelope.vtu", "solution-00050.vtu"):
+        shutil.rmtree("late", ignore_errors=True)
+        Path("late", in_the_way).mkdir(parents=True)
+        result = voussoir("scene.prm", "--output", "late", *chosen)
+        expect(result.returncode == 1 and "step 50 of 50" in result.stderr, f"{result.stderr}")
+        Path("late", in_the_way).rmdir()
+        runs("scene.prm", "--output", "late", *chosen, "--resume")
+        late, whole = summary("late"), summary("whole")
+        for entry in ("overstress", "waterstop", "residual", "keys", "limits", "extremes", "steps"):
+            expect(late[entry] == whole[entry], f"{entry} after {in_the_way}: {late[entry]}, of the whole run {whole[entry]}")
+        for name in ("joint_points.csv", "faces.csv", "history.csv", "energy.csv", "solution.pvd"):
+            expect(Path("late", name).read_bytes() == Path("whole", name).read_bytes(), f"{name} after {in_the_way} is not that of the whole run")
+        for name in ("solution-00025.vtu", "solution-00050.vtu", "envelope.vtu"):  # which have the time at which they were written
+            expect(read_vtu(f"late/{name}") == read_vtu(f"whole/{name}"), f"{name} after {in_the_way} is not that of the whole run")
 
 
 def waterstop(found, points, solutions):
@@ -240,4 +344,4 @@ def area(corners):
 
 
 if __name__ == "__main__":
-    run_cases(page, browser, refusals, numbers, spectrum)
+    run_cases(page, browser, refusals, numbers, unjudged, keys, ended, spectrum)

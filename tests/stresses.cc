@@ -6,6 +6,7 @@
 #include <voussoir/joints/joint_system.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh_joints.h>
+#include <voussoir/solid/face_quads.h>
 #include <voussoir/solid/stress.h>
 #include <voussoir/solid/traction_condition.h>
 
@@ -29,6 +30,11 @@ namespace
         for (unsigned int c = 0; c < 3; ++c)
           result[3 * model.equation[i] + c] = u(model.points[i])[c];
     return result;
+  }
+
+  Vector3 scaled(const double factor, const Vector3 &v)
+  {
+    return {{factor * v[0], factor * v[1], factor * v[2]}};
   }
 
   Vector3 traction(const Stress &s, const Vector3 &n)
@@ -251,6 +257,66 @@ namespace
     below("wall under water: tractions on faces, edges, corners, of its stress", worst / size, 1e-5);
     expect(push == 5 * 5, "the nodes under water but those of the base");
   }
+
+  /** Water that moves with a leaning wall: its pressure opposes the acceleration into it, and on the whole
+   * face it is the force of the added mass in the equations of motion. */
+  void moving_water()
+  {
+    const double        level = 24., lean = .2;
+    SolidModel          model(Grids::wall({{thick, wide, tall}}, {{2, 4, 60}}, 4,
+                                          [=](const Vector3 &x) {
+                                   return Vector3{{x[0] + lean * x[2], x[1], x[2]}};
+                                 }),
+                              1);
+    Structure           structure = assemble_structure(model, {Material()}, true);
+    ReservoirParameters water;
+    water.level = level;
+    water.factor = .6;
+    add_added_mass(model, water, structure);
+    Tractions tractions(
+        model, structure, [](int, double, const Vector3 &) { return Vector3{}; }, {}, {},
+        added_mass_per_area(model, water));
+    const auto acceleration = [&](const dealii::Point<3> &x) { return Vector3{{-2. + .1 * x[1], .7, 1.3}}; };
+    const Unknowns             a = field(model, acceleration);
+    const std::vector<Vector3> still = tractions.at({}), moved = tractions.at({}, a);
+    std::vector<Vector3>       of_node(model.n_nodes());
+    double                     worst = 0.;
+    unsigned int               n_wet = 0;
+    for (std::size_t f = 0; f < moved.size(); ++f)
+    {
+      const NodeFace &face = tractions.faces[f];
+      const auto     &x = model.points[face.node];
+      const bool      is_wet = face.surface == PhysicalId::upstream && x[2] < level;
+      const double    w = is_wet ? .6 * 7. / 8. * 1000. * std::sqrt(level * (level - x[2])) : 0.;
+      const Vector3   t = scaled(-w * dot(face.normal, acceleration(x)), face.normal);
+      worst = std::max({worst, norm(moved[f] - t), norm(still[f])});
+      n_wet += is_wet;
+      if (is_wet)
+      {
+        of_node[face.node] = moved[f];
+        expect(face.normal[0] < 0. && moved[f][0] > 0., "pushed downstream by the water it goes into");
+      }
+    }
+    expect(n_wet == 5 * 47, "the nodes under water but those of the base");
+    below("moving water: -w (n.a) n on its faces, nothing elsewhere [Pa]", worst, 1e-9);
+    Vector3 pressed{}, inertia{};
+    for (const FaceQuad &quad : face_quads(model, PhysicalId::upstream))
+      for (const unsigned int node : quad.nodes)
+        add(pressed, scaled(area(model, quad) / 4., of_node[node]));
+    for (unsigned int i = 0; i < structure.n_nodes(); ++i)
+      add(inertia, scaled(-1., structure.added_mass[i] * get(a, i)));
+    below("  resultant against that of the added mass", norm(pressed - inertia) / norm(inertia), .01);
+  }
+
+  /** Velocities count from the base, which is accelerated, too. */
+  void mean_accelerations()
+  {
+    const Unknowns a = mean_acceleration({1., 2., 3., 0., 0., 0.}, {3., 2., 1., 0., 0., .5}, .5,
+                                         {{1., 0., -2.}}, {{3., 0., 4.}}),
+                   expected = {6., 0., -3., 2., 0., 2.};
+    for (std::size_t k = 0; k < 6; ++k)
+      expect_within(a[k], expected[k], 1e-14, "mean acceleration");
+  }
 } // namespace
 
 int main()
@@ -260,5 +326,7 @@ int main()
               {"ring", ring},
               {"joint of degree 1", [] { joint(1); }},
               {"joint of degree 2", [] { joint(2); }},
-              {"dam", dam}});
+              {"dam", dam},
+              {"moving water", moving_water},
+              {"mean acceleration", mean_accelerations}});
 }

@@ -55,7 +55,8 @@ namespace Voussoir
       for (const PairState state : step == start_step ? pairs_at_start : newmark->pair_states())
         pairs.push_back(static_cast<int>(state));
       archive << provenance << step << pairs << n_steps << motion.dt << samples << wall << cpu << state
-              << first << largest << count << history << energy << *joints << *envelope << solutions;
+              << first << largest << count << history << energy << *joints << *envelope << solutions
+              << acceleration;
       if (blocks)
         archive << *blocks;
       const bool is_estimating = companion != nullptr;
@@ -186,7 +187,7 @@ namespace Voussoir
           " before the time at which it was written; an artificial motion depends on its duration "
           "from the beginning. Set \"Motion/Duration\" as it was, or run without --resume.");
     archive >> clock_before >> cpu_before >> state >> first >> largest >> count >> history >> energy >>
-        *joints >> *envelope >> solutions;
+        *joints >> *envelope >> solutions >> acceleration;
     if (blocks)
       archive >> *blocks;
     bool was_estimating = false;

@@ -294,6 +294,21 @@ namespace Voussoir
               "(Joints/Keys/Friction = -1), or a smaller angle.";
       return text.str();
     }
+    /** The last stage has the temperatures of Loads/Temperature/Day, whatever day the stages end with. */
+    std::string other_day(const Scene &scene)
+    {
+      const TemperatureParameters   &temperature = scene.loads.temperature;
+      const std::vector<StaticStage> stages = static_stages(scene.statics.stages);
+      const auto                     last = std::find_if(stages.rbegin(), stages.rend(),
+                                                         [](const StaticStage &s) { return s.kind == StaticStage::Kind::day; });
+      if (last == stages.rend() || temperature.table.empty() || last->value == temperature.day)
+        return "";
+      std::ostringstream text;
+      text << "Statics/Stages ends with day " << last->value
+           << ", but its last stage always goes to the temperatures of Loads/Temperature/Day, which is "
+           << temperature.day << ". Set that to " << last->value << ", if it is the day of the earthquake.";
+      return text.str();
+    }
   } // namespace
 
   std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<WrittenEntry> &entries)
@@ -326,8 +341,9 @@ namespace Voussoir
     if (any_joint(scene, {"cohesive"}) && scene.joints.strength == 0.)
       warnings.push_back("Joints/Strength is 0: the model cohesive is then FJA. Set the tensile strength of "
                          "the bond, such as 1 MPa.");
-    if (const std::string warning = two_branches(scene); !warning.empty())
-      warnings.push_back(warning);
+    for (const std::string &warning : {two_branches(scene), other_day(scene)})
+      if (!warning.empty())
+        warnings.push_back(warning);
     return warnings;
   }
 

@@ -218,6 +218,20 @@ namespace Voussoir
     return parameters;
   }
 
+  namespace
+  {
+    std::unique_ptr<JointRecorder> recorder_of_joints(const Dam &dam)
+    {
+      const Structure &structure = dam.structure;
+      auto             joints = std::make_unique<JointRecorder>(structure, *dam.geometry);
+      joints->reach = JointReach(*dam.model, structure.pairs);
+      joints->points =
+          JointPoints(*dam.model, structure.pairs, structure.n_joints, dam.scene.limits.waterstop_depth);
+      joints->keys = KeyForces(structure, dam.scene.joints);
+      return joints;
+    }
+  } // namespace
+
   void Simulation::start_shaking()
   {
     const Stopwatch  watch;
@@ -246,10 +260,7 @@ namespace Voussoir
                    statics.memory);
 
     stability = std::make_unique<StabilityWatch>(*dam, motion, *newmark);
-    joints = std::make_unique<JointRecorder>(structure, *dam->geometry);
-    joints->reach = JointReach(*dam->model, structure.pairs);
-    joints->points =
-        JointPoints(*dam->model, structure.pairs, structure.n_joints, scene.limits.waterstop_depth);
+    joints = recorder_of_joints(*dam);
     tractions = std::make_unique<Tractions>(
         *dam->model, structure, known_traction(scene), dam->initial_stress, statics.joint_water,
         dam->added_mass > 0. ? added_mass_per_area(*dam->model, scene.reservoir) : std::vector<double>());

@@ -56,6 +56,11 @@ namespace Voussoir
                       "Least safety against sliding on the base that every monolith is to have at all times "
                       "[-]; 0: none.",
                       not_negative);
+    prm.add_parameter("Key shear stress", key_shear_stress,
+                      "Limit of the shear force that the keys of a joint carry beyond the friction of its "
+                      "faces, over the area of the joint [Pa]: the strength of the keys times their share of "
+                      "the section; 0: none.",
+                      not_negative);
     prm.leave_subsection();
   }
 } // namespace Voussoir

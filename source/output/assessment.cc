@@ -12,7 +12,7 @@ namespace Voussoir
     constexpr std::array<std::pair<int, const char *>, 2> faces = {
         {{PhysicalId::upstream, "upstream"}, {PhysicalId::downstream, "downstream"}}};
 
-    using Levels = std::array<double, Overstress::n_levels>;
+    using Levels = Overstress::Levels;
 
     /** Demand over capacity on one face. */
     struct Demand
@@ -81,7 +81,8 @@ namespace Voussoir
       for (const auto &[name, limit] : {std::make_pair("opening", limits.opening),
                                         {"slip", limits.slip},
                                         {"waterstop_opening", limits.waterstop_opening},
-                                        {"waterstop_slip", limits.waterstop_slip}})
+                                        {"waterstop_slip", limits.waterstop_slip},
+                                        {"key_shear_stress", limits.key_shear_stress}})
         leave(name, limit, no_joint);
     add_blocks(blocks);
   }
@@ -132,15 +133,23 @@ namespace Voussoir
     }
     hold("demand_capacity", "", worst.ratio, limits.demand_capacity);
     hold("overstressed_share", "", worst.share[0], limits.overstress_share);
+    if (!envelope.overstress.has_lasted())
+      leave("overstress_duration", limits.overstress_seconds, "the stresses are of one time only");
+    else
+      add_duration(worst.duration);
+  }
+
+  void Assessment::add_duration(const Overstress::Levels &worst)
+  {
     if (!(limits.overstress_seconds > 0.))
       return;
     // The level at which the duration is farthest above what is allowed there.
-    Verdict verdict{"overstress_duration", "s", worst.duration[0], limits.overstress_seconds};
+    Verdict verdict{"overstress_duration", "s", worst[0], limits.overstress_seconds};
     for (unsigned int k = 1; k < Overstress::n_levels; ++k)
     {
-      const double allowed = std::max(0., limits.overstress_seconds * (2. - levels[k]));
-      if (worst.duration[k] - allowed > std::max(0., verdict.value - verdict.limit))
-        verdict.value = worst.duration[k], verdict.limit = allowed;
+      const double allowed = std::max(0., limits.overstress_seconds * (2. - Overstress::level(k)));
+      if (worst[k] - allowed > std::max(0., verdict.value - verdict.limit))
+        verdict.value = worst[k], verdict.limit = allowed;
     }
     verdicts.push_back(verdict);
   }
@@ -153,6 +162,7 @@ namespace Voussoir
         .add("max_slip", json_of(points.residual(true)));
     hold("opening", "m", joints.opening.value, limits.opening);
     hold("slip", "m", joints.slip.value, limits.slip);
+    add_keys(joints.keys);
     if (!points.has_waterstops())
     {
       const std::string reason = "every joint is thinner than Limits/Waterstop depth";
@@ -179,6 +189,24 @@ namespace Voussoir
       verdicts.push_back({"sliding_safety", "", blocks->least_safety().value, limits.sliding_safety, true});
   }
 
+  void Assessment::add_keys(const KeyForces &of_joints)
+  {
+    if (of_joints.joints.empty())
+      return leave("key_shear_stress", limits.key_shear_stress, "no joint has the model KSM");
+    const KeyForces::OfJoint &worst = of_joints.worst();
+    Json                      stress;
+    std::vector<double>       numbers, forces;
+    for (const KeyForces::OfJoint &one : of_joints.joints)
+    {
+      numbers.push_back(one.joint + 1);
+      forces.push_back(one.force);
+    }
+    stress.add("value", worst.stress()).add("joint", worst.joint + 1).add("time", worst.time);
+    keys.emplace();
+    keys->add("max_shear_stress", stress).add_list("joints", numbers).add_list("force", forces);
+    hold("key_shear_stress", "Pa", worst.stress(), limits.key_shear_stress);
+  }
+
   void Assessment::add_to(Json &summary) const
   {
     if (overstress)
@@ -187,6 +215,8 @@ namespace Voussoir
       summary.add("waterstop", *waterstop);
     if (residual)
       summary.add("residual", *residual);
+    if (keys)
+      summary.add("keys", *keys);
     Json open;
     for (const auto &[name, reason] : unjudged)
       open.add(name, reason);

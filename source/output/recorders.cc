@@ -88,6 +88,7 @@ namespace Voussoir
         slip = {s, time, structure.pairs[p].place};
     }
     points.end_record(time);
+    keys.record(time, newmark.state().force);
     record_pressures(newmark.state());
     std::vector<double> row = {time};
     for (std::size_t j = 0; j < largest.size(); ++j)

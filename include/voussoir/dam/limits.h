@@ -26,6 +26,7 @@ namespace Voussoir
     double base_friction = 0.;     ///< tan(phi) of the monoliths on their bases [-]
     double base_cohesion = 0.;     ///< of their bases [Pa]
     double sliding_safety = 0.;    ///< the least that is asked for [-]
+    double key_shear_stress = 0.;  ///< of the keys of a joint, over its area [Pa]
 
     void add_parameters(dealii::ParameterHandler &prm);
   };

@@ -22,8 +22,8 @@ namespace Voussoir
   };
 
   /** The numbers that reports are written with: demand and capacity with the duration of overstress and its
-   * share of the faces, openings and slips at the waterstops, what remains of them; and all against the
-   * limits. */
+   * share of the faces, openings and slips at the waterstops, what remains of them, the shear of keys; and
+   * all against the limits. */
   class Assessment
   {
   public:
@@ -32,8 +32,8 @@ namespace Voussoir
     Assessment(const LimitParameters &limits, const SolidModel &model, const EnvelopeRecorder *envelope,
                const JointRecorder *joints, const BlockRecorder *blocks);
 
-    /** "overstress", "waterstop", "residual", "limits": name -> value, limit, kept, and "limits_not_judged":
-     * name -> why there is no result to hold against it. */
+    /** "overstress", "waterstop", "residual", "keys", "limits": name -> value, limit, kept, and
+     * "limits_not_judged": name -> why there is no result to hold against it. */
     void add_to(Json &summary) const;
 
     std::string
@@ -44,13 +44,15 @@ namespace Voussoir
     void leave(const std::string &name, double limit, const std::string &reason); ///< not judged
     void add_stresses(const SolidModel &model, const EnvelopeRecorder &envelope);
     void add_demand(const SolidModel &model, const EnvelopeRecorder &envelope);
+    void add_duration(const Overstress::Levels &worst);
     void add_joints(const JointRecorder &joints);
     void add_blocks(const BlockRecorder *blocks);
+    void add_keys(const KeyForces &of_joints);
 
     const LimitParameters                            limits;
     std::vector<Verdict>                             verdicts;
     std::vector<std::pair<std::string, std::string>> unjudged; ///< names of limits, and why
-    std::optional<Json>                              overstress, waterstop, residual;
+    std::optional<Json>                              overstress, waterstop, residual, keys;
   };
 
   Json json_of(const Extreme &extreme); ///< value, place, time

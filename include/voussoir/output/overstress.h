@@ -4,6 +4,7 @@
 
 #include <voussoir/base/ranks.h>
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -16,7 +17,8 @@ namespace Voussoir
   {
   public:
     static constexpr unsigned int n_levels = 11;
-    static double                 level(const unsigned int k) { return 1. + .1 * k; } ///< stress over f_t
+    using Levels = std::array<double, n_levels>;                      ///< a value of each
+    static double level(const unsigned int k) { return 1. + .1 * k; } ///< stress over f_t
 
     Overstress() = default; ///< watches nothing
 
@@ -27,6 +29,9 @@ namespace Voussoir
     }
 
     bool watches() const { return strength > 0.f; }
+
+    /** Has any time passed? Without, as in a static state, no duration is known. */
+    bool has_lasted() const { return last > 0.; }
 
     /** The stresses that follow are those of this time [s]. */
     void begin(const double time)

@@ -7,6 +7,7 @@
 #include <voussoir/dynamics/newmark.h>
 #include <voussoir/joints/joint_reach.h>
 #include <voussoir/output/joint_points.h>
+#include <voussoir/output/key_forces.h>
 #include <voussoir/output/overstress.h>
 #include <voussoir/solid/stress.h>
 
@@ -71,12 +72,13 @@ namespace Voussoir
     Extreme              opening, slip;
     JointReach           reach;   ///< counts from when it is set
     JointPoints          points;  ///< the same
+    KeyForces            keys;    ///< the same
     std::vector<Largest> largest; ///< per joint
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
-      archive &history &opening &slip &reach &points &largest;
-      archive &pressure &time_of_pressure            &sum_of_means;
+      archive &history &opening &slip &reach &points &keys &largest;
+      archive &pressure &time_of_pressure                  &sum_of_means;
     }
 
   private:

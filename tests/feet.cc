@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A dam on feet that give way: the operator of its joints with the feet eliminated, and what a solution says
+// of feet and joints, against the system that is not reduced.
+
+#include "blocks.h"
+
+#include <voussoir/base/error.h>
+
+using namespace Columns;
+
+extern "C"
+{
+  void dgesv_(const int *n, const int *n_rhs, double *a, const int *lda, int *pivots, double *b,
+              const int *ldb, int *info);
+}
+
+namespace
+{
+  constexpr double mass_factor = 4e6, stiffness_factor = 1.02; // of a step of 1 ms, with damping
+
+  /** Three blocks in a row, which stand on feet at some of their nodes: A u = load + G^T force + L^T
+   * foot_force, L u = place - R foot_force. */
+  struct Standing
+  {
+    Standing() : model(blocks(3, false), 1)
+    {
+      Material concrete;
+      concrete.young = 1e9;
+      structure = with_joints(model, {concrete, concrete, concrete});
+      for (unsigned int i = 0; i < structure.n_nodes(); i += 9) // inside, outside, and at the joints
+        feet.node.push_back(i);
+      feet.compliance = compliance();
+      for (Body &body : structure.bodies)
+      {
+        for (const unsigned int node : feet.node)
+          if (node >= body.first_node && node < body.first_node + body.n_nodes())
+            body.interface.push_back(node - body.first_node);
+        std::sort(body.interface.begin(), body.interface.end());
+        body.interface.erase(std::unique(body.interface.begin(), body.interface.end()), body.interface.end());
+      }
+    }
+
+    /** Symmetric and positive definite; each foot feels the next two, also those of the next block. */
+    BlockSparseMatrix compliance() const
+    {
+      const unsigned int                     n = feet.node.size();
+      std::vector<std::vector<unsigned int>> columns(n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int k = i - std::min(i, 2u); k < std::min(n, i + 3); ++k)
+          columns[i].push_back(k);
+      BlockSparseMatrix R(columns);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int k = i; k < std::min(n, i + 3); ++k)
+        {
+          Matrix3 block, transposed;
+          for (unsigned int c = 0; c < 9; ++c)
+            block[c] = 1e-9 * (k == i ? (c % 4 == 0 ? 2. : 0.) : .1 * random_number());
+          for (unsigned int c = 0; c < 9; ++c)
+            transposed[c] = block[3 * (c % 3) + c / 3];
+          R.add(i, k, block);
+          if (k != i)
+            R.add(k, i, transposed);
+        }
+      return R;
+    }
+
+    std::size_t n_u() const { return 3 * std::size_t(structure.n_nodes()); }
+    std::size_t n() const { return n_u() + 3 * feet.node.size(); }
+
+    Unknowns A(const Unknowns &u) const
+    {
+      Unknowns Au;
+      structure.multiply_stiffness(u, Au);
+      for (unsigned int i = 0; i < structure.n_nodes(); ++i)
+      {
+        const Vector3 Mu = structure.mass[i] * get(u, i);
+        for (unsigned int c = 0; c < 3; ++c)
+          Au[3 * i + c] = stiffness_factor * Au[3 * i + c] + mass_factor * Mu[c];
+      }
+      return Au;
+    }
+
+    /** Of all unknowns, displacements and forces of the feet: A u - L^T f, then L u + R f. */
+    Unknowns product(const Unknowns &x) const
+    {
+      const Unknowns u(x.begin(), x.begin() + n_u()), f(x.begin() + n_u(), x.end());
+      Unknowns       result = A(u), Rf(f.size());
+      feet.compliance.multiply(f.data(), Rf.data());
+      for (std::size_t k = 0; k < f.size(); ++k)
+      {
+        const std::size_t at = 3 * std::size_t(feet.node[k / 3]) + k % 3;
+        result[at] -= f[k];
+        result.push_back(u[at] + Rf[k]);
+      }
+      return result;
+    }
+
+    /** Solves for all columns of @p rhs at once. */
+    void solve(Unknowns &rhs) const
+    {
+      const int        size = n(), n_rhs = rhs.size() / n();
+      Unknowns         matrix;
+      std::vector<int> pivots(size);
+      int              info = 0;
+      for (int k = 0; k < size; ++k)
+      {
+        Unknowns x(size, 0.);
+        x[k] = 1.;
+        const Unknowns column = product(x);
+        matrix.insert(matrix.end(), column.begin(), column.end());
+      }
+      dgesv_(&size, &n_rhs, matrix.data(), &size, pivots.data(), rhs.data(), &size, &info);
+      expect(info == 0, "the whole system has a solution");
+    }
+
+    SolidModel            model;
+    Structure             structure;
+    FootElimination::Feet feet;
+  };
+
+  JointSystem system_of(const Standing &dam, const JointLaws &laws)
+  {
+    return JointSystem(dam.structure, laws, tight(), mass_factor, stiffness_factor, 0., ForceMeaning(),
+                       Unknowns(), &dam.feet);
+  }
+
+  /** What unit forces of the joints open, column by column. */
+  void test_operator()
+  {
+    const Standing    dam;
+    const JointLaws   laws = make_laws(dam.structure, "FJA", .5);
+    const JointSystem system = system_of(dam, laws);
+    const auto       &W = system.joint_operator();
+    const std::size_t n = 3 * dam.structure.pairs.size();
+    Unknowns          x(n * dam.n(), 0.), dense(n * n);
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      Unknowns unit(dam.n_u(), 0.);
+      Vector3  f{};
+      f[k % 3] = 1.;
+      dam.structure.add_pair_force(dam.structure.pairs[k / 3], f, unit);
+      std::copy(unit.begin(), unit.end(), x.begin() + k * dam.n());
+    }
+    dam.solve(x);
+    double error = 0., size = 0., far = 0., diagonal = 0., single = 0.;
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      const Unknowns u(x.begin() + k * dam.n(), x.begin() + k * dam.n() + dam.n_u());
+      Unknowns       unit(n, 0.), gap;
+      unit[k] = 1.;
+      W.multiply(unit, gap);
+      for (std::size_t p = 0; p < n / 3; ++p)
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          const std::size_t i = 3 * p + c;
+          dense[k * n + i] = dam.structure.jump(dam.structure.pairs[p], u)[c];
+          error = std::max(error, std::abs(gap[i] - dense[k * n + i]));
+          size = std::max(size, std::abs(dense[k * n + i]));
+          if (k / 3 == p)
+            diagonal = std::max(diagonal, std::abs(W.diagonal(p)[3 * c + k % 3] - dense[k * n + i]));
+        }
+    }
+    for (unsigned int g = 0; g < W.n_groups(); ++g)
+    {
+      const std::vector<double> block = W.own_block(g);
+      for (unsigned int k = 0; k < W.size(g); ++k)
+        for (unsigned int i = 0; i < W.size(g); ++i)
+          single = std::max(single, std::abs(block[std::size_t(k) * W.size(g) + i] -
+                                             dense[(W.begin(g) + k) * n + W.begin(g) + i]));
+    }
+    const JointSystem loose(dam.structure, laws, tight(), mass_factor, stiffness_factor, 0.); // without feet
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      Unknowns unit(n, 0.), gap;
+      unit[k] = 1.;
+      loose.joint_operator().multiply(unit, gap);
+      for (std::size_t i = 0; i < n; ++i)
+        far = std::max(far, std::abs(gap[i] - dense[k * n + i]));
+    }
+    below("operator of the joints against the whole system / largest", error / size, 1e-12);
+    below("  diagonal blocks", diagonal / size, 1e-12);
+    below("  own blocks of the joints, in single precision", single / size, 1e-6);
+    above("  what the feet take off", far / size, .01);
+  }
+
+  /** Contact and friction: what a solution says of bodies, joints and feet fits together. */
+  void test_solution()
+  {
+    const Standing    dam;
+    const JointLaws   laws = make_laws(dam.structure, "FJA", .5);
+    JointSystem       system = system_of(dam, laws);
+    const std::size_t n = 3 * dam.structure.pairs.size();
+    Unknowns          load(dam.n_u()), none(n, 0.), offset(n), force(n, 0.), gap, u, memory;
+    FeetOfStep        feet;
+    for (double &f : load)
+      f = 1e6 * random_number();
+    for (double &x : offset)
+      x = 1e-4 * random_number();
+    for (std::size_t k = 0; k < 3 * dam.feet.node.size(); ++k)
+      feet.place.push_back(1e-3 * random_number());
+    const ContactResult result = system.solve(load, offset, none, memory, force, gap, u, &feet);
+    report("joints on feet: residual", result.residual, "converged", result.converged);
+    Unknowns x = u;
+    x.insert(x.end(), feet.force.begin(), feet.force.end());
+    Unknowns expected = load;
+    for (std::size_t p = 0; p < n / 3; ++p)
+      dam.structure.add_pair_force(dam.structure.pairs[p], get(force, p), expected);
+    const double forces = largest(expected), places = largest(feet.place);
+    expected.insert(expected.end(), feet.place.begin(), feet.place.end());
+    const Unknowns left = dam.product(x);
+    double         of_bodies = 0., of_feet = 0., of_gaps = 0.;
+    for (std::size_t k = 0; k < left.size(); ++k)
+    {
+      double &worst = k < dam.n_u() ? of_bodies : of_feet;
+      worst = std::max(worst, std::abs(left[k] - expected[k]));
+    }
+    for (std::size_t k = 0; k < n; ++k)
+      of_gaps = std::max(
+          of_gaps, std::abs(dam.structure.jump(dam.structure.pairs[k / 3], u)[k % 3] + offset[k] - gap[k]));
+    below("  equations of motion / largest force", of_bodies / forces, 1e-12);
+    below("  feet: place - R force / largest place", of_feet / places, 1e-12);
+    below("  gaps / largest", of_gaps / largest(gap), 1e-10);
+    above("  forces of the joints", largest(force), 0.);
+    above("  forces on the feet / largest force", largest(feet.force) / forces, .01);
+  }
+} // namespace
+
+int main()
+{
+  return run_all({test_operator, test_solution});
+}
