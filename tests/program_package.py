@@ -65,10 +65,8 @@ def package():
 
 def arcs():
     """Dams from tables of arcs: volumes against closed forms, and the two of meshes/."""
-    mesher = str(ROOT / "scripts" / "arch_from_table.py")
-
     def mesh(table, *options, status=0):
-        result = subprocess.run([sys.executable, mesher, table, "--output", "dam.msh", *options], capture_output=True, text=True)
+        result = subprocess.run([VOUSSOIR, "arcs", table, "--output", "dam.msh", *options], capture_output=True, text=True)
         expect(result.returncode == status, f"status {result.returncode}: {result.stdout}{result.stderr}")
         print("   ", (result.stdout + result.stderr).strip())
         return result.stdout + result.stderr
@@ -90,6 +88,19 @@ def arcs():
         write(f"{name}.csv", head + rows)
         expect(part in mesh(f"{name}.csv", status=2), name)
     write("column.csv", "elevation,thickness\n1,2\n")
+    # Radii that shrink downwards: columns stay in vertical planes normal to the crest, abutments are where the table has them
+    write("radii.csv", head + "285,-2,74,22,50,22,20\n345,-8,112,15,95,43,40\n405,0,150,6,144,51,48\n")
+    from arch_from_table import Dam, read_table
+    dam = Dam(read_table("radii.csv"))
+    for crest in (-.8, -.3, .2, .7):
+        foot = dam.foot(crest, 5.)
+        for z in (foot, .5 * (foot + 405), 405):
+            x, y, _ = dam.place(crest, z, 0.)
+            expect(abs((x - 150.) * math.sin(crest) + y * math.cos(crest)) < 1e-9, f"the column {crest} leans at {z} m: {x} {y}")
+        bound = math.radians(float(dam.at["left_angle" if crest > 0 else "right_angle"](foot)))
+        expect(foot == 285. or abs(abs(dam.on_arc(crest, foot)) - bound) < 2e-9, f"the foot of {crest} at {foot} m")
+    write("wider.csv", head + "285,-2,174,22,150,42,40\n405,0,150,6,144,45,42\n")
+    expect("open upwards" in mesh("wider.csv", status=2), "a valley that closes upwards")
     expect("upstream_x" in mesh("column.csv", status=2), "a missing column")
     # Morrow Point on a rigid base, empty: 3.81 and 4.27 Hz are quoted (doc/mesh.md); the table has its outer dimensions and its volume
     text = mesh(str(ROOT / "meshes" / "morrow_point.csv"), "--joints", "9", "--along", "40", "--up", "12")
