@@ -25,7 +25,7 @@ printf '%s\n' "include $share/prm/coarse.prm" 'subsection Motion' 'set Duration 
 tried voussoir --version
 tried voussoir "$share/prm/quickstart.prm" --validate
 tried voussoir small.prm --set 'Output/Solution interval=16' --output run
-is_file run/summary.json run/solution.pvd run/figures/stress_upstream.png
+is_file run/summary.json run/solution.pvd run/figures/envelope_upstream.png run/figures/history.png
 tried voussoir modes small.prm --count 2 --output modes
 tried voussoir view small.prm --output view
 is_file view/view.png

@@ -5,7 +5,8 @@
 # voussoir-dev, removes both, and looks for what stayed behind.
 # Usage: scripts/try_package.sh [--program] [DIRECTORY OF THE PACKAGES, by default build-package]       as root
 #   --program  voussoir alone; voussoir-dev brings a compiler and the headers of deal.II, 3 GB
-# VOUSSOIR_MIRROR: where apt gets its packages, by default deb.debian.org.
+# VOUSSOIR_MIRROR: where apt gets its packages, by default deb.debian.org. VOUSSOIR_BASE: a directory that debootstrap has made, to
+# start from a copy of it. TMPDIR: where the root goes (4 GB); /dev/shm is quicker.
 set -euo pipefail
 # shellcheck source=environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
@@ -39,11 +40,16 @@ inside() # COMMAND...: in the clean root
 }
 
 mkdir -p "$root/build/logs"
-step 1/5 "Clean Debian 12: debootstrap" \
-  debootstrap --variant=minbase bookworm "$clean" "${VOUSSOIR_MIRROR:-http://deb.debian.org/debian}"
+if [[ -n "${VOUSSOIR_BASE:-}" ]]; then
+  step 1/5 "Clean Debian 12: a copy of $VOUSSOIR_BASE" cp -a "$VOUSSOIR_BASE/." "$clean"
+else
+  step 1/5 "Clean Debian 12: debootstrap" \
+    debootstrap --variant=minbase bookworm "$clean" "${VOUSSOIR_MIRROR:-http://deb.debian.org/debian}"
+fi
 mount -t proc proc "$clean/proc"
 mount --bind /dev "$clean/dev"
 cp /etc/resolv.conf "$clean/etc/"
+echo force-unsafe-io >"$clean/etc/dpkg/dpkg.cfg.d/quick" # no waiting for the disk: the root is thrown away
 
 mkdir "$clean/packages"
 cp "${found[@]}" "$clean/packages/"

@@ -15,7 +15,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from run_program import VOUSSOIR, expect, refused, run_cases, runs, write, write_scene
+from run_program import VOUSSOIR, expect, refused, run_cases, runs, summary, write, write_scene
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "scripts")]
@@ -197,6 +197,16 @@ def tutorial_6_study():
     expect(len(list(Path("output/openings/runs").iterdir())) == 4, "runs")
 
 
+def tutorial_7_report():
+    tutorial("7_report")
+    page = Path("report.html").read_text()
+    expect(all(f"record_{n}" in page for n in (1, 2, 3)), "a run is not in the report")
+    static = summary("output/static")["extremes"]
+    tension = max(static[f"max_tension_{face}_above_foot"]["value"] for face in ("upstream", "downstream"))
+    print(f"    static tension {1e-6 * tension:.2f} MPa")
+    expect(tension < 1e6, f"the dam of the tutorial stands with {tension} Pa of tension")
+
+
 def editor():
     """Snippets are scenes, and the schema takes the defaults and refuses what the program refuses."""
     result = subprocess.run([sys.executable, str(ROOT / "scripts" / "editor.py"), "--output", "editor", "--voussoir", VOUSSOIR], capture_output=True, text=True)
@@ -245,4 +255,4 @@ def site():
 
 if __name__ == "__main__":
     run_cases(package, arcs, editor, site, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records, tutorial_4_rock, tutorial_5_own_law,
-              tutorial_6_study)
+              tutorial_6_study, tutorial_7_report)
