@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes an arch dam of circular arcs from a table: 8-node hexahedra, monoliths that share their nodes, gmsh MSH 2.2.
 
-    scripts/arch_from_table.py TABLE.csv --output DAM.msh [--joints 10] [--along 40] [--up 10] [--through 2] [--end-height 5]
+    voussoir arcs TABLE.csv --output DAM.msh [--joints 10] [--along 40] [--up 10] [--through 2] [--end-height 5]
 
 Columns of the table, an arc in each line [m, degrees], in any order of lines; lines that begin with # are remarks:
 
@@ -14,8 +14,9 @@ Columns of the table, an arc in each line [m, degrees], in any order of lines; l
     right_angle, left_angle   of the abutments at the upstream arc's centre, from the crown: both positive, growing upwards
 
 Between the arcs all columns are monotone cubic functions of the elevation (Fritsch and Carlson, SIAM J. Numer. Anal. 17, 1980;
-the weighted harmonic mean of Fritsch and Butland). Columns of the mesh are at constant angles: joints are radial and stand where they
-divide the crest into equal parts. At both ends, where the height goes to zero, an end wall of --end-height remains, and is fixed.
+the weighted harmonic mean of Fritsch and Butland). Joints divide the crest into equal parts. On the upstream face they, and all
+columns of the mesh, run down in vertical planes normal to the crest, so that free-standing monoliths do not lean; through the dam
+they are radial at every elevation. At both ends, where the height goes to zero, an end wall of --end-height remains, and is fixed.
 """
 
 import argparse
@@ -23,16 +24,14 @@ import csv
 import sys
 from pathlib import Path
 
-import numpy as np
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import numpy as np  # noqa: E402
+from command import InputError, end_with  # noqa: E402
 
 COLUMNS = ("elevation", "upstream_x", "upstream_radius", "thickness", "downstream_radius", "right_angle", "left_angle")
 LARGEST = 1e5  # of a table's numbers [m, degrees]
 MOST_ELEMENTS = 10000, 5000000  # each way, in all
 FACES = {1: "base", 2: "upstream", 3: "downstream", 4: "crest"}
-
-
-class InputError(Exception):
-    """What the user must mend; status 2."""
 
 
 def monotone(x, y):
@@ -98,11 +97,17 @@ def check(table, path):
     for name in ("upstream_radius", "thickness", "downstream_radius", "right_angle", "left_angle"):
         if table[name].min() <= 0:
             raise InputError(f"{path}: the column {name} must be positive.")
-    for name in ("right_angle", "left_angle"):
-        if np.diff(table[name]).min() < 0 or table[name].max() >= 85:
-            raise InputError(f"{path}: the column {name} must not fall with the elevation, nor reach 85 degrees: the valley opens upwards.")
     if (table["thickness"] >= table["upstream_radius"]).any():
         raise InputError(f"{path}: an arc is thicker than its upstream radius.")
+    centre = table["upstream_x"] + table["upstream_radius"]
+    for name in ("right_angle", "left_angle"):
+        if table[name].max() >= 85:
+            raise InputError(f"{path}: the column {name} must not reach 85 degrees.")
+        angle = np.radians(table[name])  # the abutments as seen from the centre of the crest
+        seen = np.arctan2(table["upstream_radius"] * np.sin(angle), centre[-1] - centre + table["upstream_radius"] * np.cos(angle))
+        if (narrower := np.diff(seen) < -1e-9).any():
+            raise InputError(f"{path}: by the column {name} the valley is wider at elevation {table['elevation'][narrower.argmax()]:g} m than at "
+                             f"{table['elevation'][narrower.argmax() + 1]:g} m; it must open upwards. Check the angles and the radii there.")
 
 
 class Dam:
@@ -113,10 +118,24 @@ class Dam:
         self.at = {name: monotone(table["elevation"], table[name]) for name in COLUMNS[1:]}
         self.ends = -np.radians(table["right_angle"][-1]), np.radians(table["left_angle"][-1])
 
+    def on_arc(self, angle, z):
+        """The angle at the arc's own centre [rad] of the column that has this angle at the crest: where the vertical plane through the
+        crest's centre meets the upstream face; infinite where it does not."""
+        radius = self.at["upstream_radius"](z)
+        apart = self.centre(self.top) - self.centre(z)
+        sine = apart * np.sin(angle) / radius
+        return np.where(abs(sine) < 1., angle + np.arcsin(np.clip(sine, -1., 1.)), np.copysign(np.inf, angle))
+
+    def centre(self, z):
+        """Place x of the centre of the upstream arc [m]."""
+        return self.at["upstream_x"](z) + self.at["upstream_radius"](z)
+
     def place(self, angle, z, w):
-        """The point at an angle [rad], an elevation and w from 0 upstream to 1 downstream, along the upstream arc's radius."""
+        """The point of the column with this angle at the crest [rad], at an elevation and w from 0 upstream to 1 downstream, along
+        the upstream arc's radius."""
         x, radius, thickness, other = (float(self.at[name](z)) for name in
                                        ("upstream_x", "upstream_radius", "thickness", "downstream_radius"))
+        angle = float(self.on_arc(angle, z))
         up = np.array([x + radius * (1 - np.cos(angle)), radius * np.sin(angle)])
         inward = np.array([np.cos(angle), -np.sin(angle)])
         to_centre = np.array([x + thickness + other, 0.]) - up
@@ -128,13 +147,22 @@ class Dam:
         return (*(up + w * length * inward), z)
 
     def foot(self, angle, end_height):
-        """Elevation of the abutment at this angle."""
+        """Elevation of the abutment under this angle of the crest."""
         bound = self.at["left_angle" if angle > 0 else "right_angle"]
-        low, high = self.low, self.top
+
+        def in_rock(z):
+            return abs(self.on_arc(angle, z)) > np.radians(bound(z)) + 1e-9
+
+        levels = np.linspace(self.top - end_height, self.low, 1001)
+        inside = in_rock(levels)
+        if not inside.any():
+            return self.low
+        first = inside.argmax()
+        low, high = levels[first], levels[max(first - 1, 0)]
         for _ in range(60):
             middle = .5 * (low + high)
-            low, high = (middle, high) if np.radians(bound(middle)) < abs(angle) else (low, middle)
-        return min(high if np.radians(bound(self.low)) < abs(angle) else self.low, self.top - end_height)
+            low, high = (middle, high) if in_rock(middle) else (low, middle)
+        return high
 
 
 def crest_angles(dam, n):
@@ -204,7 +232,7 @@ def write(path, nodes, cells, sides):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser = argparse.ArgumentParser(prog="voussoir arcs", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("table", help="CSV; columns: " + ", ".join(COLUMNS))
     parser.add_argument("--output", required=True, help="the mesh, MSH 2.2")
     parser.add_argument("--joints", type=int, default=10)
@@ -233,8 +261,4 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except InputError as error:
-        print(f"arch_from_table: error: {error}", file=sys.stderr)
-        sys.exit(2)
+    end_with(main)

@@ -82,8 +82,8 @@ def head(page, runs):
     run, several = runs[0], len(runs) > 1
     title = " and ".join(run.scene for run in runs[:2]) if several and len({r.scene for r in runs}) > 1 else run.scene
     if len({r.scene for r in runs}) > 2:
-        title = f"{len(runs)} runs"
-    page.add(f'<header><h1>Earthquake analysis of the arch dam “{escape(title)}”</h1>')
+        title = ""
+    page.add(f'<header><h1>Earthquake analysis of {f"the arch dam “{escape(title)}”" if title else f"an arch dam: {len(runs)} runs"}</h1>')
     page.add(f'<p class="sub">{"Runs " + escape(", ".join(r.name for r in runs)) if several else escape(run.facts.get("Joints", run.law))}'
              f'</p><p class="sub">Computed {finished(run)} with Voussoir {escape(str(run.summary.get("version", "")))}</p></header>')
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The tables of a report, as HTML: numbers with units that engineers read, limits beside them."""
 
+import re
 from html import escape
 
 from runs import Skip
@@ -228,6 +229,8 @@ def facts(runs):
     rows = []
     for title in titles:
         texts = [run.facts.get(title, "–") for run in runs]
+        if len(runs) > 1:  # runs of one dam have the same mesh and static state, whatever they are called and however long they took
+            texts = [re.sub(r" \([\d.]+ s\)$", "", text.removeprefix(f"{run.scene}: ")) for run, text in zip(runs, texts)]
         rows.append(((title, *(texts if len(set(texts)) > 1 else texts[:1] + [""] * (len(runs) - 1))), len(set(texts)) > 1))
     if len(runs) == 1:
         return table(["", "as the program understood it"], rows)

@@ -1,17 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Test of an installation: a program of a user is built against it, and the installed program runs a scene with figures.
+"""Test of an installation: a program of a user is built against it, and the installed program runs a scene with figures; and of the
+Debian packages, what they say and hold (scripts/try_package.sh installs them in a clean root).
 
     program_install.py VOUSSOIR CASE... with the environment of the build: CMAKE, BUILD, BUILD_TYPE, CXX, GENERATOR
 """
 
 import os
+import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from run_program import expect, run_cases, summary, write_scene  # noqa: E402
+from run_program import VOUSSOIR, expect, run_cases, summary, write_scene  # noqa: E402
 
 USER = Path(__file__).resolve().parent / "user_project"
 
@@ -55,4 +58,37 @@ def install():
     does(program, str(prefix / "share/voussoir/prm/keys_law.prm"), "--validate", environment=environment)
 
 
-run_cases(install)
+def packages():
+    """CPack's two Debian packages: fields, files, and a page of the manual that names every command."""
+    tools = ("dpkg-deb", "dpkg-shlibdeps", "gzip")
+    if missing := [tool for tool in tools if shutil.which(tool) is None]:
+        print(f"not installed: {', '.join(missing)}")
+        sys.exit(77)
+    cpack = str(Path(os.environ["CMAKE"]).parent / "cpack")
+    does(cpack, "-G", "DEB", "--config", str(Path(os.environ["BUILD"]) / "CPackConfig.cmake"), "-B", "packages",
+         "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip")
+    version = does(VOUSSOIR, "--version").split()[1]
+    found = {name: Path("packages").glob(f"{name}_{version}_*.deb") for name in ("voussoir", "voussoir-dev")}
+    found = {name: [str(path) for path in paths] for name, paths in found.items()}
+    expect(all(len(paths) == 1 for paths in found.values()), f"{found}, {list(Path('packages').iterdir())}")
+    fields = {name: does("dpkg-deb", "-f", path) for name, (path,) in found.items()}
+    for name, parts in (("voussoir", ("Section: science", "python3-matplotlib", "libdeal.ii-", "libcholmod", "snakemake", "chromium")),
+                        ("voussoir-dev", ("Section: libdevel", "libdeal.ii-dev", "libfclib-dev"))):
+        for part in (f"Package: {name}\n", f"Version: {version}\n", "Maintainer: ", *parts):
+            expect(part in fields[name], f"{name} has no {part!r}: {fields[name]}")
+        print(f"    {name}: {re.search('Installed-Size: (.*)', fields[name])[1]} kB")
+    files = {name: {line.split()[5] for line in does("dpkg-deb", "-c", path).splitlines()} for name, (path,) in found.items()}
+    for name, parts in (("voussoir", ("bin/voussoir", "share/voussoir/scripts/report.py", "share/voussoir/prm/quickstart.prm", "share/man/man1/voussoir.1.gz",
+                                      "share/doc/voussoir/copyright", "share/doc/voussoir/changelog.gz", "share/doc/voussoir/doc/install.md")),
+                        ("voussoir-dev", ("include/voussoir/contact/joint_law.h", "share/doc/voussoir-dev/copyright"))):
+        for part in parts:
+            expect(f"./usr/{part}" in files[name], f"{name} does not hold {part}")
+    expect(not files["voussoir"] & {file for file in files["voussoir-dev"] if not file.endswith("/")}, "a file is in both packages")
+    manual = re.sub(r"\W+", " ", Path(os.environ["BUILD"], "debian", "voussoir.1").read_text())
+    commands = re.findall(r"^voussoir ([a-z]+) ", does(VOUSSOIR, "--help"), re.M)
+    expect(len(commands) > 9, f"{commands}")
+    for command in commands:
+        expect(f" {command} " in manual, f"the page of the manual does not know {command}")
+
+
+run_cases(install, packages)

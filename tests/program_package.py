@@ -15,7 +15,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from run_program import VOUSSOIR, expect, refused, run_cases, runs, write, write_scene
+from run_program import VOUSSOIR, expect, refused, run_cases, runs, summary, write, write_scene
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "scripts")]
@@ -97,10 +97,8 @@ def damaged(run, voussoir):
 
 def arcs():
     """Dams from tables of arcs: volumes against closed forms, and the two of meshes/."""
-    mesher = str(ROOT / "scripts" / "arch_from_table.py")
-
     def mesh(table, *options, status=0):
-        result = subprocess.run([sys.executable, mesher, table, "--output", "dam.msh", *options], capture_output=True, text=True)
+        result = subprocess.run([VOUSSOIR, "arcs", table, "--output", "dam.msh", *options], capture_output=True, text=True)
         expect(result.returncode == status, f"status {result.returncode}: {result.stdout}{result.stderr}")
         print("   ", (result.stdout + result.stderr).strip())
         return result.stdout + result.stderr
@@ -127,6 +125,19 @@ def arcs():
         write(f"{name}.csv", head + rows)
         expect(part in mesh(f"{name}.csv", status=2), name)
     write("column.csv", "elevation,thickness\n1,2\n")
+    # Radii that shrink downwards: columns stay in vertical planes normal to the crest, abutments are where the table has them
+    write("radii.csv", head + "285,-2,74,22,50,22,20\n345,-8,112,15,95,43,40\n405,0,150,6,144,51,48\n")
+    from arch_from_table import Dam, read_table
+    dam = Dam(read_table("radii.csv"))
+    for crest in (-.8, -.3, .2, .7):
+        foot = dam.foot(crest, 5.)
+        for z in (foot, .5 * (foot + 405), 405):
+            x, y, _ = dam.place(crest, z, 0.)
+            expect(abs((x - 150.) * math.sin(crest) + y * math.cos(crest)) < 1e-9, f"the column {crest} leans at {z} m: {x} {y}")
+        bound = math.radians(float(dam.at["left_angle" if crest > 0 else "right_angle"](foot)))
+        expect(foot == 285. or abs(abs(dam.on_arc(crest, foot)) - bound) < 2e-9, f"the foot of {crest} at {foot} m")
+    write("wider.csv", head + "285,-2,174,22,150,42,40\n405,0,150,6,144,45,42\n")
+    expect("open upwards" in mesh("wider.csv", status=2), "a valley that closes upwards")
     expect("upstream_x" in mesh("column.csv", status=2), "a missing column")
     write("twice.csv", head.replace("thickness", "thickness,thickness") + "0,0,100,20,20,80,30,40\n")
     expect("thickness is there twice" in mesh("twice.csv", status=2), "a column twice")
@@ -269,6 +280,16 @@ def notebook():
     expect(all(Path(f"output/notebook/{name}/summary.json").is_file() for name in ("fja", "fjb", "ksm", "play")), "runs")
 
 
+def tutorial_7_report():
+    tutorial("7_report")
+    page = Path("report.html").read_text()
+    expect(all(f"record_{n}" in page for n in (1, 2, 3)), "a run is not in the report")
+    static = summary("output/static")["extremes"]
+    tension = max(static[f"max_tension_{face}_above_foot"]["value"] for face in ("upstream", "downstream"))
+    print(f"    static tension {1e-6 * tension:.2f} MPa")
+    expect(tension < 1e6, f"the dam of the tutorial stands with {tension} Pa of tension")
+
+
 def editor():
     """Snippets are scenes, and the schema takes the defaults and refuses what the program refuses."""
     result = subprocess.run([sys.executable, str(ROOT / "scripts" / "editor.py"), "--output", "editor", "--voussoir", VOUSSOIR], capture_output=True, text=True)
@@ -317,4 +338,4 @@ def site():
 
 if __name__ == "__main__":
     run_cases(package, arcs, notebook, editor, site, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records, tutorial_4_rock, tutorial_5_own_law,
-              tutorial_6_study)
+              tutorial_6_study, tutorial_7_report)
