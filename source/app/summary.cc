@@ -63,17 +63,6 @@ namespace Voussoir
     return json;
   }
 
-  void Simulation::gather_per_rank()
-  {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const double n = std::max(1u, step - first_step);
-    per_rank.work = Ranks::of_all(Ranks::work() - per_rank.work_before);
-    per_rank.rock_work = Ranks::of_all(dam->foundation->work());
-    per_rank.messages = Ranks::of_all((Ranks::n_messages() - per_rank.messages_before) / n);
-    per_rank.memory = Ranks::of_all(1024. * usage.ru_maxrss);
-  }
-
   Json Simulation::json_per_rank() const
   {
     Json json;

@@ -211,6 +211,15 @@ namespace Voussoir
                   (side == 0 ? -1. : 1.) * structure.pairs[p].frame[i][c] * force[3 * p + i];
   }
 
+  /** Forces on the feet without those of the joints. */
+  void JointSystem::release_joints(FeetOfStep &of_step) const
+  {
+    feet->take_from(interface, of_step.force);
+    for (std::size_t k = 0; k < of_step.force.size(); ++k)
+      of_step.force[k] = of_step.place[k] - of_step.force[k];
+    feet->solve(of_step.force);
+  }
+
   ContactResult JointSystem::solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
                                    Unknowns &memory, Unknowns &force, Unknowns &gap, Unknowns &u,
                                    FeetOfStep *of_step)
@@ -234,12 +243,7 @@ namespace Voussoir
     ContactResult result;
     result.converged = true;
     if (feet)
-    {
-      feet->take_from(interface, of_step->force);
-      for (std::size_t k = 0; k < of_step->force.size(); ++k)
-        of_step->force[k] = of_step->place[k] - of_step->force[k];
-      feet->solve(of_step->force);
-    }
+      release_joints(*of_step);
     if (!sides.empty())
     {
       const Unknowns b = gaps_without_forces(offset, of_step ? of_step->force : Unknowns());

@@ -79,6 +79,7 @@ namespace Voussoir
     flexibility_of(unsigned int b, const std::vector<std::pair<unsigned int, unsigned int>> &sides_of_body);
     void          condense();
     Unknowns      gaps_without_forces(const Unknowns &offset, const Unknowns &foot_force) const;
+    void          release_joints(FeetOfStep &of_step) const;
     void          put_on_interface(const Unknowns &force);
     ContactResult solve_pairs(const Unknowns &b, const Unknowns &start, Unknowns &memory, Unknowns &force,
                               Unknowns &gap);

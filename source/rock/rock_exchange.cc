@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parts of a region's stiffness that several ranks have, and the forces that go between them.
+
+#include "rock_numbering.h"
+
+#include <numeric>
+
+namespace Voussoir
+{
+  void RockOperator::Numbering::share_blocks(const std::vector<std::size_t> &ends)
+  {
+    const unsigned int  n_blocks = ends.size(), n_ranks = Ranks::size();
+    std::vector<double> sum(n_blocks, 0.), count(n_blocks, 0.);
+    for (const auto &[i, b] : in_block)
+    {
+      sum[b] += i;
+      count[b] += 1.;
+    }
+    std::vector<unsigned int> by_place(n_blocks);
+    std::iota(by_place.begin(), by_place.end(), 0);
+    std::sort(by_place.begin(), by_place.end(),
+              [&](const unsigned int a, const unsigned int b)
+              { return std::make_pair(sum[a] / count[a], a) < std::make_pair(sum[b] / count[b], b); });
+    rank.resize(n_blocks);
+    std::size_t before = 0;
+    for (const unsigned int b : by_place)
+    {
+      const std::size_t n = ends[b] - (b == 0 ? 0 : ends[b - 1]);
+      rank[b] = std::min<std::size_t>(n_ranks - 1, (2 * before + n) * n_ranks / (2 * ends.back()));
+      before += n;
+    }
+  }
+
+  void RockOperator::find_partners(const RockSplit &split, const Numbering &numbering)
+  {
+    const unsigned int              me = Ranks::rank();
+    std::map<unsigned int, Partner> found;
+    const auto                      give = [&](const unsigned int from, const unsigned int i, const auto &at)
+    {
+      for (unsigned int r = 0; r < Ranks::size(); ++r)
+        if (r != from && (r == me || from == me) && split.is_stepped(i, r))
+        {
+          Partner &partner = found[r == me ? from : r];
+          partner.rank = r == me ? from : r;
+          (r == me ? partner.receive : partner.send).push_back(at());
+        }
+    };
+    for (const auto &[i, b] : numbering.in_block)
+      if (numbering.kind[i] == Numbering::own)
+        give(numbering.rank[b], i, [&, i = i] { return 3 * std::size_t(i); });
+      else if (numbering.kind[i] == Numbering::shared)
+        give(numbering.rank[b], i,
+             [&, i = i, b = b] {
+               return 3 * (std::size_t(n_nodes) + numbering.place.at({i, b}));
+             });
+    for (unsigned int i = 0; i < n_nodes; ++i)
+      if (numbering.kind[i] == Numbering::of_matrix)
+        give(split.owner(i), i, [&] { return 3 * std::size_t(i); });
+    for (auto &[r, partner] : found)
+    {
+      partner.out.resize(3 * partner.send.size());
+      partner.in.resize(3 * partner.receive.size());
+      partners.push_back(std::move(partner));
+    }
+  }
+
+  std::size_t RockOperator::n_sent() const
+  {
+    std::size_t n = 0;
+    for (const Partner &partner : partners)
+      n += partner.out.size();
+    return n;
+  }
+
+  /** The forces of other ranks' cells on the nodes that this one steps. */
+  void RockOperator::exchange(double *y) const
+  {
+    const auto force = [&](const std::size_t at)
+    { return at < 3 * std::size_t(n_nodes) ? y + at : shared_force.data() + at - 3 * std::size_t(n_nodes); };
+    std::vector<Ranks::Message> messages;
+    for (const Partner &partner : partners)
+    {
+      for (std::size_t k = 0; k < partner.send.size(); ++k)
+        std::copy_n(force(partner.send[k]), 3, partner.out.begin() + 3 * k);
+      messages.push_back(
+          {partner.rank, partner.out.data(), partner.out.size(), partner.in.data(), partner.in.size()});
+    }
+    Ranks::exchange(messages);
+    for (const Partner &partner : partners)
+      for (std::size_t k = 0; k < partner.receive.size(); ++k)
+        std::copy_n(partner.in.begin() + 3 * k, 3, force(partner.receive[k]));
+  }
+} // namespace Voussoir
