@@ -96,7 +96,7 @@ namespace Voussoir
     joint_file.append(joints->history);
     if (blocks)
     {
-      blocks->record(state.time);
+      blocks->record(newmark->state().time);
       block_file.append(blocks->history);
     }
     if (scene.output.solution_interval > 0 && step % scene.output.solution_interval == 0)

@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scaling on paper: how fast three sizes of dam and rock would run on 1 to 1,000 nodes, from costs measured on this machine.
+
+Usage: benchmarks/scaling.py --measure [--voussoir build/voussoir] [--messages build/benchmark_messages]
+       benchmarks/scaling.py [--output doc/figures/scaling.png]
+The first writes doc/scaling.json: the stages of rigid28 and rock28 on one rank and one thread, messages and their cost on two ranks.
+The second prints the tables of doc/scaling.md from it, and draws the figure. Only the network and the larger sizes are not measured.
+"""
+import argparse
+import json
+import math
+import os
+import re
+import subprocess
+import tempfile
+
+from ranks import ROOT, run
+
+COSTS = os.path.join(ROOT, "doc", "scaling.json")
+CORES = 48                              # of a node
+LATENCY, BANDWIDTH = 2e-6, 10e9         # between nodes: assumed, as of InfiniBand [s, bytes/s]
+MONOLITHS = 29
+# Name, unknowns of the dam and of the rock, step of the dam [s], steps of the rock in one of the dam.
+SIZES = (("rock28", 66e3, 326e3, .005, 4), ("1.1 M, 30 M", 1.1e6, 30e6, .002, 4), ("5 M, 300 M", 5e6, 300e6, .001, 4))
+
+
+def measure(arguments):
+    costs = {}
+    with tempfile.TemporaryDirectory() as directory:
+        for name in ("rigid28", "rock28"):
+            scene = os.path.join(ROOT, "prm", f"{name}.prm")
+            one = run(arguments.voussoir, scene, ["Motion/Duration=1"], f"{directory}/{name}")
+            two = run(arguments.voussoir, scene, ["Motion/Duration=1"], f"{directory}/{name}_2", ranks=2)
+            costs[name] = {"dam": one["mesh"]["dofs"], "rock_dofs": one.get("rock", {}).get("dofs", 0),
+                           "messages": max(two["per_rank"]["messages_per_step"]),
+                           "krylov": one["newton_iterations"]["linear_iterations_mean"], "pairs": one["mesh"]["pairs"],
+                           **{stage if stage != "rock" else "rock_seconds": one["seconds"][stage] / one["steps"]
+                              for stage in ("sweeps", "joints", "stepping", "rock", "stresses", "output")}}
+    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    text = subprocess.run(["mpirun", "-np", "2", arguments.messages], check=True, capture_output=True, text=True,
+                          env=environment).stdout
+    rows = [[float(x) for x in row] for row in re.findall(r"\| (\d+) \| ([\d.]+) \| ([\d.]+) \|", text)]
+    costs["latency"] = 1e-6 * rows[0][1]
+    costs["bandwidth"] = 8e6 * rows[-1][0] / rows[-1][1]
+    with open(COSTS, "w", encoding="utf-8") as file:
+        json.dump(costs, file, indent=1)
+        file.write("\n")
+    print(f"{COSTS} written")
+
+
+def seconds_per_second(costs, size, ranks):
+    """Of wall time per second of earthquake: dam, rock, what all ranks do alike, messages."""
+    _, dam, rock, step, substeps = size
+    dam_costs, rock_costs = costs["rigid28"], costs["rock28"]
+    ratio = dam / dam_costs["dam"]
+    # The joints' and the sweeps' time grows with N^1.31 as measured to 135 thousand unknowns, then as scale.md tells.
+    growth = ratio**1.31 if dam < 135e3 else (135e3 / dam_costs["dam"])**1.31 * (dam / 135e3)**1.55
+    shared = (dam_costs["sweeps"] + dam_costs["joints"]) * growth + dam_costs["stresses"] * ratio
+    on_dam = min(ranks, MONOLITHS)
+    alike = (dam_costs["stepping"] + dam_costs["output"]) * ratio
+    of_rock = rock_costs["rock_seconds"] * rock / rock_costs["rock_dofs"] * substeps / 4. / ranks
+    nodes = max(1, math.ceil(ranks / CORES))
+    latency, bandwidth = (costs["latency"], costs["bandwidth"]) if nodes == 1 else (LATENCY, BANDWIDTH)
+    hops = math.log2(ranks) if ranks > 1 else 0.
+    pairs = dam_costs["pairs"] * ratio**(2 / 3)
+    gathered = 16. * dam + 3 * pairs * (8. * 8. + 2 * 4. * 8.) # u and K u; forces, and the vectors of GMRES
+    surface = 2 * 24. * (rock / 3 / ranks)**(2 / 3) * substeps if ranks > 1 else 0.
+    messages = rock_costs["messages"] * latency * hops + ((gathered if ranks > 1 else 0.) + surface) / bandwidth
+    return [x / step for x in (shared / on_dam, of_rock, alike, messages)]
+
+
+def memory_per_rank(size, ranks):
+    """[GiB]: the factors' share, and what every rank has of the rock: ten numbers per unknown."""
+    _, dam, rock, _, _ = size
+    return .15 + (.32 * (dam / 54180)**1.5 / min(ranks, MONOLITHS)) + 80. * rock / 2**30
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+    parser.add_argument("--measure", action="store_true")
+    parser.add_argument("--voussoir", default=os.path.join(ROOT, "build", "voussoir"))
+    parser.add_argument("--messages", default=os.path.join(ROOT, "build", "benchmark_messages"))
+    parser.add_argument("--output", default=os.path.join(ROOT, "doc", "figures", "scaling.png"))
+    arguments = parser.parse_args()
+    if arguments.measure:
+        return measure(arguments)
+    with open(COSTS, encoding="utf-8") as file:
+        costs = json.load(file)
+    ranks = [1, 2, 4, 8, 16, 32] + [CORES * n for n in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)]
+    print("| size | ranks | nodes | s per s | dam | rock | all alike | messages | memory per rank [GiB] |\n|" + "---|" * 9)
+    curves = {}
+    for size in SIZES:
+        for n in ranks:
+            parts = seconds_per_second(costs, size, n)
+            curves.setdefault(size[0], []).append((n, sum(parts)))
+            if n in (1, 4, 32, CORES, 10 * CORES, 100 * CORES, 1000 * CORES):
+                print(f"| {size[0]} | {n} | {max(1, math.ceil(n / CORES))} | {sum(parts):.3g} | "
+                      + " | ".join(f"{x:.2g}" for x in parts) + f" | {memory_per_rank(size, n):.2g} |")
+    print("\nWeak scaling: rock of 10 thousand unknowns per rank, the dam of rock28, s per s:",
+          ", ".join(f"{n} ranks {sum(seconds_per_second(costs, ('', 66e3, 1e4 * n, .005, 4), n)):.2g}" for n in (1, 48, 480, 4800)))
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+    figure, axes = pyplot.subplots(figsize=(6.4, 4.2), constrained_layout=True)
+    for (name, points), colour in zip(curves.items(), ("#1b6ca8", "#c8553d", "#3a7d44")):
+        axes.loglog(*zip(*points), "o-", color=colour, markersize=3.5, label=name)
+        axes.loglog([1, 48000], [points[0][1], points[0][1] / 48000], ":", color=colour, linewidth=.8)
+    axes.axvline(MONOLITHS, color="grey", linewidth=.8)
+    axes.text(MONOLITHS * 1.15, axes.get_ylim()[1] / 2.5, "one monolith\nper rank", fontsize=8, color="grey")
+    axes.set(xlabel="ranks, one core each (48 to a node)", ylabel="wall time per second of earthquake [s]",
+             ylim=(1e-2, None), title="On paper, from measured costs; dotted: ideal")
+    axes.legend(title="dam, rock: unknowns", frameon=False)
+    figure.savefig(arguments.output, dpi=150)
+
+
+if __name__ == "__main__":
+    main()
