@@ -18,7 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 OTHERS = ("CONTRIBUTING.md", "CITATION.cff", "LICENSE")
-METHOD = ("install", "release_0.3.0", "method", "output", "report", "mesh", "loads", "accuracy", "failures", "studies", "python", "changes")
+METHOD = ("install", "release_0.3.0", "method", "output", "report", "mesh", "loads", "accuracy", "failures", "parallel", "studies", "python", "changes")
 
 
 def title_of(page):
