@@ -190,6 +190,27 @@ namespace Voussoir
     gather_any(data, begin);
   }
 
+  void Ranks::gather(float *a, float *b, const std::vector<std::size_t> &begin)
+  {
+    if (n_ranks == 1)
+      return;
+    std::vector<float>       both(2 * begin.back());
+    std::vector<std::size_t> parts(begin);
+    for (std::size_t &i : parts)
+      i *= 2;
+    const auto part = [&](const unsigned int r, const bool second)
+    { return both.data() + begin[r] + begin[second ? r + 1 : r]; };
+    const std::size_t first = begin[this_rank], n = begin[this_rank + 1] - first;
+    std::copy_n(a + first, n, part(this_rank, false));
+    std::copy_n(b + first, n, part(this_rank, true));
+    gather_any(both.data(), parts);
+    for (unsigned int r = 0; r < n_ranks; ++r)
+    {
+      std::copy_n(part(r, false), begin[r + 1] - begin[r], a + begin[r]);
+      std::copy_n(part(r, true), begin[r + 1] - begin[r], b + begin[r]);
+    }
+  }
+
   void Ranks::gather(unsigned int *data, const std::vector<std::size_t> &begin)
   {
     gather_any(data, begin);

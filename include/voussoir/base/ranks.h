@@ -34,6 +34,7 @@ namespace Voussoir
     /** @p data from begin[r] to begin[r + 1] is what rank r has made: all get all of it. */
     void gather(double *data, const std::vector<std::size_t> &begin);
     void gather(float *data, const std::vector<std::size_t> &begin);
+    void gather(float *a, float *b, const std::vector<std::size_t> &begin); ///< of two in one message
     void gather(unsigned int *data, const std::vector<std::size_t> &begin);
 
     void broadcast(double *data, std::size_t n, unsigned int root);

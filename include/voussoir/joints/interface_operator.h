@@ -172,8 +172,8 @@ namespace Voussoir
                     ++product;
                   });
     }
-    gather(x);
-    gather(Wx);
+    if (!share.are_trivial())
+      Ranks::gather(x.data(), Wx.data(), share.parts(offset));
   }
 } // namespace Voussoir
 
