@@ -11,9 +11,11 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <unistd.h>
 
 namespace Voussoir
 {
@@ -31,15 +33,32 @@ namespace Voussoir
           return {std::atoi(std::getenv(rank)), std::atoi(std::getenv(size))};
       return {0, 1};
     }
+
+    /** This process is alone, and so are the programs that it starts (scripts, and the runs that these
+     * start): else each would wait for the other ranks. */
+    void forget_launcher()
+    {
+      std::vector<std::string> names = {"SLURM_PROCID", "SLURM_STEP_NUM_TASKS"};
+      for (char **entry = environ; *entry != nullptr; ++entry)
+      {
+        const std::string name(*entry, std::strcspn(*entry, "="));
+        for (const std::string begin : {"OMPI_COMM_WORLD_", "OMPI_MCA_", "OMPI_UNIVERSE_", "PMIX_", "PMI_"})
+          if (name.compare(0, begin.size(), begin) == 0)
+            names.push_back(name);
+      }
+      for (const std::string &name : names)
+        unsetenv(name.c_str());
+    }
   } // namespace
 
   namespace
   {
     /** Does what the words say; returns the status, and what is to be told of an error. */
-    std::pair<int, std::string> run_guarded(const std::vector<std::string> &words)
+    std::pair<int, std::string> run_guarded(const std::vector<std::string> &words, const int n_ranks)
     {
       try
       {
+        Ranks::start(n_ranks);
         const int status = run_command(words);
         errno = 0;
         if ((!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) && errno != EPIPE)
@@ -79,15 +98,16 @@ namespace Voussoir
   {
     // Nothing of a single process needs MPI, which takes longer to start than many a command to run.
     dealii::MultithreadInfo::set_thread_limit(1);
-    if (const auto [rank, n_ranks] = rank_of_launcher(); n_ranks > 1)
+    const auto [rank, n_launched] = rank_of_launcher();
+    const bool is_shared = n_launched > 1 && runs_scene(words);
+    if (n_launched > 1 && !is_shared)
     {
-      if (runs_scene(words))
-        Ranks::start(n_ranks);
-      else if (rank != 0)
+      if (rank != 0)
         return 0; // the first one does alone what is not a run
+      forget_launcher();
     }
     std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of the write
-    const auto [status, message] = run_guarded(words);
+    const auto [status, message] = run_guarded(words, is_shared ? n_launched : 1);
     if (!message.empty())
       std::cerr << message << std::endl;
     return Ranks::finish(status, message);

@@ -44,9 +44,22 @@ namespace Voussoir
     }
   } // namespace
 
+  /** One run is started with one command, on machines that see the same files. */
+  void Simulation::check_ranks() const
+  {
+    std::string text = scene_text + directory + (options.resume ? " resume" : "") +
+                       (options.validate ? " validate" : "") + (options.overwrite ? " overwrite" : "");
+    for (const auto &[name, value] : provenance)
+      text += name + value;
+    if (!Ranks::have_same(text))
+      throw InputError("The ranks of this run have different scenes: start all with the same command, where "
+                       "all see the same program, scene and files.");
+  }
+
   void Simulation::run()
   {
     provenance = provenance_now();
+    check_ranks();
     if (options.validate && options.resume)
       open_checkpoint();
     if (!options.validate)
@@ -138,7 +151,7 @@ namespace Voussoir
         }
       }
       gather_per_rank();
-      Ranks::on_first(
+      record_on_first(
           [this]
           {
             write_results();

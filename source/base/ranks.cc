@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
 #include <voussoir/base/ranks.h>
 
 #include <algorithm>
@@ -137,6 +138,14 @@ namespace Voussoir
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
+    if (size != static_cast<int>(n))
+    {
+      MPI_Finalize();
+      throw InputError(
+          "This is one of " + std::to_string(n) + " processes, but the program's MPI knows of " +
+          std::to_string(size) +
+          ": start it with the mpirun of the MPI that it was built with (with srun: --mpi=pmix).");
+    }
     this_rank = rank;
     n_ranks = size;
     share_cores();
@@ -234,6 +243,12 @@ namespace Voussoir
       MPI_Allreduce(MPI_IN_PLACE, &bits, 1, MPI_UNSIGNED, MPI_BOR, MPI_COMM_WORLD);
     }
     return bits;
+  }
+
+  bool Ranks::have_same(const std::string &text)
+  {
+    const auto digest = static_cast<unsigned int>(std::hash<std::string>()(text));
+    return any(any(digest) == digest ? 0 : 1) == 0; // of two digests one is not the or of both
   }
 
   void Ranks::on_first(const std::function<void()> &action)

@@ -182,7 +182,7 @@ namespace Voussoir
         a[k] = 2. / grid.dt * (v_new - v[k]) - a[k];
         v[k] = v_new;
       }
-    keep_account();
+    keep_account(state.time);
   }
 
   std::vector<unsigned int> ExplicitRock::feet_of_rock() const
@@ -193,11 +193,12 @@ namespace Voussoir
     return result;
   }
 
-  void ExplicitRock::keep_account()
+  void ExplicitRock::keep_account(const double time)
   {
     region->gather_energy();
     constexpr unsigned int interval = 10; // of the steps at which somebody looks, see StabilityWatch
-    if (region->is_split() && bounds.velocity > 0. && ++n_followed % interval == 0)
+    const auto             step = static_cast<unsigned int>(std::lround(time / grid.dt));
+    if (region->is_split() && bounds.velocity > 0. && (step % interval == 0 || step == grid.n))
     {
       const Unknowns &u = region->displacement(), &w = region->half_step_velocity();
       if (Ranks::any(find_excess(w, bounds.velocity) < w.size() ||

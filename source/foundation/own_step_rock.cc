@@ -171,7 +171,7 @@ namespace Voussoir
       a[c] = 2. / grid.dt * (mean[c] - v[c]) - a[c];
       v[c] = mean[c];
     }
-    keep_account();
+    keep_account(state.time);
   }
 
   std::vector<std::vector<double> *> OwnStepRock::state()

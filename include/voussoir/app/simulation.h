@@ -42,6 +42,7 @@ namespace Voussoir
     void run();
 
   private:
+    void              check_ranks() const;
     void              read_input();
     void              begin_files();
     TimeGrid          grid() const { return {motion.dt, scene.foundation.substeps, n_steps}; }

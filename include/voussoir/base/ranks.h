@@ -23,7 +23,8 @@ namespace Voussoir
       return rank() == 0;
     }
 
-    /** Makes this process one of @p n, by MPI; others than the first lose their screen. */
+    /** Makes this process one of @p n, by MPI; others than the first lose their screen. InputError if MPI
+     * does not know of so many. */
     void start(unsigned int n);
 
     /** To be called once at the end by all. With status 0 it waits for all others. With an error, that ranks
@@ -42,6 +43,9 @@ namespace Voussoir
 
     /** The or of all ranks' @p bits. */
     unsigned int any(unsigned int bits);
+
+    /** Have all ranks the same @p text? */
+    bool have_same(const std::string &text);
 
     /** Messages of this process so far; one call counts once. */
     std::size_t n_messages();

@@ -39,8 +39,8 @@ namespace Voussoir
   {
   public:
     /** @p support: what the dam's feet stand on if that makes steps of its own, or null; it must outlive
-     * this. Steps are halved down to one of its own then, at most three times, and it is to be where the dam is at the start.
-     * InputError for laws, and a support, that need the rule mean-force without it. */
+     * this. Steps are halved down to one of its own then, at most three times, and it is to be where the dam
+     * is at the start. InputError for laws, and a support, that need the rule mean-force without it. */
     Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters, double dt,
             ImpactRule rule, Support *support = nullptr);
 

@@ -91,7 +91,7 @@ namespace Voussoir
     /** @p of_first: nodes that the first rank asks for, besides the feet, which all do. */
     void                      make_rock(const GroundMotion &outcrop, const TimeGrid &steps, double delay,
                                         const std::vector<unsigned int> &of_first = {});
-    void                      keep_account();
+    void                      keep_account(double time);
     std::vector<unsigned int> feet_of_rock() const; ///< nodes of the region
 
   private:
@@ -122,7 +122,6 @@ namespace Voussoir
     std::vector<double> account = {0., 0., 0.}; ///< work on the dam, largest energy, largest imbalance [J]
     WatchBounds         bounds;
     double              energy_bound = 0.; ///< that the rock may take in [J]
-    unsigned int        n_followed = 0;    ///< steps
   };
 } // namespace Voussoir
 
