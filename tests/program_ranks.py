@@ -132,6 +132,19 @@ def checkpoint():
         run_program.same(name, f"{name}_whole", 2e-7)
 
 
+def last_write():
+    """The last files cannot be written: the state that is kept is that of all ranks, also of the rock."""
+    write_scene()
+    longer = [*ROCK, *settings("Motion/Duration=0.5")]
+    Path("end/summary.json").mkdir(parents=True)
+    status, _, error = on_ranks(2, "scene.prm", "--output", "end", "--overwrite", *ROCK)
+    expect(status == 1 and "summary.json" in error and "is kept" in error, f"status {status}: {error}")
+    Path("end/summary.json").rmdir()
+    runs("scene.prm", "--output", "end", "--resume", *longer, environment={"OMP_NUM_THREADS": "1"})
+    runs("scene.prm", "--output", "whole", *longer, environment={"OMP_NUM_THREADS": "1"})
+    run_program.same("end", "whole", 2e-7)
+
+
 def stopped():
     """A signal to one of the ranks: all keep the state and stop."""
     write_scene()
@@ -170,6 +183,11 @@ def errors():
         expect(error.count("voussoir: ") - error.count("voussoir: warning") == 1 and part in error, f"{arguments}: {error}")
         expect(got == status or status is None and got in (1, 2), f"{arguments}: status {got}: {error}")
         expect(time.time() - began < 60, f"{arguments} took {time.time() - began} s")
+    # Ranks with different scenes are none of one run.
+    two = launcher(1)[:-1] + [run_program.VOUSSOIR, "scene.prm", "--output", "mixed"]
+    result = subprocess.run([*two, ":", "-np", "1", *two[two.index("-np") + 2:], *settings("Motion/Factor=2")], capture_output=True,
+                            text=True, timeout=120, env={**os.environ, **ROOT})
+    expect(result.returncode == 2 and "different scenes" in result.stderr, f"{result.returncode}: {result.stderr}")
     # What is not a run is done by the first rank.
     status, out, error = on_ranks(2, "--version")
     expect(status == 0 and out.count("Voussoir") == 1, out + error)
@@ -180,4 +198,4 @@ def errors():
 
 
 if __name__ == "__main__":
-    run_cases(rigid, rock, checkpoint, stopped, errors)
+    run_cases(rigid, rock, checkpoint, last_write, stopped, errors)
