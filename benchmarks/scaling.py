@@ -108,7 +108,7 @@ def main():
         axes.loglog(*zip(*points), "o-", color=colour, markersize=3.5, label=name)
         axes.loglog([1, 48000], [points[0][1], points[0][1] / 48000], ":", color=colour, linewidth=.8)
     axes.axvline(MONOLITHS, color="grey", linewidth=.8)
-    axes.text(MONOLITHS * 1.15, axes.get_ylim()[1] / 2.5, "one monolith\nper rank", fontsize=8, color="grey")
+    axes.text(MONOLITHS * 1.15, .97, "one monolith\nper rank", fontsize=8, color="grey", va="top", transform=axes.get_xaxis_transform())
     axes.set(xlabel="ranks, one core each (48 to a node)", ylabel="wall time per second of earthquake [s]",
              ylim=(1e-2, None), title="On paper, from measured costs; dotted: ideal")
     axes.legend(title="dam, rock: unknowns", frameon=False)
