@@ -320,7 +320,8 @@ namespace Voussoir
     for (Unknowns *values : {&field, &field_before, &field_next})
       split.collect(*values, 3, node);
     for (auto *values : boundary->state())
-      split.collect(*values, 3, node);
+      if (values->size() == 3 * node.size())
+        split.collect(*values, 3, node);
   }
 
   RegionStep ExplicitRegion::step_of_region()

@@ -64,14 +64,6 @@ namespace Voussoir
     }
   }
 
-  std::size_t RockOperator::n_sent() const
-  {
-    std::size_t n = 0;
-    for (const Partner &partner : partners)
-      n += partner.out.size();
-    return n;
-  }
-
   /** The forces of other ranks' cells on the nodes that this one steps. */
   void RockOperator::exchange(double *y) const
   {

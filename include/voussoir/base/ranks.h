@@ -109,9 +109,7 @@ namespace Voussoir
     {
       return owners.empty() ? Ranks::rank() : owners[item];
     }
-    bool         is_mine(const unsigned int item) const { return owner(item) == Ranks::rank(); }
-    unsigned int begin() const { return first[Ranks::rank()]; } ///< of the own part, if not trivial
-    unsigned int end() const { return first[Ranks::rank() + 1]; }
+    bool is_mine(const unsigned int item) const { return owner(item) == Ranks::rank(); }
 
     /** Where the parts begin in an array that has @p offset of the items. */
     template <class Offsets> std::vector<std::size_t> parts(const Offsets &offset) const

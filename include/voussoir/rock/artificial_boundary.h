@@ -35,13 +35,13 @@ namespace Voussoir
     /** Free field at t - dt, t and t + dt at free_field_nodes() of the boundary [m]; empty without a wave. */
     const Unknowns &field_before, &field, &field_next;
 
-    Unknowns            &w;    ///< (u(t + dt) - u(t)) / dt: to be set at the boundary's nodes [m/s]
-    std::vector<double> &work; ///< by chunk of nodes and RegionWork: see add_work() [J]
+    Unknowns            &w;              ///< (u(t + dt) - u(t)) / dt: to be set at the boundary's nodes [m/s]
+    std::vector<double> &work_of_chunks; ///< of nodes, by RegionWork: see add_work() [J]
 
     /** If K_u is not empty: @p done at one of the nodes, by other nodes in their order. */
     void add_work(const RegionWork kind, const unsigned int node, const double done) const
     {
-      work[n_region_works * (node / RockSplit::per_chunk) + kind] += done;
+      work_of_chunks[n_region_works * (node / RockSplit::per_chunk) + kind] += done;
     }
   };
 
@@ -101,7 +101,8 @@ namespace Voussoir
     /** For each of free_field_nodes(), and what it remembers of them, the node whose owner has it. */
     virtual std::vector<unsigned int> nodes_of_points() const { return free_field_nodes(); }
 
-    /** All that it remembers, for checkpoints; of each of free_field_nodes() three numbers. */
+    /** All that it remembers, for checkpoints; arrays of three numbers for each of free_field_nodes() are
+     * gathered from the owners of nodes_of_points(), all others are to be the same on all ranks. */
     virtual std::vector<std::vector<double> *> state() { return {}; }
   };
 

@@ -70,8 +70,6 @@ namespace Voussoir
     /** With several ranks: what state() has is the whole region's after that, on the first rank. */
     void collect();
 
-    const RockOperator &stiffness_operator() const { return stiffness; }
-
     /** One step, to t + dt. @p u, @p v: predicted displacement [m] and velocity [m/s] of the prescribed nodes
      * at t + dt, three values each, in the order of set_prescribed(). Returns what the region's elements and
      * their damping take from these nodes, K u + C v [N]. */

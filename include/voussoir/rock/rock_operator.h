@@ -41,10 +41,6 @@ namespace Voussoir
                  const std::vector<NodalCell> &cells, const std::vector<bool> &has_row, NodalKernel kernel,
                  RockSplit &split);
 
-    /** Numbers that a product sends, and messages. */
-    std::size_t n_sent() const;
-    std::size_t n_partners() const { return partners.size(); }
-
     /** y = K x; both arrays have 3 n_rows() entries. */
     void multiply(const double *x, double *y) const;
 

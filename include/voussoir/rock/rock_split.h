@@ -46,7 +46,7 @@ namespace Voussoir
     /** The same for values of chunks. */
     void gather_chunks(std::vector<double> &data, unsigned int n) const;
 
-    /** The first rank gets from the owner of its @p node each of the items, of @p n numbers. */
+    /** All ranks get from the owner of its @p node each of the items, of @p n numbers. */
     void collect(std::vector<double> &data, unsigned int n, const std::vector<unsigned int> &node) const;
 
   private:
