@@ -184,11 +184,17 @@ def errors():
         expect(error.count("voussoir: ") - error.count("voussoir: warning") == 1 and part in error, f"{arguments}: {error}")
         expect(got == status or status is None and got in (1, 2), f"{arguments}: status {got}: {error}")
         expect(time.time() - began < 60, f"{arguments} took {time.time() - began} s")
-    # Ranks with different scenes are none of one run.
-    two = launcher(1)[:-1] + [run_program.VOUSSOIR, "scene.prm", "--output", "mixed"]
-    result = subprocess.run([*two, ":", "-np", "1", *two[two.index("-np") + 2:], *settings("Motion/Factor=2")], capture_output=True,
-                            text=True, timeout=120, env={**os.environ, **ROOT})
+    # Ranks with different scenes are none of one run; an error of one rank alone ends the others, who wait for it.
+    def apart(first, second):
+        return subprocess.run([*launcher(1), *first, ":", "-np", "1", run_program.VOUSSOIR, *second], capture_output=True, text=True,
+                              timeout=120, env={**os.environ, **ROOT})
+
+    scene = ["scene.prm", "--output", "mixed"]
+    result = apart(scene, [*scene, *settings("Motion/Factor=2")])
     expect(result.returncode == 2 and "different scenes" in result.stderr, f"{result.returncode}: {result.stderr}")
+    result = apart(scene, ["missing.prm", *scene[1:]])
+    expect(result.returncode == 2 and result.stderr.count("missing.prm") == 1 and "(rank 1)" in result.stderr,
+           f"{result.returncode}: {result.stderr}")
     # What is not a run is done by the first rank.
     status, out, error = on_ranks(2, "--version")
     expect(status == 0 and out.count("Voussoir") == 1, out + error)
