@@ -258,8 +258,11 @@ namespace
       R.add(0, 0, {1e9, 0., 0., 0., 1e9, 0., 0., 0., 1e9});
       return R;
     }
-    Unknowns predict(unsigned int) override { return {0., 0., 0.}; }
-    void     push(const unsigned int n, const Unknowns &, double) override { pushes.push_back(n); }
+    Unknowns predict(unsigned int, const Unknowns &) override { return {0., 0., 0.}; }
+    void     push(const unsigned int n, const Unknowns &, const Unknowns &, double) override
+    {
+      pushes.push_back(n);
+    }
 
   private:
     const std::vector<unsigned int> node = {0};

@@ -107,7 +107,7 @@ namespace
       rock = std::max(rock, foundation.balance_error());
       interface = std::max(interface, std::abs(foundation.work_of_feet() + foundation.work_on_dam()));
       auto          &own = dynamic_cast<OwnStepRock &>(foundation);
-      const Unknowns places = own.predict(0); // where they are
+      const Unknowns places = own.predict(0, {}); // where they are
       for (std::size_t k = 0; k < places.size(); ++k)
       {
         const double u = newmark.state().u[3 * std::size_t(own.feet()[k / 3]) + k % 3];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/memory_need.h>
 #include <voussoir/base/ranks.h>
+#include <voussoir/dam/dam.h>
 #include <voussoir/joints/body_factor.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/mesh/mesh_source.h>
@@ -119,6 +120,13 @@ namespace Voussoir
       return 9. * feet * (2. * feet + joints);
     }
 
+    /** Of massless rock, which couples all feet: their compliance and the factor of what eliminates them. */
+    double of_dense_feet(const std::vector<bool> &on_base)
+    {
+      const double unknowns = 3. * std::count(on_base.begin(), on_base.end(), true);
+      return 2. * unknowns * unknowns;
+    }
+
     /** @p m: unknowns of each joint. */
     void add_operator(const std::vector<Joint> &joints, const std::vector<double> &m, Factors &factors)
     {
@@ -176,18 +184,19 @@ namespace Voussoir
       const std::vector<Joint> joints = joints_of(opened);
       const bool               tied = all_tied(scene, joints);
       const HexMesh            dam = tied ? close_joints(opened) : opened;
-      const bool               massless = scene.foundation.model == "massless";
-      const std::vector<bool>  on_base =
+      const bool massless = scene.foundation.model == "massless", one_body = Dam::is_one_body(scene, tied);
+      const std::vector<bool> on_base =
           nodes_on(dam, [](const int surface) { return surface == PhysicalId::base; });
       const std::vector<bool> held =
           scene.foundation.model == "rigid" ? on_base : std::vector<bool>(dam.nodes.size(), false);
-      const bool own_steps = scene.foundation.model == "rock" && scene.foundation.has_own_steps();
+      const bool led =
+          (scene.foundation.model == "rock" && scene.foundation.has_own_steps()) || (massless && !one_body);
       const std::vector<bool> in_pair =
           nodes_on(dam, [&](const int surface)
-                   { return is_joint_side(surface) || (own_steps && surface == PhysicalId::base); });
+                   { return is_joint_side(surface) || (led && surface == PhysicalId::base); });
       std::set<int> volumes;
       for (const HexMesh::Cell &cell : dam.cells)
-        volumes.insert(tied || massless ? 1 : cell.volume);
+        volumes.insert(tied || (massless && one_body) ? 1 : cell.volume);
       // Of elements of degree 2: nodes, blocks, entries of factors, and of what lies on surfaces squared.
       const bool   quadratic = scene.elements.degree == 2;
       const double nodes_2 = quadratic ? 8. : 1., blocks_2 = quadratic ? 19. : 1.,
@@ -199,24 +208,26 @@ namespace Voussoir
         Graph graph = graph_of(
             dam, [&](const HexMesh::Cell &cell) { return volumes.size() == 1 || cell.volume == volume; },
             held, in_pair);
-        if (massless)
+        if (massless && one_body)
           couple(on_base, graph);
         const FactorSize size = factor_size(graph.neighbours, graph.is_interface);
         factors.entries += entries_2 * size.entries;
         factors.dense += surface_2 * size.interface;
         factors.kept += surface_2 * size.kept;
         of_body.push_back(entries_2 * size.entries + surface_2 * (size.kept + 2. * size.interface));
-        if (own_steps)
+        if (led)
           factors.feet += of_feet(graph, on_base);
         n_nodes += nodes_2 * graph.neighbours.size();
         n_blocks += blocks_2 * graph.n_blocks();
       }
       factors.share = largest_share(of_body);
+      if (massless && led)
+        factors.feet += of_dense_feet(on_base);
       if (!tied)
-        add_operator(joints, joint_unknowns(dam, joints, own_steps ? on_base : held), factors);
+        add_operator(joints, joint_unknowns(dam, joints, led ? on_base : held), factors);
       factors.operators *= surface_2;
       factors.diagonal *= surface_2;
-      if (own_steps && !tied)
+      if (led && !tied)
         factors.feet += factors.operators; // a second one while the feet are eliminated
       return 2. * block * n_blocks + per_cell * dam.cells.size() + per_node * n_nodes; // stiffness, stress
     }

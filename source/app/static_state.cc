@@ -71,6 +71,7 @@ namespace Voussoir
     const Stopwatch  watch;
     const Structure &structure = dam->structure;
     const Unknowns   springs = dam->foundation->static_springs(structure);
+    const auto       feet = dam->foundation->static_feet(dam->structure);
     const StaticPath path(*dam);
     const auto       free = make_free_law();
     statics.force.assign(3 * structure.pairs.size(), 0.);
@@ -93,7 +94,7 @@ namespace Voussoir
         close_pairs(structure, before, grouted, statics.u, statics.closed, gap);
         parameters.write_problems = scene.contact.write_problems && grouted == INFINITY;
         system = std::make_unique<JointSystem>(structure, laws_up_to(grouted, *dam, *free), parameters, 0.,
-                                               1., 0., ForceMeaning(), springs);
+                                               1., 0., ForceMeaning(), springs, feet.get());
       }
       statics.contact += static_step(path, i, *system, water.get(), springs, gap);
       record_static_step(path, i, *system, water.get(), gap);

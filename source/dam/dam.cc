@@ -41,16 +41,16 @@ namespace Voussoir
     check_axes_and_units(mesh, scene.mesh, source);
     groups = group_table(mesh);
     ungrouped = faces_without_group(mesh);
-    foundation = make_foundation(
-        {scene.foundation, mesh, source, scene.elements.degree, scene.elements.incompatible_modes});
+    const HexMesh opened = open_monoliths(mesh, source);
+    choose_laws(tie_all);
+    foundation = make_foundation({scene.foundation, mesh, source, scene.elements.degree,
+                                  scene.elements.incompatible_modes, is_one_body(scene, tied)});
     const auto listed = zone_materials(scene.concrete_zones, "Concrete/Zones");
     materials = materials_of(mesh.zones, scene.concrete, listed);
     concrete_zones = zones_of(mesh, false, scene.concrete, listed, "Concrete/Zones");
     if (foundation->uses_rock())
       rock_zones =
           zones_of(mesh, true, scene.foundation.rock, scene.foundation.zone_materials(), "Foundation/Zones");
-    const HexMesh opened = open_monoliths(mesh, source);
-    choose_laws(tie_all);
     assemble(opened);
     tie_feet();
     add_loads();
@@ -92,6 +92,11 @@ namespace Voussoir
       if (entry.first > n_joints)
         throw InputError("Entry \"Joints/Overrides\" names joint " + std::to_string(entry.first) +
                          ", but the dam has " + std::to_string(n_joints) + " joints.");
+  }
+
+  bool Dam::is_one_body(const Scene &scene, const bool tied)
+  {
+    return tied || impact_rule(scene.impact_rule) != ImpactRule::mean_force || scene.contact.write_problems;
   }
 
   /** Model and structure, on the foundation. */

@@ -187,7 +187,7 @@ namespace Voussoir
                                Unknowns &force, Unknowns &u_new, FeetOfStep &feet)
   {
     if (support)
-      feet.place = support->predict(level.n_substeps);
+      feet.place = support->predict(level.n_substeps, at_feet(now.u));
     const std::size_t n_pairs = structure.pairs.size();
     Unknowns          offset(3 * n_pairs), start(3 * n_pairs), memory = now.memory;
     for (std::size_t p = 0; p < n_pairs; ++p)

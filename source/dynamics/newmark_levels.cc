@@ -85,20 +85,27 @@ namespace Voussoir
     return result;
   }
 
+  Unknowns Newmark::at_feet(const Unknowns &u) const
+  {
+    Unknowns result;
+    result.reserve(3 * support->feet().size());
+    for (const unsigned int node : support->feet())
+      result.insert(result.end(), u.begin() + 3 * std::size_t(node), u.begin() + 3 * std::size_t(node) + 3);
+    return result;
+  }
+
   /** The support makes its steps, with the mean force of the step. Returns the work of that on the dam [J].
    */
   double Newmark::push_support(const Level &level, FeetOfStep &feet, const Unknowns &u_new)
   {
-    const std::vector<unsigned int> &node = support->feet();
-    double                           work = 0.;
-    for (std::size_t i = 0; i < node.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        const std::size_t k = 3 * std::size_t(node[i]) + c;
-        feet.force[3 * i + c] *= .5;
-        work += feet.force[3 * i + c] * (u_new[k] - now.u[k]);
-      }
-    support->push(level.n_substeps, feet.force, work);
+    const Unknowns before = at_feet(now.u), after = at_feet(u_new);
+    double         work = 0.;
+    for (std::size_t k = 0; k < before.size(); ++k)
+    {
+      feet.force[k] *= .5;
+      work += feet.force[k] * (after[k] - before[k]);
+    }
+    support->push(level.n_substeps, feet.force, after, work);
     return work;
   }
 } // namespace Voussoir

@@ -54,4 +54,50 @@ namespace Voussoir
       feet.push_back({foot.first, {foot.second.begin(), foot.second.end()}});
     return feet;
   }
+
+  StandingNodes::StandingNodes(const std::vector<Foot> &feet)
+  {
+    std::vector<std::pair<unsigned int, unsigned int>> standing;
+    for (unsigned int i = 0; i < feet.size(); ++i)
+      for (const unsigned int on_foot : feet[i].nodes)
+        standing.push_back({on_foot, i});
+    std::sort(standing.begin(), standing.end());
+    for (const auto &[on_foot, i] : standing)
+    {
+      node.push_back(on_foot);
+      foot.push_back(i);
+    }
+  }
+
+  void StandingNodes::mark(Structure &structure) const
+  {
+    for (Body &body : structure.bodies)
+    {
+      for (const unsigned int i : node)
+        if (i >= body.first_node && i < body.first_node + body.n_nodes())
+          body.interface.push_back(i - body.first_node);
+      std::sort(body.interface.begin(), body.interface.end());
+      body.interface.erase(std::unique(body.interface.begin(), body.interface.end()), body.interface.end());
+    }
+  }
+
+  BlockSparseMatrix StandingNodes::matrix(const BlockSparseMatrix &R) const
+  {
+    std::vector<std::vector<unsigned int>> standing(R.n_rows()), columns(foot.size());
+    for (unsigned int i = 0; i < foot.size(); ++i)
+      standing[foot[i]].push_back(i);
+    const auto each = [&](const auto &action)
+    {
+      for (unsigned int i = 0; i < foot.size(); ++i)
+        for (std::size_t k = R.start[foot[i]]; k < R.start[foot[i] + 1]; ++k)
+          for (const unsigned int j : standing[R.column[k]])
+            action(i, j, R.value[k]);
+    };
+    each([&](const unsigned int i, const unsigned int j, const Matrix3 &) { columns[i].push_back(j); });
+    for (auto &row : columns)
+      std::sort(row.begin(), row.end());
+    BlockSparseMatrix result(columns);
+    each([&](const unsigned int i, const unsigned int j, const Matrix3 &block) { result.add(i, j, block); });
+    return result;
+  }
 } // namespace Voussoir

@@ -40,18 +40,10 @@ namespace Voussoir
     make_rock(outcrop, steps, .5 * steps.substep(), patch->nodes()); // the first rank looks ahead for all
     model.stiffness = BlockSparseMatrix(); // its memory: region and patch have what they need
     region->force.assign(3 * std::size_t(n_nodes()), 0.);
-    std::vector<std::pair<unsigned int, unsigned int>> standing;
-    for (unsigned int i = 0; i < foot.size(); ++i)
-      for (const unsigned int node : foot[i].nodes)
-        standing.push_back({node, i});
-    std::sort(standing.begin(), standing.end());
+    standing = StandingNodes(foot);
     rest.clear();
-    for (const auto &[node, i] : standing)
-    {
-      nodes.push_back(node);
-      foot_of.push_back(i);
+    for (const unsigned int node : standing.node)
       rest.insert(rest.end(), u.begin() + 3 * std::size_t(node), u.begin() + 3 * std::size_t(node) + 3);
-    }
     v.assign(3, 0.); // of the base, in the mean
     a = v;
     account.assign(4, 0.);
@@ -59,48 +51,16 @@ namespace Voussoir
 
   Support *OwnStepRock::support(Structure &structure)
   {
-    for (Body &body : structure.bodies)
-    {
-      for (const unsigned int node : nodes)
-        if (node >= body.first_node && node < body.first_node + body.n_nodes())
-          body.interface.push_back(node - body.first_node);
-      std::sort(body.interface.begin(), body.interface.end());
-      body.interface.erase(std::unique(body.interface.begin(), body.interface.end()), body.interface.end());
-    }
+    standing.mark(structure);
     return this;
   }
 
-  namespace
-  {
-    /** The compliance for the dam's nodes: @p foot of each. */
-    BlockSparseMatrix of_nodes(const BlockSparseMatrix &R, const std::vector<unsigned int> &foot)
-    {
-      std::vector<std::vector<unsigned int>> standing(R.n_rows()), columns(foot.size());
-      for (unsigned int i = 0; i < foot.size(); ++i)
-        standing[foot[i]].push_back(i);
-      const auto each = [&](const auto &action)
-      {
-        for (unsigned int i = 0; i < foot.size(); ++i)
-          for (std::size_t k = R.start[foot[i]]; k < R.start[foot[i] + 1]; ++k)
-            for (const unsigned int j : standing[R.column[k]])
-              action(i, j, R.value[k]);
-      };
-      each([&](const unsigned int i, const unsigned int j, const Matrix3 &) { columns[i].push_back(j); });
-      for (auto &row : columns)
-        std::sort(row.begin(), row.end());
-      BlockSparseMatrix result(columns);
-      each([&](const unsigned int i, const unsigned int j, const Matrix3 &block)
-           { result.add(i, j, block); });
-      return result;
-    }
-  } // namespace
-
   BlockSparseMatrix OwnStepRock::compliance(const unsigned int n) const
   {
-    return of_nodes(patch->compliance(n), foot_of);
+    return standing.matrix(patch->compliance(n));
   }
 
-  Unknowns OwnStepRock::predict(const unsigned int n)
+  Unknowns OwnStepRock::predict(const unsigned int n, const Unknowns &)
   {
     const Stopwatch watch;
     const double    worked = Ranks::work();
@@ -109,9 +69,9 @@ namespace Voussoir
       place = patch->places(n, region->displacement(), region->half_step_velocity());
     Ranks::broadcast(place.data(), place.size(), 0);
     Unknowns result = rest;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t i = 0; i < standing.node.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        result[3 * i + c] += place[3 * std::size_t(foot_of[i]) + c];
+        result[3 * i + c] += place[3 * std::size_t(standing.foot[i]) + c];
     seconds_advancing += watch.seconds();
     work_advancing += Ranks::work() - worked;
     return result;
@@ -131,14 +91,14 @@ namespace Voussoir
     return result;
   }
 
-  void OwnStepRock::push(const unsigned int n, const Unknowns &on_dam, const double work)
+  void OwnStepRock::push(const unsigned int n, const Unknowns &on_dam, const Unknowns &, const double work)
   {
     const Stopwatch watch;
     const double    worked = Ranks::work();
     Unknowns        on_rock(3 * foot.size(), 0.);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t i = 0; i < standing.node.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        on_rock[3 * std::size_t(foot_of[i]) + c] -= on_dam[3 * i + c];
+        on_rock[3 * std::size_t(standing.foot[i]) + c] -= on_dam[3 * i + c];
     for (std::size_t i = 0; i < foot.size(); ++i)
       std::copy_n(on_rock.begin() + 3 * i, 3, region->force.begin() + 3 * std::size_t(foot[i].rock));
     const Unknowns before = places();

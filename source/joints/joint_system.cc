@@ -88,7 +88,9 @@ namespace Voussoir
     if (given_feet)
       feet = std::make_shared<FootElimination>(structure, *given_feet);
     condense();
-    W.finish(feet);
+    if (feet && is_static)
+      make_whole();
+    W.finish(is_static ? nullptr : feet);
     solver = std::make_unique<ContactSolver>(W, laws.of_pair, parameters);
   }
 
@@ -180,6 +182,22 @@ namespace Voussoir
       feet->factorise();
   }
 
+  /** W' = W - B H^-1 B^T in blocks. Without masses the feet couple joints that are far from each other as
+   * much as neighbours: what makes an operator of its neighbours converge would not. */
+  void JointSystem::make_whole()
+  {
+    for (unsigned int k = 0; k < W.n_groups(); ++k)
+      for (unsigned int j = 0; j <= k; ++j)
+        W.block(j, k);
+    feet->for_blocks([&](const unsigned int j, const unsigned int k) { return W.holds(j, k); },
+                     [&](const unsigned int j, const unsigned int k, const std::vector<double> &part)
+                     {
+                       std::vector<double> &block = W.block(j, k);
+                       for (std::size_t i = 0; i < part.size(); ++i)
+                         block[i] -= part[i];
+                     });
+  }
+
   /** G u + offset for the displacements of the interface as they are, and forces on the feet. */
   Unknowns JointSystem::gaps_without_forces(const Unknowns &offset, const Unknowns &foot_force) const
   {
@@ -214,6 +232,7 @@ namespace Voussoir
   /** Forces on the feet without those of the joints. */
   void JointSystem::release_joints(FeetOfStep &of_step) const
   {
+    of_step.place.resize(feet->n(), 0.); // nobody has said where
     feet->take_from(interface, of_step.force);
     for (std::size_t k = 0; k < of_step.force.size(); ++k)
       of_step.force[k] = of_step.place[k] - of_step.force[k];
@@ -242,11 +261,13 @@ namespace Voussoir
     const double  middle = now();
     ContactResult result;
     result.converged = true;
+    FeetOfStep at_rest;
+    of_step = of_step ? of_step : &at_rest;
     if (feet)
       release_joints(*of_step);
     if (!sides.empty())
     {
-      const Unknowns b = gaps_without_forces(offset, of_step ? of_step->force : Unknowns());
+      const Unknowns b = gaps_without_forces(offset, of_step->force);
       if (parameters.write_problems && n_solved++ % parameters.write_interval == 0)
         write_problem(b, start, memory, force);
       if (is_static && parameters.method != "sweeps" &&

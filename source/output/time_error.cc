@@ -9,7 +9,8 @@ namespace Voussoir
   TimeErrorEstimate::TimeErrorEstimate(const Dam &dam, const ContactParameters &parameters, const double dt,
                                        const ImpactRule rule, const DynamicState &start,
                                        const Unknowns &reference_jump)
-      : newmark(dam.structure, dam.laws, parameters, 2. * dt, rule), dam(dam),
+      : support(dam.foundation->support_of_companion(dam.structure, 2. * dt)),
+        newmark(dam.structure, dam.laws, parameters, 2. * dt, rule, support.get()), dam(dam),
         joints(dam.structure, *dam.geometry)
   {
     joints.reach = JointReach(*dam.model, dam.structure.pairs);

@@ -24,6 +24,9 @@ namespace Voussoir
     /** @p tie_all: the monolithic dam, whatever the joint models say (for natural frequencies). */
     explicit Dam(const Scene &scene, bool tie_all = false);
 
+    /** Must monoliths on massless rock be one body (FoundationSite::one_body)? @p tied: are all joints? */
+    static bool is_one_body(const Scene &scene, bool tied);
+
     bool base_is_held() const { return lowest_base.empty(); } ///< does the dam stand on rigid ground?
 
     /** Mean displacement of the lowest part of the base, zero where it is held [m]. */

@@ -100,6 +100,7 @@ namespace Voussoir
     bool step(Level &level, const Unknowns &load, const Vector3 &base_velocity, ContactResult &result);
     ContactResult solve(Level &level, const Unknowns &load, const Vector3 &base_velocity, Unknowns &force,
                         Unknowns &u_new, FeetOfStep &feet);
+    Unknowns      at_feet(const Unknowns &u) const;
     double        push_support(const Level &level, FeetOfStep &feet, const Unknowns &u_new);
     void          add_work_of_joints(double dt, const Unknowns &u_new, Unknowns &change, Work &work) const;
     void          move(double dt, const Unknowns &load, const Vector3 &base_velocity, const Unknowns &u_new,

@@ -23,11 +23,13 @@ namespace Voussoir
     /** Displacement of the feet after @p n own steps for unit forces held at the feet [m/N]. */
     virtual BlockSparseMatrix compliance(unsigned int n) const = 0;
 
-    /** Displacement of the feet after the next @p n own steps without forces [m]; nothing moves. */
-    virtual Unknowns predict(unsigned int n) = 0;
+    /** Displacement of the feet, which are @p at now, after the next @p n own steps without forces [m];
+     * nothing moves. */
+    virtual Unknowns predict(unsigned int n, const Unknowns &at) = 0;
 
-    /** Makes @p n own steps; @p force: held, on the dam's feet [N]; @p work: what that did on the dam [J]. */
-    virtual void push(unsigned int n, const Unknowns &force, double work) = 0;
+    /** Makes the @p n own steps of the last predict(); @p force: held, on the dam's feet [N]; @p place: where
+     * they are after that [m]; @p work: what that did on the dam [J]. */
+    virtual void push(unsigned int n, const Unknowns &force, const Unknowns &place, double work) = 0;
   };
 } // namespace Voussoir
 

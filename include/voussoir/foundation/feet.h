@@ -17,6 +17,21 @@ namespace Voussoir
    * node of the dam's base has no rock. */
   std::vector<Foot> find_feet(const SolidModel &dam, const std::vector<std::array<double, 3>> &points,
                               const std::string &source);
+
+  /** The nodes of the dam that stand on feet, ascending, and the foot below each. */
+  struct StandingNodes
+  {
+    StandingNodes() = default;
+    explicit StandingNodes(const std::vector<Foot> &feet);
+
+    /** They become interface nodes of their bodies, if they were none. */
+    void mark(Structure &structure) const;
+
+    /** A matrix of the feet for them: those on one foot have the same rows and columns. */
+    BlockSparseMatrix matrix(const BlockSparseMatrix &of_feet) const;
+
+    std::vector<unsigned int> node, foot;
+  };
 } // namespace Voussoir
 
 #endif

@@ -24,6 +24,7 @@ namespace Voussoir
     std::string                 source; ///< of the mesh: arch210, or its file
     unsigned int                degree = 1;
     bool                        incompatible_modes = true;
+    bool one_body = false; ///< no joint opens, or the operator of the joints is asked for without a support
   };
 
   /** What no earthquake does to the ground, see StabilityWatch. */
@@ -77,6 +78,10 @@ namespace Voussoir
      */
     virtual Unknowns static_springs(const Structure &) const { return {}; }
 
+    /** What the feet, with these springs, stand on where it gives way at once (compliance for forces), or
+     * null; marks them as interface of their bodies. */
+    virtual std::unique_ptr<FootElimination::Feet> static_feet(Structure &) const { return nullptr; }
+
     /** The static state: calls @p solve, which leaves the dam's displacement in @p u, on the @p springs,
      * until the foundation follows; adds the foundation's forces to @p load [N]. */
     virtual ContactResult settle(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
@@ -89,6 +94,12 @@ namespace Voussoir
     /** What leads the dam's base, or null; marks its feet as interface of their bodies. To be done before the
      * dam's Newmark is made, after start(). */
     virtual Support *support(Structure &) { return nullptr; }
+
+    /** Another one, for steps of the size @p dt [s]; or null. */
+    virtual std::unique_ptr<Support> support_of_companion(const Structure &, double /*dt*/) const
+    {
+      return nullptr;
+    }
 
     /** Make ready for these steps from the static displacement of the dam, at rest. */
     virtual void start(const GroundMotion &, const TimeGrid &, const Unknowns & /*u*/) {}

@@ -8,17 +8,13 @@
 
 namespace Voussoir
 {
-  /** Rock without mass, the foundation of the standard method of Clough (1980): adds to the dam, a
-   * @p structure of one body, the stiffness of the rock of @p mesh, statically condensed to the nodes of the
-   * dam's base and fixed at its artificial boundary. No waves; the earthquake moves that boundary, and
-   * displacements are relative to it. The stiffness-proportional damping of the dam acts in the rock, too.
+  /** Rock without mass, the foundation of the standard method of Clough (1980). No waves; the earthquake
+   * moves its artificial boundary, and displacements are relative to that. The stiffness-proportional damping
+   * of the dam acts in the rock, too.
    *
-   * @p dam: its base free. @p source names the mesh. Throws InputError where a node of the base has no rock,
-   * ComputationError where nothing holds the rock. */
-  void add_massless_rock(const FoundationParameters &parameters, const HexMesh &mesh, const SolidModel &dam,
-                         bool incompatible_modes, const std::string &source, Structure &structure);
-
-  /** That as a foundation. */
+   * The rock is a body of its own: the monoliths stand on its compliance, which the problem of the joints has
+   * eliminated (FootElimination). Where all joints are tied, and for what needs the operator of the joints
+   * whole (FoundationSite::one_body), the monoliths are one body that has the condensed stiffness. */
   std::unique_ptr<Foundation> make_massless_rock(const FoundationSite &site);
 } // namespace Voussoir
 

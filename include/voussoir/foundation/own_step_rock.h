@@ -35,18 +35,18 @@ namespace Voussoir
 
     std::vector<std::vector<double> *> state() override;
 
-    const std::vector<unsigned int> &feet() const override { return nodes; }
+    const std::vector<unsigned int> &feet() const override { return standing.node; }
     unsigned int                     n_substeps() const override { return grid.substeps; }
     BlockSparseMatrix                compliance(unsigned int n) const override;
-    Unknowns                         predict(unsigned int n) override;
-    void                             push(unsigned int n, const Unknowns &force, double work) override;
+    Unknowns                         predict(unsigned int n, const Unknowns &at) override;
+    void push(unsigned int n, const Unknowns &force, const Unknowns &place, double work) override;
 
   private:
     RayleighDamping damping() const;
     Unknowns        places() const;
 
     std::unique_ptr<RockPatch> patch;
-    std::vector<unsigned int>  nodes, foot_of; ///< the dam's, ascending, and the foot below each
+    StandingNodes              standing;
     Vector3                    predicted_velocity{};
   };
 

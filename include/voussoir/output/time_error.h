@@ -57,6 +57,10 @@ namespace Voussoir
         archive &*envelope;
     }
 
+  private:
+    std::unique_ptr<Support> support; // before what stands on it
+
+  public:
     Newmark newmark;
 
   private:

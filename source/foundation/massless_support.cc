@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/foundation/massless_support.h>
+
+#include <algorithm>
+#include <cmath>
+
+extern "C" void dgemv_(const char *, const int *, const int *, const double *, const double *, const int *,
+                       const double *, const int *, const double *, double *, const int *);
+
+namespace Voussoir
+{
+  namespace
+  {
+    enum Entry
+    {
+      strain,
+      strain_at_start,
+      damped,
+      worked,
+      largest,
+      n_entries
+    };
+  } // namespace
+
+  MasslessSupport::MasslessSupport(const CondensedRock &rock, const StandingNodes &standing,
+                                   const double stiffness_damping, const double dt)
+      : rock(rock), standing(standing), damping(stiffness_damping), dt(dt)
+  {
+  }
+
+  /** For the mean force of @p n parts of a step. */
+  BlockSparseMatrix MasslessSupport::compliance(const unsigned int n) const
+  {
+    BlockSparseMatrix result = rock.compliance(std::vector<double>(rock.feet.size(), 0.));
+    for (Matrix3 &block : result.value)
+      for (double &x : block)
+        x *= 2. / (1. + ratio(n));
+    return standing.matrix(result);
+  }
+
+  Unknowns MasslessSupport::predict(const unsigned int n, const Unknowns &at)
+  {
+    before = at;
+    Unknowns place = at;
+    for (double &x : place)
+      x *= (ratio(n) - 1.) / (ratio(n) + 1.);
+    return place;
+  }
+
+  /** One of the nodes on each foot, which are at the same place. */
+  Unknowns MasslessSupport::of_rock(const Unknowns &of_nodes) const
+  {
+    Unknowns result(rock.n());
+    for (std::size_t i = 0; i < standing.node.size(); ++i)
+      std::copy_n(of_nodes.begin() + 3 * i, 3, result.begin() + 3 * std::size_t(standing.foot[i]));
+    return result;
+  }
+
+  /** a S a / 2. */
+  double MasslessSupport::energy(const Unknowns &a) const
+  {
+    const int    n = rock.n(), stride = 1;
+    const double one = 1., zero = 0.;
+    Unknowns     Sa(n);
+    dgemv_("N", &n, &n, &one, rock.stiffness.data(), &n, a.data(), &stride, &zero, Sa.data(), &stride);
+    double sum = 0.;
+    for (int i = 0; i < n; ++i)
+      sum += .5 * a[i] * Sa[i];
+    return sum;
+  }
+
+  void MasslessSupport::start_account(const Unknowns &u)
+  {
+    Unknowns at;
+    for (const unsigned int node : standing.node)
+      at.insert(at.end(), u.begin() + 3 * std::size_t(node), u.begin() + 3 * std::size_t(node) + 3);
+    account.assign(n_entries, 0.);
+    account[strain] = account[strain_at_start] = energy(of_rock(at));
+  }
+
+  void MasslessSupport::push(const unsigned int n, const Unknowns &, const Unknowns &place, const double work)
+  {
+    if (account.empty())
+      return;
+    Unknowns change = place;
+    for (std::size_t k = 0; k < change.size(); ++k)
+      change[k] -= before[k];
+    account[strain] = energy(of_rock(place));
+    account[damped] += ratio(n) * energy(of_rock(change));
+    account[worked] -= work;
+    account[largest] = std::max({account[largest], std::abs(account[strain] - account[strain_at_start]),
+                                 account[damped], std::abs(account[worked])});
+  }
+
+  std::vector<std::pair<std::string, double>> MasslessSupport::energies() const
+  {
+    const double change = account[strain] - account[strain_at_start];
+    return {{"rock_strain", change},
+            {"rock_damping", account[damped]},
+            {"rock_feet", account[worked]},
+            {"rock_balance", change + account[damped] - account[worked]}};
+  }
+
+  double MasslessSupport::balance_error() const
+  {
+    const double scale = account.empty() ? 0. : std::max(account[largest], 1e-6 * account[strain_at_start]);
+    return scale > 0.
+               ? std::abs(account[strain] - account[strain_at_start] + account[damped] - account[worked]) /
+                     scale
+               : 0.;
+  }
+} // namespace Voussoir
