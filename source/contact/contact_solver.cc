@@ -26,19 +26,6 @@ namespace Voussoir
       return sum;
     }
 
-    /** action(i) for i = 0 .. n - 1, which must not depend on each other, by all threads if there are many.
-     */
-    template <class Action> void for_pairs(const std::size_t n, const Action &action)
-    {
-      constexpr std::size_t chunk = 128;
-      for_each_parallel((n + chunk - 1) / chunk,
-                        [&](const std::size_t c)
-                        {
-                          for (std::size_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i)
-                            action(i);
-                        });
-    }
-
     /** Of the starts. */
     double norm_square(const std::vector<PairPast> &past)
     {
@@ -132,19 +119,20 @@ namespace Voussoir
   void ContactSolver::evaluate(const Iterate &x)
   {
     of_pair.assign(law.size(), 0.);
-    for_pairs(law.size(),
-              [&](const std::size_t i)
-              {
-                if (number[i] == no_surfaces)
-                {
-                  law[i]->evaluate(get(x.force, i), shifted_gap(i, x), (*past)[i], rho[i], equations[i]);
-                  return;
-                }
-                WithSurfaces &pair = with_surfaces[number[i]];
-                of_pair[i] = pair.surfaces.evaluate(get(x.force, i), shifted_gap(i, x),
-                                                    x.beside.data() + pair.begin, equations[i]) /
-                             (rho[i] * rho[i]);
-              });
+    for_each_in_chunks(law.size(),
+                       [&](const std::size_t i)
+                       {
+                         if (number[i] == no_surfaces)
+                         {
+                           law[i]->evaluate(get(x.force, i), shifted_gap(i, x), (*past)[i], rho[i],
+                                            equations[i]);
+                           return;
+                         }
+                         WithSurfaces &pair = with_surfaces[number[i]];
+                         of_pair[i] = pair.surfaces.evaluate(get(x.force, i), shifted_gap(i, x),
+                                                             x.beside.data() + pair.begin, equations[i]) /
+                                      (rho[i] * rho[i]);
+                       });
     beside_merit = 0.;
     for (const WithSurfaces &pair : with_surfaces)
       beside_merit += of_pair[pair.pair];
@@ -162,19 +150,20 @@ namespace Voussoir
   double ContactSolver::residual(const Iterate &x, const bool rigid)
   {
     of_pair.assign(law.size(), 0.);
-    for_pairs(law.size(),
-              [&](const std::size_t i)
-              {
-                const Vector3 g = shifted_gap(i, x), r = get(x.force, i);
-                if (number[i] == no_surfaces)
-                {
-                  const Vector3 e = law[i]->error(r, g, (*past)[i], mean_rho);
-                  of_pair[i] = dot(e, e);
-                  return;
-                }
-                const WithSurfaces &pair = with_surfaces[number[i]];
-                of_pair[i] = pair.surfaces.error_square(r, g, x.beside.data() + pair.begin, mean_rho, rigid);
-              });
+    for_each_in_chunks(law.size(),
+                       [&](const std::size_t i)
+                       {
+                         const Vector3 g = shifted_gap(i, x), r = get(x.force, i);
+                         if (number[i] == no_surfaces)
+                         {
+                           const Vector3 e = law[i]->error(r, g, (*past)[i], mean_rho);
+                           of_pair[i] = dot(e, e);
+                           return;
+                         }
+                         const WithSurfaces &pair = with_surfaces[number[i]];
+                         of_pair[i] =
+                             pair.surfaces.error_square(r, g, x.beside.data() + pair.begin, mean_rho, rigid);
+                       });
     double f = 0., p = 0., q = 0., u = 0.;
     for (std::size_t i = 0; i < law.size(); ++i)
     {
@@ -301,8 +290,8 @@ namespace Voussoir
    *  grown by, times the scale. */
   double ContactSolver::newton_step(const double forcing, const double bound, Iterate &x)
   {
-    for_pairs(with_surfaces.size(), [&](const std::size_t i)
-              { with_surfaces[i].surfaces.condense(equations[with_surfaces[i].pair]); });
+    for_each_in_chunks(with_surfaces.size(), [&](const std::size_t i)
+                       { with_surfaces[i].surfaces.condense(equations[with_surfaces[i].pair]); });
     if (proximal.alpha > 0.) // d gap/d force = W + alpha D
       for (std::size_t i = 0; i < law.size(); ++i)
         for (unsigned int c = 0; c < 9 && number[i] == no_surfaces; ++c)
@@ -312,13 +301,13 @@ namespace Voussoir
     result.krylov += jacobian->solve(forcing, step.force, step.gap);
     ++result.iterations;
     step.beside.resize(x.beside.size());
-    for_pairs(with_surfaces.size(),
-              [&](const std::size_t i)
-              {
-                const WithSurfaces &pair = with_surfaces[i];
-                pair.surfaces.expand(equations[pair.pair], get(step.force, pair.pair),
-                                     get(step.gap, pair.pair), step.beside.data() + pair.begin);
-              });
+    for_each_in_chunks(with_surfaces.size(),
+                       [&](const std::size_t i)
+                       {
+                         const WithSurfaces &pair = with_surfaces[i];
+                         pair.surfaces.expand(equations[pair.pair], get(step.force, pair.pair),
+                                              get(step.gap, pair.pair), step.beside.data() + pair.begin);
+                       });
     const double t = line_search(bound, step, x);
     return 1e-6 * t * mean_rho * std::sqrt(norm_square(step.gap));
   }

@@ -2,6 +2,7 @@
 #include <voussoir/dynamics/impact.h>
 
 #include <voussoir/base/names.h>
+#include <voussoir/base/parallel.h>
 #include <voussoir/contact/pair_conditions.h>
 
 namespace Voussoir
@@ -82,53 +83,57 @@ namespace Voussoir
   void Impact::correct_velocity(const JointSystem &system, const double dt, const Unknowns &change,
                                 Unknowns &v, Unknowns &impulse) const
   {
-    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+    for_each_in_chunks(structure.pairs.size(), // no node is in two of them
+                       [&](const std::size_t p) { correct_pair(system, dt, p, change, v, impulse); });
+  }
+
+  void Impact::correct_pair(const JointSystem &system, const double dt, const std::size_t p,
+                            const Unknowns &change, Unknowns &v, Unknowns &impulse) const
+  {
+    const Pair     &pair = structure.pairs[p];
+    const JointLaw &law = *laws.of_pair[p];
+    const bool      closed = system.states()[p] != PairState::open;
+    if (!closed && !law.is_tangentially_tied())
+      return;
+    const Vector3 jump = structure.jump(pair, v), spent = get(impulse, p);
+    if (rule == ImpactRule::paper)
     {
-      const Pair     &pair = structure.pairs[p];
-      const JointLaw &law = *laws.of_pair[p];
-      const bool      closed = system.states()[p] != PairState::open;
-      if (!closed && !law.is_tangentially_tied())
-        continue;
-      const Vector3 jump = structure.jump(pair, v), spent = get(impulse, p);
-      if (rule == ImpactRule::paper)
-      {
-        const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
-        const bool    face = system.touching()[p] & 1; // not of a pair that touches on a flank only
-        const Vector3 f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
-        add_kick(pair, f, v);
-        for (unsigned int c = 0; c < 3; ++c)
-          impulse[3 * p + c] += f[c];
-        continue;
-      }
-      if (rule == ImpactRule::mean_force && system.states()[p] == PairState::slip &&
-          slides_on(law, pair_inverse[p], jump, spent, get(change, p), system.touching()[p]))
-      {
-        // The mean friction of the step is of second order; that of its end velocity would be of first.
-        const Vector3 kept = law.stop_normal(pair_inverse[p], jump, spent, system.touching()[p]);
-        add_kick(pair, kept - spent, v);
-        set(impulse, p, kept);
-        continue;
-      }
-      // The velocity without any joint force of this step, then the impulse that the law allows.
-      const Vector3 lost = pair_inverse[p] * spent;
-      Vector3       allowed = law.solve_impulse(pair_inverse[p], jump - lost, system.touching()[p]);
-      if (rule == ImpactRule::mean_force && !law.is_tangentially_tied())
-      {
-        // Where loads tear at a pair more than it strikes, returning the friction of the step could give more
-        // energy than the pair took: then only the normal row is corrected, which always takes energy.
-        const Vector3 f = allowed - spent, gained = pair_inverse[p] * f;
-        double        gain = 0., size = 0.;
-        for (unsigned int c = 0; c < 3; ++c)
-        {
-          gain += .5 * f[c] * (2. * jump[c] + gained[c]);
-          size += std::abs(f[c] * jump[c]) + std::abs(f[c] * gained[c]);
-        }
-        if (gain > -dot(spent, get(change, p)) / dt + 1e-12 * size)
-          allowed = law.stop_normal(pair_inverse[p], jump, spent, system.touching()[p]);
-      }
-      add_kick(pair, allowed - spent, v);
-      set(impulse, p, allowed);
+      const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
+      const bool    face = system.touching()[p] & 1; // not of a pair that touches on a flank only
+      const Vector3 f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
+      add_kick(pair, f, v);
+      for (unsigned int c = 0; c < 3; ++c)
+        impulse[3 * p + c] += f[c];
+      return;
     }
+    if (rule == ImpactRule::mean_force && system.states()[p] == PairState::slip &&
+        slides_on(law, pair_inverse[p], jump, spent, get(change, p), system.touching()[p]))
+    {
+      // The mean friction of the step is of second order; that of its end velocity would be of first.
+      const Vector3 kept = law.stop_normal(pair_inverse[p], jump, spent, system.touching()[p]);
+      add_kick(pair, kept - spent, v);
+      set(impulse, p, kept);
+      return;
+    }
+    // The velocity without any joint force of this step, then the impulse that the law allows.
+    const Vector3 lost = pair_inverse[p] * spent;
+    Vector3       allowed = law.solve_impulse(pair_inverse[p], jump - lost, system.touching()[p]);
+    if (rule == ImpactRule::mean_force && !law.is_tangentially_tied())
+    {
+      // Where loads tear at a pair more than it strikes, returning the friction of the step could give more
+      // energy than the pair took: then only the normal row is corrected, which always takes energy.
+      const Vector3 f = allowed - spent, gained = pair_inverse[p] * f;
+      double        gain = 0., size = 0.;
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        gain += .5 * f[c] * (2. * jump[c] + gained[c]);
+        size += std::abs(f[c] * jump[c]) + std::abs(f[c] * gained[c]);
+      }
+      if (gain > -dot(spent, get(change, p)) / dt + 1e-12 * size)
+        allowed = law.stop_normal(pair_inverse[p], jump, spent, system.touching()[p]);
+    }
+    add_kick(pair, allowed - spent, v);
+    set(impulse, p, allowed);
   }
 
   Unknowns Impact::end_force(const JointSystem &system, const Unknowns &force, const Unknowns &v,

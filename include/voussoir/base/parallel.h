@@ -2,6 +2,8 @@
 #ifndef voussoir_parallel_h
 #define voussoir_parallel_h
 
+#include <algorithm>
+#include <cstddef>
 #include <exception>
 
 namespace Voussoir
@@ -26,6 +28,18 @@ namespace Voussoir
       }
     if (failure)
       std::rethrow_exception(failure);
+  }
+
+  /** The same for small work (a pair of nodes), in chunks. */
+  template <class Action> void for_each_in_chunks(const std::size_t n, const Action &action)
+  {
+    constexpr std::size_t chunk = 128;
+    for_each_parallel((n + chunk - 1) / chunk,
+                      [&](const std::size_t c)
+                      {
+                        for (std::size_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i)
+                          action(i);
+                      });
   }
 } // namespace Voussoir
 

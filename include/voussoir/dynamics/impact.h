@@ -42,6 +42,8 @@ namespace Voussoir
                        const Unknowns &nodal_force) const;
 
   private:
+    void correct_pair(const JointSystem &system, double dt, std::size_t p, const Unknowns &change,
+                      Unknowns &v, Unknowns &impulse) const;
     /** v += M^-1 G^T f of one pair. */
     void add_kick(const Pair &pair, const Vector3 &f, Unknowns &v) const;
 
