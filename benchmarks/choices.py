@@ -59,12 +59,14 @@ def groups():
     whole = [(f"{name(m)}, {10 / n:g} ms", {**mesh(*m), STEPS: n}) for m, n in
              (((60, 16, 2), 1), ((60, 16, 2), 2), ((60, 20, 3), 2), ((72, 24, 3), 2), ((60, 24, 4), 2))]
     whole28 = [(f"{name(m)}, {10 / n:.3g} ms", {**mesh(*m), STEPS: n}) for m, n in
-               (((145, 21, 4), 1), ((58, 21, 2), 1), ((58, 21, 2), 2), ((58, 21, 3), 2), ((58, 21, 3), 3))]
+               (((145, 21, 4), 1), ((58, 21, 2), 2), ((58, 21, 3), 4), ((58, 14, 4), 2), ((58, 14, 4), 4), ((58, 14, 6), 2), ((58, 14, 8), 2),
+                ((116, 21, 2), 4), ((116, 14, 4), 2), ((116, 14, 4), 3), ((232, 14, 4), 2),
+                ((116, 21, 4), 2), ((116, 18, 5), 3), ((116, 42, 4), 4))]
     return {
         "quickstart": (RIGID, {}, [("5 joints", label, settings) for label, settings in whole], {**mesh(120, 32, 6), STEPS: 4},
                        "120 x 32 x 6 elements at 2.5 ms"),
-        "joints28": (MANY, {}, [("28 joints", label, settings) for label, settings in whole28], {**mesh(116, 42, 4), STEPS: 4},
-                     "116 x 42 x 4 elements at 2.5 ms"),
+        "joints28": (MANY, {}, [("28 joints", label, settings) for label, settings in whole28], {**mesh(232, 21, 6), STEPS: 4},
+                     "232 x 21 x 6 elements at 2.5 ms"),
         "steps": (RIGID, {}, steps_of(("mean-force", "impulse-consistent", "paper", "none"), (1, 2, 4)), {STEPS: 8},
                   "mean-force at 1.25 ms, on the same mesh"),
         "steps28": (MANY, many, steps_of(("mean-force",), (1, 2, 4)), {STEPS: 8}, "1.25 ms, on the same mesh (58 x 21 x 2)"),
