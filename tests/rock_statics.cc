@@ -51,7 +51,7 @@ namespace
           top = i;
       }
     Solved      result;
-    RockStatics statics(model.stiffness, model.points, held);
+    RockStatics statics(model, held);
     Log         log(true);
     result.iterations = statics.solve(b, x, log);
     model.stiffness.multiply(x.data(), Kx.data());

@@ -242,16 +242,18 @@ namespace Voussoir
       return block * rock.n_blocks() + 8. * (size.leading + 3. * size.interface);
     }
 
-    /** Rock with mass: its stiffness, and at the peak, the static state, multigrid levels. */
-    double of_rock(const Scene &scene, const HexMesh &mesh, double &without_levels)
+    /** Rock with mass: its stiffness and, at the peak, the static state, of which the first rank has the
+     * coarse levels; @p others receives that of each other rank. */
+    double of_rock(const Scene &scene, const HexMesh &mesh, double &others)
     {
       const std::vector<bool> no(mesh.nodes.size(), false);
       const Graph             rock = graph_of(mesh, is_rock, no, no);
       double                  n_blocks = rock.n_blocks();
       if (scene.foundation.nodal_everywhere) // does not couple the ends of a cell's diagonals
         n_blocks -= 8. * std::count_if(mesh.cells.begin(), mesh.cells.end(), is_rock);
-      without_levels = per_rock_node * rock.neighbours.size();
-      return 5. * block * n_blocks + per_rock_node * rock.neighbours.size();
+      const double all = per_rock_node * rock.neighbours.size(), matrix = block * n_blocks;
+      others = all + .1 * matrix;
+      return all + (.55 + .45 / Ranks::size()) * matrix;
     }
   } // namespace
 
@@ -269,9 +271,9 @@ namespace Voussoir
     need.run = need.of_others = program + dam + need.halved_step * (scene.error_estimate ? 2. : 1.);
     if (scene.foundation.model == "rock")
     {
-      double without_levels = 0.;
-      need.run += of_rock(scene, mesh, without_levels);
-      need.of_others += without_levels;
+      double others = 0.;
+      need.run += of_rock(scene, mesh, others);
+      need.of_others += others;
     }
     else if (scene.foundation.model == "massless") // before the dam has factors
       need.run = need.of_others = std::max(need.run, program + dam + of_massless_rock(mesh));

@@ -111,7 +111,7 @@ namespace Voussoir
       for (const BoundaryFace &face : model.faces)
         for (const unsigned int node : face.nodes)
           held[node] = true;
-      statics = std::make_unique<RockStatics>(model.stiffness, model.points, held);
+      statics = std::make_unique<RockStatics>(model, held);
       log.line("Rock      static state of %u unknowns; multigrid set up in %.1f s", statics->n_unknowns(),
                statics->seconds_setup());
     }

@@ -1,256 +1,305 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/index_set.h>
-#include <deal.II/lac/solver_cg.h>
-#include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
-#include <deal.II/lac/vector.h>
-
-#include <Teuchos_ParameterList.hpp>
-#include <ml_MultiLevelPreconditioner.h>
 #include <voussoir/base/error.h>
-#include <voussoir/base/ranks.h>
 #include <voussoir/foundation/rock_statics.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <vector>
 
 namespace Voussoir
 {
-  namespace
-  {
-    using Vector = dealii::Vector<double>;
-
-    /** MPI for this process alone: Trilinos' ML does not work without. */
-    class LoneProcess
-    {
-    public:
-      LoneProcess()
-      {
-        int there = 0;
-        MPI_Initialized(&there);
-        if (there != 0)
-          return;
-        std::vector<const char *> names;
-        // Open MPI need not look for networks, which takes longer than many a static state.
-        for (const auto &[name, value] : {std::make_pair("OMPI_MCA_pml", "ob1"),
-                                          {"OMPI_MCA_btl", "self"},
-                                          {"OMPI_MCA_osc", "^ucx"},
-                                          {"OMPI_MCA_ess_singleton_isolated", "1"}})
-          if (std::getenv(name) == nullptr)
-          {
-            setenv(name, value, 0);
-            names.push_back(name);
-          }
-        MPI_Init(nullptr, nullptr);
-        for (const char *name : names) // programs that are started later know nothing of this
-          unsetenv(name);
-        started = true;
-      }
-
-      ~LoneProcess()
-      {
-        int over = 0;
-        MPI_Finalized(&over);
-        if (started && over == 0)
-          MPI_Finalize();
-      }
-
-    private:
-      bool started = false;
-    };
-
-    /** The stiffness of the free nodes; what is nothing but round-off is left out. */
-    dealii::TrilinosWrappers::SparseMatrix reduced(const BlockSparseMatrix         &K,
-                                                   const std::vector<unsigned int> &free_node)
-    {
-      constexpr double          nothing = 1e-15;
-      constexpr unsigned int    held = static_cast<unsigned int>(-1);
-      const unsigned int        n = 3 * free_node.size();
-      std::vector<unsigned int> number(K.n_rows(), held), length;
-      std::vector<double>       diagonal(3 * std::size_t(K.n_rows()));
-      for (unsigned int i = 0; i < free_node.size(); ++i)
-        number[free_node[i]] = i;
-      for (unsigned int row = 0; row < K.n_rows(); ++row)
-        for (std::size_t k = K.start[row]; k < K.start[row + 1]; ++k)
-          for (unsigned int c = 0; K.column[k] == row && c < 3; ++c)
-            diagonal[3 * row + c] = std::sqrt(std::abs(K.value[k][4 * c]));
-      std::vector<dealii::types::global_dof_index> columns;
-      std::vector<double>                          values;
-      const auto                                   gather = [&](const unsigned int i, const unsigned int c)
-      {
-        columns.clear();
-        values.clear();
-        const unsigned int row = free_node[i];
-        for (std::size_t k = K.start[row]; k < K.start[row + 1]; ++k)
-          for (unsigned int d = 0; number[K.column[k]] != held && d < 3; ++d)
-            if (const double a = K.value[k][3 * c + d];
-                std::abs(a) > nothing * diagonal[3 * row + c] * diagonal[3 * K.column[k] + d])
-            {
-              columns.push_back(3 * number[K.column[k]] + d);
-              values.push_back(a);
-            }
-      };
-      for (unsigned int k = 0; k < n; ++k)
-      {
-        gather(k / 3, k % 3);
-        length.push_back(columns.size());
-      }
-      dealii::TrilinosWrappers::SparseMatrix matrix(dealii::complete_index_set(n), MPI_COMM_SELF, length);
-      for (unsigned int k = 0; k < n; ++k)
-      {
-        gather(k / 3, k % 3);
-        matrix.set(k, columns.size(), columns.data(), values.data());
-      }
-      matrix.compress(dealii::VectorOperation::insert);
-      return matrix;
-    }
-
-    /** Motions of a rigid body at the free nodes, six one after the other. */
-    std::vector<double> rigid_motions(const std::vector<std::array<double, 3>> &points,
-                                      const std::vector<unsigned int>          &free_node)
-    {
-      const std::size_t     n = 3 * free_node.size();
-      std::array<double, 3> centre{}, size{};
-      for (const unsigned int node : free_node)
-        for (unsigned int c = 0; c < 3; ++c)
-          centre[c] += points[node][c] / free_node.size();
-      for (const unsigned int node : free_node)
-        for (unsigned int c = 0; c < 3; ++c)
-          size[c] = std::max(size[c], std::abs(points[node][c] - centre[c]));
-      const double        scale = std::max({size[0], size[1], size[2]});
-      std::vector<double> modes(6 * n, 0.);
-      for (std::size_t i = 0; i < free_node.size(); ++i)
-        for (unsigned int c = 0; c < 3; ++c)
-        {
-          const unsigned int d = (c + 1) % 3, e = (c + 2) % 3;
-          const auto        &p = points[free_node[i]];
-          modes[c * n + 3 * i + c] = 1.;
-          modes[(3 + c) * n + 3 * i + d] = -(p[e] - centre[e]) / scale; // about axis c
-          modes[(3 + c) * n + 3 * i + e] = (p[d] - centre[d]) / scale;
-        }
-      return modes;
-    }
-
-    /** Those that deal.II gives to ML for elliptic equations, and the @p modes. */
-    Teuchos::ParameterList level_parameters(std::vector<double> &modes)
-    {
-      Teuchos::ParameterList parameters;
-      ML_Epetra::SetDefaults("SA", parameters);
-      parameters.set("ML output", 0);
-      parameters.set("PDE equations", 3);
-      parameters.set("null space: type", "pre-computed");
-      parameters.set("null space: dimension", 6);
-      parameters.set("null space: vectors", modes.data());
-      parameters.set("aggregation: type", "Uncoupled");
-      parameters.set("aggregation: threshold", 1e-4);
-      parameters.set("smoother: type", "Chebyshev");
-      parameters.set("smoother: sweeps", 2);
-      parameters.set("smoother: Chebyshev alpha", 10.);
-      parameters.set("coarse: type", "Amesos-KLU");
-      parameters.set("coarse: max size", 2000);
-      return parameters;
-    }
-  } // namespace
-
-  struct RockStatics::Multigrid
-  {
-    Multigrid(const BlockSparseMatrix &stiffness, const std::vector<unsigned int> &free_node)
-        : matrix(reduced(stiffness, free_node))
-    {
-    }
-
-    dealii::TrilinosWrappers::SparseMatrix    matrix;
-    dealii::TrilinosWrappers::PreconditionAMG levels;
-    std::vector<Vector>                       solutions; ///< A-orthonormal
-  };
-
-  RockStatics::RockStatics(const BlockSparseMatrix                  &stiffness,
-                           const std::vector<std::array<double, 3>> &points, const std::vector<bool> &held)
+  RockStatics::RockStatics(const RockModel &model, const std::vector<bool> &held)
+      : aggregates(model.stiffness, model.points, held), n_nodes(model.stiffness.n_rows()), split(n_nodes)
   {
     const Stopwatch watch;
-    for (unsigned int i = 0; i < points.size(); ++i)
-      if (!held[i])
-        free_node.push_back(i);
-    Ranks::on_first([&] { make_levels(stiffness, points); });
+    for (unsigned int a = 0; a < aggregates.n(); ++a)
+    {
+      roots.push_back(aggregates.nodes(a)[0]);
+      n_free += 3 * aggregates.nodes(a).size();
+      if (!split.is_trivial())
+        split.step(aggregates.nodes(a), split.owner(roots.back()));
+    }
+    stiffness = std::make_unique<RockOperator>(model.stiffness, model.points, model.nodal_cells,
+                                               model.in_other_cell, nodal_kernel(), split);
+    pieces = split.pieces(static_cast<int>(n_nodes));
+    correction.assign(3 * std::size_t(n_nodes), 0.);
+    work = rest = correction;
+    find_inverse(model);
+    eigenvalue = 1.1 * largest_eigenvalue();
+    make_coarse(model);
     setup = watch.seconds();
-  }
-
-  void RockStatics::make_levels(const BlockSparseMatrix                  &stiffness,
-                                const std::vector<std::array<double, 3>> &points)
-  {
-    static LoneProcess mpi;
-    multigrid = std::make_unique<Multigrid>(stiffness, free_node);
-    std::vector<double> modes = rigid_motions(points, free_node); // deal.II's own take ones and zeros only
-    try
-    {
-      multigrid->levels.initialize(multigrid->matrix, level_parameters(modes));
-    }
-    catch (const dealii::ExceptionBase &)
-    {
-      throw ComputationError("The multigrid levels for the static state of the rock cannot be made: its "
-                             "elements may be badly shaped (see voussoir mesh).");
-    }
   }
 
   RockStatics::~RockStatics() = default;
 
-  unsigned int RockStatics::solve(const Unknowns &b, Unknowns &x, Log &log, const double tolerance)
+  template <class Action> void RockStatics::everywhere(const Action &action) const
   {
-    x.assign(b.size(), 0.);
-    double iterations = 0.;
-    Ranks::on_first([&] { iterations = solve_here(b, x, log, tolerance); });
-    Ranks::broadcast(x.data(), x.size(), 0);
-    Ranks::broadcast(&iterations, 1, 0);
-    return static_cast<unsigned int>(iterations);
+    const int n = static_cast<int>(pieces.size());
+#pragma omp parallel for schedule(static)
+    for (int p = 0; p < n; ++p)
+      for (std::size_t k = 3 * std::size_t(pieces[p].first); k < 3 * std::size_t(pieces[p].second); ++k)
+        action(k);
   }
 
-  unsigned int RockStatics::solve_here(const Unknowns &b, Unknowns &x, Log &log, const double tolerance)
+  void RockStatics::find_inverse(const RockModel &model)
   {
-    constexpr unsigned int most = 1000, most_kept = 60;
-    constexpr double       interval = 10.; // [s]
-    const unsigned int     n = n_unknowns();
-    Vector                 load(n), guess(n), u(n);
-    for (unsigned int k = 0; k < n; ++k)
-      load[k] = b[3 * std::size_t(free_node[k / 3]) + k % 3];
-    for (const Vector &before : multigrid->solutions)
-      guess.add(before * load, before);
-    u = guess;
-    dealii::SolverControl    control(most, tolerance * load.l2_norm());
-    dealii::SolverCG<Vector> cg(control);
-    const Stopwatch          watch;
-    double                   next = interval;
-    cg.connect(
-        [&](const unsigned int iteration, const double residual, const Vector &)
+    const BlockSparseMatrix &K = model.stiffness;
+    inverse.assign(n_nodes, Matrix3{});
+    for (unsigned int i = 0; i < n_nodes; ++i)
+      for (std::size_t k = K.start[i]; k < K.start[i + 1]; ++k)
+        if (K.column[k] == i && aggregates.of_node(i) != RockAggregates::none)
+          inverse[i] = Voussoir::inverse(K.value[k]);
+  }
+
+  void RockStatics::multiply(const Unknowns &x, Unknowns &y) const
+  {
+    stiffness->multiply(x.data(), y.data());
+    everywhere(
+        [&](const std::size_t k)
         {
-          if (watch.seconds() > next)
-          {
-            log.line("          iteration %u, residual %.1e of the load, after %.0f s", iteration,
-                     residual / load.l2_norm(), watch.seconds());
-            next += interval;
-          }
-          return dealii::SolverControl::success;
+          if (aggregates.of_node(k / 3) == RockAggregates::none)
+            y[k] = 0.;
         });
-    try
+  }
+
+  double RockStatics::product(const Unknowns &a, const Unknowns &b) const
+  {
+    constexpr unsigned int per_chunk = RockSplit::per_chunk;
+    const int              n_chunks = static_cast<int>((n_nodes + per_chunk - 1) / per_chunk);
+    std::vector<double>    of_chunk(n_chunks, 0.);
+#pragma omp parallel for schedule(static)
+    for (int c = 0; c < n_chunks; ++c)
+      if (split.owner(c * per_chunk) == Ranks::rank())
+        for (std::size_t k = 3 * std::size_t(c) * per_chunk;
+             k < 3 * std::min<std::size_t>(n_nodes, std::size_t(c + 1) * per_chunk); ++k)
+          of_chunk[c] += a[k] * b[k];
+    split.gather_chunks(of_chunk, 1);
+    double sum = 0.;
+    for (const double part : of_chunk)
+      sum += part;
+    return sum;
+  }
+
+  namespace
+  {
+    double component(const Matrix3 &a, const std::size_t k, const Unknowns &x)
     {
-      cg.solve(multigrid->matrix, u, load, multigrid->levels);
+      const double *row = a.data() + 3 * (k % 3), *at = x.data() + 3 * (k / 3);
+      return row[0] * at[0] + row[1] * at[1] + row[2] * at[2];
     }
-    catch (const dealii::ExceptionBase &) // no convergence, or a breakdown
+  } // namespace
+
+  /** Of D^-1 K, by power iteration. */
+  double RockStatics::largest_eigenvalue() const
+  {
+    constexpr unsigned int n_iterations = 20;
+    Unknowns               x(3 * std::size_t(n_nodes), 0.);
+    double                 value = 0.;
+    everywhere([&](const std::size_t k) { work[k] = 1. + .5 * std::sin(12.9898 * double(k)); });
+    for (unsigned int i = 0; i <= n_iterations; ++i)
     {
-      throw ComputationError("The static state of the rock did not converge in " +
-                             std::to_string(control.last_step()) +
-                             " steps: its elements may be badly shaped (see voussoir mesh).");
+      value = std::sqrt(product(work, work));
+      everywhere([&](const std::size_t k)
+                 { x[k] = aggregates.of_node(k / 3) == RockAggregates::none ? 0. : work[k] / value; });
+      multiply(x, rest);
+      everywhere([&](const std::size_t k) { work[k] = component(inverse[k / 3], k, rest); });
     }
-    for (unsigned int k = 0; k < n; ++k)
-      x[3 * std::size_t(free_node[k / 3]) + k % 3] = u[k];
-    guess -= u;
-    Vector &A_guess = load; // no longer needed
-    multigrid->matrix.vmult(A_guess, guess);
-    if (const double square = guess * A_guess; square > 0. && multigrid->solutions.size() < most_kept)
+    return value;
+  }
+
+  void RockStatics::make_coarse(const RockModel &model)
+  {
+    std::vector<unsigned int> mine;
+    for (unsigned int a = 0; a < aggregates.n(); ++a)
+      if (split.owner(roots[a]) == Ranks::rank())
+        mine.push_back(a);
+    const RockSmoothing      smoothing{model.stiffness, inverse, 4. / (3. * eigenvalue)};
+    std::vector<CoarseBlock> blocks = coarse_rows(aggregates, smoothing, mine);
+    static_assert(sizeof(CoarseBlock) == 38 * sizeof(double), "CoarseBlock is sent as an array of doubles");
+    const std::vector<double>   counts = Ranks::of_all(double(blocks.size()));
+    std::size_t                 total = blocks.size();
+    std::vector<Ranks::Message> messages;
+    const auto numbers = [&](const std::size_t i) { return reinterpret_cast<double *>(blocks.data() + i); };
+    if (Ranks::is_first())
     {
-      guess /= std::sqrt(square);
-      multigrid->solutions.push_back(guess);
+      for (unsigned int r = 1; r < counts.size(); ++r)
+        total += static_cast<std::size_t>(counts[r]);
+      std::size_t begin = blocks.size();
+      blocks.resize(total);
+      for (unsigned int r = 1; r < counts.size(); ++r)
+      {
+        const auto n = static_cast<std::size_t>(counts[r]);
+        messages.push_back({r, nullptr, 0, numbers(begin), 38 * n});
+        begin += n;
+      }
     }
-    return control.last_step();
+    else
+      messages.push_back({0, numbers(0), 38 * blocks.size(), nullptr, 0});
+    Ranks::exchange(messages);
+    Ranks::on_first([&] { coarse = std::make_unique<CoarseRock>(aggregates, blocks); });
+  }
+
+  /** Chebyshev's polynomial of degree 2 for the upper part of the spectrum of D^-1 K (Adams, Brezina, Hu and
+   * Tuminaro 2003, J. Comput. Phys. 188): @p z receives it times the @p residual, which follows unless this
+   * @p is_last. */
+  void RockStatics::smooth(const bool is_last, Unknowns &residual, Unknowns &z) const
+  {
+    constexpr double part = 10.;
+    const double     middle = .5 * eigenvalue * (1. + 1. / part), half = .5 * eigenvalue * (1. - 1. / part);
+    const double     rho = half / middle, next = 1. / (2. / rho - rho);
+    everywhere(
+        [&](const std::size_t k)
+        {
+          correction[k] = component(inverse[k / 3], k, residual) / middle;
+          z[k] += correction[k];
+        });
+    multiply(correction, work);
+    everywhere([&](const std::size_t k) { residual[k] -= work[k]; });
+    everywhere(
+        [&](const std::size_t k)
+        {
+          correction[k] =
+              next * rho * correction[k] + 2. * next / half * component(inverse[k / 3], k, residual);
+          z[k] += correction[k];
+        });
+    if (is_last)
+      return;
+    multiply(correction, work);
+    everywhere([&](const std::size_t k) { residual[k] -= work[k]; });
+  }
+
+  /** By smooth motions of the aggregates. */
+  void RockStatics::correct(Unknowns &residual, Unknowns &z) const
+  {
+    const double damping = 4. / (3. * eigenvalue);
+    everywhere([&](const std::size_t k)
+               { correction[k] = damping * component(inverse[k / 3], k, residual); });
+    multiply(correction, work);
+    std::vector<double> forces(6 * std::size_t(aggregates.n()), 0.), motions = forces;
+    for (unsigned int a = 0; a < aggregates.n(); ++a)
+      if (split.owner(roots[a]) == Ranks::rank())
+      {
+        RigidMotion sum{};
+        for (const unsigned int i : aggregates.nodes(a))
+        {
+          const std::size_t k = 3 * std::size_t(i);
+          aggregates.add_force(
+              i, {{residual[k] - work[k], residual[k + 1] - work[k + 1], residual[k + 2] - work[k + 2]}},
+              sum);
+        }
+        std::copy(sum.begin(), sum.end(), forces.begin() + 6 * std::size_t(a));
+      }
+    split.collect(forces, 6, roots);
+    if (coarse)
+      coarse->solve(forces, motions);
+    Ranks::broadcast(motions.data(), motions.size(), 0);
+    for (const auto &[begin, end] : pieces)
+      for (int i = begin; i < end; ++i)
+      {
+        Vector3 u{};
+        if (const unsigned int a = aggregates.of_node(i); a != RockAggregates::none)
+        {
+          RigidMotion motion;
+          std::copy_n(motions.begin() + 6 * std::size_t(a), 6, motion.begin());
+          u = aggregates.displacement(i, motion);
+        }
+        std::copy(u.begin(), u.end(), correction.begin() + 3 * std::size_t(i));
+      }
+    multiply(correction, work);
+    everywhere([&](const std::size_t k)
+               { z[k] += correction[k] -= damping * component(inverse[k / 3], k, work); });
+    multiply(correction, work);
+    everywhere([&](const std::size_t k) { residual[k] -= work[k]; });
+  }
+
+  void RockStatics::precondition(const Unknowns &r, Unknowns &z) const
+  {
+    everywhere(
+        [&](const std::size_t k)
+        {
+          rest[k] = r[k];
+          z[k] = 0.;
+        });
+    smooth(false, rest, z);
+    correct(rest, z);
+    smooth(true, rest, z);
+  }
+
+  unsigned int RockStatics::solve(const Unknowns &b, Unknowns &x, Log &log, const double tolerance)
+  {
+    Unknowns guess(b.size(), 0.);
+    for (const std::vector<double> &before : solutions)
+    {
+      std::size_t j = 0;
+      for (const auto &[begin, end] : pieces)
+        for (std::size_t k = 3 * std::size_t(begin); k < 3 * std::size_t(end); ++k)
+          correction[k] = before[j++];
+      const double part = product(correction, b);
+      everywhere([&](const std::size_t k) { guess[k] += part * correction[k]; });
+    }
+    x = guess;
+    const unsigned int n = iterate(b, x, log, tolerance);
+    keep(guess, x);
+    split.gather(x, 3);
+    return n;
+  }
+
+  unsigned int RockStatics::iterate(const Unknowns &b, Unknowns &x, Log &log, const double tolerance) const
+  {
+    constexpr unsigned int most = 1000;
+    constexpr double       interval = 10.; // [s]
+    const Stopwatch        watch;
+    double                 next = interval;
+    Unknowns               r(x.size(), 0.), z = r, p = r;
+    const auto             load = [&](const std::size_t k)
+    { return aggregates.of_node(k / 3) == RockAggregates::none ? 0. : b[k]; };
+    multiply(x, work);
+    everywhere([&](const std::size_t k) { r[k] = load(k); });
+    const double size = std::sqrt(product(r, r));
+    everywhere([&](const std::size_t k) { r[k] -= work[k]; });
+    double last = 0.;
+    for (unsigned int n = 0; n <= most; ++n)
+    {
+      const double residual = std::sqrt(product(r, r));
+      if (residual <= tolerance * size)
+        return n;
+      if (watch.seconds() > next)
+      {
+        log.line("          iteration %u, residual %.1e of the load, after %.0f s", n, residual / size,
+                 watch.seconds());
+        next += interval;
+      }
+      precondition(r, z);
+      const double rz = product(r, z), beta = n == 0 ? 0. : rz / last;
+      everywhere([&](const std::size_t k) { p[k] = z[k] + beta * p[k]; });
+      multiply(p, work);
+      const double alpha = rz / product(p, work);
+      last = rz;
+      if (!(rz > 0.) || !(alpha > 0.)) // a breakdown
+        break;
+      everywhere(
+          [&](const std::size_t k)
+          {
+            x[k] += alpha * p[k];
+            r[k] -= alpha * work[k];
+          });
+    }
+    throw ComputationError("The static state of the rock did not converge: its elements may be badly shaped "
+                           "(see voussoir mesh).");
+  }
+
+  /** The part of @p x that is new, for later solves. */
+  void RockStatics::keep(const Unknowns &guess, const Unknowns &x)
+  {
+    constexpr std::size_t most = 60;
+    if (solutions.size() == most)
+      return;
+    everywhere([&](const std::size_t k) { correction[k] = x[k] - guess[k]; });
+    multiply(correction, work);
+    const double square = product(correction, work);
+    if (!(square > 0.))
+      return;
+    solutions.emplace_back();
+    for (const auto &[begin, end] : pieces)
+      for (std::size_t k = 3 * std::size_t(begin); k < 3 * std::size_t(end); ++k)
+        solutions.back().push_back(correction[k] / std::sqrt(square));
   }
 } // namespace Voussoir

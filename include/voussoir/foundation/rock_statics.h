@@ -3,35 +3,32 @@
 #define voussoir_rock_statics_h
 
 #include <voussoir/base/log.h>
-#include <voussoir/base/node_matrix.h>
-
-#include <memory>
+#include <voussoir/foundation/coarse_rock.h>
+#include <voussoir/rock/rock_model.h>
 
 namespace Voussoir
 {
-  /** Static displacements of the rock: conjugate gradients (deal.II's SolverCG), preconditioned by the
-   * smoothed aggregation of Trilinos' ML, whose coarse spaces hold the six motions of a rigid body (Vanek,
-   * Mandel and Brezina 1996, Computing 56). The number of iterations hardly depends on the size of the
-   * elements.
+  /** Static displacements of the rock: conjugate gradients, preconditioned by smoothed aggregation (Vanek,
+   * Mandel and Brezina 1996, Computing 56). On the nodes: products of RockOperator, and Chebyshev's
+   * polynomial as smoother; below, groups of nodes as rigid bodies (RockAggregates), and Trilinos' ML for
+   * them (CoarseRock). The number of iterations hardly depends on the size of the elements.
    *
    * A solve begins with the A-orthogonal projection of its solution on the solutions so far (Fischer 1998,
    * Comput. Methods Appl. Mech. Engrg. 163), since the loads of an iteration differ by less and less.
    *
-   * With several ranks the first one solves for all: a solution by all would differ in the order of its
-   * tolerance from one number of ranks to the next, and what slides later would make much of that.
-   *
-   * ML needs MPI, which is started here when nobody has, for this process alone, and ended with the program.
-   */
+   * With several ranks each has its share of the nodes, as in the steps of the rock (RockSplit), and of the
+   * aggregates; the first has ML. Aggregates do not know of ranks, and sums are taken by chunks of nodes in
+   * the order of the chunks: the same bits on any number of ranks, which ML by itself would not give, since
+   * its aggregates end where a rank does. */
   class RockStatics
   {
   public:
-    /** @p stiffness: of all nodes [N/m], at @p points [m]; the nodes that are @p held do not move. Throws
-     * ComputationError where ML cannot make its levels. */
-    RockStatics(const BlockSparseMatrix &stiffness, const std::vector<std::array<double, 3>> &points,
-                const std::vector<bool> &held);
+    /** The nodes of @p model that are @p held do not move. It is to live longer than this. Throws
+     * ComputationError where ML cannot make its levels. To be called by all ranks at once. */
+    RockStatics(const RockModel &model, const std::vector<bool> &held);
     ~RockStatics();
 
-    unsigned int n_unknowns() const { return static_cast<unsigned int>(3 * free_node.size()); }
+    unsigned int n_unknowns() const { return n_free; }
     double       seconds_setup() const { return setup; }
 
     /** Displacements @p x of all nodes [m] under the forces @p b [N], until the residual is less than
@@ -40,13 +37,30 @@ namespace Voussoir
     unsigned int solve(const Unknowns &b, Unknowns &x, Log &log, double tolerance = 1e-11);
 
   private:
-    struct Multigrid;
-    void make_levels(const BlockSparseMatrix &stiffness, const std::vector<std::array<double, 3>> &points);
-    unsigned int solve_here(const Unknowns &b, Unknowns &x, Log &log, double tolerance);
+    void         find_inverse(const RockModel &model);
+    double       largest_eigenvalue() const;
+    void         make_coarse(const RockModel &model);
+    void         multiply(const Unknowns &x, Unknowns &y) const; ///< y = K x where nothing is held
+    double       product(const Unknowns &a, const Unknowns &b) const;
+    void         smooth(bool is_last, Unknowns &residual, Unknowns &z) const;
+    void         correct(Unknowns &residual, Unknowns &z) const;
+    void         precondition(const Unknowns &r, Unknowns &z) const;
+    unsigned int iterate(const Unknowns &b, Unknowns &x, Log &log, double tolerance) const;
+    void         keep(const Unknowns &guess, const Unknowns &x);
+    template <class Action> void everywhere(const Action &action) const; ///< that this rank steps
 
-    std::vector<unsigned int>  free_node;
-    std::unique_ptr<Multigrid> multigrid;
-    double                     setup = 0.; ///< [s]
+    RockAggregates                   aggregates;
+    unsigned int                     n_nodes, n_free = 0; ///< free: unknowns
+    RockSplit                        split;
+    std::unique_ptr<RockOperator>    stiffness;
+    std::vector<std::pair<int, int>> pieces;          ///< nodes that this rank steps, in ranges
+    std::vector<Matrix3>             inverse;         ///< of the diagonal's blocks [m/N]; zero where held
+    std::vector<unsigned int>        roots;           ///< a node of each aggregate, whose owner has it
+    double                           eigenvalue = 0.; ///< a bound of those of D^-1 K
+    std::unique_ptr<CoarseRock>      coarse;          ///< of the first rank
+    std::vector<std::vector<double>> solutions;       ///< at the pieces, A-orthonormal
+    mutable Unknowns                 correction, work, rest;
+    double                           setup = 0.; ///< [s]
   };
 } // namespace Voussoir
 

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/parallel.h>
+#include <voussoir/foundation/rock_aggregates.h>
+
+#include <algorithm>
+#include <map>
+
+namespace Voussoir
+{
+  namespace
+  {
+    constexpr unsigned int none = RockAggregates::none;
+
+    double square(const Matrix3 &a)
+    {
+      double sum = 0.;
+      for (const double x : a)
+        sum += x * x;
+      return sum;
+    }
+
+    /** Squares of the diagonal's blocks. */
+    std::vector<double> squares_of_diagonal(const BlockSparseMatrix &K)
+    {
+      std::vector<double> result(K.n_rows(), 0.);
+      for (unsigned int i = 0; i < K.n_rows(); ++i)
+        for (std::size_t k = K.start[i]; k < K.start[i + 1]; ++k)
+          if (K.column[k] == i)
+            result[i] = square(K.value[k]);
+      return result;
+    }
+
+    /** Visits the nodes that are tied to @p node, itself included, with the square of their block over those
+     * of the diagonal. */
+    template <class Visit>
+    void for_neighbours(const BlockSparseMatrix &K, const std::vector<double> &diagonal,
+                        const std::vector<bool> &held, const unsigned int node, const Visit &visit)
+    {
+      constexpr double tied = 1e-8; // squared, as ML's threshold of 1e-4
+      for (std::size_t k = K.start[node]; k < K.start[node + 1]; ++k)
+        if (const unsigned int j = K.column[k]; !held[j])
+          if (const double part = square(K.value[k]) / std::sqrt(diagonal[node] * diagonal[j]); part > tied)
+            visit(j, part);
+    }
+
+    std::vector<unsigned int> groups(const BlockSparseMatrix &K, const std::vector<bool> &held)
+    {
+      const unsigned int        n = K.n_rows();
+      const std::vector<double> diagonal = squares_of_diagonal(K);
+      std::vector<unsigned int> group(n, none);
+      unsigned int              count = 0;
+      const auto                gather = [&](const unsigned int i)
+      {
+        group[i] = count;
+        for_neighbours(K, diagonal, held, i,
+                       [&](const unsigned int j, double)
+                       {
+                         if (group[j] == none)
+                           group[j] = count;
+                       });
+        ++count;
+      };
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        bool alone = !held[i] && group[i] == none;
+        if (alone)
+          for_neighbours(K, diagonal, held, i,
+                         [&](const unsigned int j, double) { alone = alone && group[j] == none; });
+        if (alone)
+          gather(i);
+      }
+      const std::vector<unsigned int> first = group;
+      for (unsigned int i = 0; i < n; ++i)
+        if (double most = 0.; !held[i] && first[i] == none)
+          for_neighbours(K, diagonal, held, i,
+                         [&](const unsigned int j, const double part)
+                         {
+                           if (first[j] != none && part > most)
+                           {
+                             most = part;
+                             group[i] = first[j];
+                           }
+                         });
+      for (unsigned int i = 0; i < n; ++i)
+        if (!held[i] && group[i] == none)
+          gather(i);
+      return group;
+    }
+  } // namespace
+
+  RockAggregates::RockAggregates(const BlockSparseMatrix &stiffness, const std::vector<Vector3> &points,
+                                 const std::vector<bool> &held)
+      : group(groups(stiffness, held)), arm(points.size(), Vector3{})
+  {
+    for (unsigned int i = 0; i < group.size(); ++i)
+      if (group[i] != none)
+      {
+        members.resize(std::max<std::size_t>(members.size(), group[i] + 1));
+        members[group[i]].push_back(i);
+      }
+    for (const auto &nodes : members)
+    {
+      Vector3 middle{};
+      for (const unsigned int i : nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+          middle[c] += points[i][c] / nodes.size();
+      double largest = 0.;
+      for (const unsigned int i : nodes)
+      {
+        for (unsigned int c = 0; c < 3; ++c)
+          arm[i][c] = points[i][c] - middle[c];
+        largest = std::max(largest, norm(arm[i]));
+      }
+      centre.push_back(middle);
+      size.push_back(largest > 0. ? largest : 1.);
+      for (const unsigned int i : nodes)
+        for (double &x : arm[i])
+          x /= size.back();
+    }
+  }
+
+  Vector3 RockAggregates::displacement(const unsigned int node, const RigidMotion &m) const
+  {
+    const Vector3 &r = arm[node];
+    return {{m[0] + m[4] * r[2] - m[5] * r[1], m[1] + m[5] * r[0] - m[3] * r[2],
+             m[2] + m[3] * r[1] - m[4] * r[0]}};
+  }
+
+  void RockAggregates::add_force(const unsigned int node, const Vector3 &f, RigidMotion &sum) const
+  {
+    const Vector3 &r = arm[node];
+    for (unsigned int c = 0; c < 3; ++c)
+      sum[c] += f[c];
+    sum[3] += r[1] * f[2] - r[2] * f[1];
+    sum[4] += r[2] * f[0] - r[0] * f[2];
+    sum[5] += r[0] * f[1] - r[1] * f[0];
+  }
+
+  std::vector<RigidMotion> RockAggregates::rigid(const unsigned int mode) const
+  {
+    Vector3 middle{};
+    for (const Vector3 &p : centre)
+      for (unsigned int c = 0; c < 3; ++c)
+        middle[c] += p[c] / n();
+    double whole = 0.;
+    for (unsigned int a = 0; a < n(); ++a)
+      whole = std::max({whole, size[a], norm(centre[a] - middle)});
+    std::vector<RigidMotion> result(n(), RigidMotion{});
+    for (unsigned int a = 0; a < n(); ++a)
+      if (mode < 3)
+        result[a][mode] = 1.;
+      else
+      {
+        const unsigned int c = mode - 3, d = (c + 1) % 3, e = (c + 2) % 3;
+        result[a][d] = -(centre[a][e] - middle[e]) / whole;
+        result[a][e] = (centre[a][d] - middle[d]) / whole;
+        result[a][mode] = size[a] / whole;
+      }
+    return result;
+  }
+
+  namespace
+  {
+    /** The six motions of an aggregate, or their forces, at some nodes. */
+    struct Patch
+    {
+      std::vector<unsigned int>           nodes;
+      std::vector<std::array<double, 18>> value; ///< of each node, 3x6 row by row
+    };
+
+    /** a x at a node, where a is a block or, with @p transposed, its transpose. */
+    template <bool transposed>
+    void add_product(const Matrix3 &a, const std::array<double, 18> &x, std::array<double, 18> &y)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          const double factor = transposed ? a[3 * d + c] : a[3 * c + d];
+          for (unsigned int m = 0; m < 6; ++m)
+            y[6 * c + m] += factor * x[6 * d + m];
+        }
+    }
+
+    class PatchProducts
+    {
+    public:
+      PatchProducts(const RockAggregates &aggregates, const RockSmoothing &smoothing)
+          : aggregates(aggregates), smoothing(smoothing), at(smoothing.stiffness.n_rows(), none)
+      {
+      }
+
+      void add_row(const unsigned int aggregate, std::vector<CoarseBlock> &blocks)
+      {
+        const Patch x = smoothed(rigid(aggregate)), y = multiply(x);
+        Patch       z = multiply(scaled(y));
+        for (std::size_t i = 0; i < z.nodes.size(); ++i)
+          for (unsigned int k = 0; k < 18; ++k)
+            z.value[i][k] += i < y.nodes.size() ? y.value[i][k] : 0.;
+        std::map<unsigned int, std::array<double, 36>> row;
+        for (std::size_t i = 0; i < z.nodes.size(); ++i)
+        {
+          auto &block = row[aggregates.of_node(z.nodes[i])];
+          for (unsigned int m = 0; m < 6; ++m)
+          {
+            RigidMotion force{};
+            aggregates.add_force(z.nodes[i], {{z.value[i][m], z.value[i][6 + m], z.value[i][12 + m]}}, force);
+            for (unsigned int k = 0; k < 6; ++k)
+              block[6 * m + k] += force[k];
+          }
+        }
+        for (const auto &[column, block] : row)
+          blocks.push_back({double(aggregate), double(column), block});
+      }
+
+    private:
+      Patch rigid(const unsigned int aggregate) const
+      {
+        Patch patch;
+        for (const unsigned int node : aggregates.nodes(aggregate))
+        {
+          patch.nodes.push_back(node);
+          patch.value.emplace_back();
+          for (unsigned int m = 0; m < 6; ++m)
+          {
+            RigidMotion motion{};
+            motion[m] = 1.;
+            const Vector3 u = aggregates.displacement(node, motion);
+            for (unsigned int c = 0; c < 3; ++c)
+              patch.value.back()[6 * c + m] = u[c];
+          }
+        }
+        return patch;
+      }
+
+      /** K x; the nodes of x come first in it. */
+      Patch multiply(const Patch &x)
+      {
+        constexpr double         nothing = 1e-28; // the square of round-off: 1e-14
+        const BlockSparseMatrix &K = smoothing.stiffness;
+        Patch                    y;
+        y.nodes = x.nodes;
+        for (unsigned int i = 0; i < x.nodes.size(); ++i)
+          at[x.nodes[i]] = i;
+        y.value.resize(x.nodes.size());
+        for (unsigned int i = 0; i < x.nodes.size(); ++i)
+        {
+          const unsigned int node = x.nodes[i];
+          double             largest = 0.;
+          for (std::size_t k = K.start[node]; k < K.start[node + 1]; ++k)
+            largest = std::max(largest, square(K.value[k]));
+          for (std::size_t k = K.start[node]; k < K.start[node + 1]; ++k)
+          {
+            const unsigned int j = K.column[k];
+            if (aggregates.of_node(j) == none || square(K.value[k]) <= nothing * largest)
+              continue;
+            if (at[j] == none)
+            {
+              at[j] = y.nodes.size();
+              y.nodes.push_back(j);
+              y.value.emplace_back();
+            }
+            add_product<true>(K.value[k], x.value[i], y.value[at[j]]);
+          }
+        }
+        for (const unsigned int node : y.nodes)
+          at[node] = none;
+        return y;
+      }
+
+      /** - damping D^-1 x */
+      Patch scaled(const Patch &x) const
+      {
+        Patch y;
+        y.nodes = x.nodes;
+        y.value.resize(x.nodes.size());
+        for (std::size_t i = 0; i < x.nodes.size(); ++i)
+        {
+          Matrix3 factor = smoothing.inverse[x.nodes[i]];
+          for (double &a : factor)
+            a *= -smoothing.damping;
+          add_product<false>(factor, x.value[i], y.value[i]);
+        }
+        return y;
+      }
+
+      Patch smoothed(const Patch &x)
+      {
+        Patch y = scaled(multiply(x));
+        for (std::size_t i = 0; i < x.nodes.size(); ++i)
+          for (unsigned int k = 0; k < 18; ++k)
+            y.value[i][k] += x.value[i][k];
+        return y;
+      }
+
+      const RockAggregates     &aggregates;
+      const RockSmoothing      &smoothing;
+      std::vector<unsigned int> at; ///< place of each node in the patch at hand
+    };
+  } // namespace
+
+  std::vector<CoarseBlock> coarse_rows(const RockAggregates &aggregates, const RockSmoothing &smoothing,
+                                       const std::vector<unsigned int> &wanted)
+  {
+    constexpr std::size_t                 per_task = 64;
+    const std::size_t                     n_tasks = (wanted.size() + per_task - 1) / per_task;
+    std::vector<std::vector<CoarseBlock>> parts(n_tasks);
+    for_each_parallel(static_cast<int>(n_tasks),
+                      [&](const int task)
+                      {
+                        PatchProducts products(aggregates, smoothing);
+                        for (std::size_t i = task * per_task;
+                             i < std::min(wanted.size(), (task + 1) * per_task); ++i)
+                          products.add_row(wanted[i], parts[task]);
+                      });
+    std::vector<CoarseBlock> result;
+    for (auto &part : parts)
+    {
+      result.insert(result.end(), part.begin(), part.end());
+      std::vector<CoarseBlock>().swap(part);
+    }
+    return result;
+  }
+} // namespace Voussoir
