@@ -6,7 +6,9 @@ opening, over all times; on Debian: apt-get install paraview python3-paraview.
     pvpython scripts/paraview_state.py DIR [--magnify 200] [--tension 6] [--time T] [--picture FILE.png] [--state FILE.pvsm]
 
 DIR is the directory of a run with Output/Solution interval. --state writes a state that ParaView opens (File, Load State),
---picture a picture at a time, by default that of the largest opening. Without either: DIR/voussoir.pvsm. Where there is no screen: xvfb-run -a pvpython ...
+--picture a picture at a time, by default that of the largest opening. Without either: DIR/voussoir.pvsm. Where there is no screen:
+
+    xvfb-run -a -s '-screen 0 1600x1000x24 -noreset' pvpython ...   # -noreset: else X may end between two windows of ParaView
 """
 
 import argparse
@@ -127,6 +129,7 @@ def main():
         state = options.state or str(directory / "voussoir.pvsm")
         simple.SaveState(state)
         print(f"{state}: open it by File, Load State")
+    simple.Delete(view)  # before Python ends: X may be gone then
     return 0
 
 

@@ -103,6 +103,41 @@ namespace
     std::printf("  largest error of the joint heights: %.1e\n", worst);
   }
 
+  /** Near the banks the dam is let in: no slivers, and its crest and joints stay as they are. */
+  void test_arch210_banks()
+  {
+    for (const unsigned int n_joints : {0, 5, 28, 60})
+    {
+      Arch210Parameters parameters;
+      parameters.n_joints = n_joints;
+      const HexMesh mesh = make_arch210(parameters);
+      parameters.smallest_height = 0;
+      const HexMesh     slivers = make_arch210(parameters);
+      const MeshQuality quality = mesh_quality(mesh, false), before = mesh_quality(slivers, false);
+      std::printf("  %2u joints: edges %.4f instead of %.4f m, volume %+.0f m3\n", n_joints,
+                  quality.shortest_edge, before.shortest_edge, volume(mesh) - volume(slivers));
+      expect(quality.shortest_edge > 0.249 && before.shortest_edge < 0.026, "the shortest edge");
+      expect(quality.smallest_scaled_jacobian >= before.smallest_scaled_jacobian, "distorted elements");
+      expect_close(crest_length(mesh), crest_length(slivers), 1e-12, "crest length");
+      expect(volume(mesh) > volume(slivers), "the dam is let into the banks");
+      expect_close(volume(mesh), volume(slivers), 4e-4, "volume");
+
+      unsigned int n_let_in = 0;
+      for (unsigned int n = 0; n < mesh.nodes.size(); ++n)
+      {
+        const unsigned int foot = n - n / 3 % 21 * 3; // of the column, in the same layer
+        if (slivers.nodes[foot][2] <= 205)
+          expect(mesh.nodes[n] == slivers.nodes[n], "a node where the dam is higher than 5 m");
+        else
+        {
+          expect(std::abs(mesh.nodes[foot][2] - 205) < 1e-12, "the foot of a column that is let in");
+          ++n_let_in;
+        }
+      }
+      expect(n_let_in == 2 * 21 * 3, "only the dam's ends are let in");
+    }
+  }
+
   void test_open_and_close()
   {
     for (const unsigned int n_joints : {0, 5, 17, 28})
@@ -215,6 +250,7 @@ int main(int argc, char **argv)
   if (argc == 1)
     return run({{"arch210", test_arch210},
                 {"arch210 joints", test_arch210_joints},
+                {"arch210 banks", test_arch210_banks},
                 {"open and close", test_open_and_close},
                 {"files", test_files},
                 {"mixed mesh", test_mixed},

@@ -87,6 +87,14 @@ namespace
     parameters.arch210.n_joints = 28;
     parameters.arch210.end_wall_height = 50;
     expect_error([&] { parameters.check(); }, {"End wall height"});
+    parameters.arch210.end_wall_height = 0.5;
+    for (const double height : {-1., 20., 150.})
+    {
+      parameters.arch210.smallest_height = height;
+      expect_error([&] { parameters.check(); }, {"Mesh/Arch210", "Smallest height"});
+    }
+    parameters.arch210.smallest_height = 12; // the outermost of 28 joints is 30.6 m high
+    parameters.arch210.check();
     parameters.source = "file";
     expect_error([&] { parameters.check(); }, {"'File'"});
   }

@@ -147,7 +147,7 @@ namespace
     const MeshParameters p = parameters(5, 120, 16, 2);
     const HexMesh        mesh = make_mesh(p, "");
     const auto           box = bounding_box(mesh);
-    const double         top = arch210_height - p.arch210.end_wall_height;
+    const double         top = arch210_height - p.arch210.smallest_height;
     double               section = 0;
     const unsigned int   n = 1000;
     for (unsigned int i = 0; i <= n; ++i)
@@ -161,7 +161,17 @@ namespace
                 volumes(mesh)[1000], expected);
     expect_close(volumes(mesh)[1000], expected, 0.002, "volume of the rock");
     const auto &r = p.arch210_rock;
-    expect(std::abs(box.first[2] + r.depth) < 1e-9 && std::abs(length - 584.499) < 1e-3, "extents");
+    double      foot_min = 0, foot_max = 0; // of the foot, along the stream
+    for (const auto &face : mesh.faces)
+      if (face.surface == PhysicalId::base)
+        for (const unsigned int node : face.nodes)
+        {
+          foot_min = std::min(foot_min, mesh.nodes[node][0]);
+          foot_max = std::max(foot_max, mesh.nodes[node][0]);
+        }
+    expect(std::abs(box.first[2] + r.depth) < 1e-9 && std::abs(box.first[0] - foot_min + r.upstream) < 1e-9 &&
+               std::abs(box.second[0] - foot_max - r.downstream) < 1e-9,
+           "extents");
 
     // The layers upstream are the prism over the section's polygon.
     double     polygon = width * (top - box.first[2]);

@@ -88,7 +88,7 @@ def damping():
         period = 2 * math.pi / damped
         mean = rows[0]["crest_x"]
 
-        def amplitude(begin, periods=2):
+        def amplitude(begin, periods=3):
             part = [r for r in rows if begin <= r["time"] < begin + periods * period]
             c = sum(math.exp(zeta * omega * (r["time"] - begin)) * (r["crest_x"] - mean) * math.cos(damped * r["time"])
                     for r in part) / len(part)
@@ -97,7 +97,7 @@ def damping():
             return math.hypot(c, s)
         early, late = 2.0, 2.0 + 4 * period
         measured = math.log(amplitude(early) / amplitude(late)) / (omega * (late - early))
-        close(measured, zeta, .08, f"damping of the first mode, {frequency:.3f} Hz, {name}")
+        close(measured, zeta, .04, f"damping of the first mode, {frequency:.3f} Hz, {name}")
 
 
 def static_state():

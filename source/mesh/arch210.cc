@@ -4,6 +4,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/mesh/arch210.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Voussoir
@@ -65,11 +66,14 @@ namespace Voussoir
     }
 
     /** A column of nodes: the vertical plane normal to the crest's centre line at its point y = @p crest_y >=
-     * 0. The right half of the dam mirrors the left one. */
+     * 0, nowhere less than @p smallest_height high [m]. The right half of the dam mirrors the left one. */
     class Column
     {
     public:
-      explicit Column(const double crest_y) : crest(point(crest_y, H, 0)), slope(crest_y / radius(H)) {}
+      Column(const double crest_y, const double smallest_height)
+          : crest(point(crest_y, H, 0)), slope(crest_y / radius(H)), highest_foot(H - smallest_height)
+      {
+      }
 
       /** Along the dam from the plane [m] (times the root of 1 + slope^2); grows with y. */
       double distance(const std::array<double, 3> &p) const
@@ -77,22 +81,26 @@ namespace Voussoir
         return slope * (p[0] - crest[0]) + p[1] - crest[1];
       }
 
-      /** The height z at which the plane meets the abutment, or 0 at the valley's floor. */
-      double foot(const double w) const
+      /** The height z of the foot: where the plane meets the abutment, or 0 at the valley's floor. Where the
+       * abutment is nearer to the crest than the smallest height, the dam is let into the bank. */
+      double foot(const double w) const { return std::min(abutment(w), highest_foot); }
+
+      /** The node at height z, from the foot up. */
+      std::array<double, 3> node(const double z, const double w) const
+      {
+        const double reach = z < abutment(w) ? 1.1 * half_width(H) : half_width(z);
+        return point(root([&](const double y) { return distance(point(y, z, w)); }, 0, reach), z, w);
+      }
+
+    private:
+      double abutment(const double w) const
       {
         const auto inside = [&](const double z) { return distance(point(half_width(z), z, w)); };
         return inside(0) >= 0 ? 0 : root(inside, 0, H);
       }
 
-      /** The node at height z, from the foot up (where |y| <= half_width(z)). */
-      std::array<double, 3> node(const double z, const double w) const
-      {
-        return point(root([&](const double y) { return distance(point(y, z, w)); }, 0, half_width(z)), z, w);
-      }
-
-    private:
       std::array<double, 3> crest;
-      double                slope;
+      double                slope, highest_foot;
     };
 
     double crest_y(const double s)
@@ -109,7 +117,8 @@ namespace Voussoir
     double end_of_crest(const double wall)
     {
       const auto end = point(half_width(H - wall), H - wall, 0);
-      return arc_length(root([&](const double y) { return -Column(y).distance(end); }, 0, half_width(H)), H);
+      return arc_length(root([&](const double y) { return -Column(y, 0).distance(end); }, 0, half_width(H)),
+                        H);
     }
 
     /** The columns' places on the crest, s from the right bank to the left. */
@@ -148,9 +157,15 @@ namespace Voussoir
     prm.add_parameter("Elements through", elements_through,
                       "Number of elements from the upstream to the downstream face.", Integer(1, 100));
     prm.add_parameter("End wall height", end_wall_height,
-                      "Height of the dam's two ends on the banks, at the centre line [m]. The dam's height "
-                      "would run out to zero there.",
+                      "The crest ends where the abutment is this far below it [m], at the centre line. The "
+                      "dam's height would run out to zero there.",
                       Double(0.01, 20));
+    prm.add_parameter(
+        "Smallest height", smallest_height,
+        "The dam is nowhere less high than this [m]: near the banks, where the abutment would be "
+        "nearer to the crest, the dam is let into the bank. All rows share this height there; "
+        "without it elements would be as flat as End wall height over their number.",
+        Double(0, 20));
     prm.leave_subsection();
     prm.leave_subsection();
   }
@@ -164,10 +179,15 @@ namespace Voussoir
       throw InputError(section +
                        "a number of elements is 0. Choose at least 1 along, up and through the dam.");
     const double monolith = 2 * half_crest_length() / (n_joints + 1);
-    if (!(end_wall_height > 0 && end_wall_height < H / 2) ||
-        end_of_crest(end_wall_height) < half_crest_length() - monolith / 2)
+    const auto   spoils = [&](const double height)
+    { return !(height < H / 2) || end_of_crest(height) < half_crest_length() - monolith / 2; };
+    if (!(end_wall_height > 0) || spoils(end_wall_height))
       throw InputError(section + "'End wall height' is " + std::to_string(end_wall_height) +
                        " m. Choose a height above 0 that leaves at least half of the end monoliths' crest.");
+    if (!(smallest_height >= 0) || spoils(smallest_height))
+      throw InputError(section + "'Smallest height' is " + std::to_string(smallest_height) +
+                       " m. Choose a height that the dam exceeds by itself over at least half of the end "
+                       "monoliths' crest.");
   }
 
   HexMesh make_arch210(const Arch210Parameters &parameters)
@@ -181,7 +201,7 @@ namespace Voussoir
     for (unsigned int i = 0; i <= n_along; ++i)
     {
       const double        bank = s[i] < 0 ? -1 : 1;
-      const Column        column(crest_y(std::abs(s[i])));
+      const Column        column(crest_y(std::abs(s[i])), parameters.smallest_height);
       std::vector<double> foot;
       for (unsigned int l = 0; l <= n_through; ++l)
         foot.push_back(column.foot(2. * l / n_through - 1));
@@ -234,7 +254,7 @@ namespace Voussoir
     std::vector<std::array<double, 2>> valley;
     for (const double s : columns(parameters))
     {
-      const Column column(crest_y(std::abs(s)));
+      const Column column(crest_y(std::abs(s)), parameters.smallest_height);
       const auto   foot = column.node(column.foot(0), 0);
       valley.push_back({s < 0 ? -foot[1] : foot[1], foot[2]});
     }

@@ -14,11 +14,12 @@ namespace Voussoir
     unsigned int elements_along = 58; ///< in all, along the crest; rounded up to a multiple of n_joints+1
     unsigned int elements_up = 20;
     unsigned int elements_through = 2;
-    double       end_wall_height = 0.5; ///< [m] of the dam's two ends, at the centre line
+    double end_wall_height = 0.5; ///< [m] from the crest's two ends down to the abutment, at the centre line
+    double smallest_height = 5;   ///< [m] of the dam, which is let into the banks where it would be less high
 
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /** Throws InputError if a number is out of range or the end walls are too high for the end monoliths. */
+    /** Throws InputError if a number is out of range or a height too large for the end monoliths. */
     void check() const;
   };
 
