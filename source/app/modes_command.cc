@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/modes_command.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/ranks.h>
 #include <voussoir/dam/dam.h>
 #include <voussoir/dynamics/modes.h>
 #include <voussoir/output/figures.h>
@@ -105,13 +106,13 @@ namespace Voussoir
           "`voussoir modes` finds the frequencies of a dam on a rigid base or on massless rock: rock with "
           "mass radiates. Give --set Foundation/Model=massless or rigid.");
     if (!directory.empty())
-      make_directory(directory);
+      Ranks::on_first([&] { make_directory(directory); });
     const Dam dam(scene, true);
     std::printf("mode  frequency [Hz]\n");
     const std::vector<NaturalMode> modes = natural_modes(dam.structure, count);
     for (std::size_t i = 0; i < modes.size(); ++i)
       std::printf("%4zu  %10.5f\n", i + 1, modes[i].frequency);
     if (!directory.empty())
-      write_modes(dam, modes, directory);
+      Ranks::on_first([&] { write_modes(dam, modes, directory); });
   }
 } // namespace Voussoir

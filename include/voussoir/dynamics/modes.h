@@ -21,8 +21,14 @@ namespace Voussoir
   Vector3 free_mass(const Structure &structure);
 
   /** The lowest modes of a structure without pairs, by ascending frequency: K phi = omega^2 M phi by
-   * ARPACK, inverse iteration. Throws ComputationError when it does not converge. */
+   * ARPACK, inverse iteration; by several ranks: modes_of_ranks(). Throws ComputationError when it does not
+   * converge. */
   std::vector<NaturalMode> natural_modes(const Structure &structure, unsigned int n_modes);
+
+  /** The same by several ranks: Krylov and Schur's method of SLEPc, the factor of the stiffness by MUMPS,
+   * shared out. In another order of operations, so with other bits than one rank has. To be called by all;
+   * all get all modes. */
+  std::vector<NaturalMode> modes_of_ranks(const Structure &structure, unsigned int n_modes);
 
   /** The lowest natural frequencies alone [Hz]. */
   std::vector<double> natural_frequencies(const Structure &structure, unsigned int n_modes);
