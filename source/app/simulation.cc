@@ -278,9 +278,12 @@ namespace Voussoir
     count.seconds_static += watch.seconds();
     if (n_steps > 0)
     {
+      double bytes = 0.;
+      for (const double of_rank :
+           Ranks::of_all(newmark->memory() + (companion ? companion->newmark.memory() : 0.)))
+        bytes += of_rank;
       log.line("Shaking   %.2f s in %u steps of %g s; joints and factors hold %.2f GiB", grid().duration(),
-               n_steps, motion.dt,
-               (newmark->memory() + (companion ? companion->newmark.memory() : 0.)) / std::pow(2., 30));
+               n_steps, motion.dt, bytes / std::pow(2., 30));
       log.line("\n   time  newton  open  slip  opening [mm]  slip [mm]  tension [MPa]  elapsed     left");
     }
   }
@@ -306,8 +309,8 @@ namespace Voussoir
     follow_blocks(u_before, base_before);
     if (const double more = newmark->memory() - memory_before; more > 0.)
       log.line(
-          "          smaller steps from t = %.4g s on, where joints ask for them: factors of %.2f GiB more",
-          newmark->state().time, more / std::pow(2., 30));
+          "          smaller steps from t = %.4g s on, where joints ask for them: factors of %.2f GiB more%s",
+          newmark->state().time, more / std::pow(2., 30), Ranks::size() > 1 ? " on the first rank" : "");
     dam->foundation->follow(newmark->state());
     advance_companion(load, base_velocity, ground);
     ++count.path[static_cast<unsigned int>(result.path)];

@@ -71,10 +71,6 @@ namespace Voussoir
         throw InputError(
             "Contact/Write problems: only problems with Coulomb friction can be written; use the "
             "joint model FJA or KSM.");
-    if (parameters.write_problems && Ranks::size() > 1)
-      throw InputError(
-          "Contact/Write problems: with several ranks none has a whole problem. Start the program "
-          "without mpirun.");
     bodies.resize(structure.bodies.size());
     for_each_own_body(
         [&](const unsigned int b)
@@ -316,22 +312,57 @@ namespace Voussoir
     return total;
   }
 
+  namespace
+  {
+    /** All blocks of @p W on the first rank, none on others. */
+    InterfaceOperator on_first(const InterfaceOperator &W)
+    {
+      std::vector<unsigned int> n_pairs;
+      for (unsigned int j = 0; j < W.n_groups(); ++j)
+        n_pairs.push_back(Ranks::is_first() ? W.size(j) / 3 : 0);
+      InterfaceOperator whole(n_pairs);
+      for (unsigned int k = 0; k < W.n_groups(); ++k)
+        for (unsigned int j = 0; j <= k; ++j)
+          if (const std::vector<double> *mine = W.find_block(j, k))
+          {
+            const unsigned int   from = W.shares().owner(j);
+            std::vector<double> &to = whole.block(j, k);
+            if (Ranks::is_first() && from > 0)
+              Ranks::exchange({{from, nullptr, 0, to.data(), to.size()}});
+            else if (Ranks::is_first())
+              to = *mine;
+            else if (from == Ranks::rank())
+              Ranks::exchange({{0, mine->data(), mine->size(), nullptr, 0}});
+          }
+      return whole;
+    }
+  } // namespace
+
   void JointSystem::write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &memory,
                                   const Unknowns &force) const
   {
-    const FrictionProblem problem = friction_problem(W, laws, laws.pasts(start, meaning, memory), b);
-    char                  name[40];
-    std::snprintf(name, sizeof(name), "/problem-%06u.hdf5", n_solved);
-    std::filesystem::remove(parameters.write_directory + name); // of a step that is done again
-    Unknowns guess, gap;
-    if (problem.q.size() == force.size())
-    {
-      guess = force;
-      W.multiply(force, gap);
-      for (std::size_t k = 0; k < gap.size(); ++k)
-        gap[k] += problem.q[k];
-    }
-    write_fclib(parameters.write_directory + name, problem, guess, gap);
+    std::unique_ptr<InterfaceOperator> gathered;
+    if (Ranks::size() > 1)
+      gathered = std::make_unique<InterfaceOperator>(on_first(W));
+    const InterfaceOperator &whole = gathered ? *gathered : W;
+    Ranks::on_first(
+        [&]
+        {
+          const FrictionProblem problem =
+              friction_problem(whole, laws, laws.pasts(start, meaning, memory), b);
+          char name[40];
+          std::snprintf(name, sizeof(name), "/problem-%06u.hdf5", n_solved);
+          std::filesystem::remove(parameters.write_directory + name); // of a step that is done again
+          Unknowns guess, gap;
+          if (problem.q.size() == force.size())
+          {
+            guess = force;
+            whole.multiply(force, gap);
+            for (std::size_t k = 0; k < gap.size(); ++k)
+              gap[k] += problem.q[k];
+          }
+          write_fclib(parameters.write_directory + name, problem, guess, gap);
+        });
   }
 
   void JointSystem::solve_free(const Unknowns &load, Unknowns &u)
