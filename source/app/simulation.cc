@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
 namespace Voussoir
 {
@@ -278,12 +279,10 @@ namespace Voussoir
     count.seconds_static += watch.seconds();
     if (n_steps > 0)
     {
-      double bytes = 0.;
-      for (const double of_rank :
-           Ranks::of_all(newmark->memory() + (companion ? companion->newmark.memory() : 0.)))
-        bytes += of_rank;
+      const std::vector<double> bytes =
+          Ranks::of_all(newmark->memory() + (companion ? companion->newmark.memory() : 0.));
       log.line("Shaking   %.2f s in %u steps of %g s; joints and factors hold %.2f GiB", grid().duration(),
-               n_steps, motion.dt, bytes / std::pow(2., 30));
+               n_steps, motion.dt, std::accumulate(bytes.begin(), bytes.end(), 0.) / std::pow(2., 30));
       log.line("\n   time  newton  open  slip  opening [mm]  slip [mm]  tension [MPa]  elapsed     left");
     }
   }
