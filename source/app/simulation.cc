@@ -225,22 +225,25 @@ namespace Voussoir
     }
   } // namespace
 
+  void Simulation::start_foundation()
+  {
+    dam->foundation->start(motion, grid(), statics.u);
+    if (const double added = dam->foundation->add_interface_mass(dam->structure, grid()); added > 0.)
+    {
+      double mass = 0.;
+      for (const Matrix3 &m : dam->structure.mass)
+        mass += m[0];
+      log.line("Feet      %.3g kg heavier for the sub-steps, %.1f %% of dam, water and feet", added,
+               100. * added / mass);
+    }
+  }
+
   void Simulation::start_shaking()
   {
     const Stopwatch  watch;
     const Structure &structure = dam->structure;
     if (n_steps > 0)
-    {
-      dam->foundation->start(motion, grid(), statics.u);
-      if (const double added = dam->foundation->add_interface_mass(dam->structure, grid()); added > 0.)
-      {
-        double mass = 0.;
-        for (const Matrix3 &m : structure.mass)
-          mass += m[0];
-        log.line("Feet      %.3g kg heavier for the sub-steps, %.1f %% of dam, water and feet", added,
-                 100. * added / mass);
-      }
-    }
+      start_foundation();
     newmark = std::make_unique<Newmark>(structure, dam->laws, contact_parameters("shaking"), motion.dt,
                                         impact_rule(scene.impact_rule),
                                         n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr);

@@ -52,6 +52,7 @@ namespace Voussoir
     void              find_static_state();
     Vector3           relative_to_base(unsigned int node) const;
     ContactParameters contact_parameters(const std::string &stage) const;
+    void              start_foundation();
     void              start_shaking();
     void              declare_tables();
     void              declare_history(Recorder &table);
