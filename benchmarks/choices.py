@@ -90,7 +90,7 @@ def groups():
                      BOX, "mtf3 in a box that reaches twice as far"),
         "free_field": (ROCK, rock, [("free field", f, {"Foundation/Free field": f}) for f in ("sections", "columns")],
                        BOX, "sections in a box that reaches twice as far"),
-        "box": (ROCK, rock, boxes, BOX, "all sides 420 m"),
+        "box": (ROCK, rock, boxes[1:], {}, "210 m on all sides"),
         "box_static": (ROCK, {**rock, "Motion/Source": "none"}, boxes, BOX, "all sides 420 m, the static state alone"),
         "rock_steps": (ROCK, rock, [("dam at its own step", f"{10 / n:g} ms, {6 // n} of the rock",
                                      {STEPS: n, "Foundation/Substeps": 6 // n}) for n in (1, 2)]
