@@ -5,7 +5,7 @@
     benchmarks/choices.py [GROUP...] [--seconds 3] [--voussoir PROGRAM]
 
 Groups: quickstart, joints28 (mesh and time step together), steps (time step and rule of impact), steps28 (28 joints), estimate,
-estimate28 (Dynamics/Error estimate), elements, solvers, boundary, free_field, rock_steps.
+estimate28 (Dynamics/Error estimate), elements, solvers, boundary, free_field, box (its sizes, one by one), box_static, rock_steps.
 The measures are those of `voussoir accuracy`: largest openings of the joints (root of the sum of squares), means of the
 tension envelope over nine zones of each face; over the strongest seconds of the scene's motion. Each group has a
 reference: the finest step, mesh or box. Prints Markdown tables, and draws doc/figures/choices_GROUP.png of quickstart, steps
@@ -55,6 +55,9 @@ def groups():
     linear, quadratic = [(30, 8, 1), (60, 16, 2), (90, 24, 3)], [(18, 6, 1), (30, 8, 1), (48, 12, 1)]
     modes, degree = "Elements/Incompatible modes", "Elements/Degree"
     rock = {**mesh(30, 10, 1), STEPS: 6, "Mesh/Arch210/Rock/Boundary layers": 8}
+    boxes = [("box", label, {f"Mesh/Arch210/Rock/{side}": 420 for side in sides}) for label, sides in
+             (("210 m", ()), ("depth 420 m", ("Depth",)), ("sides 420 m", ("Sides",)),
+              ("upstream and downstream 420 m", ("Upstream", "Downstream")))]
     told = [("with its estimate", f"{10 / n:g} ms", {STEPS: n, "Dynamics/Error estimate": "true"}) for n in (1, 2, 4)]
     whole = [(f"{name(m)}, {10 / n:g} ms", {**mesh(*m), STEPS: n}) for m, n in
              (((60, 16, 2), 1), ((60, 16, 2), 2), ((60, 20, 3), 2), ((72, 24, 3), 2), ((60, 24, 4), 2))]
@@ -87,6 +90,8 @@ def groups():
                      BOX, "mtf3 in a box that reaches twice as far"),
         "free_field": (ROCK, rock, [("free field", f, {"Foundation/Free field": f}) for f in ("sections", "columns")],
                        BOX, "sections in a box that reaches twice as far"),
+        "box": (ROCK, rock, boxes[1:], {}, "210 m on all sides"),
+        "box_static": (ROCK, {**rock, "Motion/Source": "none"}, boxes, BOX, "all sides 420 m, the static state alone"),
         "rock_steps": (ROCK, rock, [("dam at its own step", f"{10 / n:g} ms, {6 // n} of the rock",
                                      {STEPS: n, "Foundation/Substeps": 6 // n}) for n in (1, 2)]
                        + [("one step", "1.67 ms", {})], {STEPS: 20}, "one step for dam and rock, 0.5 ms"),
