@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes an arch dam of circular arcs from a table: 8-node hexahedra, monoliths that share their nodes, gmsh MSH 2.2.
 
-    voussoir arcs TABLE.csv --output DAM.msh [--joints 10] [--along 40] [--up 10] [--through 2] [--end-height 5]
+    voussoir arcs TABLE.csv --output DAM.msh [--joints 10] [--along 40] [--up 10] [--through 2] [--end-height 5] [--rock 150]
 
 Columns of the table, an arc in each line [m, degrees], in any order of lines; lines that begin with # are remarks:
 
@@ -16,7 +16,8 @@ Columns of the table, an arc in each line [m, degrees], in any order of lines; l
 Between the arcs all columns are monotone cubic functions of the elevation (Fritsch and Carlson, SIAM J. Numer. Anal. 17, 1980;
 the weighted harmonic mean of Fritsch and Butland). Joints divide the crest into equal parts. On the upstream face they, and all
 columns of the mesh, run down in vertical planes normal to the crest, so that free-standing monoliths do not lean; through the dam
-they are radial at every elevation. At both ends, where the height goes to zero, an end wall of --end-height remains, and is fixed.
+they are radial at every elevation. At both ends, where the height goes to zero, an end wall of --end-height remains, and is fixed. With --rock it is free, and the foot stands on a block
+of rock for Foundation/Model = massless.
 """
 
 import argparse
@@ -26,6 +27,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import numpy as np  # noqa: E402
+from arch_rock import NAMES as ROCK_NAMES, ROCK, add_rock  # noqa: E402
 from command import InputError, end_with  # noqa: E402
 
 COLUMNS = ("elevation", "upstream_x", "upstream_radius", "thickness", "downstream_radius", "right_angle", "left_angle")
@@ -219,9 +221,12 @@ def volume_of(nodes, cells):
 def write(path, nodes, cells, sides):
     """MSH 2.2; groups by name."""
     volumes = sorted({volume for volume, _ in cells})
-    names = [f'2 {group} "{name}"' for group, name in FACES.items()] + [f'3 {10 + v} "monolith {v}"' for v in volumes]
+    groups = {group for group, _ in sides}
+    number = {v: v if v == ROCK else 10 + v for v in volumes}
+    names = [f'2 {group} "{name}"' for group, name in {**FACES, **ROCK_NAMES}.items() if group in groups]
+    names += [f'3 {number[v]} "{"rock" if v == ROCK else f"monolith {v}"}"' for v in volumes]
     elements = [f"3 2 {group} {group} " + " ".join(str(n + 1) for n in quad) for group, quad in sides]
-    elements += [f"5 2 {10 + v} {10 + v} " + " ".join(str(n + 1) for n in cell) for v, cell in cells]
+    elements += [f"5 2 {number[v]} {number[v]} " + " ".join(str(n + 1) for n in cell) for v, cell in cells]
     lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(names)), *names, "$EndPhysicalNames", "$Nodes", str(len(nodes))]
     lines += [f"{i} {x:.12g} {y:.12g} {z:.12g}" for i, (x, y, z) in enumerate(nodes, 1)] + ["$EndNodes", "$Elements", str(len(elements))]
     lines += [f"{i} {element}" for i, element in enumerate(elements, 1)] + ["$EndElements", ""]
@@ -240,6 +245,7 @@ def main():
     parser.add_argument("--up", type=int, default=10, help="elements from the foot to the crest")
     parser.add_argument("--through", type=int, default=2, help="elements through the thickness")
     parser.add_argument("--end-height", type=float, default=5., help="height of the dam's two ends [m]")
+    parser.add_argument("--rock", type=float, default=0., metavar="EXTENT", help="massless rock beside, up- and downstream of and below the dam [m]")
     options = parser.parse_args()
     counts, (each, in_all) = (options.along, options.up, options.through), MOST_ELEMENTS
     if not (0 <= options.joints < 999 and min(counts) > 0 and max(counts) <= each):
@@ -249,14 +255,19 @@ def main():
     dam = Dam(read_table(options.table))
     if not 0 < options.end_height < dam.top - dam.low:
         raise InputError(f"--end-height must lie between 0 and the height of the dam, {dam.top - dam.low:g} m.")
+    if not 0 <= options.rock <= LARGEST or 0 < options.rock < .5 * (dam.top - dam.low):
+        raise InputError(f"--rock must be 0 or at least half of the dam's height, {.5 * (dam.top - dam.low):g} m.")
     nodes, cells, sides = build(dam, options.joints, options.along, options.up, options.through, options.end_height)
+    n_dam, volume = len(cells), volume_of(nodes, cells)
+    if options.rock > 0:
+        nodes, cells, sides = add_rock(nodes, cells, sides, (-1, options.up + 1, options.through + 1), options.rock)
     worst = smallest_jacobian(nodes, cells)
     if not worst > 0:  # or not a number
-        raise InputError("Elements are folded: the arcs of neighbouring elevations cross, or the end height is too small.")
+        raise InputError("Elements are folded: the arcs of neighbouring elevations cross, or the end height is too small" + (", or the rock needs another extent." if options.rock else "."))
     write(options.output, nodes, cells, sides)
     crest = np.array([dam.place(angle, dam.top, 0.) for angle in crest_angles(dam, 500)])
-    print(f"{options.output}: {len(nodes)} nodes, {len(cells)} hexahedra, {options.joints} joints; height {dam.top - dam.low:g} m, crest "
-          f"{np.linalg.norm(np.diff(crest, axis=0), axis=1).sum():.1f} m, volume {volume_of(nodes, cells):.0f} m3, smallest scaled Jacobian {worst:.2f}")
+    print(f"{options.output}: {len(nodes)} nodes, {n_dam} hexahedra{f' and {len(cells) - n_dam} of rock' if options.rock else ''}, {options.joints} joints; height {dam.top - dam.low:g} m, crest "
+          f"{np.linalg.norm(np.diff(crest, axis=0), axis=1).sum():.1f} m, volume {volume:.0f} m3, smallest scaled Jacobian {worst:.2f}")
     return 0
 
 
