@@ -107,7 +107,7 @@ namespace Voussoir
       double kept = 0.;      ///< of these afterwards
       double operators = 0.; ///< of W
       double diagonal = 0.;  ///< of W's own blocks of the joints
-      double feet = 0.;      ///< of what eliminates feet on rock with steps of its own
+      double feet = 0.;      ///< of what eliminates feet on rock with steps of its own, or without mass
       double share = 1.;     ///< of all this but the feet's, the largest of a rank
     };
 
@@ -120,7 +120,7 @@ namespace Voussoir
       return 9. * feet * (2. * feet + joints);
     }
 
-    /** Of massless rock, which couples all feet: their compliance and the factor of what eliminates them. */
+    /** Of massless rock, which couples all feet: what eliminates them, and its factor. */
     double of_dense_feet(const std::vector<bool> &on_base)
     {
       const double unknowns = 3. * std::count(on_base.begin(), on_base.end(), true);

@@ -107,9 +107,9 @@ namespace Voussoir
           "mass radiates. Give --set Foundation/Model=massless or rigid.");
     if (!directory.empty())
       Ranks::on_first([&] { make_directory(directory); });
-    const Dam dam(scene, true);
-    std::printf("mode  frequency [Hz]\n");
+    const Dam                      dam(scene, true);
     const std::vector<NaturalMode> modes = natural_modes(dam.structure, count);
+    std::printf("mode  frequency [Hz]\n");
     for (std::size_t i = 0; i < modes.size(); ++i)
       std::printf("%4zu  %10.5f\n", i + 1, modes[i].frequency);
     if (!directory.empty())

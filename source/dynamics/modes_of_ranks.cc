@@ -11,6 +11,7 @@
 #include <voussoir/dynamics/modes.h>
 
 #include <cmath>
+#include <exception>
 #include <slepcsys.h>
 
 namespace Voussoir
@@ -31,8 +32,15 @@ namespace Voussoir
         PetscOptionsSetValue(nullptr, "-st_pc_type", "cholesky");
         PetscOptionsSetValue(nullptr, "-st_pc_factor_mat_solver_type", "mumps");
       }
-      ~Slepc() { SlepcFinalize(); }
+      ~Slepc()
+      {
+        if (std::uncaught_exceptions() == n_exceptions) // else the others may wait elsewhere
+          SlepcFinalize();
+      }
       Slepc(const Slepc &) = delete;
+
+    private:
+      const int n_exceptions = std::uncaught_exceptions();
     };
 
     /** Nodes of each rank: about the same number of blocks of the stiffness. */

@@ -51,7 +51,10 @@ namespace Voussoir
         rock = condense_rock(parameters, mesh, dam, incompatible_modes, source);
         standing = StandingNodes(rock.feet);
         if (!one_body)
+        {
+          spring = static_spring();
           return;
+        }
         for (const Foot &foot : rock.feet)
           if (foot.nodes.size() != 1)
             throw InputError(source + ": two nodes of one monolith share a place at the dam's base.");
@@ -71,8 +74,7 @@ namespace Voussoir
       {
         if (one_body)
           return {};
-        const double spring = static_spring();
-        Unknowns     springs(3 * std::size_t(structure.n_nodes()), 0.);
+        Unknowns springs(3 * std::size_t(structure.n_nodes()), 0.);
         for (const unsigned int node : standing.node)
           for (unsigned int c = 0; c < 3; ++c)
             springs[3 * std::size_t(node) + c] = spring;
@@ -84,7 +86,6 @@ namespace Voussoir
         if (one_body)
           return nullptr;
         standing.mark(structure);
-        const double        spring = static_spring();
         std::vector<double> springs;
         for (const Foot &foot : rock.feet)
           springs.push_back(spring * foot.nodes.size());
@@ -119,6 +120,8 @@ namespace Voussoir
       {
         return supported ? supported->energies() : std::vector<std::pair<std::string, double>>();
       }
+
+      double strain_at_start() const override { return supported ? supported->strain_at_start() : 0.; }
 
       double balance_error() const override { return supported ? supported->balance_error() : 0.; }
 
@@ -167,6 +170,7 @@ namespace Voussoir
       StandingNodes                    standing;
       TimeGrid                         grid;
       Unknowns                         at_rest;
+      double                           spring = 0.; ///< below the monoliths in the static state [N/m]
       std::unique_ptr<MasslessSupport> supported;
     };
   } // namespace

@@ -14,7 +14,7 @@ namespace Voussoir
     enum Entry
     {
       strain,
-      strain_at_start,
+      at_start,
       damped,
       worked,
       largest,
@@ -75,7 +75,7 @@ namespace Voussoir
     for (const unsigned int node : standing.node)
       at.insert(at.end(), u.begin() + 3 * std::size_t(node), u.begin() + 3 * std::size_t(node) + 3);
     account.assign(n_entries, 0.);
-    account[strain] = account[strain_at_start] = energy(of_rock(at));
+    account[strain] = account[at_start] = energy(of_rock(at));
   }
 
   void MasslessSupport::push(const unsigned int n, const Unknowns &, const Unknowns &place, const double work)
@@ -88,25 +88,29 @@ namespace Voussoir
     account[strain] = energy(of_rock(place));
     account[damped] += ratio(n) * energy(of_rock(change));
     account[worked] -= work;
-    account[largest] = std::max({account[largest], std::abs(account[strain] - account[strain_at_start]),
+    account[largest] = std::max({account[largest], std::abs(account[strain] - account[at_start]),
                                  account[damped], std::abs(account[worked])});
   }
 
   std::vector<std::pair<std::string, double>> MasslessSupport::energies() const
   {
-    const double change = account[strain] - account[strain_at_start];
+    const double change = account[strain] - account[at_start];
     return {{"rock_strain", change},
             {"rock_damping", account[damped]},
             {"rock_feet", account[worked]},
             {"rock_balance", change + account[damped] - account[worked]}};
   }
 
+  double MasslessSupport::strain_at_start() const
+  {
+    return account.empty() ? 0. : account[at_start];
+  }
+
   double MasslessSupport::balance_error() const
   {
-    const double scale = account.empty() ? 0. : std::max(account[largest], 1e-6 * account[strain_at_start]);
+    const double scale = account.empty() ? 0. : std::max(account[largest], 1e-6 * account[at_start]);
     return scale > 0.
-               ? std::abs(account[strain] - account[strain_at_start] + account[damped] - account[worked]) /
-                     scale
+               ? std::abs(account[strain] - account[at_start] + account[damped] - account[worked]) / scale
                : 0.;
   }
 } // namespace Voussoir

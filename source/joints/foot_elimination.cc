@@ -57,6 +57,7 @@ namespace Voussoir
     }
     H.bodies.resize(1);
     H.bodies[0].stiffness = with_bodies(feet.compliance, first);
+    feet.compliance = BlockSparseMatrix(); // its memory: of massless rock it is dense
     H.mass.resize(feet.node.size());
   }
 

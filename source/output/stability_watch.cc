@@ -51,7 +51,8 @@ namespace Voussoir
       : dam(dam), u_static(newmark.state().u)
   {
     const MotionBounds bounds = bounds_of(motion, dam.structure.mass_damping);
-    const double       strain = newmark.state().energy.strain, v_0 = static_speed(dam.structure, strain);
+    const double       strain = newmark.state().energy.strain + dam.foundation->strain_at_start(),
+                 v_0 = static_speed(dam.structure, strain);
     velocity_dam = amplification * (bounds.oscillator + v_0);
     const double velocity_rock = amplification * (bounds.velocity + v_0);
     const double time = .5 * long_period / M_PI;

@@ -109,8 +109,11 @@ namespace Voussoir
 
     /** Mean velocity of the feet as predicted for the end of the step, after advance() [m/s]. */
     virtual Vector3 base_velocity() const { return {}; }
-    virtual double  seconds() const { return 0.; } ///< of wall time in advance()
-    virtual double  work() const { return 0.; }    ///< of processor time there, but for messages [s]
+    /** Strain energy at the start of what moves with the dam at once [J]. */
+    virtual double strain_at_start() const { return 0.; }
+
+    virtual double seconds() const { return 0.; } ///< of wall time in advance()
+    virtual double work() const { return 0.; }    ///< of processor time there, but for messages [s]
 
     /** Its energies and works now [J], with the names of their columns in energy.csv; after start() always
      * the same names. */

@@ -34,6 +34,8 @@ namespace Voussoir
      * that [J]; a state. */
     std::vector<double> account;
 
+    double strain_at_start() const; ///< [J]
+
     /** For energy.csv, see Foundation::energies(). */
     std::vector<std::pair<std::string, double>> energies() const;
 

@@ -68,7 +68,7 @@ namespace Voussoir
     std::vector<double> times_transposed(const std::vector<double> &columns, const Key &key) const;
 
     const Structure                   &structure;
-    const Feet                         feet;
+    Feet                               feet;      ///< its compliance until H has it
     std::vector<unsigned int>          begin;     ///< rows of each joint
     std::vector<unsigned int>          first;     ///< foot of each body
     std::vector<unsigned int>          interface; ///< of each foot, number among those of its body
