@@ -46,7 +46,7 @@ def one_body():
             size = max(map(abs, b))
             off = max(abs(x - y) for x, y in zip(a, b)) / size
             print(f"    {name}: {whole} {size:.3g} J, off by {off:.1e}")
-            expect(off < 1e-6, f"{whole} of {name} differs")
+            expect(off < 1e-7, f"{whole} of {name} differs")
         share = max(map(abs, column(both[0], "rock_strain"))) / max(map(abs, column(both[0], "strain")))
         expect(.01 < share < 10., f"the rock's strain energy is {share} of the dam's")
         balance = max(map(abs, column(both[0], "rock_balance"))) / max(map(abs, column(both[0], "rock_feet")))

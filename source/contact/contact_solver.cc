@@ -265,10 +265,9 @@ namespace Voussoir
     return 1.;
   }
 
-  /** The residual, free of the round-off of single precision where that matters. */
-  double ContactSolver::checked_residual(const double target, Iterate &x)
+  /** The residual @p now, free of the round-off of single precision where that matters. */
+  double ContactSolver::checked_residual(const double target, const double now, Iterate &x)
   {
-    const double now = residual(x);
     if (drift == 0. || (now > target && drift <= .1 * now))
       return now;
     refresh_gap(x);
@@ -318,7 +317,7 @@ namespace Voussoir
                              Iterate &x)
   {
     evaluate(x);
-    double             now = checked_residual(target, x), previous = now;
+    double             now = checked_residual(target, residual(x), x), previous = now;
     Best               found{now, x.force, x.beside};
     std::deque<double> merits(1, merit());
     unsigned int       stalled = 0;
@@ -328,10 +327,11 @@ namespace Voussoir
       const double bound = stalled > 2 ? merits.back() : *std::max_element(merits.begin(), merits.end());
       const double moved = newton_step(forcing_term(now, previous, target, stalled > 0), bound, x);
       previous = now;
-      if (!std::isfinite(residual(x))) // singular
+      const double reached = residual(x);
+      if (!std::isfinite(reached)) // singular
         break;
       drift += moved / scale;
-      now = checked_residual(target, x);
+      now = checked_residual(target, reached, x);
       merits.push_back(merit());
       if (merits.size() > 5)
         merits.pop_front();

@@ -3,8 +3,6 @@
 
 #include <voussoir/contact/pair_conditions.h>
 
-#include <limits>
-
 namespace Voussoir
 {
   namespace
@@ -18,12 +16,6 @@ namespace Voussoir
       e.residual = back * e.residual;
       e.d_force = times(back, times(e.d_force, axes));
       e.d_gap = times(back, times(e.d_gap, axes));
-    }
-
-    void equations(const ContactSurface &s, const Vector3 &force, const Vector3 &moved, const double rho,
-                   PairEquations &e)
-    {
-      alart_curnier(force, moved[0], {{moved[1], moved[2]}}, s.friction, rho, e);
     }
 
     Vector3 get(const double *x, const std::size_t k)
@@ -94,25 +86,66 @@ namespace Voussoir
     regular = seats;
     for (std::size_t k = 0; k < regular.size() && proximal > 0.; ++k)
       soften(regular[k], proximal, k == 0 ? seats[0].axes * face_force(force, beside) : get(beside, k - 1));
+    has_plain_face = regular[0].axes == one;
+    own_size = 0.;
+    for (const ContactSurface &s : regular)
+      own_size = std::max({own_size, std::abs(s.clearance), s.compliance * norm(s.rest)});
+    softest = rho;
     for (std::size_t k = 0; k < n_beside(); ++k)
+    {
       other[k].rho = rho / (1. + rho * regular[k + 1].compliance);
+      other[k].from = regular[k + 1].axes * present.start;
+      softest = std::min(softest, other[k].rho);
+    }
   }
 
   Vector3 PairSurfaces::face_force(Vector3 force, const double *beside) const
   {
     for (std::size_t k = 0; k < n_beside(); ++k)
-      force = force - transpose_times(present.surfaces[k + 1].axes, get(beside, k));
+      if (const Vector3 r = get(beside, k); r != Vector3{}) // most flanks are open
+        force = force - transpose_times(present.surfaces[k + 1].axes, r);
     return force;
+  }
+
+  /** As alart_curnier(), without the derivatives, which resolve() has in closed form. */
+  void PairSurfaces::equations_of(const ContactSurface &s, const Vector3 &force, const Vector3 &gap,
+                                  Beside &mine)
+  {
+    Vector3 moved = s.axes * gap;
+    moved[0] += s.clearance;
+    for (unsigned int c = 0; c < 3; ++c)
+      moved[c] += s.compliance * (force[c] - s.rest[c]) - (c == 0 ? 0. : mine.from[c]);
+    const Vector3 x = {
+        {force[0] - mine.rho * moved[0], force[1] - mine.rho * moved[1], force[2] - mine.rho * moved[2]}};
+    if (!(x[0] > 0.))
+    {
+      mine.state = PairState::open;
+      mine.residual = force;
+      return;
+    }
+    const double t = length(x[1], x[2]), radius = s.friction * x[0];
+    mine.state = t <= radius ? PairState::stick : PairState::slip;
+    for (unsigned int c = 0; c < 3; ++c)
+      mine.residual[c] = mine.rho * moved[c];
+    if (mine.state == PairState::stick)
+      return;
+    mine.direction = {{x[1] / t, x[2] / t}};
+    mine.shrink = radius / t;
+    for (unsigned int c = 1; c < 3; ++c)
+      mine.residual[c] = force[c] - radius * mine.direction[c - 1];
   }
 
   double PairSurfaces::evaluate(const Vector3 &force, const Vector3 &gap, const double *beside,
                                 PairEquations &e)
   {
     const ContactSurface &face = regular[0];
-    const Vector3         on_face = face.axes * face_force(force, beside);
-    equations(face, on_face, face.movement(gap, present.start, on_face), rho, e);
-    e.d_force = sum(e.d_force, face.compliance, e.d_gap);
-    if (face.axes != one)
+    const Vector3         on_pair = face_force(force, beside),
+                  on_face = has_plain_face ? on_pair : face.axes * on_pair,
+                  moved = face.movement(gap, present.start, on_face);
+    alart_curnier(on_face, moved[0], {{moved[1], moved[2]}}, face.friction, rho, e);
+    if (face.compliance > 0.)
+      e.d_force = sum(e.d_force, face.compliance, e.d_gap);
+    if (!has_plain_face)
       rotate(face.axes, e);
     bool sticks = e.state == PairState::stick;
     e.touching = e.state == PairState::open ? 0 : present.bits[0];
@@ -125,10 +158,10 @@ namespace Voussoir
       mine.is_idle = r == Vector3{} && s.distance(gap) > s.compliance * s.rest[0];
       if (mine.is_idle)
         continue;
-      equations(s, r, s.movement(gap, present.start, r), mine.rho, mine.equations);
-      square += dot(mine.equations.residual, mine.equations.residual);
-      sticks = sticks || mine.equations.state == PairState::stick;
-      if (mine.equations.state != PairState::open)
+      equations_of(s, r, gap, mine);
+      square += dot(mine.residual, mine.residual);
+      sticks = sticks || mine.state == PairState::stick;
+      if (mine.state != PairState::open)
         e.touching |= present.bits[k + 1];
     }
     e.state = e.touching == 0 ? PairState::open : (sticks ? PairState::stick : PairState::slip);
@@ -148,44 +181,94 @@ namespace Voussoir
     return carrying;
   }
 
+  /** What the equations of a surface say of its force: its change where the gap stays; adds what it resists
+   *  the gap with to @p stiffness. */
+  void PairSurfaces::resolve(const ContactSurface &s, Beside &mine, Matrix3 &stiffness)
+  {
+    const Vector3 &res = mine.residual;
+    const double   c = s.compliance;
+    if (mine.state == PairState::open)
+      mine.constant = {{-res[0], -res[1], -res[2]}};
+    else if (mine.state == PairState::stick)
+    {
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        mine.constant[i] = -res[i] / (c * mine.rho);
+        stiffness[4 * i] += 1. / c;
+      }
+    }
+    else
+    {
+      const double e1 = mine.direction[0], e2 = mine.direction[1], left = 1. - c * mine.rho,
+                   tau = 1. - left * mine.shrink;
+      const double normal = res[0] / (c * mine.rho),
+                   along = e1 * res[1] + e2 * res[2] + s.friction * left * normal,
+                   across = (e1 * res[2] - e2 * res[1]) / tau;
+      mine.across = mine.rho * mine.shrink / tau;
+      mine.constant = {{-normal, -(along * e1 - across * e2), -(along * e2 + across * e1)}};
+      const Matrix3 &Q = s.axes;
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        const double rides = (Q[i] + s.friction * (e1 * Q[3 + i] + e2 * Q[6 + i])) / c,
+                     p = mine.across * (e1 * Q[6 + i] - e2 * Q[3 + i]);
+        for (unsigned int j = 0; j < 3; ++j)
+          stiffness[3 * i + j] += rides * Q[j] + p * (e1 * Q[6 + j] - e2 * Q[3 + j]);
+      }
+    }
+  }
+
+  /** Change of the force of a surface with the gap. */
+  void PairSurfaces::add_change(const ContactSurface &s, const Beside &mine, const Vector3 &d_gap,
+                                double *change)
+  {
+    std::copy(mine.constant.begin(), mine.constant.end(), change);
+    if (mine.state == PairState::open)
+      return;
+    const Vector3 v = s.axes * d_gap;
+    const double  normal = v[0] / s.compliance;
+    change[0] -= normal;
+    if (mine.state == PairState::stick)
+    {
+      change[1] -= v[1] / s.compliance;
+      change[2] -= v[2] / s.compliance;
+      return;
+    }
+    const double e1 = mine.direction[0], e2 = mine.direction[1], along = s.friction * normal,
+                 across = mine.across * (e1 * v[2] - e2 * v[1]);
+    change[1] -= along * e1 - across * e2;
+    change[2] -= along * e2 + across * e1;
+  }
+
+  /** Sums of the surfaces beside the face, as last evaluated: how they resist the gap, and the change of
+   * their force where it stays. Does any touch? */
+  bool PairSurfaces::eliminate(Matrix3 &stiffness, Vector3 &constant)
+  {
+    bool any = false;
+    stiffness = {};
+    constant = {};
+    for (std::size_t k = 0; k < n_beside(); ++k)
+      if (!other[k].is_idle)
+      {
+        resolve(regular[k + 1], other[k], stiffness);
+        any = any || other[k].state != PairState::open;
+        add(constant, transpose_times(regular[k + 1].axes, other[k].constant));
+      }
+    return any;
+  }
+
   void PairSurfaces::condense(PairEquations &e, const bool scaled)
   {
-    Matrix3 stiffness{};
-    Vector3 constant{};
-    bool    any = false;
-    for (std::size_t k = 0; k < n_beside(); ++k)
-    {
-      const ContactSurface &s = regular[k + 1];
-      Beside               &mine = other[k];
-      const PairEquations  &own = mine.equations;
-      if (mine.is_idle)
-        continue;
-      if (own.state == PairState::open)
-      {
-        mine.per_gap = {};
-        mine.constant = {{-own.residual[0], -own.residual[1], -own.residual[2]}};
-      }
-      else
-      {
-        const Matrix3 inverted = Voussoir::inverse(sum(own.d_force, s.compliance, own.d_gap));
-        mine.per_gap = times(inverted, times(own.d_gap, s.axes));
-        mine.constant = inverted * own.residual;
-        for (double &x : mine.per_gap)
-          x = -x;
-        for (double &x : mine.constant)
-          x = -x;
-        stiffness = sum(stiffness, -1., times(transpose(s.axes), mine.per_gap));
-        any = true;
-      }
-      add(constant, transpose_times(s.axes, mine.constant));
-    }
+    Matrix3    stiffness;
+    Vector3    constant;
+    const bool any = eliminate(stiffness, constant);
     e.residual = e.residual - e.d_force * constant;
     if (!any)
       return;
-    e.d_gap = sum(e.d_gap, 1., times(e.d_force, stiffness));
+    const Matrix3 by_force = times(e.d_force, stiffness);
+    e.d_gap = sum(e.d_gap, 1., by_force);
     if (!scaled)
       return;
-    Matrix3 scale = sum(one, 1. / rho, times(e.d_force, stiffness));
+    Matrix3 scale = sum(one, 1. / rho, by_force);
     if (std::abs(determinant(scale)) < 1e-6)
       for (unsigned int c = 0; c < 9; ++c)
         scale[c] = c % 4 == 0 ? 1. + std::abs(stiffness[0] + stiffness[4] + stiffness[8]) / rho : 0.;
@@ -198,6 +281,9 @@ namespace Voussoir
   void PairSurfaces::expand(const PairEquations &e, const Vector3 &d_force, const Vector3 &d_gap,
                             double *d_beside) const
   {
+    std::fill(d_beside, d_beside + 3 * n_beside(), 0.);
+    if (std::all_of(other.begin(), other.end(), [](const Beside &mine) { return mine.is_idle; }))
+      return;
     Vector3 rest = e.residual; // what the change of force leaves of the equations at this change of the gap
     add(rest, e.d_force * d_force);
     add(rest, e.d_gap * d_gap);
@@ -207,16 +293,8 @@ namespace Voussoir
       normal[4 * c] += 1e-8 * rho * rho;
     const Vector3 moved = d_gap - Voussoir::inverse(normal) * (adjoint * rest);
     for (std::size_t k = 0; k < n_beside(); ++k)
-    {
-      if (other[k].is_idle)
-      {
-        std::fill(d_beside + 3 * k, d_beside + 3 * k + 3, 0.);
-        continue;
-      }
-      const Vector3 change = other[k].per_gap * moved;
-      for (unsigned int c = 0; c < 3; ++c)
-        d_beside[3 * k + c] = other[k].constant[c] + change[c];
-    }
+      if (!other[k].is_idle)
+        add_change(regular[k + 1], other[k], moved, d_beside + 3 * k);
   }
 
   double PairSurfaces::error_square(const Vector3 &force, const Vector3 &gap, const double *beside,
@@ -238,132 +316,5 @@ namespace Voussoir
       square += dot(e, e);
     }
     return square;
-  }
-
-  namespace
-  {
-    /** Gauss-Seidel over the surfaces of a pair, each solved exactly. @p r: their forces. */
-    void sweep(const std::vector<ContactSurface> &surfaces, const Vector3 &start, const Matrix3 &H,
-               const Vector3 &b, std::vector<Vector3> &r)
-    {
-      Vector3 force{};
-      for (std::size_t k = 0; k < r.size(); ++k)
-        add(force, transpose_times(surfaces[k].axes, r[k]));
-      for (std::size_t k = 0; k < r.size(); ++k)
-      {
-        const ContactSurface &s = surfaces[k];
-        Matrix3               own = times(s.axes, times(H, transpose(s.axes)));
-        for (unsigned int c = 0; c < 3; ++c)
-          own[4 * c] += s.compliance;
-        Vector3 gap = H * force;
-        add(gap, b);
-        const Vector3 next = solve_coulomb(own, s.movement(gap, start, r[k]) - own * r[k], s.friction);
-        add(force, transpose_times(s.axes, next - r[k]));
-        r[k] = next;
-      }
-    }
-  } // namespace
-
-  /** Most pairs touch on their face only, or nowhere: the force then. */
-  bool PairSurfaces::face_alone(const Matrix3 &H, const Vector3 &b, Vector3 &force) const
-  {
-    const ContactSurface &face = regular[0];
-    if (face.compliance > 0.)
-      return false;
-    const Matrix3 on_face = face.axes == one ? H : times(face.axes, times(H, transpose(face.axes)));
-    const Vector3 alone = transpose_times(
-        face.axes, solve_coulomb(on_face, face.movement(b, present.start, {}), face.friction));
-    Vector3 gap = H * alone;
-    add(gap, b);
-    for (std::size_t k = 1; k < regular.size(); ++k)
-      if (!(regular[k].distance(gap) >= regular[k].compliance * regular[k].rest[0]))
-        return false;
-    force = alone;
-    return true;
-  }
-
-  /** Newton's method, not held to decrease. Returns the norm of the equations at the best, which is left in
-   * @p force and @p beside. */
-  double PairSurfaces::newton(const Matrix3 &H, const Vector3 &b, const double scale, const double accuracy,
-                              Vector3 &force, Forces &beside)
-  {
-    double  smallest = std::numeric_limits<double>::infinity();
-    Vector3 now = force;
-    Forces  now_beside = beside, change{};
-    for (unsigned int i = 0; i < 20 && smallest > accuracy * scale; ++i)
-    {
-      PairEquations e;
-      Vector3       gap = H * now;
-      add(gap, b);
-      const double square = evaluate(now, gap, now_beside.data(), e),
-                   measure = std::sqrt(square + dot(e.residual, e.residual));
-      if (!std::isfinite(measure) || (smallest <= 1e2 * accuracy * scale && !(measure < .5 * smallest)))
-        break;
-      if (measure < smallest)
-      {
-        smallest = measure;
-        force = now;
-        beside = now_beside;
-      }
-      if (smallest <= accuracy * scale)
-        break;
-      condense(e);
-      const Vector3 step = Vector3{} - Voussoir::inverse(sum(e.d_force, 1., times(e.d_gap, H))) * e.residual;
-      expand(e, step, H * step, change.data());
-      add(now, step);
-      for (std::size_t c = 0; c < 3 * n_beside(); ++c)
-        now_beside[c] += change[c];
-    }
-    return smallest;
-  }
-
-  Vector3 PairSurfaces::solve(const Matrix3 &H, const Vector3 &b, const double accuracy, Vector3 force,
-                              double *beside)
-  {
-    const bool idle = std::all_of(beside, beside + 3 * n_beside(), [](const double r) { return r == 0.; });
-    if (idle && face_alone(H, b, force))
-    {
-      std::fill(beside, beside + 3 * n_beside(), 0.);
-      return force;
-    }
-    double size = norm(b) + norm(present.start);
-    for (const ContactSurface &s : regular)
-      size = std::max({size, std::abs(s.clearance), s.compliance * norm(s.rest)});
-    double softest = rho; // of the surfaces
-    for (std::size_t k = 0; k < n_beside(); ++k)
-      softest = std::min(softest, other[k].rho);
-    const double scale = softest * size;
-    Forces       now{};
-    std::copy(beside, beside + 3 * n_beside(), now.begin());
-    double smallest = newton(H, b, scale, accuracy, force, now);
-    if (smallest <= 1e2 * accuracy * scale)
-    {
-      std::copy(now.begin(), now.begin() + 3 * n_beside(), beside);
-      return force;
-    }
-    // Where that circles: from sweeps over the surfaces, at first from zero.
-    std::vector<Vector3> r(1 + n_beside(), Vector3{});
-    for (unsigned int round = 0; round < 30 && !(smallest <= 1e2 * accuracy * scale); ++round)
-    {
-      for (unsigned int i = 0; i < 5u << std::min(round, 5u); ++i)
-        sweep(regular, present.start, H, b, r);
-      Vector3 swept{};
-      Forces  swept_beside{};
-      for (std::size_t k = 0; k < r.size(); ++k)
-      {
-        add(swept, transpose_times(regular[k].axes, r[k]));
-        if (k > 0)
-          std::copy(r[k].begin(), r[k].end(), swept_beside.begin() + 3 * (k - 1));
-      }
-      const double found = newton(H, b, scale, accuracy, swept, swept_beside);
-      if (found < smallest)
-      {
-        smallest = found;
-        force = swept;
-        now = swept_beside;
-      }
-    }
-    std::copy(now.begin(), now.begin() + 3 * n_beside(), beside);
-    return force;
   }
 } // namespace Voussoir

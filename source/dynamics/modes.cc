@@ -81,7 +81,7 @@ namespace Voussoir
     }
     catch (const ExceptionBase &)
     {
-      throw ComputationError("The natural frequencies did not converge.");
+      throw ComputationError("The natural frequencies did not converge: is the dam held by its base?");
     }
     std::vector<NaturalMode> modes;
     for (unsigned int k = 0; k < n_modes; ++k)

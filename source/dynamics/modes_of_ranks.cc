@@ -143,7 +143,7 @@ namespace Voussoir
     }
     catch (const ExceptionBase &)
     {
-      throw ComputationError("The natural frequencies did not converge.");
+      throw ComputationError("The natural frequencies did not converge: is the dam held by its base?");
     }
   }
 } // namespace Voussoir

@@ -133,8 +133,7 @@ namespace Voussoir
     }
     else
     {
-      if (!share.are_trivial())
-        find_diagonals();
+      find_diagonals();
       for (const auto &b : blocks)
         single[b.first].assign(b.second.begin(), b.second.end());
     }
@@ -243,7 +242,8 @@ namespace Voussoir
 
   Matrix3 InterfaceOperator::diagonal(const unsigned int pair) const
   {
-    return diagonals.empty() ? diagonal_of_blocks(pair) : diagonals[pair];
+    AssertIndexRange(pair, diagonals.size());
+    return diagonals[pair];
   }
 
   Matrix3 InterfaceOperator::diagonal_of_blocks(const unsigned int pair) const

@@ -13,8 +13,6 @@ namespace Voussoir
   using Matrix3 = std::array<double, 9>; ///< row by row
   using Unknowns = std::vector<double>;  ///< three components per node, node after node
 
-  Matrix3 inverse(const Matrix3 &a);
-
   inline Vector3 operator*(const Matrix3 &a, const Vector3 &x)
   {
     return {{a[0] * x[0] + a[1] * x[1] + a[2] * x[2], a[3] * x[0] + a[4] * x[1] + a[5] * x[2],
@@ -44,7 +42,21 @@ namespace Voussoir
     return c;
   }
 
-  double determinant(const Matrix3 &a);
+  inline Matrix3 inverse(const Matrix3 &a)
+  {
+    const double c0 = a[4] * a[8] - a[5] * a[7], c1 = a[5] * a[6] - a[3] * a[8],
+                 c2 = a[3] * a[7] - a[4] * a[6];
+    const double d = 1. / (a[0] * c0 + a[1] * c1 + a[2] * c2);
+    return {{c0 * d, (a[2] * a[7] - a[1] * a[8]) * d, (a[1] * a[5] - a[2] * a[4]) * d, c1 * d,
+             (a[0] * a[8] - a[2] * a[6]) * d, (a[2] * a[3] - a[0] * a[5]) * d, c2 * d,
+             (a[1] * a[6] - a[0] * a[7]) * d, (a[0] * a[4] - a[1] * a[3]) * d}};
+  }
+
+  inline double determinant(const Matrix3 &a)
+  {
+    return a[0] * (a[4] * a[8] - a[5] * a[7]) - a[1] * (a[3] * a[8] - a[5] * a[6]) +
+           a[2] * (a[3] * a[7] - a[4] * a[6]);
+  }
 
   inline double dot(const Vector3 &a, const Vector3 &b)
   {

@@ -82,7 +82,7 @@ namespace Voussoir
     void         evaluate(const Iterate &x);
     double       merit() const;
     double       residual(const Iterate &x, bool rigid = false);
-    double       checked_residual(double target, Iterate &x);
+    double       checked_residual(double target, double now, Iterate &x);
     double       forcing_term(double now, double previous, double target, bool stalls) const;
     void         refresh_gap(Iterate &x);
     void         set_force(Iterate &x, const Best &from);

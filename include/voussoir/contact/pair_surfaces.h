@@ -71,7 +71,9 @@ namespace Voussoir
     double evaluate(const Vector3 &force, const Vector3 &gap, const double *beside, PairEquations &e);
 
     /** Replaces @p e, as last evaluated, by equations from which the other surfaces are eliminated. @p
-     * scaled: their rows brought to the size of those of other laws. */
+     * scaled: their rows brought to the size of those of other laws. The forces of a surface of friction mu
+     * change with its gap g by Y = d r/d g, negative: (n + mu e) n^T/c + k p p^T where it slips in the
+     * direction e (p across it), 1/c where it sticks, c being its compliance. */
     void condense(PairEquations &e, bool scaled = true);
 
     /** Changes of the forces beside the face in a Newton step with the condensed equations @p e: those that
@@ -100,23 +102,34 @@ namespace Voussoir
 
     struct Beside ///< a surface beside the face
     {
-      PairEquations equations;
-      bool          is_idle; ///< open, and without force?
-      double        rho;
-      Matrix3       per_gap;  ///< d force/d gap of the pair
-      Vector3       constant; ///< change of the force where the gap stays
+      Vector3               from; ///< the start of the step in its axes [m]
+      double                rho;
+      bool                  is_idle; ///< open, and without force?
+      PairState             state;
+      Vector3               residual;
+      std::array<double, 2> direction; ///< of the friction, where it slips
+      double                shrink;    ///< friction over what it would be without a limit, where it slips
+      double                across;    ///< d friction/d slip across that direction, its sign changed [N/m]
+      Vector3               constant;  ///< change of the force where the gap stays
     };
-    Vector3 face_force(Vector3 force, const double *beside) const;
-    double  newton(const Matrix3 &H, const Vector3 &b, double scale, double accuracy, Vector3 &force,
-                   Forces &beside);
-    bool    face_alone(const Matrix3 &H, const Vector3 &b, Vector3 &force) const;
+    static void equations_of(const ContactSurface &s, const Vector3 &force, const Vector3 &gap, Beside &mine);
+    static void resolve(const ContactSurface &s, Beside &mine, Matrix3 &stiffness);
+    static void add_change(const ContactSurface &s, const Beside &mine, const Vector3 &d_gap, double *change);
+    bool        eliminate(Matrix3 &stiffness, Vector3 &constant);
+    Vector3     face_force(Vector3 force, const double *beside) const;
+    double      newton(const Matrix3 &H, const Vector3 &b, double scale, double accuracy, Vector3 &force,
+                       Forces &beside);
+    bool        face_alone(const Matrix3 &H, const Vector3 &b, Vector3 &force) const;
 
     PresentSurfaces             present;
     std::vector<ContactSurface> seats;   ///< with the compliance that stiff seats are given
     std::vector<ContactSurface> regular; ///< with that of regularise(), too
     std::vector<Beside>         other;
-    double                      rho = 0.;
+    double                      rho = 0.;      ///< [N/m]
+    double                      softest = 0.;  ///< the smallest rho of a surface [N/m]
+    double                      own_size = 0.; ///< of clearances and of seats at rest [m]
     bool                        regularised = false;
+    bool                        has_plain_face = false; ///< are the face's axes those of the pair?
   };
 } // namespace Voussoir
 

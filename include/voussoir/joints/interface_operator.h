@@ -114,8 +114,8 @@ namespace Voussoir
     std::map<std::pair<unsigned int, unsigned int>, std::vector<double>> blocks;
     std::map<std::pair<unsigned int, unsigned int>, std::vector<float>>  single; ///< less the feet's part
     std::shared_ptr<const FootElimination>                               eliminated;
-    std::vector<Matrix3>                      diagonals; ///< of pairs; empty: as in the blocks
-    std::vector<unsigned int>                 colour;    ///< of the groups; coupled ones have different ones
+    std::vector<Matrix3>                                                 diagonals; ///< of pairs
+    std::vector<unsigned int>                 colour; ///< of the groups; coupled ones have different ones
     std::vector<std::vector<unsigned int>>    groups_of_colour;
     std::vector<std::vector<Ranks::Transfer>> to_neighbours; ///< of the rows of each colour
   };

@@ -40,8 +40,7 @@ namespace Voussoir
     /** @p start: gap at the start of the step, 3 per pair [m]; @p memory: of the pairs, as committed before
      * the step; receives the events of the step, after each of which it is solved once more; @p force: guess
      * (zeros in a static system: none), then solution, 3 per pair [N]; @p gap, 3 per pair [m]; @p u, 3 per
-     * node [m]; @p feet: null where
-     * there are none, or their place is zero and nobody asks for the force. */
+     * node [m]; @p feet: null where there are none, or their place is zero and nobody asks for the force. */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &memory,
                         Unknowns &force, Unknowns &gap, Unknowns &u, FeetOfStep *feet = nullptr);
 

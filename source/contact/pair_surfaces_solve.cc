@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The solution of one pair alone: on its face, by Newton's method, or from sweeps over its surfaces.
+#include <voussoir/contact/pair_conditions.h>
+#include <voussoir/contact/pair_surfaces.h>
+
+#include <limits>
+
+namespace Voussoir
+{
+  namespace
+  {
+    /** Gauss-Seidel over the surfaces of a pair, each solved exactly. @p r: their forces. */
+    void sweep(const std::vector<ContactSurface> &surfaces, const Vector3 &start, const Matrix3 &H,
+               const Vector3 &b, std::vector<Vector3> &r)
+    {
+      Vector3 force{};
+      for (std::size_t k = 0; k < r.size(); ++k)
+        add(force, transpose_times(surfaces[k].axes, r[k]));
+      for (std::size_t k = 0; k < r.size(); ++k)
+      {
+        const ContactSurface &s = surfaces[k];
+        Matrix3               own = times(s.axes, times(H, transpose(s.axes)));
+        for (unsigned int c = 0; c < 3; ++c)
+          own[4 * c] += s.compliance;
+        Vector3 gap = H * force;
+        add(gap, b);
+        const Vector3 next = solve_coulomb(own, s.movement(gap, start, r[k]) - own * r[k], s.friction);
+        add(force, transpose_times(s.axes, next - r[k]));
+        r[k] = next;
+      }
+    }
+  } // namespace
+
+  /** Most pairs touch on their face only, or nowhere: the force then. */
+  bool PairSurfaces::face_alone(const Matrix3 &H, const Vector3 &b, Vector3 &force) const
+  {
+    const ContactSurface &face = regular[0];
+    if (face.compliance > 0.)
+      return false;
+    const Matrix3 on_face = has_plain_face ? H : times(face.axes, times(H, transpose(face.axes)));
+    const Vector3 alone = transpose_times(
+        face.axes, solve_coulomb(on_face, face.movement(b, present.start, {}), face.friction));
+    Vector3 gap = H * alone;
+    add(gap, b);
+    for (std::size_t k = 1; k < regular.size(); ++k)
+      if (!(regular[k].distance(gap) >= regular[k].compliance * regular[k].rest[0]))
+        return false;
+    force = alone;
+    return true;
+  }
+
+  /** Newton's method, not held to decrease. Returns the norm of the equations at the best, which is left in
+   * @p force and @p beside. */
+  double PairSurfaces::newton(const Matrix3 &H, const Vector3 &b, const double scale, const double accuracy,
+                              Vector3 &force, Forces &beside)
+  {
+    double  smallest = std::numeric_limits<double>::infinity();
+    Vector3 now = force;
+    Forces  now_beside;
+    std::copy_n(beside.begin(), 3 * n_beside(), now_beside.begin());
+    for (unsigned int i = 0; i < 20 && smallest > accuracy * scale; ++i)
+    {
+      PairEquations e;
+      Vector3       gap = H * now;
+      add(gap, b);
+      const double square = evaluate(now, gap, now_beside.data(), e),
+                   measure = std::sqrt(square + dot(e.residual, e.residual));
+      if (!std::isfinite(measure) || (smallest <= 1e2 * accuracy * scale && !(measure < .5 * smallest)))
+        break;
+      if (measure < smallest)
+      {
+        smallest = measure;
+        force = now;
+        std::copy_n(now_beside.begin(), 3 * n_beside(), beside.begin());
+      }
+      if (smallest <= accuracy * scale)
+        break;
+      Matrix3    stiffness;
+      Vector3    constant;
+      const bool any = eliminate(stiffness, constant);
+      if (any)
+        e.d_gap = sum(e.d_gap, 1., times(e.d_force, stiffness));
+      const Vector3 step = Voussoir::inverse(sum(e.d_force, 1., times(e.d_gap, H))) *
+                           (e.d_force * constant - e.residual),
+                    d_gap = H * step;
+      add(now, step);
+      for (std::size_t k = 0; k < n_beside(); ++k)
+        if (!other[k].is_idle)
+        {
+          double change[3];
+          add_change(regular[k + 1], other[k], d_gap, change);
+          for (unsigned int c = 0; c < 3; ++c)
+            now_beside[3 * k + c] += change[c];
+        }
+    }
+    return smallest;
+  }
+
+  Vector3 PairSurfaces::solve(const Matrix3 &H, const Vector3 &b, const double accuracy, Vector3 force,
+                              double *beside)
+  {
+    const bool idle = std::all_of(beside, beside + 3 * n_beside(), [](const double r) { return r == 0.; });
+    if (idle && face_alone(H, b, force))
+    {
+      std::fill(beside, beside + 3 * n_beside(), 0.);
+      return force;
+    }
+    const double scale = softest * std::max(norm(b) + norm(present.start), own_size);
+    Forces       now{};
+    std::copy(beside, beside + 3 * n_beside(), now.begin());
+    double smallest = newton(H, b, scale, accuracy, force, now);
+    if (smallest <= 1e2 * accuracy * scale)
+    {
+      std::copy(now.begin(), now.begin() + 3 * n_beside(), beside);
+      return force;
+    }
+    // Where that circles: from sweeps over the surfaces, at first from zero.
+    std::vector<Vector3> r(1 + n_beside(), Vector3{});
+    for (unsigned int round = 0; round < 30 && !(smallest <= 1e2 * accuracy * scale); ++round)
+    {
+      for (unsigned int i = 0; i < 5u << std::min(round, 5u); ++i)
+        sweep(regular, present.start, H, b, r);
+      Vector3 swept{};
+      Forces  swept_beside{};
+      for (std::size_t k = 0; k < r.size(); ++k)
+      {
+        add(swept, transpose_times(regular[k].axes, r[k]));
+        if (k > 0)
+          std::copy(r[k].begin(), r[k].end(), swept_beside.begin() + 3 * (k - 1));
+      }
+      const double found = newton(H, b, scale, accuracy, swept, swept_beside);
+      if (found < smallest)
+      {
+        smallest = found;
+        force = swept;
+        now = swept_beside;
+      }
+    }
+    std::copy(now.begin(), now.begin() + 3 * n_beside(), beside);
+    return force;
+  }
+} // namespace Voussoir
