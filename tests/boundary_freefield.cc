@@ -5,6 +5,8 @@
 #include "box.h"
 #include "column.h"
 
+#include <voussoir/rock/arrival.h>
+
 namespace
 {
   using namespace Boxes;
@@ -218,6 +220,49 @@ namespace
     below("  P", difference[2] / peak[2], .01);
   }
 
+  /** Times of the waves from one cell below the bottom, through rock of speed 2 up to z = 10 and of 1 from
+   * there on, P waves sqrt(3) times as fast. They are when the columns move. */
+  void arrival()
+  {
+    auto            p = layered(parameters("mtf2", true));
+    const RockModel model = make_rock_model(layered(box({6, 6, 30}, open_box, unit_cells), 10.), p.rock);
+    double          error = 0.;
+    for (const auto &[z, time] : std::vector<std::pair<double, double>>{
+             {-5., 0.}, {-.5, .25}, {6., 3.5}, {10., 5.5}, {17.25, 12.75}, {30., 25.5}, {50., 25.5}})
+    {
+      const Vector3 found = travel_times(model, z);
+      for (unsigned int c = 0; c < 3; ++c)
+        error = larger(error, std::abs(found[c] - time / (c == 2 ? std::sqrt(3.) : 1.)));
+    }
+    below("arrival of S and P, two layers: error [s]", error, 1e-12);
+
+    // A ramp of the incident wave: its middle is at the ground when the times say so.
+    p.free_field = "columns";
+    FreeField  field(model, p.damping, p.dt, 400,
+                     [](const double t) -> Vector3
+                     {
+                      const double ramp = t < 0. ? 0. : t < 8. ? .5 - .5 * std::cos(pi * t / 8.) : 1.;
+                      return {{ramp, ramp, ramp}};
+                    });
+    const auto top = static_cast<unsigned int>(model.points.size()) - 1;
+    field.add_nodes(model, {top});
+    Unknowns      u;
+    const Vector3 times = travel_times(model, 30.);
+    Vector3       middle{};
+    const double  raised =
+        2. * 2. * 2.2 / (1. + 2.2); // by the ground, out of rock with 2.2 times the impedance
+    for (unsigned int i = 1; i <= 400; ++i)
+    {
+      field.advance();
+      field.evaluate(u);
+      for (const unsigned int c : {0u, 2u})
+        if (middle[c] == 0. && u[c] > .5 * raised)
+          middle[c] = i * p.dt - 4.;
+    }
+    below("arrival at the ground against the times told, S [s]", std::abs(middle[0] - times[0]), .3);
+    below("  P", std::abs(middle[2] - times[2]), .3);
+  }
+
   /** Valley along x: the ground's height over y is lowered in the middle, vertical lines stay vertical. */
   Vector3 valley(const double i, const double j, const double k)
   {
@@ -283,7 +328,7 @@ namespace
 
 int main()
 {
-  return Columns::run_all({refuses, surface_factor, layer_on_half_space, stepped_bottom,
+  return Columns::run_all({refuses, surface_factor, layer_on_half_space, stepped_bottom, arrival,
                            [] { flat_layers("mtf3"); }, [] { flat_layers("viscous-spring"); },
                            [] { flat("mtf2", true, {}); }, [] { flat("mtf2", false, {}); },
                            [] { flat("mtf3", true, {}); },

@@ -187,6 +187,36 @@ namespace
     expect_close(volume(layers), polygon * r.n_layers * h, 1e-10, "volume of the layers upstream");
   }
 
+  /** How much a vertical wave disperses on its way up a corner of the block: the sum of h^3 over its cells.
+   */
+  double dispersion(const double depth)
+  {
+    MeshParameters p = parameters(5, 30, 10, 1);
+    p.arch210_rock.depth = depth;
+    const HexMesh    mesh = make_mesh(p, "");
+    const auto       box = bounding_box(mesh);
+    std::set<double> heights;
+    for (const auto &node : mesh.nodes)
+      if (node[0] == box.first[0] && node[1] == box.second[1])
+        heights.insert(node[2]);
+    double sum = 0, below = *heights.begin();
+    for (const double z : heights)
+    {
+      sum += std::pow(z - below, 3);
+      below = z;
+    }
+    std::printf("  depth %g m: %zu cells from bottom to ground, sum of h^3 %.3g m3\n", depth,
+                heights.size() - 1, sum);
+    return sum;
+  }
+
+  void test_depth()
+  {
+    const double usual = dispersion(210);
+    for (const double depth : {315., 420., 630.})
+      expect(dispersion(depth) < 1.6 * usual, "waves disperse more in deeper rock");
+  }
+
   void test_section()
   {
     // The grids of the up- and the downstream face are the same.
@@ -368,6 +398,7 @@ int main()
   return run({{"shapes", test_shapes},
               {"conformity", test_conformity},
               {"volume", test_volume},
+              {"depth", test_depth},
               {"section", test_section},
               {"files", test_files},
               {"bad lines", test_bad_lines},

@@ -3,9 +3,11 @@
 #include <voussoir/base/excess.h>
 #include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/motion/ground_motion.h>
+#include <voussoir/rock/arrival.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Voussoir
 {
@@ -86,7 +88,16 @@ namespace Voussoir
     return sum;
   }
 
-  /** The region, at rest; the earthquake comes @p delay late [s]. */
+  Vector3 ExplicitRock::arrival() const
+  {
+    double lowest = std::numeric_limits<double>::max();
+    for (const Foot &f : foot)
+      lowest = std::min(lowest, model.points[f.rock][2]);
+    return travel_times(model, lowest);
+  }
+
+  /** The region, at rest; the earthquake comes @p delay late [s]. P waves wait for the slower S waves: the
+   * outcrop's components are to be at the dam's lowest foot together, whatever the depth of the rock. */
   void ExplicitRock::make_rock(const GroundMotion &outcrop, const TimeGrid &steps, const double delay,
                                const std::vector<unsigned int> &of_first)
   {
@@ -99,10 +110,15 @@ namespace Voussoir
       split.step(of_first, 0);
     region = make_region(model, p, std::move(split));
     const IncidentWave wave = incident_wave(outcrop);
+    const Vector3      arrives = arrival();
+    const double       wait = delay + arrives[0] - arrives[2];
+    const IncidentWave rising = [wave, delay, wait](const double t)
+    {
+      const Vector3 s = wave(t - delay), p = wave(t - wait);
+      return Vector3{{s[0], s[1], p[2]}};
+    };
     if (grid.n > 0) // else without an earthquake
-      shake(
-          *region, model, p, [wave, delay](const double t) { return wave(t - delay); },
-          grid.n_substeps() + 2);
+      shake(*region, model, p, rising, grid.n_substeps() + 2);
     region->keep_energy();
   }
 

@@ -14,6 +14,8 @@ namespace Voussoir
     log.line("Rock      explicit: %s", in_words(parameters.rock).c_str());
     log.line("          %u nodes; boundary %s, free field by %s", n_nodes(), parameters.boundary.c_str(),
              parameters.free_field.c_str());
+    if (steps.n > 0)
+      log.line("          the earthquake is at the dam's foot after %.3f s", arrival()[0]);
     const std::string warning =
         make_boundary(parameters.boundary)->warning(region_parameters(parameters, {}, steps.substep()));
     if (!warning.empty())
@@ -35,6 +37,7 @@ namespace Voussoir
     json.add("nodes", n_nodes())
         .add("dofs", 3. * n_nodes())
         .add("boundary", parameters.boundary)
+        .add("arrival", arrival()[0])
         .add("time_step", steps.substep())
         .add("critical_time_step", dt_critical);
     if (region)

@@ -99,9 +99,12 @@ namespace Voussoir
         n_downstream = count_lines(false);
         column_size = y_end - valley[n_columns - 1][0];
         n_side = n_graded(y_side - n * h_side - y_end, column_size, h_side, rock.element_size);
+        // Waves from below disperse, with the square of the cells' height and with their way: deeper rock
+        // than the valley has less tall ones.
         const double below_valley = -z_bottom - n * h_bottom;
+        const double tallest = largest * std::sqrt(std::min(1., 2. * plateau / (plateau + rock.depth)));
         n_down = std::clamp<unsigned int>(std::ceil(below_valley / smallest), 2,
-                                          n_graded(plateau + below_valley, surface_size, h_bottom, largest));
+                                          n_graded(plateau + below_valley, surface_size, h_bottom, tallest));
 
         first_column = n + n_side;
         first_layer = n + n_upstream;

@@ -2,6 +2,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/parallel.h>
 #include <voussoir/mesh/coincident.h>
+#include <voussoir/rock/arrival.h>
 #include <voussoir/rock/free_field.h>
 
 #include <algorithm>
@@ -49,8 +50,7 @@ namespace Voussoir
   {
     if (model.columns.empty())
       throw InputError("the artificial boundary has no bottom through which the earthquake could enter");
-    const auto entrance = [](const RockColumn &column) { return 2. * column.z[0] - column.z[1]; };
-    double     lowest = std::numeric_limits<double>::max();
+    double lowest = std::numeric_limits<double>::max();
     for (const RockColumn &column : model.columns)
       lowest = std::min(lowest, entrance(column));
 

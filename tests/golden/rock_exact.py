@@ -27,8 +27,9 @@ def solve(alpha):
     out = np.fft.rfft([scenes.outcrop(x)[0] for x in t])
     c = np.sqrt(r["E"] / r["rho"])
     depth = (r["layers"] + 1) * h  # the wave enters a cell below the rock's foot
+    wait = depth * (np.sqrt(2) - 1) / c  # until S waves, of speed c/sqrt(2), can be at the foot together with it
     k = w / c * np.sqrt(1 - 1j * alpha / w)
-    U = out / 2 * np.exp(-1j * k * depth)
+    U = out / 2 * np.exp(-1j * (k * depth + w * wait))
     f1, f2 = 2 * np.pi * np.array(r["frequencies"])
     a0, a1 = np.linalg.solve([[.5 / f1, .5 * f1], [.5 / f2, .5 * f2]], 2 * [r["ratio"]])
     N = r["dam_cells"]

@@ -48,6 +48,10 @@ namespace Voussoir
     std::string about_steps() const override;
     void        add_to_summary(Json &summary, const TimeGrid &grid) const override;
 
+    /** When the rising waves, S, S, P, are at the lowest foot, if they enter at t = 0 [s]. The P waves enter
+     * later by the difference. */
+    Vector3 arrival() const;
+
     unsigned int n_nodes() const { return static_cast<unsigned int>(model.points.size()); }
     double       critical_time_step() const { return dt_critical; } ///< of the rock [s]
 
