@@ -92,6 +92,29 @@ def page():
     expect("Slip of a joint" not in Reader("tied.html").text, "the tied dam has slips")
 
 
+def beside_static():
+    """A static state beside an earthquake: what moves keeps its figures over time, the static state has no duration of overstress,
+    and the error of the tension above the foot stands beside that, not beside the singular value of the foot."""
+    write_scene("limited.prm", LIMITS)
+    runs("limited.prm", "--output", "moving", "--overwrite", "--set", "Dynamics/Error estimate=true")
+    runs("limited.prm", "--output", "resting", "--overwrite", "--set", "Motion/Source=none")
+    runs("report", "moving", "resting", "--output", "pair.html")
+    read = Reader("pair.html")
+    for words in ("Displacement of the crest", "Opening and slip at the crest over time", "Energies;"):
+        expect(words in read.text, f"'{words}' is not on the page of a static state and an earthquake")
+    expect("single time" not in read.text and "resting: its response over time" in read.text, read.text[-1500:])
+    text = Path("pair.html").read_text(encoding="utf-8")
+    row = {name: text[text.index(name):].partition("</tr>")[0] for name in ("Duration of overstress", "above the foot", "with the foot")}
+    expect(row["Duration of overstress"].count("<td") == 3 and ">–<" in row["Duration of overstress"], row["Duration of overstress"])
+    expect("±" in row["above the foot"] and "±" not in row["with the foot"], f"{row}")
+    found = summary("moving")["error_estimate"]["tension_upstream"] * 1e-6
+    expect(f"± {found:.2g}"[:5] in row["above the foot"], f"{found}: {row['above the foot']}")
+    facts = text[text.index("Dam and scene"):text.index("What differs")]
+    expect("<td>Tension</td>" not in facts and "largest opening" not in facts, "results stand among what the program understood")
+    runs("report", "resting", "--output", "rest.html")
+    expect("None: the static state alone." in Reader("rest.html").text, "a static state alone")
+
+
 def browser():
     """Chromium shows the page: no error, every figure, no sideways scrolling on a telephone, a PDF."""
     if find_browser() is None:
@@ -344,4 +367,4 @@ def area(corners):
 
 
 if __name__ == "__main__":
-    run_cases(page, browser, refusals, numbers, unjudged, keys, ended, spectrum)
+    run_cases(page, beside_static, browser, refusals, numbers, unjudged, keys, ended, spectrum)
