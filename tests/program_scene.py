@@ -123,6 +123,9 @@ def values():
                            "Joints/Keys/Height=0.3": ("Joints/Keys/Height", "KSM"),
                            "Mesh/File=a.msh": ("Mesh/File", "arch210"),
                            "Motion/Seed=7": ("Motion/Seed", "Motion/Source is file"),
+                           "Limits/Tensile strength=2.5": ("Limits/Tensile strength", "2.5 Pa", "21 GPa"),
+                           "Limits/Waterstop opening=15": ("Limits/Waterstop opening", "15 m", "20 cm"),
+                           "Limits/Waterstop depth=500": ("Limits/Waterstop depth", "500 m"),
                            "Foundation/Density=2500": ("Foundation/Density", "rigid")}.items():
         if parts:
             warned(check(setting), *parts)
