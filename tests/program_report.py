@@ -16,7 +16,7 @@ from pathlib import Path
 
 from browser import Browser, find_browser
 from program_physics import Solution, close, read_vtu
-from run_program import expect, refused, run_cases, runs, summary, voussoir, write_scene
+from run_program import arch_mesh, expect, from_file, refused, run_cases, runs, summary, voussoir, write_mesh, write_scene
 
 LIMITS = """
 subsection Limits
@@ -234,6 +234,19 @@ def numbers():
     expect(summary("free")["extremes"] == found["extremes"], "limits change the results")
 
 
+def one_face():
+    """A mesh without a surface "downstream": tension there is none, and what it would be held against is not judged."""
+    mesh = arch_mesh()
+    mesh["elements"] = [element for element in mesh["elements"] if element[:2] != (3, 3)]
+    write_mesh("one.msh", mesh)
+    write_scene("scene.prm", LIMITS)
+    log = runs("scene.prm", "--output", "one", *from_file("one.msh"), *settings("Motion/Duration=0.1"))
+    told, found = summary("one")["limits_not_judged"], summary("one")["limits"]
+    expect(set(told) == {"tension_downstream", "demand_capacity", "overstressed_share", "overstress_duration"}
+           and all("no surface 'downstream'" in why for why in told.values()) and "tension_upstream" in found, f"{told}, {found}")
+    expect("nan" not in log and "none downstream" in log, log)
+
+
 def unjudged():
     """Limits for which there is no result: they are named with the reason, and not told as kept."""
     write_scene("scene.prm", LIMITS)
@@ -254,6 +267,9 @@ def unjudged():
         limits = {limit.replace("_upstream", "").replace("_downstream", "") for limit in found["limits"]}
         expect(limits == (stresses | joints) - missing, f"{name}: {limits}")
         expect(("not judged" in log) == bool(missing) and "all are kept" not in log, f"{name}: {log[-600:]}")
+    one_face()
+    deep = runs("scene.prm", "--output", "deep", *settings("Limits/Waterstop depth=18", "Motion/Duration=0.1"))
+    expect("is thinner than Limits/Waterstop depth, 18 m, over the highest" in deep, f"waterstops that end below the crest: {deep}")
     runs("report", "no_motion")
     text = Reader("no_motion/report.html").text
     expect("Not judged: duration of overstress (the stresses are of one time only)" in text, "the page does not say what is not judged")
