@@ -124,6 +124,10 @@ def maths():
             choice.fit([np.array([2., -1., 4.]) + np.array([1., .5, 0.]) * h ** order for h in sizes])
             expect(choice.fitted and abs(choice.order - order) < 1e-6, f"order {choice.order}, not {order}")
             expect(np.abs(choice.limit - [2, -1, 4]).max() < 1e-6, f"limit {choice.limit}")
+    entries = {"Mesh/Source": "file", "Foundation/Model": "rigid", "Dynamics/Steps per sample": "1"}
+    for degree, subdivided, names in (("1", "false", "degree"), ("2", "false", "mesh"), ("2", "true", None)):  # of a mesh from a file
+        found = [c.name for c in accuracy.choices_of({**entries, "Elements/Degree": degree, "Mesh/Subdivide": subdivided})]
+        expect(found == ["time step", names][:1 + bool(names)], f"degree {degree}, Subdivide = {subdivided}: {found}")
     for values, bound in (((0., 1., 3.), 1.), ((0., 100., 101.), 4.)):  # beyond the bounds: no fit
         choice = accuracy.Choice("x", [{}] * 3, [1, 1 / 2, 1 / 4], 0)
         choice.fit([np.array([value]) for value in values])

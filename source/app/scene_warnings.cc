@@ -362,6 +362,14 @@ namespace Voussoir
     if (any_joint(scene, {"cohesive"}) && scene.joints.strength == 0.)
       warnings.push_back("Joints/Strength is 0: the model cohesive is then FJA. Set the tensile strength of "
                          "the bond, such as 1 MPa.");
+    if (scene.mesh.source == "file" && !no_water(scene) && !is_written(entries, "Reservoir/Water level"))
+    {
+      std::ostringstream text;
+      text << "the mesh is from a file, and there is no Reservoir/Water level: it is "
+           << scene.reservoir.level
+           << " m, that of arch210. Give the level of this dam, or set Reservoir/Density to 0.";
+      warnings.push_back(text.str());
+    }
     for (const std::string &warning :
          {two_branches(scene), other_day(scene),
           is_written(entries, "Motion/Unit") ? "" : unit_warning(scene.motion, scene.directory)})
