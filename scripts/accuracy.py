@@ -6,7 +6,7 @@
 
 Each choice that a scene has (time step, elements along, up and through, degree, rock) is refined by itself, with all
 others as the scene has them, over the strongest seconds of the scene's motion. Two measures, each relative: the
-largest opening of every joint (root of the sum of squares over the joints), and the means of the tension envelope over
+largest openings of every joint at the crest, upstream and downstream (root of the sum of squares over them), and the means of the tension envelope over
 nine zones of either face (the same over the zones, by their areas), without what is nearer to the base than a tenth of the height: the
 stress of an elastic dam is singular there. Where a choice has three levels, its order is fitted and its
 limit extrapolated (Richardson); with two, the order is that of the method. The error of a level is its distance to
@@ -36,6 +36,7 @@ from zone_tension import read, zone_means
 
 ALONG, UP, THROUGH = (f"Mesh/Arch210/Elements {way}" for way in ("along", "up", "through"))
 STEPS, SUBSTEPS, DEGREE = "Dynamics/Steps per sample", "Foundation/Substeps", "Elements/Degree"
+SUBDIVIDE = "Mesh/Subdivide"
 ROCK_SIZE = "Mesh/Arch210/Rock/Element size"
 TAPER = 0.2  # of the motion's beginning [s]
 FIRST, LAST = "base", "wish"  # names of the runs of the scene as it is, and of what is proposed
@@ -95,6 +96,8 @@ def choices_of(entries):
             result.append(Choice("rock size", [{ROCK_SIZE: s} for s in (size, round(size / 1.4, 3))], [1.4, 1], 0))
     elif int(entries[DEGREE]) == 1:
         result.append(Choice("degree", [{DEGREE: 1}, {DEGREE: 2}], [1, 0.5], 0, 3.0))
+    elif entries[SUBDIVIDE] == "false":
+        result.append(Choice("mesh", [{SUBDIVIDE: "false"}, {SUBDIVIDE: "true"}], [1, 0.5], 0))
     return result
 
 
@@ -132,7 +135,7 @@ class Ladder:
         self.changes[name] = changes
         summary = results_of(directory)
         joints = read(directory / "joints.csv")
-        self.openings[name] = np.array([max(float(j["opening_upstream"]), float(j["opening_downstream"])) for j in joints])
+        self.openings[name] = np.array([float(j[f"opening_{face}"]) for j in joints for face in ("upstream", "downstream")])
         self.tensions[name], self.areas[name] = zone_means(directory)
         self.cost[name] = summary["seconds"]["per_second_of_earthquake"]
         done = len(self.cost)
@@ -344,6 +347,8 @@ def main():
         choice.fit([ladder.measures(choice.key(k)) for k in range(len(choice.levels))])
     total = combined(ladder, [ladder.measures(FIRST) - choice.limit for choice in choices])
     small = about_choices(choices, ladder, wish)
+    if len(choices) == 1:
+        print("\n  The mesh cannot be refined from here (degree 2, already subdivided): its error is in none of these numbers.")
     print(f"\nThe scene as it is: error {percent(total[0])} of the openings, {percent(total[1])} of the zone means of tension, "
           f"at {ladder.cost[FIRST]:.3g} s per second of earthquake.")
     proposal = propose(choices, ladder, wish)

@@ -32,6 +32,7 @@ from command import InputError, end_with  # noqa: E402
 
 COLUMNS = ("elevation", "upstream_x", "upstream_radius", "thickness", "downstream_radius", "right_angle", "left_angle")
 LARGEST = 1e5  # of a table's numbers [m, degrees]
+SMALLEST_ANGLE = 2.  # of the crest: 1.4 radians is 80 degrees
 MOST_ELEMENTS = 10000, 5000000  # each way, in all
 FACES = {1: "base", 2: "upstream", 3: "downstream", 4: "crest"}
 
@@ -69,7 +70,7 @@ def read_table(path):
     for name in COLUMNS:
         if names.count(name) != 1:
             raise InputError(f"{path}: the column {name} is {'there twice' if name in names else 'missing, or the table is empty'}. "
-                             f"The first line must name {', '.join(COLUMNS)}.")
+                             f"The first line must name {', '.join(COLUMNS)}, separated by commas; decimals have a point.")
     for number, row in rows[1:]:
         if len(row) != len(names):
             raise InputError(f"{path}, line {number}: {len(row)} values for {len(names)} columns. Each column needs one.")
@@ -99,6 +100,9 @@ def check(table, path):
     for name in ("upstream_radius", "thickness", "downstream_radius", "right_angle", "left_angle"):
         if table[name].min() <= 0:
             raise InputError(f"{path}: the column {name} must be positive.")
+        if "angle" in name and table[name].max() < SMALLEST_ANGLE:
+            raise InputError(f"{path}: the column {name} has no angle above {table[name].max():g} degrees, which is no arch. Are they in "
+                             "radians? Give degrees.")
     if (table["thickness"] >= table["upstream_radius"]).any():
         raise InputError(f"{path}: an arc is thicker than its upstream radius.")
     centre = table["upstream_x"] + table["upstream_radius"]

@@ -90,8 +90,9 @@ def draw_face(axes, run, name, column, levels, strength=0.):
     middles = np.append(levels - step / 2, levels[-1] + step / 2)
     colours = plt.get_cmap("RdBu_r")(0.5 + 0.5 * middles / np.abs(middles).max())
     contours = axes.tricontourf(points[:, 0], points[:, 1], corners, values, levels=levels, colors=colours, extend="both")
-    axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=levels, colors="0.35", linewidths=0.25,
-                    linestyles="solid")
+    if np.any((values.min() < levels) & (levels < values.max())):  # on common scales, a face may lie between two
+        axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=levels, colors="0.35", linewidths=0.25,
+                        linestyles="solid")
     if values.min() < strength < values.max() and column == "max_principal" and strength > 0.:
         axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=[strength], colors="k", linewidths=1.4)
     outline, joints = edges(np.stack([s, z], axis=1), np.stack([face["x"], face["y"], z], axis=1), cells)

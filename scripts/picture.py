@@ -158,9 +158,21 @@ def mesh_lines(corners, monolith):
             or n[sides[0][0]] @ n[sides[-1][0]] < np.cos(np.radians(35.))]
 
 
-def draw_mesh(axes, points, cells, monolith, view, tones=None):
+def below(polygon, level):
+    """The part of a polygon that lies below a level; empty, or its corners."""
+    part = []
+    for p, q in zip(polygon, np.roll(polygon, -1, axis=0)):
+        if p[2] <= level:
+            part.append(p)
+        if (p[2] <= level) != (q[2] <= level):
+            part.append(p + (level - p[2]) / (q[2] - p[2]) * (q - p))
+    return np.array(part)
+
+
+def draw_mesh(axes, points, cells, monolith, view, tones=None, wet=None):
     """The undeformed mesh, edges of the elements thin and joints heavy, neighbouring monoliths in two tones. `monolith`: of each cell;
-    `tones`: None, or a function of the numbers of the faces (six of each cell) and their corners that gives their colours."""
+    `tones`: None, or a function of the numbers of the faces (six of each cell) that gives their colours; `wet`: None, or one that
+    gives those that may be under water, with its level and its colour."""
     which = outer(points, 0. * points, cells)
     corners = points[cells[:, FACES].reshape(-1, 4)[which]]
     number = monolith[which // 6]
@@ -168,11 +180,16 @@ def draw_mesh(axes, points, cells, monolith, view, tones=None):
     place, depth = view(corners)
     light = .5 * view.back + .75 * view.up - .5 * view.right
     brightness = .72 + .34 * np.clip(n @ (light / np.linalg.norm(light)), 0, 1)
-    tints = np.array(CONCRETE)[number % 2] if tones is None else tones(which, corners)
+    tints = np.array(CONCRETE)[number % 2] if tones is None else tones(which)
     colours = np.clip(tints * brightness[:, None], 0, 1)
     visible = np.einsum("ij,ij->i", n, eye - corners.mean(axis=1)) > 0
     items = [(d, p, (*c, 1.), (.45, .47, .5, .55), .25) for d, p, c, v in zip(depth.mean(axis=1), place, colours, visible) if v]
     reach = .02 * max(np.ptp(points, axis=0))
+    under, level, colour = wet(which) if wet else ([], 0., 0.)
+    for k in under:
+        if visible[k] and len(part := below(corners[k], level)) > 2:
+            items.append((depth[k].mean() + 1e-6 * reach, view(part)[0], (*np.clip(np.array(colour) * brightness[k], 0, 1), 1.),
+                          (.45, .47, .5, .55), .25))
     for ends, sides in mesh_lines(corners, number):
         if any(side @ (eye - ends[0]) > 0 for side in sides):
             path, far = view(ends)

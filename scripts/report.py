@@ -76,6 +76,12 @@ def named(runs, run, what=""):
     return ", ".join(text for text in (run.name if len(runs) > 1 else "", what) if text)
 
 
+def moving_of(page, runs, what):
+    """Those with an earthquake; of the others a remark at the end."""
+    page.missing += [f"{run.name}: {what}, the run is of the static state alone" for run in runs if not run.moves]
+    return [run for run in runs if run.moves]
+
+
 # ---------------------------------------------------------------- sections
 
 def head(page, runs):
@@ -119,11 +125,15 @@ def motion(page, runs):
     page.section("Ground motion")
     seen = {}
     for run in runs:
+        if not run.moves:
+            continue
         try:
             seen.setdefault(tuple((d, a.tobytes()) for d, a in sorted(run.base_acceleration.items())), run)
         except Skip as reason:
             page.missing.append(f"motion of {run.name}: {reason}")
     moving = list(seen.values())
+    if not any(run.moves for run in runs):
+        page.add("<p>None: the static state alone.</p>")
     for run in moving:
         title = f" of {escape(run.name)}" if len(moving) > 1 else ""
         page.wide(f"Acceleration of the base{title}.", f"acceleration of the base of {run.name}", lambda run=run: figures.accelerations(run))
@@ -139,8 +149,10 @@ def motion(page, runs):
 
 def response(page, runs):
     page.section("Response")
-    page.wide("Displacement of the crest at the crown against the base, downstream positive. It begins with the static state.",
-              "displacement of the crest", lambda: figures.crest(runs))
+    moving = moving_of(page, runs, "its response over time")
+    if moving:
+        page.wide("Displacement of the crest at the crown against the base, downstream positive. It begins with the static state.",
+                  "displacement of the crest", lambda: figures.crest(moving))
     open_ = [run for run in runs if not run.tied]
     if open_:
         page.row("Largest openings and slips at the crest, joint by joint.",
@@ -150,10 +162,12 @@ def response(page, runs):
         page.row("Largest openings and slips over the height, of the joints that move most.",
                  [(named(open_, run), f"{q} over the height of {run.name}",
                    lambda run=run, q=q: figures.over_height(run, q, top[q])) for run in open_ for q in ("opening", "slip") if top[q] is not None])
-        highest = {q: page.made(f"{q} over time", lambda q=q: figures.highest_at_crest(open_, q)) for q in ("opening", "slip")}
+    moving = [run for run in moving if not run.tied]
+    if moving:
+        highest = {q: page.made(f"{q} over time", lambda q=q: figures.highest_at_crest(moving, q)) for q in ("opening", "slip")}
         page.row("Opening and slip at the crest over time, of the joints that open most.",
-                 [(named(open_, run), f"{q} over time of {run.name}", lambda run=run, q=q: figures.over_time(run, q, highest[q]))
-                  for run in open_ for q in ("opening", "slip") if highest[q] is not None])
+                 [(named(runs, run), f"{q} over time of {run.name}", lambda run=run, q=q: figures.over_time(run, q, highest[q]))
+                  for run in moving for q in ("opening", "slip") if highest[q] is not None])
 
 
 def stresses(page, runs):
@@ -168,7 +182,7 @@ def stresses(page, runs):
     if strength:
         page.row("Cumulative duration for which the stress at any one point of a face is above a multiple of the tensile strength "
                  "(USACE EM 1110-2-6053).",
-                 [(named(runs, run), f"duration of overstress of {run.name}", lambda run=run: figures.overstress(run)) for run in runs])
+                 [(named(runs, run), f"duration of overstress of {run.name}", lambda run=run: figures.overstress(run)) for run in runs if run.moves])
 
 
 def bases(page, runs):
@@ -190,12 +204,13 @@ def bases(page, runs):
 
 def checks(page, runs):
     page.section("Energy and checks")
+    moving = [run for run in runs if run.moves]
     page.row("Energies; on rock also what has left through the artificial boundary.",
-             [(named(runs, run), f"energies of {run.name}", lambda run=run: figures.energies(run, runs)) for run in runs])
+             [(named(runs, run), f"energies of {run.name}", lambda run=run: figures.energies(run, moving)) for run in moving])
     rows = [("Energy balance, over the largest energy", lambda s: number(s["energy_balance_error"], "")),
             ("Residual of the contact problems, relative", lambda s: number(s["contact_residual"], "")),
             ("Newton steps per time step, mean and largest", lambda s: f"{s['newton_iterations']['mean']:.2f}, {s['newton_iterations']['max']:.0f}"),
-            ("Time steps", lambda s: f"{s['steps']} of {s['time_step']:g} s"),
+            ("Time steps", lambda s: f"{s['steps']} of {s['time_step']:g} s" if s["steps"] else "the static state"),
             ("Estimated error of the time step, largest openings at the crest", lambda s: f"{100 * s['error_estimate']['openings']:.2g} %")]
     body = ""
     for title, value in rows:

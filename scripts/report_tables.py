@@ -10,10 +10,12 @@ from runs import Skip
 EXTREMES = {
     "max_opening": ("Opening of a joint", "mm", "opening"),
     "max_slip": ("Slip of a joint", "mm", "slip"),
-    "max_tension_upstream": ("Tension, upstream face", "MPa", "tension_upstream"),
-    "max_tension_downstream": ("Tension, downstream face", "MPa", "tension_downstream"),
+    "max_tension_upstream_above_foot": ("Tension upstream, above the foot", "MPa", None),
+    "max_tension_downstream_above_foot": ("Tension downstream, above the foot", "MPa", None),
+    "max_tension_upstream": ("Tension upstream, with the foot", "MPa", "tension_upstream"),
+    "max_tension_downstream": ("Tension downstream, with the foot", "MPa", "tension_downstream"),
     "max_compression": ("Compression", "MPa", "compression")}
-ERRORS = {"max_opening": "largest_opening", "max_tension_upstream": "tension_upstream", "max_tension_downstream": "tension_downstream"}
+ERRORS = {"max_opening": "largest_opening", "max_tension_upstream_above_foot": "tension_upstream", "max_tension_downstream_above_foot": "tension_downstream"}
 SCALES = {"mm": 1e3, "MPa": 1e-6, "%": 100., "s": 1., "": 1., "MN": 1e-6}
 MINUS = "\N{MINUS SIGN}"
 
@@ -83,7 +85,9 @@ def items(run):
     """Key -> Item of the results of a run, in their order."""
     limits, errors, found = limits_of(run), run.summary.get("error_estimate"), {}
     errors = errors if isinstance(errors, dict) else {}
-    for key, value in run.summary.get("extremes", {}).items():
+    extremes_of_run = run.summary.get("extremes", {})
+    for key in sorted(extremes_of_run, key=lambda key: list(EXTREMES).index(key) if key in EXTREMES else len(EXTREMES)):
+        value = extremes_of_run[key]
         if not isinstance(value, dict) or not isinstance(value.get("value"), (int, float)) or (run.tied and key in ("max_opening", "max_slip")):
             continue
         title, unit, limit = EXTREMES.get(key, (key.removeprefix("max_").replace("_", " ").capitalize(), unit_of(key), key))
@@ -142,18 +146,26 @@ def demands(run, limits):
         return found
     faces = [overstress[name] for name in ("upstream", "downstream") if name in overstress]
     found["demand_capacity"] = Item("Demand-capacity ratio", "", max(face["demand_capacity"] for face in faces), limits.get("demand_capacity"))
+    if not run.moves:  # the stresses are of one time
+        overstress_of_faces(found, overstress, limits)
+        return found
     title, longest, limit = "Duration of overstress at a point", max(face["duration"][0] for face in faces), limits.get("overstress_duration")
     if limit:  # of the level that decides: what is allowed there falls to none at twice the strength
         longest = limit["value"]
         level = 2. - limit["limit"] / run.limit("Overstress duration") if run.limit("Overstress duration") > 0. else 1.
         title += f", above {level:.2g} times the strength"
     found["overstress_duration"] = Item(title, "s", longest, limit)
+    overstress_of_faces(found, overstress, limits)
+    return found
+
+
+def overstress_of_faces(found, overstress, limits):
+    """Adds the share of either face."""
     for name in ("upstream", "downstream"):
         if name in overstress:
             share, limit = overstress[name]["share"][0], limits.get("overstressed_share")  # which is that of the worse face
             found[f"share_{name}"] = Item(f"Share of the {name} face above the tensile strength", "%", share,
                                           limit and {**limit, "value": share, "kept": share <= limit["limit"]})
-    return found
 
 
 def verdict(run):
@@ -176,7 +188,9 @@ def verdict(run):
 def tiles(run):
     """The numbers that are looked for first."""
     found, cells = items(run), []
-    for key in ("max_opening", "max_slip", "max_tension_upstream", "max_tension_downstream", "max_compression", "demand_capacity"):
+    # At the foot the stress is singular; it comes first only where the scene limits it.
+    tensions = [key if key in found and found[key].limit else f"{key}_above_foot" for key in ("max_tension_upstream", "max_tension_downstream")]
+    for key in ("max_opening", "max_slip", *tensions, "max_compression", "demand_capacity"):
         if key in found:
             item = found[key]
             limit = (f'<span class="limit">{"exceeds the limit" if item.state == "exceeded" else "limit"} '

@@ -106,6 +106,11 @@ class Run:
         self.heading = f"{self.scene}, {self.law}" if self.law else self.scene
         self.name = self.heading  # among others; see name_apart()
 
+    @property
+    def moves(self):
+        """Is there an earthquake, or the static state alone?"""
+        return self.summary.get("steps", 1) != 0
+
     def table(self, name, text_columns=()):
         return read_table(self.directory / name, text_columns)
 
@@ -177,7 +182,7 @@ class Run:
         """What the log says before the first step: title -> text."""
         file, facts, title = self.directory / "log.txt", {}, None
         for line in file.read_text().splitlines() if file.exists() else []:
-            if line.startswith("   time"):
+            if line.startswith(("   time", "Limits ", "Joints    largest", "Tension ")):  # results of a static state follow it at once
                 break
             if match := re.match(r"([A-Z]\w+) {1,9}(?=\S)(.*)", line):
                 title = match[1]

@@ -56,24 +56,25 @@ class Mesh:
         return self.points[self.quads[self.surface == surface]] if len(self.quads) else np.zeros((0, 4, 3))
 
     def tints(self, level):
-        """Colours of the outer faces of the cells, for draw_mesh(): water below its level, and what bounds the rock."""
+        """For draw_mesh(): a function of cells and their volumes that gives the colours of their outer faces with what bounds the rock,
+        and those that are upstream, with the water."""
         kind = {tuple(sorted(quad)): number for number, quad in zip(self.surface, self.quads)}
 
-        def colours(cells, volume):
+        def of(cells, volume):
             faces = cells[:, FACES].reshape(-1, 4)
 
-            def of(which, corners):
+            def colours(which):
                 result = np.array(CONCRETE)[volume[which // 6] % 2]
                 result[volume[which // 6] >= FIRST_ROCK] = ROCK
                 for k, face in enumerate(which):
-                    surface = kind.get(tuple(sorted(faces[face])))
-                    if surface == UPSTREAM and corners[k, :, 2].mean() < level:
-                        result[k] = WATER
-                    elif surface == FREE:
+                    if kind.get(tuple(sorted(faces[face]))) == FREE:
                         result[k] = EARTH
                 return result
-            return of
-        return colours
+
+            def wet(which):
+                return [k for k, face in enumerate(which) if kind.get(tuple(sorted(faces[face]))) == UPSTREAM], level, WATER
+            return colours, wet
+        return of
 
 
 # ---------------------------------------------------------------- panels
@@ -83,7 +84,7 @@ def banks(axes, view, points):
     top = points[points[:, 2] > points[:, 2].max() - .02 * np.ptp(points[:, 2])]
     for name, end in (("right bank", top[:, 1].argmin()), ("left bank", top[:, 1].argmax())):
         place, _ = view(top[end] + [0., 0., .06 * np.ptp(points[:, 2])])
-        axes.text(*place, name, ha="center", va="bottom", fontsize=8, style="italic", color=".3")
+        axes.text(*place, name, ha="right" if place[0] < 0. else "left", va="bottom", fontsize=8, style="italic", color=".3")
 
 
 def number_joints(axes, view, mesh):
@@ -114,11 +115,11 @@ def space(axes, mesh, cells, azimuth, elevation, tints, title):
     own = mesh.cells[cells]
     points = mesh.points[np.unique(own)]
     view = view_of(points, azimuth, elevation)
-    draw_mesh(axes, mesh.points, own, mesh.volume[cells], view, tints(own, mesh.volume[cells]))
+    draw_mesh(axes, mesh.points, own, mesh.volume[cells], view, *tints(own, mesh.volume[cells]))
     dam = mesh.points[np.unique(mesh.cells[mesh.volume < FIRST_ROCK])]
     banks(axes, view, dam)
     triad(axes, view, points)
-    axes.set_title(title, loc="left", fontsize=9)
+    axes.set_title(title, loc="left", fontsize=9, pad=14)
     return view
 
 
@@ -164,7 +165,7 @@ def section(axes, mesh, level, wet):
     if wet:
         axes.plot([low[0] - .6 * size, low[0] - .02 * size], [level, level], color="#2b6a99", linewidth=1.1)
         axes.plot(low[0] - .4 * size, level + .02 * size, marker="v", color="#2b6a99", markersize=5)
-        axes.text(low[0] - .36 * size, level + .025 * size, f"water {level:g} m", color="#2b6a99", fontsize=8)
+        axes.text(low[0] - .05 * size, level - .025 * size, f"water {level:g} m", color="#2b6a99", fontsize=8, ha="right", va="top")
     axes.set(aspect="equal", xlabel="x [m], downstream", ylabel="z [m]", xlim=(low[0] - .65 * size, high[0] + .35 * size),
              ylim=(low[1] - .18 * size, high[1] + .12 * size))
     axes.set_title(f"Section at y = {y:.1f} m, {len(volumes[volumes < FIRST_ROCK])} cells".replace("-", "\N{MINUS SIGN}"), loc="left", fontsize=9)

@@ -23,12 +23,21 @@ DURATION = ["--set", "Motion/Duration=1.5"]
 def openings(directory):
     names, rows = table(f"{directory}/joints.csv")
     up, down = names.index("opening_upstream"), names.index("opening_downstream")
-    return [max(row[up], row[down]) for row in rows]
+    return [row[face] for row in rows for face in (up, down)]
 
 
 def error(coarse, fine):
     a, b = openings(coarse), openings(fine)
     return sqrt(sum((x - y) ** 2 for x, y in zip(a, b)) / sum(y * y for y in b))
+
+
+def differences(fine, coarse):
+    """Of the largest openings, and at each place the largest over the times that both have; relative to the largest openings."""
+    size = sqrt(sum(x * x for x in openings(fine)))
+    names, (of_fine, of_coarse) = table(f"{fine}/joint_history.csv")[0], [table(f"{d}/joint_history.csv")[1] for d in (fine, coarse)]
+    columns, at = [k for k, name in enumerate(names) if name.startswith("opening")], {round(row[0], 9): row for row in of_fine}
+    apart = [max(abs(at[round(row[0], 9)][k] - row[k]) for row in of_coarse) for k in columns]
+    return sqrt(sum((a - b) ** 2 for a, b in zip(openings(fine), openings(coarse)))) / size, sqrt(sum(x * x for x in apart)) / size
 
 
 def estimate():
@@ -42,6 +51,18 @@ def estimate():
     print(f"    estimate {told['openings']:.4f}, true {true:.4f}")
     expect(true / 2 < told["openings"] < 2 * true, f"the estimate {told} is not within a factor of 2 of {true}")
     expect(told["tension_upstream"] > 0 and told["tension_downstream"] > 0, f"{told}")
+    # The companion is the run at twice the step: the estimate is 0.4 of what the largest openings differ by, and no less than a tenth of
+    # what the histories do: with one step for a sample, where these are far apart, that is what counts.
+    runs(*run, "--output", "steps1", "--set", "Dynamics/Steps per sample=1")
+    largest, histories = differences("steps2", "steps1")
+    expect(abs(told["openings"] - max(0.4 * largest, 0.1 * histories)) < 1e-5 * told["openings"], f"{told}, {largest}, {histories}")
+    by_histories = [*run, "--set", "Motion/Time step=0.02", "--set", "Motion/Factor=2", "--set", "Joints/Friction=0.3"]
+    runs(*by_histories, "--output", "long2", "--set", "Dynamics/Steps per sample=2", "--set", "Dynamics/Error estimate=true")
+    runs(*by_histories, "--output", "long1", "--set", "Dynamics/Steps per sample=1")
+    largest, histories = differences("long2", "long1")
+    print(f"    long steps: largest openings {largest:.4f} apart, histories {histories:.4f}")
+    estimated = summary("long2")["error_estimate"]["openings"]
+    expect(abs(estimated - max(0.4 * largest, 0.1 * histories)) < 1e-5 * estimated, f"{estimated}, {largest}, {histories}")
     runs(*run, "--output", "plain", "--set", "Dynamics/Steps per sample=2")
     same("plain", "steps2", 0., ("history", "joint_history", "energy"))
     settings = [*DURATION, "--set", "Dynamics/Error estimate=true", "--set", "Dynamics/Steps per sample=2"]
@@ -103,6 +124,10 @@ def maths():
             choice.fit([np.array([2., -1., 4.]) + np.array([1., .5, 0.]) * h ** order for h in sizes])
             expect(choice.fitted and abs(choice.order - order) < 1e-6, f"order {choice.order}, not {order}")
             expect(np.abs(choice.limit - [2, -1, 4]).max() < 1e-6, f"limit {choice.limit}")
+    entries = {"Mesh/Source": "file", "Foundation/Model": "rigid", "Dynamics/Steps per sample": "1"}
+    for degree, subdivided, names in (("1", "false", "degree"), ("2", "false", "mesh"), ("2", "true", None)):  # of a mesh from a file
+        found = [c.name for c in accuracy.choices_of({**entries, "Elements/Degree": degree, "Mesh/Subdivide": subdivided})]
+        expect(found == ["time step", names][:1 + bool(names)], f"degree {degree}, Subdivide = {subdivided}: {found}")
     for values, bound in (((0., 1., 3.), 1.), ((0., 100., 101.), 4.)):  # beyond the bounds: no fit
         choice = accuracy.Choice("x", [{}] * 3, [1, 1 / 2, 1 / 4], 0)
         choice.fit([np.array([value]) for value in values])

@@ -9,7 +9,7 @@ import math
 import os
 from pathlib import Path
 
-from run_program import run_cases, expect, refused, runs, table, write, write_scene
+from run_program import run_cases, expect, refused, runs, table, voussoir, write, write_scene
 
 QUICKSTART = str(Path(__file__).resolve().parent.parent / "prm" / "quickstart.prm")
 
@@ -78,5 +78,44 @@ def records():
     expect(not Path("none.csv").exists(), "a motion was written")
 
 
+def units():
+    """A unit that is not the file's: what headings say, numbers that are too large, and small ones in a scene that names no unit."""
+    write_scene()
+    unitless = Path("scene.prm").read_text().replace("  set Unit = g\n", "").replace("motion.txt", "table.csv")
+    expect("Unit" not in unitless, unitless)
+    write("unitless.prm", unitless)
+
+    def table_of(headings, peak):
+        write("table.csv", headings + "".join(f"{.01 * k:.2f},{peak * math.sin(.4 * k):.6f},0,0\n" for k in range(60)))
+
+    def asked(*options):
+        return ["motion", "unitless.prm", "--output", "m.csv", *options]
+
+    for headings, unit in (("t,X (g),Y (g),Z (g)\n", "g"), ("# Time [s], acceleration [cm/s2]\n", "cm/s^2"), ("t ax/gal ay/gal az/gal\n", None),
+                           ("Time;AX[m/s/s];AY[m/s/s];AZ[m/s/s]\n", "m/s^2"), ("# record in Gal\nt,x,y,z\n", "cm/s^2"), ("t,a_x,a_y,a_z\n", None),
+                           ("# g, cm/s2 and m/s2\n", None)):
+        table_of(headings, 2.)
+        for given in ("g", "cm/s^2", "m/s^2"):
+            options = asked("--set", f"Motion/Unit={given}")
+            if unit in (None, given):
+                runs(*options)
+            else:
+                refused(options, "table.csv", f"headings that say {unit}, but Motion/Unit is {given}", f"Set Motion/Unit = {unit}")
+    table_of("", 380.)  # in cm/s2
+    expect("the peak acceleration of the motion is 38.7 g" in runs(*asked()), "a record in cm/s2 that is taken in m/s2")
+    expect("the peak" not in runs(*asked("--set", "Motion/Unit=cm/s^2")), "a record in cm/s2")
+    table_of("", .45)  # in g
+    for command in (asked(), ["unitless.prm", "--validate"]):
+        result = voussoir(*command)
+        expect(result.returncode == 0 and "the scene has no Motion/Unit" in result.stdout + result.stderr, f"{result}")
+    for unit in ("g", "m/s^2"):
+        result = voussoir(*asked("--set", f"Motion/Unit={unit}"))
+        expect("Motion/Unit" not in result.stdout + result.stderr, f"{unit}: {result}")
+    table_of("t,X (m/s2),Y,Z\n", .45)
+    expect("no Motion/Unit" not in voussoir(*asked()).stderr, "the headings say the unit")
+    write("table.csv", "0,00;0,1;0,2;0,3\n0,01;0,1;0,2;0,3\n")
+    refused(asked(), "table.csv', line 1", "Decimals have a point")
+
+
 if __name__ == "__main__":
-    run_cases(artificial, records)
+    run_cases(artificial, records, units)

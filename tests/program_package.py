@@ -140,11 +140,14 @@ def arcs():
                              ("extra", ring + ",7\n", "line 3: 8 values for 7"), ("missing", ring[:-3] + "\n", "line 3: 6 values for 7"),
                              ("huge", ring.replace("60,0", "60,1e300") + "\n", 'line 3, upstream_x: "1e300"'),
                              ("nan", ring.replace("60,0", "60,nan") + "\n", '"nan"'),
+                             ("radians", "0,0,100,20,80,.5,.7\n60,0,100,20,80,.5,.7\n", "Are they in radians?"),
                              ("thick", "0,0,100,20,80,30,40\n60,0,10,20,80,30,40\n", "thicker"),
                              ("valley", "0,0,100,20,80,30,40\n60,0,100,20,80,20,40\n", "right_angle"),
                              ("meet", "0,0,100,20,20,60,60\n60,0,100,20,20,60,60\n", "meet")):
         write(f"{name}.csv", head + rows)
         expect(part in mesh(f"{name}.csv", status=2), name)
+    write("semicolons.csv", head.replace(",", ";") + "0;0;100;20;80;30;40\n")
+    expect("separated by commas" in mesh("semicolons.csv", status=2), "semicolons")
     write("column.csv", "elevation,thickness\n1,2\n")
     # Radii that shrink downwards: columns stay in vertical planes normal to the crest, abutments are where the table has them
     write("radii.csv", head + "285,-2,74,22,50,22,20\n345,-8,112,15,95,43,40\n405,0,150,6,144,51,48\n")

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from browser import Browser, find_browser
 from program_physics import Solution, close, read_vtu
-from run_program import expect, refused, run_cases, runs, summary, voussoir, write_scene
+from run_program import arch_mesh, expect, from_file, refused, run_cases, runs, summary, voussoir, write_mesh, write_scene
 
 LIMITS = """
 subsection Limits
@@ -90,6 +90,29 @@ def page():
         expect(words in three.text, f"'{words}' is not on the page of three runs")
     runs("report", "tied", "--output", "tied.html")
     expect("Slip of a joint" not in Reader("tied.html").text, "the tied dam has slips")
+
+
+def beside_static():
+    """A static state beside an earthquake: what moves keeps its figures over time, the static state has no duration of overstress,
+    and the error of the tension above the foot stands beside that, not beside the singular value of the foot."""
+    write_scene("limited.prm", LIMITS)
+    runs("limited.prm", "--output", "moving", "--overwrite", "--set", "Dynamics/Error estimate=true")
+    runs("limited.prm", "--output", "resting", "--overwrite", "--set", "Motion/Source=none")
+    runs("report", "moving", "resting", "--output", "pair.html")
+    read = Reader("pair.html")
+    for words in ("Displacement of the crest", "Opening and slip at the crest over time", "Energies;"):
+        expect(words in read.text, f"'{words}' is not on the page of a static state and an earthquake")
+    expect("single time" not in read.text and "resting: its response over time" in read.text, read.text[-1500:])
+    text = Path("pair.html").read_text(encoding="utf-8")
+    row = {name: text[text.index(name):].partition("</tr>")[0] for name in ("Duration of overstress", "above the foot", "with the foot")}
+    expect(row["Duration of overstress"].count("<td") == 3 and ">–<" in row["Duration of overstress"], row["Duration of overstress"])
+    expect("±" in row["above the foot"] and "±" not in row["with the foot"], f"{row}")
+    found = summary("moving")["error_estimate"]["tension_upstream"] * 1e-6
+    expect(f"± {found:.2g}"[:5] in row["above the foot"], f"{found}: {row['above the foot']}")
+    facts = text[text.index("Dam and scene"):text.index("What differs")]
+    expect("<td>Tension</td>" not in facts and "largest opening" not in facts, "results stand among what the program understood")
+    runs("report", "resting", "--output", "rest.html")
+    expect("None: the static state alone." in Reader("rest.html").text, "a static state alone")
 
 
 def browser():
@@ -211,6 +234,19 @@ def numbers():
     expect(summary("free")["extremes"] == found["extremes"], "limits change the results")
 
 
+def one_face():
+    """A mesh without a surface "downstream": tension there is none, and what it would be held against is not judged."""
+    mesh = arch_mesh()
+    mesh["elements"] = [element for element in mesh["elements"] if element[:2] != (3, 3)]
+    write_mesh("one.msh", mesh)
+    write_scene("scene.prm", LIMITS)
+    log = runs("scene.prm", "--output", "one", *from_file("one.msh"), *settings("Motion/Duration=0.1"))
+    told, found = summary("one")["limits_not_judged"], summary("one")["limits"]
+    expect(set(told) == {"tension_downstream", "demand_capacity", "overstressed_share", "overstress_duration"}
+           and all("no surface 'downstream'" in why for why in told.values()) and "tension_upstream" in found, f"{told}, {found}")
+    expect("nan" not in log and "none downstream" in log, log)
+
+
 def unjudged():
     """Limits for which there is no result: they are named with the reason, and not told as kept."""
     write_scene("scene.prm", LIMITS)
@@ -231,6 +267,9 @@ def unjudged():
         limits = {limit.replace("_upstream", "").replace("_downstream", "") for limit in found["limits"]}
         expect(limits == (stresses | joints) - missing, f"{name}: {limits}")
         expect(("not judged" in log) == bool(missing) and "all are kept" not in log, f"{name}: {log[-600:]}")
+    one_face()
+    deep = runs("scene.prm", "--output", "deep", *settings("Limits/Waterstop depth=18", "Motion/Duration=0.1"))
+    expect("is thinner than Limits/Waterstop depth, 18 m, over the highest" in deep, f"waterstops that end below the crest: {deep}")
     runs("report", "no_motion")
     text = Reader("no_motion/report.html").text
     expect("Not judged: duration of overstress (the stresses are of one time only)" in text, "the page does not say what is not judged")
@@ -344,4 +383,4 @@ def area(corners):
 
 
 if __name__ == "__main__":
-    run_cases(page, browser, refusals, numbers, unjudged, keys, ended, spectrum)
+    run_cases(page, beside_static, browser, refusals, numbers, unjudged, keys, ended, spectrum)

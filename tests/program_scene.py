@@ -123,6 +123,9 @@ def values():
                            "Joints/Keys/Height=0.3": ("Joints/Keys/Height", "KSM"),
                            "Mesh/File=a.msh": ("Mesh/File", "arch210"),
                            "Motion/Seed=7": ("Motion/Seed", "Motion/Source is file"),
+                           "Limits/Tensile strength=2.5": ("Limits/Tensile strength", "2.5 Pa", "21 GPa"),
+                           "Limits/Waterstop opening=15": ("Limits/Waterstop opening", "15 m", "20 cm"),
+                           "Limits/Waterstop depth=500": ("Limits/Waterstop depth", "500 m"),
                            "Foundation/Density=2500": ("Foundation/Density", "rigid")}.items():
         if parts:
             warned(check(setting), *parts)
@@ -146,6 +149,9 @@ def groups():
     arch_mesh()
     text = Path("arch.msh").read_text()
     shown = runs("scene.prm", "--validate", *from_file("arch.msh"))
+    expect("no Reservoir/Water level: it is 195 m, that of arch210" in shown, f"the built-in dam's level for another: {shown}")
+    given = runs("scene.prm", "--validate", *from_file("arch.msh"), "--set", "Reservoir/Water level=195")
+    expect("that of arch210" not in given, given)
     for row in (r"Groups +monolith 1 \.\.\. monolith 3 +-> +monolith 1 to monolith 3 +18 hexahedra", r"base +-> +base +\d+ faces",
                 r"upstream +-> +upstream +18 faces", r"crest +-> +crest +6 faces"):
         expect(re.search(row, shown), f"'{row}' is missing: {shown}")

@@ -52,6 +52,20 @@ def view():
     refused(["view", "scene.prm", "--set", "Mesh/Nothing=1"], "Nothing")
 
 
+def water_line():
+    """Faces are cut at the level of the water: not wet or dry as a whole."""
+    import numpy as np
+    from picture import below
+    face = np.array([[0., 0., 2.], [0., 3., 2.], [0., 3., 6.], [0., 0., 6.]])
+    for level, area in ((1., 0.), (2., 0.), (5., 9.), (5.9, 11.7), (6., 12.), (9., 12.)):
+        part = below(face, level)
+        y, z = part[:, 1:].T if len(part) else (np.zeros(1), np.zeros(1))
+        found = .5 * abs(y @ np.roll(z, -1) - z @ np.roll(y, -1))
+        expect(abs(found - area) < 1e-12, f"{found} m2 of the face are below {level} m, not {area}")
+    wedge = below(np.array([[0., 0., 0.], [0., 4., 0.], [0., 0., 4.]]), 1.)
+    expect(len(wedge) == 4 and wedge[:, 2].max() == 1., f"{wedge}")
+
+
 def modes():
     """Shapes and effective masses: orthogonal to each other, and in all as much as the mass."""
     write_scene()
@@ -150,4 +164,4 @@ def figures():
 
 
 if __name__ == "__main__":
-    run_cases(view, modes, joint_surfaces, film, figures)
+    run_cases(view, water_line, modes, joint_surfaces, film, figures)

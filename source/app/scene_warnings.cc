@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/scene_warnings.h>
+#include <voussoir/motion/motion_files.h>
 
 #include <algorithm>
 #include <cmath>
@@ -229,6 +230,20 @@ namespace Voussoir
                                        {"Loads/Silt/Density", 300., 1300., true},
                                        {"Loads/Silt/Friction angle", 10., 45.},
                                        {"Loads/Silt/Coefficient", .2, 1.},
+                                       {"Limits/Tensile strength", 1e5, 2e7, true},
+                                       {"Limits/Demand-capacity ratio", .2, 10., true},
+                                       {"Limits/Overstress duration", .01, 10., true},
+                                       {"Limits/Tension", 1e5, 5e7, true},
+                                       {"Limits/Compression", 1e6, 2e8, true},
+                                       {"Limits/Opening", 1e-4, .5, true},
+                                       {"Limits/Slip", 1e-4, .5, true},
+                                       {"Limits/Waterstop depth", .1, 10.},
+                                       {"Limits/Waterstop opening", 1e-4, .5, true},
+                                       {"Limits/Waterstop slip", 1e-4, .5, true},
+                                       {"Limits/Base friction", .2, 2., true},
+                                       {"Limits/Base cohesion", 1e4, 1e7, true},
+                                       {"Limits/Sliding safety", .5, 10., true},
+                                       {"Limits/Key shear stress", 1e4, 2e7, true},
                                        {"Foundation/Young's modulus", 5e8, 1.2e11},
                                        {"Foundation/Poisson's ratio", .1, .4, true},
                                        {"Foundation/Density", 1800., 3300.},
@@ -309,6 +324,12 @@ namespace Voussoir
            << temperature.day << ". Set that to " << last->value << ", if it is the day of the earthquake.";
       return text.str();
     }
+
+    bool is_written(const std::vector<WrittenEntry> &entries, const std::string &name)
+    {
+      return std::any_of(entries.begin(), entries.end(),
+                         [&](const WrittenEntry &entry) { return entry.declared.name() == name; });
+    }
   } // namespace
 
   std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<WrittenEntry> &entries)
@@ -341,7 +362,17 @@ namespace Voussoir
     if (any_joint(scene, {"cohesive"}) && scene.joints.strength == 0.)
       warnings.push_back("Joints/Strength is 0: the model cohesive is then FJA. Set the tensile strength of "
                          "the bond, such as 1 MPa.");
-    for (const std::string &warning : {two_branches(scene), other_day(scene)})
+    if (scene.mesh.source == "file" && !no_water(scene) && !is_written(entries, "Reservoir/Water level"))
+    {
+      std::ostringstream text;
+      text << "the mesh is from a file, and there is no Reservoir/Water level: it is "
+           << scene.reservoir.level
+           << " m, that of arch210. Give the level of this dam, or set Reservoir/Density to 0.";
+      warnings.push_back(text.str());
+    }
+    for (const std::string &warning :
+         {two_branches(scene), other_day(scene),
+          is_written(entries, "Motion/Unit") ? "" : unit_warning(scene.motion, scene.directory)})
       if (!warning.empty())
         warnings.push_back(warning);
     return warnings;

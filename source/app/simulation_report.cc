@@ -33,14 +33,16 @@ namespace Voussoir
     log.line("Concrete  %s", in_words(scene.concrete).c_str());
     report_zones(log, dam->concrete_zones, "Concrete/Zones");
     if (dam->tied)
-      log.line("Joints    %u joints, tied: the monolithic dam", dam->n_joints);
+      log.line("Joints    %u joint%s, tied: the monolithic dam", dam->n_joints,
+               dam->n_joints == 1 ? "" : "s");
     else
     {
       std::string laws = scene.joints.model;
       for (const auto &entry : scene.joints.overrides)
         laws += ", joint " + std::to_string(entry.first) + ": " + entry.second;
-      log.line("Joints    %u joints, %zu pairs, law %s (friction %g)", dam->n_joints,
-               dam->structure.pairs.size(), laws.c_str(), scene.joints.friction);
+      log.line("Joints    %u joint%s, %zu pairs, law %s (friction %g)", dam->n_joints,
+               dam->n_joints == 1 ? "" : "s", dam->structure.pairs.size(), laws.c_str(),
+               scene.joints.friction);
     }
     dam->foundation->report(log, grid());
     report_zones(log, dam->rock_zones, "Foundation/Zones");
@@ -81,34 +83,21 @@ namespace Voussoir
   /** What the input means that may not be meant. */
   void Simulation::report_motion_and_warnings()
   {
-    constexpr double lowest_peak = .005, highest_peak = 2.; // [g]
     if (n_steps == 0)
       log.line("Motion    none: the static state alone");
     else
     {
       MotionParameters measures_only = scene.motion;
       measures_only.source = "file"; // without the errors of an artificial motion's spectrum
-      const auto   c = Voussoir::report_motion(motion, measures_only).components;
-      const double g = standard_gravity;
+      const MotionReport report = Voussoir::report_motion(motion, measures_only);
+      const auto        &c = report.components;
+      const double       g = standard_gravity;
       log.line("Motion    x, y, z: PGA %.3f %.3f %.3f g, PGV %.3f %.3f %.3f m/s, PGD %.3f %.3f %.3f m",
                c[0].peak_acceleration / g, c[1].peak_acceleration / g, c[2].peak_acceleration / g,
                c[0].peak_velocity, c[1].peak_velocity, c[2].peak_velocity, c[0].peak_displacement,
                c[1].peak_displacement, c[2].peak_displacement);
-      double peak = 0.;
-      for (const auto &component : c)
-        peak = std::max(peak, component.peak_acceleration / g);
-      if (peak > highest_peak || peak < lowest_peak)
-        log.line("warning: the peak acceleration of the motion is %.3g g; usual is 0.005 to 2 g. Check "
-                 "Motion/Unit, Motion/Factor and Motion/Scale x, y, z.",
-                 peak);
-      constexpr double fastest = 5., farthest = 10.; // [m/s], [m]
-      const auto      &most = *std::max_element(
-               c.begin(), c.end(), [](const auto &a, const auto &b) { return a.peak_velocity < b.peak_velocity; });
-      if (peak <= highest_peak && (most.peak_velocity > fastest || most.peak_displacement > farthest))
-        log.line(
-            "warning: the motion moves at %.3g m/s, by %.3g m; usual is at most %g m/s and %g m. Check the "
-            "times and the unit of the record (Motion/Unit), and Motion/Time step.",
-            most.peak_velocity, most.peak_displacement, fastest, farthest);
+      if (const std::string warning = size_warning(report); !warning.empty())
+        log.line("warning: %s", warning.c_str());
     }
     if (scene.mesh.source == "arch210" && scene.mesh.arch210_rock.enabled && !dam->foundation->uses_rock())
       log.line("warning: the rock of Mesh/Arch210/Rock is left out: Foundation/Model is rigid.");

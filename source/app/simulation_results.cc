@@ -143,6 +143,13 @@ namespace Voussoir
     write_fields();
     for (const std::string &warning : joints->reach.warnings())
       log.line("warning: %s", warning.c_str());
+    if (const auto [missing, joint] = joints->points.height_without_waterstop();
+        joints->points.has_waterstops() && missing > 0. &&
+        (scene.limits.waterstop_opening > 0. || scene.limits.waterstop_slip > 0.))
+      log.line("warning: joint %u is thinner than Limits/Waterstop depth, %g m, over the highest %.1f m: "
+               "openings and "
+               "slips there are not held against the limits of the waterstops. Take a smaller depth.",
+               joint, scene.limits.waterstop_depth, missing);
     write_summary();
     log.line("Joints    largest opening %.2f mm, largest slip %.2f mm", 1e3 * joints->opening.value,
              1e3 * joints->slip.value);
@@ -183,17 +190,19 @@ namespace Voussoir
   {
     if (scene.output.envelope_interval == 0)
       return;
-    const auto in_mpa = [&](const int surface, const bool foot)
+    const auto in_words = [&](const int surface, const bool foot) -> std::string
     {
-      return 1e-6 * (foot ? envelope->extreme(*dam->model, surface, true)
-                          : tension->largest_above_foot(*envelope, *dam->model, surface))
-                        .value;
+      const Extreme largest = foot ? envelope->extreme(*dam->model, surface, true)
+                                   : tension->largest_above_foot(*envelope, *dam->model, surface);
+      char          text[40];
+      std::snprintf(text, sizeof(text), "%.2f MPa", 1e-6 * largest.value);
+      return std::isfinite(largest.value) ? text : "none";
     };
-    log.line("Tension   largest %.2f MPa upstream, %.2f MPa downstream, farther than a tenth of the height "
-             "from the "
-             "base; with the foot, where it grows with refinement, %.2f and %.2f MPa",
-             in_mpa(PhysicalId::upstream, false), in_mpa(PhysicalId::downstream, false),
-             in_mpa(PhysicalId::upstream, true), in_mpa(PhysicalId::downstream, true));
+    log.line(
+        "Tension   largest %s upstream, %s downstream, farther than a tenth of the height from the base; "
+        "with the foot, where it grows with refinement, %s and %s",
+        in_words(PhysicalId::upstream, false).c_str(), in_words(PhysicalId::downstream, false).c_str(),
+        in_words(PhysicalId::upstream, true).c_str(), in_words(PhysicalId::downstream, true).c_str());
     if (const double f = scene.strength_of_area(); f > 0.)
       log.line(
           "          above the strength of %.2f MPa: %.1f %% of the upstream face, %.1f %% of the downstream "

@@ -109,10 +109,11 @@ namespace Voussoir
     check_static_state(*dam, statics.u, statics.crown);
     count.seconds_static = watch.seconds();
     log.line(
-        "Static    self-weight %s, then water: %u Newton steps, %u pairs open, crest %.1f mm downstream%s "
+        "Static    self-weight %s, then water: %u Newton steps, %u pair%s open, crest %.1f mm downstream%s "
         "(%.1f s)",
-        scene.statics.self_weight.c_str(), statics.contact.iterations, statics.n_open, 1e3 * statics.crown[0],
-        dam->base_is_held() ? "" : " of the base", count.seconds_static);
+        scene.statics.self_weight.c_str(), statics.contact.iterations, statics.n_open,
+        statics.n_open == 1 ? "" : "s", 1e3 * statics.crown[0], dam->base_is_held() ? "" : " of the base",
+        count.seconds_static);
   }
 
   /** A row of stages.csv, and a line of the log at the end of each stage. */

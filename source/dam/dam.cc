@@ -11,8 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 namespace Voussoir
 {
@@ -192,10 +194,12 @@ namespace Voussoir
       }
     const auto check = [&](const bool acts, const char *entry, const double level)
     {
+      std::ostringstream text;
+      text << std::setprecision(8) << "Entry \"" << entry << "\" is " << level
+           << " m, above the dam, which ends at " << top
+           << " m. Lower it, or check the axes and the length unit of the mesh.";
       if (acts && level > top + 1e-6 * (top - bottom))
-        throw InputError(std::string("Entry \"") + entry + "\" is " + std::to_string(level) +
-                         " m, above the dam, which ends at " + std::to_string(top) +
-                         " m. Lower it, or check the axes and the length unit of the mesh.");
+        throw InputError(text.str());
     };
     check(scene.reservoir.density > 0., "Reservoir/Water level", scene.reservoir.level);
     check(scene.loads.tail_water.acts(), "Loads/Tail water/Level", scene.loads.tail_water.level);

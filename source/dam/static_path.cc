@@ -3,6 +3,7 @@
 #include <voussoir/dam/static_path.h>
 
 #include <algorithm>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -97,9 +98,11 @@ namespace Voussoir
     for (unsigned int i = 0; i < dam.model->n_nodes(); ++i)
       if (dam.model->on_surface(i, PhysicalId::upstream))
         top = std::max(top, dam.model->points[i][2]);
+    std::ostringstream text;
+    text << std::setprecision(8) << "Entry \"Statics/Stages\": the level " << level
+         << " m is above the dam, which ends at " << top << " m. Lower it.";
     if (level > top + 1e-6 * dam.size)
-      throw InputError("Entry \"Statics/Stages\": the level " + std::to_string(level) +
-                       " m is above the dam, which ends at " + std::to_string(top) + " m. Lower it.");
+      throw InputError(text.str());
   }
 
   double StaticPath::share(const unsigned int step) const

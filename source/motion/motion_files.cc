@@ -27,6 +27,10 @@ namespace Voussoir
       {
         const std::string path = (std::filesystem::path(scene_directory) / name).string();
         sources.push_back({path, first, read_motion_record(path, n_components)});
+        if (const std::string unit = sources.back().record.unit; !unit.empty() && unit != parameters.unit)
+          throw InputError("The ground motion file '" + name + "' has headings that say " + unit +
+                           ", but Motion/Unit is " + parameters.unit + ". Set Motion/Unit = " + unit +
+                           ", or mend the headings.");
         const double start = sources.back().record.start, expected = sources.front().record.start;
         if (std::abs(start - expected) > 1e-6)
           throw InputError("The ground motion file '" + name + "' starts at " + std::to_string(start) +
@@ -109,5 +113,32 @@ namespace Voussoir
       }
     }
     return motion;
+  }
+
+  std::string unit_warning(const MotionParameters &parameters, const std::string &scene_directory)
+  {
+    constexpr double weak = 1.; // [m/s^2]
+    double           peak = 0.;
+    try
+    {
+      if (parameters.source == "file")
+        for (const Source &source : read_sources(parameters, scene_directory))
+          for (const auto &component : source.record.components)
+            for (const double a : component)
+              peak = std::max(peak, source.record.in_g || !source.record.unit.empty() ? weak : std::abs(a));
+    }
+    catch (const InputError &)
+    {
+      return ""; // it is told where the motion is made
+    }
+    if (peak == 0. || peak >= weak)
+      return "";
+    std::ostringstream text;
+    text.precision(3);
+    text << "the largest number of the record is " << peak
+         << ", taken in m/s^2 since the scene has no Motion/Unit. If the file is in g, set Motion/Unit = g; "
+            "if it is in "
+            "m/s^2, say so.";
+    return text.str();
   }
 } // namespace Voussoir

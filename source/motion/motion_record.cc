@@ -3,11 +3,14 @@
 #include <voussoir/motion/motion_record.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <set>
 
 namespace Voussoir
 {
@@ -67,31 +70,6 @@ namespace Voussoir
       return words;
     }
 
-    /** All lines that hold words. They end in LF, CR LF or CR. */
-    std::vector<Line> read_lines(const std::string &file)
-    {
-      const std::string text = read_text(file);
-      const std::size_t first = text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0; // byte order mark
-      if (text.find('\0') != std::string::npos)
-        throw InputError("The ground motion file '" + file +
-                         "' is no plain text (it has zero bytes). Save it as text, in ASCII or UTF-8.");
-      std::vector<Line> lines;
-      std::size_t       number = 0;
-      for (std::size_t begin = first, end; begin < text.size(); begin = end + 1)
-      {
-        end = std::min(text.find_first_of("\r\n", begin), text.size());
-        ++number;
-        if (end - begin > longest_line)
-          fail(file, number, "longer than a million characters: this is no record. Is it the right file?");
-        Line line{number, split(text.substr(begin, end - begin))};
-        if (!line.words.empty())
-          lines.push_back(std::move(line));
-        if (end + 1 < text.size() && text[end] == '\r' && text[end + 1] == '\n')
-          ++end;
-      }
-      return lines;
-    }
-
     /** True if the whole word is a number, infinite ones and NaN included. Accepts +1., -.64E-02, 1.0D-3;
      *  the decimal sign is a point in every locale. */
     bool to_number(std::string word, double &number)
@@ -113,6 +91,61 @@ namespace Voussoir
     {
       double ignored = 0.;
       return to_number(word, ignored);
+    }
+
+    /** The unit of acceleration that a text of headings states, as Motion/Unit has it: "a_x [cm/s2]", "X
+     * (g)"; empty if it states none or several. "g" counts in brackets only. */
+    std::string unit_in(std::string text)
+    {
+      std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+      static const std::map<std::string, std::string> units = {
+          {"(g)", "g"},           {"[g]", "g"},         {"cm/s2", "cm/s^2"},
+          {"cm/s^2", "cm/s^2"},   {"cm/s/s", "cm/s^2"}, {"cm/sec2", "cm/s^2"},
+          {"gal", "cm/s^2"},      {"gals", "cm/s^2"},   {"cm/sec/sec", "cm/s^2"},
+          {"cm/sec^2", "cm/s^2"}, {"m/s2", "m/s^2"},    {"m/s^2", "m/s^2"},
+          {"m/s/s", "m/s^2"},     {"m/sec2", "m/s^2"},  {"m/sec^2", "m/s^2"},
+          {"m/sec/sec", "m/s^2"}};
+      const auto is_part = [](const unsigned char c) { return std::isalnum(c) || c == '/' || c == '^'; };
+      std::set<std::string> found;
+      for (std::size_t begin = 0, end; begin < text.size(); begin = end)
+      {
+        for (end = begin + 1; end < text.size() && is_part(text[begin]) && is_part(text[end]); ++end)
+          ;
+        std::string word = text.substr(begin, end - begin);
+        if (word == "g" && begin > 0 && end < text.size())
+          word = text.substr(begin - 1, 3);
+        if (const auto unit = units.find(word); unit != units.end())
+          found.insert(unit->second);
+      }
+      return found.size() == 1 ? *found.begin() : "";
+    }
+
+    /** All lines that hold words. They end in LF, CR LF or CR. @p headings: what stands before the first
+     * number. */
+    std::vector<Line> read_lines(const std::string &file, std::string &headings)
+    {
+      const std::string text = read_text(file);
+      const std::size_t first = text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0; // byte order mark
+      if (text.find('\0') != std::string::npos)
+        throw InputError("The ground motion file '" + file +
+                         "' is no plain text (it has zero bytes). Save it as text, in ASCII or UTF-8.");
+      std::vector<Line> lines;
+      std::size_t       number = 0;
+      for (std::size_t begin = first, end; begin < text.size(); begin = end + 1)
+      {
+        end = std::min(text.find_first_of("\r\n", begin), text.size());
+        ++number;
+        if (end - begin > longest_line)
+          fail(file, number, "longer than a million characters: this is no record. Is it the right file?");
+        Line line{number, split(text.substr(begin, end - begin))};
+        if (lines.empty() || std::none_of(lines.back().words.begin(), lines.back().words.end(), is_number))
+          headings += text.substr(begin, end - begin) + "\n";
+        if (!line.words.empty())
+          lines.push_back(std::move(line));
+        if (end + 1 < text.size() && text[end] == '\r' && text[end + 1] == '\n')
+          ++end;
+      }
+      return lines;
     }
 
     double read_number(const std::string &file, const Line &line, const std::string &word)
@@ -234,7 +267,8 @@ namespace Voussoir
                           "belongs to the entry Motion/File. "
                         : "Motion/File expects four, t, a_x, a_y, a_z; files with one component belong "
                           "to the entries File x, File y, File z. ") +
-                   "One line of headings without numbers may come first; put # before other text.");
+                   "One line of headings without numbers may come first; put # before other text. "
+                   "Decimals have a point, not a comma.");
         times.push_back(read_number(file, *line, line->words[0]));
         numbers.push_back(line->number);
         for (unsigned int c = 0; c < n_components; ++c)
@@ -255,10 +289,15 @@ namespace Voussoir
 
   MotionRecord read_motion_record(const std::string &file, unsigned int n_components)
   {
-    const std::vector<Line> lines = read_lines(file);
+    std::string             headings;
+    const std::vector<Line> lines = read_lines(file, headings);
     const auto              header = find_at2_header(lines);
     if (header == lines.end())
-      return read_table(file, lines, n_components);
+    {
+      MotionRecord record = read_table(file, lines, n_components);
+      record.unit = unit_in(headings);
+      return record;
+    }
     if (n_components != 1)
       fail(file, header->number, "an AT2 file has one component. Give it as File x, File y or File z.");
     return read_at2(file, lines, header);

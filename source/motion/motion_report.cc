@@ -128,9 +128,33 @@ namespace Voussoir
     std::vector<std::string> warnings;
     if (report.artificial)
       add_spectrum_warnings(report, warnings);
-    if (const std::string warning = end_warning(report); !warning.empty())
-      warnings.push_back(warning);
+    for (const std::string &warning : {size_warning(report), end_warning(report)})
+      if (!warning.empty())
+        warnings.push_back(warning);
     return warnings;
+  }
+
+  std::string size_warning(const MotionReport &report)
+  {
+    constexpr double   lowest_peak = .005, highest_peak = 2.; // [g]
+    constexpr double   fastest = 5., farthest = 10.;          // [m/s], [m]
+    double             peak = 0., velocity = 0., displacement = 0.;
+    std::ostringstream text;
+    text << std::setprecision(3);
+    for (const Component &c : report.components)
+    {
+      peak = std::max(peak, c.peak_acceleration / standard_gravity);
+      velocity = std::max(velocity, c.peak_velocity);
+      displacement = std::max(displacement, c.peak_displacement);
+    }
+    if (peak > highest_peak || peak < lowest_peak)
+      text << "the peak acceleration of the motion is " << peak
+           << " g; usual is 0.005 to 2 g. Check Motion/Unit, Motion/Factor and Motion/Scale x, y, z.";
+    else if (velocity > fastest || displacement > farthest)
+      text << "the motion moves at " << velocity << " m/s, by " << displacement << " m; usual is at most "
+           << fastest << " m/s and " << farthest
+           << " m. Check the times and the unit of the record (Motion/Unit), and Motion/Time step.";
+    return text.str();
   }
 
   std::string end_warning(const MotionReport &report)

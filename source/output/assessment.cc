@@ -46,6 +46,11 @@ namespace Voussoir
         share /= std::max(whole, 1e-300);
       return demand;
     }
+
+    std::string no_face(const std::string &name)
+    {
+      return "the mesh has no surface '" + name + "'";
+    }
   } // namespace
 
   Json json_of(const Extreme &extreme)
@@ -103,8 +108,11 @@ namespace Voussoir
   void Assessment::add_stresses(const SolidModel &model, const EnvelopeRecorder &envelope)
   {
     for (const auto &[surface, name] : faces)
-      hold(std::string("tension_") + name, "Pa", envelope.extreme(model, surface, true).value,
-           limits.tension);
+      if (face_quads(model, surface).empty())
+        leave(std::string("tension_") + name, limits.tension, no_face(name));
+      else
+        hold(std::string("tension_") + name, "Pa", envelope.extreme(model, surface, true).value,
+             limits.tension);
     hold("compression", "Pa", -envelope.extreme(model, 0, false).value, limits.compression);
   }
 
@@ -116,8 +124,14 @@ namespace Voussoir
       levels[k] = Overstress::level(k);
     overstress.emplace();
     overstress->add("tensile_strength", limits.tensile_strength).add_list("levels", levels);
+    std::string without;
     for (const auto &[surface, name] : faces)
     {
+      if (face_quads(model, surface).empty())
+      {
+        without = no_face(name);
+        continue;
+      }
       const Demand demand = demand_on(model, surface, envelope, limits.tensile_strength);
       Json         of_face;
       of_face.add("demand_capacity", demand.ratio)
@@ -130,6 +144,12 @@ namespace Voussoir
         worst.duration[k] = std::max(worst.duration[k], demand.duration[k]);
         worst.share[k] = std::max(worst.share[k], demand.share[k]);
       }
+    }
+    if (!without.empty()) // the other one may be the worse
+    {
+      leave("demand_capacity", limits.demand_capacity, without);
+      leave("overstressed_share", limits.overstress_share, without);
+      return leave("overstress_duration", limits.overstress_seconds, without);
     }
     hold("demand_capacity", "", worst.ratio, limits.demand_capacity);
     hold("overstressed_share", "", worst.share[0], limits.overstress_share);

@@ -3,6 +3,7 @@
 #include <voussoir/solid/face_quads.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace Voussoir
@@ -57,6 +58,25 @@ namespace Voussoir
           largest = {x, envelope.time_of_maximum[n.node], {{p[0], p[1], p[2]}}};
         }
     return largest;
+  }
+
+  double FaceTension::difference(const EnvelopeRecorder &a, const EnvelopeRecorder &b,
+                                 const int surface) const
+  {
+    const auto face = faces.find(surface);
+    double     largest = 0., sum = 0., area = 0.;
+    if (face == faces.end())
+      return std::numeric_limits<double>::quiet_NaN();
+    for (const FaceNode &n : face->second)
+      largest = n.is_foot ? largest : std::max<double>(largest, a.maximum[n.node]);
+    for (const FaceNode &n : face->second)
+      if (!n.is_foot && a.maximum[n.node] >= .5 * largest)
+      {
+        const double apart = double(a.maximum[n.node]) - b.maximum[n.node];
+        sum += n.area * apart * apart;
+        area += n.area;
+      }
+    return area > 0. ? std::sqrt(sum / area) : 0.;
   }
 
   double FaceTension::headline(const EnvelopeRecorder &envelope) const

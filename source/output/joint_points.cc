@@ -88,6 +88,33 @@ namespace Voussoir
       }
   }
 
+  std::pair<double, unsigned int> JointPoints::height_without_waterstop() const
+  {
+    std::vector<double> top(rims.size(), -endless), bottom(rims.size(), endless),
+        highest(rims.size(), -endless);
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+    {
+      const unsigned int j = pairs[p].joint;
+      top[j] = std::max(top[j], pairs[p].place[2]);
+      bottom[j] = std::min(bottom[j], pairs[p].place[2]);
+    }
+    for (const Between &point : waterstops)
+    {
+      const double from = pairs[point.from].place[2], to = pairs[point.to].place[2];
+      double      &z = highest[pairs[point.from].joint];
+      z = std::max(z, from + point.share * (to - from));
+    }
+    std::pair<double, unsigned int> worst(0., 0);
+    for (unsigned int j = 0; j < rims.size(); ++j)
+    {
+      constexpr double of_crest = .02; // which need not be level
+      const double     missing = top[j] - std::max(highest[j], bottom[j]);
+      if (top[j] > bottom[j] && missing > of_crest * (top[j] - bottom[j]) && missing > worst.first)
+        worst = {missing, j + 1};
+    }
+    return worst;
+  }
+
   void JointPoints::record(const unsigned int pair, const Vector3 &moved)
   {
     if (pair >= now.size())

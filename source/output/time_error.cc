@@ -2,7 +2,9 @@
 #include <voussoir/mesh/mesh.h>
 #include <voussoir/output/time_error.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace Voussoir
 {
@@ -49,28 +51,60 @@ namespace Voussoir
       record_stresses();
   }
 
+  namespace
+  {
+    constexpr double part = .4;            // of the difference
+    constexpr double part_of_history = .1; // of the largest difference at equal times
+    constexpr double round_off = 1e-9;     // [m]
+
+    /** Squares of the differences of the openings at the crest, upstream and downstream, at the times that
+     * both have: for each, the largest over time; summed [m^2]. */
+    double difference_over_time(const Table &fine, const Table &coarse)
+    {
+      std::vector<double> largest(coarse.columns.size(), 0.);
+      auto                row = fine.rows.begin();
+      for (const std::vector<double> &then : coarse.rows)
+      {
+        while (row != fine.rows.end() && (*row)[0] < then[0] - 1e-9)
+          ++row;
+        if (row == fine.rows.end())
+          break;
+        for (std::size_t k = 1; k < then.size(); ++k)
+          if ((k - 1) % 4 < 2) // two openings, two slips
+            largest[k] = std::max(largest[k], std::abs((*row)[k] - then[k]));
+      }
+      return std::inner_product(largest.begin(), largest.end(), largest.begin(), 0.);
+    }
+  } // namespace
+
+  double TimeErrorEstimate::of_openings(const JointRecorder &of_run) const
+  {
+    double difference = 0., sum = 0.;
+    for (std::size_t j = 0; j < joints.largest.size(); ++j)
+      for (const auto opening :
+           {&JointRecorder::Largest::opening_upstream, &JointRecorder::Largest::opening_downstream})
+      {
+        const double fine = of_run.largest[j].*opening, coarse = joints.largest[j].*opening;
+        difference += (fine - coarse) * (fine - coarse);
+        sum += fine * fine;
+      }
+    if (!(sum > round_off * round_off))
+      return 0.;
+    // Largest openings of both may agree by chance, their histories do not.
+    return std::max(part * std::sqrt(difference / sum),
+                    part_of_history * std::sqrt(difference_over_time(of_run.history, joints.history) / sum));
+  }
+
   TimeError TimeErrorEstimate::of(const JointRecorder &of_run, const EnvelopeRecorder &stresses,
                                   const FaceTension &tension) const
   {
-    constexpr double part = .4;        // of the difference
-    constexpr double round_off = 1e-9; // [m]
-    TimeError        error;
-    double           difference = 0., sum = 0.;
-    for (std::size_t j = 0; j < joints.largest.size(); ++j)
-    {
-      const double fine = of_run.largest[j].opening(), coarse = joints.largest[j].opening();
-      difference += (fine - coarse) * (fine - coarse);
-      sum += fine * fine;
-    }
-    error.opening = sum > round_off * round_off ? part * std::sqrt(difference / sum) : 0.;
-    error.largest_opening = part * std::abs(of_run.opening.value - joints.opening.value);
+    TimeError error;
+    error.opening = of_openings(of_run);
+    error.largest_opening = std::max(part * std::abs(of_run.opening.value - joints.opening.value),
+                                     error.opening * of_run.opening.value);
     if (!envelope)
       return error;
-    const auto of_face = [&](const int face)
-    {
-      return part * std::abs(tension.largest_above_foot(stresses, *dam.model, face).value -
-                             tension.largest_above_foot(*envelope, *dam.model, face).value);
-    };
+    const auto of_face = [&](const int face) { return part * tension.difference(stresses, *envelope, face); };
     error.tension_upstream = of_face(PhysicalId::upstream);
     error.tension_downstream = of_face(PhysicalId::downstream);
     return error;

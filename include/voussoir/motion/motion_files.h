@@ -14,6 +14,10 @@ namespace Voussoir
    * InputError: a record that cannot be read, that ends before a given "Duration", or that starts at another
    * time than the component before it. */
   GroundMotion read_motion(const MotionParameters &parameters, const std::string &scene_directory);
+
+  /** For a scene that does not say the unit of its tables: a warning if all their numbers are below 1 m/s^2
+   * and no heading states a unit, since they may be in g; else empty. */
+  std::string unit_warning(const MotionParameters &parameters, const std::string &scene_directory);
 } // namespace Voussoir
 
 #endif

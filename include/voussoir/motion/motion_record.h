@@ -14,6 +14,7 @@ namespace Voussoir
     double                           dt = 0.;      ///< sampling interval [s]
     std::vector<std::vector<double>> components;   ///< of equal length, in the file's unit
     bool                             in_g = false; ///< AT2, whatever unit the scene states
+    std::string                      unit; ///< that a table's headings state, as Motion/Unit; or empty
 
     double duration() const; ///< from the first to the last sample [s]
   };

@@ -35,7 +35,11 @@ namespace Voussoir
    * period the greater of two, that of the true peak and that of the peak seen at the samples alone. */
   MotionReport report_motion(const GroundMotion &motion, const MotionParameters &parameters);
 
-  /** A sentence for each criterion of MotionCriteria that the motion misses. */
+  /** A motion that is no earthquake: peak acceleration beyond 0.005 to 2 g, velocity above 5 m/s or
+   * displacement above 10 m; empty if it is one. */
+  std::string size_warning(const MotionReport &report);
+
+  /** A sentence for each criterion of MotionCriteria that the motion misses, and of its size. */
   std::vector<std::string> motion_warnings(const MotionReport &report);
 
   /** That of the end alone (MotionCriteria::end_displacement, end_velocity); empty if it is met. */

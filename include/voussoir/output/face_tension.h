@@ -19,6 +19,11 @@ namespace Voussoir
     /** Not a number where the face has no node away from the foot. */
     Extreme largest_above_foot(const EnvelopeRecorder &envelope, const SolidModel &model, int surface) const;
 
+    /** Root of the mean square, by area, of the differences of two envelopes away from the foot, where @p a
+     * has at least half of its largest tension there; 0 without tension, not a number without the face [Pa].
+     */
+    double difference(const EnvelopeRecorder &a, const EnvelopeRecorder &b, int surface) const;
+
     /** The larger one of both faces, 0 where there is none [Pa]. */
     double headline(const EnvelopeRecorder &envelope) const;
 

@@ -48,6 +48,10 @@ namespace Voussoir
 
     bool has_waterstops() const { return !waterstops.empty(); }
 
+    /** Height at the top of a joint over which it is thinner than the waterstop is deep, the largest of the
+     * joints, and the number of that joint; 0 where all waterstops reach the top [m]. */
+    std::pair<double, unsigned int> height_without_waterstop() const;
+
     Extreme waterstop_opening, waterstop_slip;
 
     template <class Archive> void serialize(Archive &archive, unsigned int)

@@ -14,17 +14,20 @@ namespace Voussoir
   /** What the time step does to the extremes of a run, by estimate. */
   struct TimeError
   {
-    /** Of the joints' largest openings at the crest: root of the sum of squares over the joints, over that of
-     * the openings [-]. */
+    /** Of the joints' largest openings at the crest, upstream and downstream: root of the sum of squares over
+     * the joints, over that of the openings [-]. */
     double opening = 0.;
     double largest_opening = 0.; ///< of the largest anywhere [m]
-    /** Of the largest principal stresses above the foot [Pa]; not a number: not recorded. */
+    /** Of principal stresses above the foot near the largest ones, as FaceTension::difference() [Pa]; not a
+     * number: not recorded. */
     double tension_upstream = std::numeric_limits<double>::quiet_NaN(), tension_downstream = tension_upstream;
   };
 
   /** The same dam on its moving base at twice the time step, beside the run. The estimate is 0.4 of the
    * difference between both: an error that falls with the step's power p is 1/(2^p - 1) of it, so that the
-   * estimate is right within a factor of 2 for p = 1.2 to 2.6 (doc/accuracy.md: what was measured). */
+   * estimate is right within a factor of 2 for p = 1.2 to 2.6 (doc/accuracy.md: what was measured). Where the
+   * steps are so long that the error does not fall regularly, largest openings may be the same by chance; the
+   * estimate is not less than a tenth of the largest difference of the openings at equal times. */
   class TimeErrorEstimate
   {
   public:
@@ -64,7 +67,8 @@ namespace Voussoir
     Newmark newmark;
 
   private:
-    void record_stresses();
+    void   record_stresses();
+    double of_openings(const JointRecorder &joints) const; ///< [-]
 
     const Dam                      &dam;
     JointRecorder                   joints;
