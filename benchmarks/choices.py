@@ -147,7 +147,7 @@ class Runs:
 
 def error(value, reference):
     size = np.linalg.norm(reference)
-    return float(np.linalg.norm(value - reference) / size) if size > 0 else float("nan")  # joints that stay closed, or none
+    return float(np.linalg.norm(value - reference) / size) if size > 1e-9 else float("nan")  # joints that stay closed, or none
 
 
 def study(name, options):
