@@ -227,7 +227,7 @@ def energies(run, runs):
     def made(_, axes):
         draw_energy(axes[0], run, largest)
         low, high = axes[0].get_ylim()
-        axes[0].set_ylim(min(low, -0.05 * largest / energy_unit(largest)[1]), max(high, 1.05 * largest / energy_unit(largest)[1]))
+        axes[0].set_ylim(min(low, -0.05 * largest / energy_unit(largest)[1]), max(high, 1.5 * largest / energy_unit(largest)[1]))  # room for the legend
         axes[0].set_xlabel("time [s]")
         axes[0].legend(loc="upper left", ncol=2, borderaxespad=0.2, handlelength=1.4, columnspacing=1.)
     return made

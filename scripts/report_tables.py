@@ -207,7 +207,9 @@ def extremes(runs):
     limited, single, rows = any(item.limit for of_run in found for item in of_run.values()), len(runs) == 1, []
     for key in keys:
         item = next(of_run[key] for of_run in found if key in of_run)
-        cells = [f'<td>{escape(item.title)} <span class="unit">{"[" + item.unit + "]" if item.unit else ""}</span></td>']
+        titles = {of_run[key].title for of_run in found if key in of_run}
+        title = item.title if len(titles) == 1 else f"{item.title.partition(',')[0]}, at the level that decides in each run"
+        cells = [f'<td>{escape(title)} <span class="unit">{"[" + item.unit + "]" if item.unit else ""}</span></td>']
         for of_run in found:
             one = of_run.get(key)
             error = f' <span class="unit">± {number(one.error, one.unit, 2)}</span>' if one and isinstance(one.error, (int, float)) else ""
