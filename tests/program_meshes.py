@@ -194,5 +194,27 @@ def second_order():
     alike(crest("quadratic", "quadratic.msh"), crest("gmsh", "arch.msh"))
 
 
+def joints():
+    """A joint that ends above the base, and one across which the nodes of both sides do not coincide."""
+    n_through, n_up = CELLS[1:]
+    nodes, hexes, quads = meshes.arch_block((1, 2, 3), n_through, n_up)
+    first = min(i for i, (m, _) in enumerate(hexes) if m == 2)
+    half = [(1 if m == 2 and (i - first) % n_up == 0 else m, c) for i, (m, c) in enumerate(hexes)]
+    meshes.write("half.msh", nodes, half, quads)
+    refused([scene("half", "half.msh", Joints={"Model": "FJA"})], "half.msh", "monolith 2", '"base"', "reach")
+    refused([scene("half", "half.msh", Joints={"Model": "FJA"}), "--validate"], "monolith 2", '"base"')
+    runs(scene("half", "half.msh", Joints={"Model": "tied"}, Statics={"Self-weight": "monolithic"}), "--validate")
+
+    nodes, hexes, quads = meshes.arch_block(*CELLS)
+    of_second = sorted({c for m, corners in hexes if m == 2 for c in corners})
+    renumbered = {c: len(nodes) + k for k, c in enumerate(of_second)}
+    apart = nodes + [(x, y + .2, z) for x, y, z in (nodes[c] for c in of_second)]
+    of_face = lambda corners: all(c in renumbered for c in corners)
+    new = lambda corners: [renumbered[c] for c in corners]
+    meshes.write("apart.msh", apart, [(m, new(c) if m == 2 else c) for m, c in hexes],
+                 [(t, new(c) if of_face(c) else c) for t, c in quads])
+    refused([scene("apart", "apart.msh", Joints={"Model": "FJA"})], "apart.msh", "monoliths 1 and 2", "coincide")
+
+
 if __name__ == "__main__":
-    run_cases(inp, med, wedges, second_order)
+    run_cases(inp, med, wedges, second_order, joints)

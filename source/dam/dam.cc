@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -20,19 +21,42 @@ namespace Voussoir
 {
   namespace
   {
-    /** InputError where joint j is not between monoliths j and j + 1. */
-    void check_joint_numbers(const HexMesh &opened, const unsigned int n_joints, const std::string &source)
+    /** InputError where joint j is not between monoliths j and j + 1, as many as there are. */
+    void check_joint_numbers(const HexMesh &opened, const std::string &source)
     {
-      std::set<unsigned int> numbers;
+      std::set<int> numbers, monoliths;
       for (const Joint &joint : joints_of(opened))
         numbers.insert(joint.number);
-      for (unsigned int j = 1; j <= n_joints; ++j)
+      for (const HexMesh::Cell &cell : opened.cells)
+        monoliths.insert(cell.volume);
+      const int n_joints = std::max(numbers.empty() ? 0 : *numbers.rbegin(),
+                                    monoliths.size() > 1 ? *monoliths.rbegin() - 1 : 0);
+      for (int j = 1; j <= n_joints; ++j)
         if (numbers.count(j) == 0)
           throw InputError(
               "mesh " + source + ": joint " + std::to_string(j) + " has no faces: monoliths " +
               std::to_string(j) + " and " + std::to_string(j + 1) +
               " do not meet. Number the monoliths one after the other, from the right bank to the "
-              "left.");
+              "left; and let the nodes of both coincide on the joint, if they are numbered so.");
+    }
+
+    /** InputError for a monolith that stands on nothing. */
+    void check_feet(const HexMesh &opened, const std::string &source)
+    {
+      std::set<unsigned int> base;
+      for (const HexMesh::Face &face : opened.faces)
+        if (face.surface == PhysicalId::base)
+          base.insert(face.nodes.begin(), face.nodes.end());
+      std::map<int, bool> stands;
+      for (const HexMesh::Cell &cell : opened.cells)
+        stands[cell.volume] |= std::any_of(cell.nodes.begin(), cell.nodes.end(),
+                                           [&](const unsigned int n) { return base.count(n) > 0; });
+      for (const auto &[monolith, does] : stands)
+        if (!does)
+          throw InputError(
+              "mesh " + source + ": monolith " + std::to_string(monolith) +
+              " has no node on the surface \"base\", so that nothing holds it. Let the joints beside "
+              "it reach the base, or mark its foot.");
     }
   } // namespace
 
@@ -45,6 +69,8 @@ namespace Voussoir
     ungrouped = faces_without_group(mesh);
     const HexMesh opened = open_monoliths(mesh, source);
     choose_laws(tie_all);
+    if (!tied || scene.statics.self_weight == "staged")
+      check_feet(opened, source);
     foundation = make_foundation({scene.foundation, mesh, source, scene.elements.degree,
                                   scene.elements.incompatible_modes, is_one_body(scene, tied)});
     const auto listed = zone_materials(scene.concrete_zones, "Concrete/Zones");
@@ -77,7 +103,7 @@ namespace Voussoir
     HexMesh opened = open_joints(concrete);
     for (const Joint &joint : joints_of(opened))
       n_joints = std::max<unsigned int>(n_joints, joint.number);
-    check_joint_numbers(opened, n_joints, source);
+    check_joint_numbers(opened, source);
     return opened;
   }
 
