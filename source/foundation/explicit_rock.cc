@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
-#include <voussoir/base/excess.h>
 #include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/motion/ground_motion.h>
 
@@ -199,12 +198,8 @@ namespace Voussoir
     constexpr unsigned int interval = 10; // of the steps at which somebody looks, see StabilityWatch
     const auto             step = static_cast<unsigned int>(std::lround(time / grid.dt));
     if (region->is_split() && bounds.velocity > 0. && (step % interval == 0 || step == grid.n))
-    {
-      const Unknowns &u = region->displacement(), &w = region->half_step_velocity();
-      if (Ranks::any(find_excess(w, bounds.velocity) < w.size() ||
-                     find_excess(u, bounds.displacement) < u.size()))
+      if (Ranks::any(region->exceeds(bounds.velocity, bounds.displacement)))
         region->gather_motion(); // for the first rank to see and say
-    }
     const RegionEnergy e = energy();
     account[1] = std::max({account[1], e.kinetic + e.strain, e.damping, std::abs(e.prescribed + e.external),
                            std::abs(e.transmitted)});

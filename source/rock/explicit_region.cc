@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/excess.h>
 #include <voussoir/rock/explicit_region.h>
 
 #include <algorithm>
@@ -125,6 +126,7 @@ namespace Voussoir
     for (const unsigned int node : boundary->nodes())
       exclude(inverse_mass, node);
     boundary_w.resize(3 * boundary->nodes().size());
+    boundary_kept = all_of(boundary->nodes().size());
     if (!prescribed.empty())
       boundary->check_prescribed(prescribed);
   }
@@ -171,12 +173,20 @@ namespace Voussoir
 
   const Unknowns &ExplicitRegion::advance(const Unknowns &u_prescribed, const Unknowns &v_prescribed)
   {
+    std::vector<Ranks::Message> messages;
+    begin_step(u_prescribed, v_prescribed, messages);
+    Ranks::exchange(messages);
+    return end_step(v_prescribed);
+  }
+
+  void ExplicitRegion::begin_step(const Unknowns &u_prescribed, const Unknowns &v_prescribed,
+                                  std::vector<Ranks::Message> &messages)
+  {
     if (clock[0] == 0. && boundary)
       boundary->start(step_of_boundary());
     if (!prescribed.empty())
       move_prescribed(u_prescribed, v_prescribed);
-    const bool with_energy = !K_u.empty();
-    if (with_energy)
+    if (!K_u.empty())
       add_work_of_motion(step_of_region(), prescribed, all_of(prescribed.size()), prescribed_w,
                          done_by_prescribed, 1.);
     const int n = pieces.size();
@@ -188,7 +198,14 @@ namespace Voussoir
         u[i] += dt * w[i];
         x[i] = u[i] + damping.stiffness * w[i];
       }
-    stiffness.multiply(x.data(), K_x.data());
+    stiffness.begin_product(x.data(), K_x.data(), messages);
+    if (free_field)
+      free_field->begin_step(messages);
+  }
+
+  const Unknowns &ExplicitRegion::end_step(const Unknowns &v_prescribed)
+  {
+    stiffness.end_product(K_x.data());
     clock[0] += 1.;
     for (std::size_t i = 0; i < prescribed.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
@@ -198,10 +215,10 @@ namespace Voussoir
     {
       field_before.swap(field);
       field.swap(field_next);
-      free_field->advance();
+      free_field->end_step();
       free_field->evaluate(field_next);
     }
-    if (with_energy)
+    if (!K_u.empty())
       step_explicit_nodes<true>();
     else
       step_explicit_nodes<false>();
@@ -213,7 +230,8 @@ namespace Voussoir
   template <bool with_energy> ExplicitRegion::Sums ExplicitRegion::step_nodes(const int first, const int last)
   {
     const int n = 3 * (last - first), offset = 3 * first;
-    double    zeros[3 * per_chunk] = {}, masses[3 * per_chunk], is_free[3 * per_chunk]; // of components
+    double    zeros[3 * per_chunk], masses[3 * per_chunk], is_free[3 * per_chunk]; // of components
+    std::fill_n(zeros, n, 0.);
     for (int i = 0; i < n; ++i)
       is_free[i] = inverse_mass[offset + i] != 0.;
     for (int i = 0; with_energy && i < n; ++i)
@@ -287,8 +305,22 @@ namespace Voussoir
     split = std::move(given);
     stiffness = std::move(part);
     pieces = split.pieces(n_nodes());
-    if (boundary)
-      boundary->keep(split.stepped());
+    if (!boundary)
+      return;
+    boundary->keep(split.stepped());
+    boundary_kept = stepped_of(boundary->nodes(), split.stepped());
+  }
+
+  bool ExplicitRegion::exceeds(const double velocity, const double displacement) const
+  {
+    return std::any_of(pieces.begin(), pieces.end(),
+                       [&](const std::pair<int, int> &piece)
+                       {
+                         const std::size_t first = 3 * std::size_t(piece.first),
+                                           n = 3 * std::size_t(piece.second - piece.first);
+                         return count_excess(w.data() + first, n, velocity) > 0 ||
+                                count_excess(u.data() + first, n, displacement) > 0;
+                       });
   }
 
   void ExplicitRegion::gather_energy()
@@ -333,8 +365,8 @@ namespace Voussoir
   RegionStep ExplicitRegion::step_of_boundary()
   {
     const std::vector<unsigned int> &nodes = boundary->nodes();
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      std::copy_n(w.begin() + 3 * std::size_t(nodes[i]), 3, boundary_w.begin() + 3 * i);
+    for (const unsigned int i : boundary_kept)
+      std::copy_n(w.begin() + 3 * std::size_t(nodes[i]), 3, boundary_w.begin() + 3 * std::size_t(i));
     return step_of_region();
   }
 
