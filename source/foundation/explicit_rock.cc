@@ -2,6 +2,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/motion/ground_motion.h>
+#include <voussoir/rock/rock_part.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,9 +45,13 @@ namespace Voussoir
       }
     for (double &c : centre)
       c /= count;
-    model = make_rock_model(mesh, region_parameters(parameters, centre, 0.).rock);
+    const auto find = [&](const std::vector<Vector3> &points)
+    {
+      foot = find_feet(dam, points, source);
+      return feet_of_rock();
+    };
+    model = make_rock_part(mesh, region_parameters(parameters, centre, 0.).rock, find, parameters.substeps);
     mesh = HexMesh(); // the model has all of it
-    foot = find_feet(dam, model.points, source);
     RayleighDamping damping;
     damping.mass = parameters.mass_damping;
     damping.stiffness = parameters.stiffness_damping;
@@ -87,15 +92,21 @@ namespace Voussoir
 
   /** The region, at rest; the earthquake comes @p delay late [s]. */
   void ExplicitRock::make_rock(const GroundMotion &outcrop, const TimeGrid &steps, const double delay,
-                               const std::vector<unsigned int> &of_first)
+                               const std::vector<unsigned int> &near_feet)
   {
     statics.reset(); // its memory
     grid = steps;
     const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
     RockSplit                  split(n_nodes());
     split.step_everywhere(feet_of_rock());
-    if (!split.is_trivial())
-      split.step(of_first, 0);
+    if (!split.is_trivial() && !near_feet.empty())
+    {
+      std::vector<unsigned int> count(Ranks::size(), 0);
+      for (const unsigned int i : near_feet)
+        ++count[split.owner(i)];
+      ahead = std::max_element(count.begin(), count.end()) - count.begin();
+      split.step(near_feet, ahead);
+    }
     region = make_region(model, p, std::move(split));
     const IncidentWave wave = incident_wave(outcrop);
     if (grid.n > 0) // else without an earthquake
