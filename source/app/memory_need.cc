@@ -251,9 +251,11 @@ namespace Voussoir
       double                  n_blocks = rock.n_blocks();
       if (scene.foundation.nodal_everywhere) // does not couple the ends of a cell's diagonals
         n_blocks -= 8. * std::count_if(mesh.cells.begin(), mesh.cells.end(), is_rock);
-      const double all = per_rock_node * rock.neighbours.size(), matrix = block * n_blocks;
+      const double part = 1. / Ranks::size(), matrix = block * n_blocks; // kept of it: see make_rock_part()
+      const double kept = scene.foundation.nodal_everywhere ? std::min(1., part + .2) : 1.;
+      const double all = per_rock_node * rock.neighbours.size() - (1. - kept) * matrix;
       others = all + .1 * matrix;
-      return all + (.55 + .45 / Ranks::size()) * matrix;
+      return all + (.55 + .45 * part) * matrix;
     }
   } // namespace
 

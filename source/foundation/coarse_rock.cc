@@ -116,11 +116,12 @@ namespace Voussoir
     dealii::TrilinosWrappers::PreconditionAMG levels;
   };
 
-  CoarseRock::CoarseRock(const RockAggregates &aggregates, const std::vector<CoarseBlock> &stiffness)
+  CoarseRock::CoarseRock(const RockAggregates &aggregates, std::vector<CoarseBlock> &&stiffness)
   {
     static LoneProcess mpi;
     multigrid = std::make_unique<Multigrid>(matrix_of(stiffness, aggregates.n()));
-    std::vector<double> modes; // deal.II's own take ones and zeros only
+    std::vector<CoarseBlock>().swap(stiffness); // its memory
+    std::vector<double> modes;                  // deal.II's own take ones and zeros only
     for (unsigned int mode = 0; mode < 6; ++mode)
       for (const RigidMotion &motion : aggregates.rigid(mode))
         modes.insert(modes.end(), motion.begin(), motion.end());

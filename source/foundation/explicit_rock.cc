@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
-#include <voussoir/base/excess.h>
 #include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/rock/arrival.h>
+#include <voussoir/rock/rock_part.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,9 +47,13 @@ namespace Voussoir
       }
     for (double &c : centre)
       c /= count;
-    model = make_rock_model(mesh, region_parameters(parameters, centre, 0.).rock);
+    const auto find = [&](const std::vector<Vector3> &points)
+    {
+      foot = find_feet(dam, points, source);
+      return feet_of_rock();
+    };
+    model = make_rock_part(mesh, region_parameters(parameters, centre, 0.).rock, find, parameters.substeps);
     mesh = HexMesh(); // the model has all of it
-    foot = find_feet(dam, model.points, source);
     RayleighDamping damping;
     damping.mass = parameters.mass_damping;
     damping.stiffness = parameters.stiffness_damping;
@@ -99,15 +103,21 @@ namespace Voussoir
   /** The region, at rest; the earthquake comes @p delay late [s]. P waves wait for the slower S waves: the
    * outcrop's components are to be at the dam's lowest foot together, whatever the depth of the rock. */
   void ExplicitRock::make_rock(const GroundMotion &outcrop, const TimeGrid &steps, const double delay,
-                               const std::vector<unsigned int> &of_first)
+                               const std::vector<unsigned int> &near_feet)
   {
     statics.reset(); // its memory
     grid = steps;
     const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
     RockSplit                  split(n_nodes());
     split.step_everywhere(feet_of_rock());
-    if (!split.is_trivial())
-      split.step(of_first, 0);
+    if (!split.is_trivial() && !near_feet.empty())
+    {
+      std::vector<unsigned int> count(Ranks::size(), 0);
+      for (const unsigned int i : near_feet)
+        ++count[split.owner(i)];
+      ahead = std::max_element(count.begin(), count.end()) - count.begin();
+      split.step(near_feet, ahead);
+    }
     region = make_region(model, p, std::move(split));
     const IncidentWave wave = incident_wave(outcrop);
     const Vector3      arrives = arrival();
@@ -215,12 +225,8 @@ namespace Voussoir
     constexpr unsigned int interval = 10; // of the steps at which somebody looks, see StabilityWatch
     const auto             step = static_cast<unsigned int>(std::lround(time / grid.dt));
     if (region->is_split() && bounds.velocity > 0. && (step % interval == 0 || step == grid.n))
-    {
-      const Unknowns &u = region->displacement(), &w = region->half_step_velocity();
-      if (Ranks::any(find_excess(w, bounds.velocity) < w.size() ||
-                     find_excess(u, bounds.displacement) < u.size()))
+      if (Ranks::any(region->exceeds(bounds.velocity, bounds.displacement)))
         region->gather_motion(); // for the first rank to see and say
-    }
     const RegionEnergy e = energy();
     account[1] = std::max({account[1], e.kinetic + e.strain, e.damping, std::abs(e.prescribed + e.external),
                            std::abs(e.transmitted)});

@@ -37,7 +37,7 @@ namespace Voussoir
   void OwnStepRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
   {
     patch = std::make_unique<RockPatch>(model, damping(), steps.substep(), feet_of_rock(), steps.substeps);
-    make_rock(outcrop, steps, .5 * steps.substep(), patch->nodes()); // the first rank looks ahead for all
+    make_rock(outcrop, steps, .5 * steps.substep(), patch->nodes());
     model.stiffness = BlockSparseMatrix(); // its memory: region and patch have what they need
     region->force.assign(3 * std::size_t(n_nodes()), 0.);
     standing = StandingNodes(foot);
@@ -65,9 +65,9 @@ namespace Voussoir
     const Stopwatch watch;
     const double    worked = Ranks::work();
     Unknowns        place(3 * foot.size());
-    if (Ranks::is_first())
+    if (Ranks::rank() == ahead)
       place = patch->places(n, region->displacement(), region->half_step_velocity());
-    Ranks::broadcast(place.data(), place.size(), 0);
+    Ranks::broadcast(place.data(), place.size(), ahead);
     Unknowns result = rest;
     for (std::size_t i = 0; i < standing.node.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)

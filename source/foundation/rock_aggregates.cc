@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
+
 #include <voussoir/base/parallel.h>
 #include <voussoir/foundation/rock_aggregates.h>
+#include <voussoir/rock/rock_split.h>
 
 #include <algorithm>
 #include <map>
@@ -19,40 +22,73 @@ namespace Voussoir
       return sum;
     }
 
-    /** Squares of the diagonal's blocks. */
-    std::vector<double> squares_of_diagonal(const BlockSparseMatrix &K)
+    /** Squares of all blocks of the stiffness. Each rank has those of its own nodes' rows, as RockSplit
+     * shares them out; all get all of them. */
+    struct Squares
     {
-      std::vector<double> result(K.n_rows(), 0.);
-      for (unsigned int i = 0; i < K.n_rows(); ++i)
-        for (std::size_t k = K.start[i]; k < K.start[i + 1]; ++k)
-          if (K.column[k] == i)
-            result[i] = square(K.value[k]);
-      return result;
-    }
+      std::vector<std::size_t>  start; ///< of each row
+      std::vector<unsigned int> column;
+      std::vector<double>       value, diagonal;
+
+      explicit Squares(const BlockSparseMatrix &K) : start(1, 0)
+      {
+        const unsigned int  n = K.n_rows();
+        const RockSplit     split(n);
+        const auto          is_mine = [&](const unsigned int i) { return split.owner(i) == Ranks::rank(); };
+        std::vector<double> length(n);
+        for (unsigned int i = 0; i < n; ++i)
+          length[i] = double(K.start[i + 1] - K.start[i]);
+        split.gather(length, 1);
+        std::vector<std::size_t> parts(1, 0); // of the ranks
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          parts.resize(std::max<std::size_t>(parts.size(), split.owner(i) + 1), start[i]);
+          start.push_back(start[i] + static_cast<std::size_t>(length[i]));
+        }
+        parts.resize(Ranks::size() + 1, start[n]);
+        column.resize(start[n]);
+        value.resize(start[n]);
+        diagonal.assign(n, 0.);
+        for (unsigned int i = 0; i < n; ++i)
+          for (std::size_t k = K.start[i], at = start[i]; is_mine(i) && k < K.start[i + 1]; ++k, ++at)
+          {
+            column[at] = K.column[k];
+            value[at] = square(K.value[k]);
+            diagonal[i] = column[at] == i ? value[at] : diagonal[i];
+          }
+        if (!split.is_trivial())
+        {
+          Ranks::gather(column.data(), parts);
+          Ranks::gather(value.data(), parts);
+          split.gather(diagonal, 1);
+        }
+      }
+
+      unsigned int n_rows() const { return static_cast<unsigned int>(diagonal.size()); }
+    };
 
     /** Visits the nodes that are tied to @p node, itself included, with the square of their block over those
      * of the diagonal. */
     template <class Visit>
-    void for_neighbours(const BlockSparseMatrix &K, const std::vector<double> &diagonal,
-                        const std::vector<bool> &held, const unsigned int node, const Visit &visit)
+    void for_neighbours(const Squares &K, const std::vector<bool> &held, const unsigned int node,
+                        const Visit &visit)
     {
       constexpr double tied = 1e-8; // squared, as ML's threshold of 1e-4
       for (std::size_t k = K.start[node]; k < K.start[node + 1]; ++k)
         if (const unsigned int j = K.column[k]; !held[j])
-          if (const double part = square(K.value[k]) / std::sqrt(diagonal[node] * diagonal[j]); part > tied)
+          if (const double part = K.value[k] / std::sqrt(K.diagonal[node] * K.diagonal[j]); part > tied)
             visit(j, part);
     }
 
-    std::vector<unsigned int> groups(const BlockSparseMatrix &K, const std::vector<bool> &held)
+    std::vector<unsigned int> groups(const Squares &K, const std::vector<bool> &held)
     {
       const unsigned int        n = K.n_rows();
-      const std::vector<double> diagonal = squares_of_diagonal(K);
       std::vector<unsigned int> group(n, none);
       unsigned int              count = 0;
       const auto                gather = [&](const unsigned int i)
       {
         group[i] = count;
-        for_neighbours(K, diagonal, held, i,
+        for_neighbours(K, held, i,
                        [&](const unsigned int j, double)
                        {
                          if (group[j] == none)
@@ -64,7 +100,7 @@ namespace Voussoir
       {
         bool alone = !held[i] && group[i] == none;
         if (alone)
-          for_neighbours(K, diagonal, held, i,
+          for_neighbours(K, held, i,
                          [&](const unsigned int j, double) { alone = alone && group[j] == none; });
         if (alone)
           gather(i);
@@ -72,7 +108,7 @@ namespace Voussoir
       const std::vector<unsigned int> first = group;
       for (unsigned int i = 0; i < n; ++i)
         if (double most = 0.; !held[i] && first[i] == none)
-          for_neighbours(K, diagonal, held, i,
+          for_neighbours(K, held, i,
                          [&](const unsigned int j, const double part)
                          {
                            if (first[j] != none && part > most)
@@ -90,7 +126,7 @@ namespace Voussoir
 
   RockAggregates::RockAggregates(const BlockSparseMatrix &stiffness, const std::vector<Vector3> &points,
                                  const std::vector<bool> &held)
-      : group(groups(stiffness, held)), arm(points.size(), Vector3{})
+      : group(groups(Squares(stiffness), held)), arm(points.size(), Vector3{})
   {
     for (unsigned int i = 0; i < group.size(); ++i)
       if (group[i] != none)
@@ -245,7 +281,9 @@ namespace Voussoir
         for (unsigned int i = 0; i < x.nodes.size(); ++i)
         {
           const unsigned int node = x.nodes[i];
-          double             largest = 0.;
+          AssertThrow(K.start[node] < K.start[node + 1],
+                      dealii::ExcInternalError()); // a part: has it the row?
+          double largest = 0.;
           for (std::size_t k = K.start[node]; k < K.start[node + 1]; ++k)
             largest = std::max(largest, square(K.value[k]));
           for (std::size_t k = K.start[node]; k < K.start[node + 1]; ++k)
@@ -312,7 +350,11 @@ namespace Voussoir
                              i < std::min(wanted.size(), (task + 1) * per_task); ++i)
                           products.add_row(wanted[i], parts[task]);
                       });
+    std::size_t n = 0;
+    for (const auto &part : parts)
+      n += part.size();
     std::vector<CoarseBlock> result;
+    result.reserve(n);
     for (auto &part : parts)
     {
       result.insert(result.end(), part.begin(), part.end());

@@ -42,11 +42,18 @@ namespace Voussoir
   void RockStatics::find_inverse(const RockModel &model)
   {
     const BlockSparseMatrix &K = model.stiffness;
-    inverse.assign(n_nodes, Matrix3{});
+    std::vector<double>      all(9 * std::size_t(n_nodes), 0.);
     for (unsigned int i = 0; i < n_nodes; ++i)
-      for (std::size_t k = K.start[i]; k < K.start[i + 1]; ++k)
+      for (std::size_t k = K.start[i]; k < K.start[i + 1] && split.owner(i) == Ranks::rank(); ++k)
         if (K.column[k] == i && aggregates.of_node(i) != RockAggregates::none)
-          inverse[i] = Voussoir::inverse(K.value[k]);
+        {
+          const Matrix3 block = Voussoir::inverse(K.value[k]);
+          std::copy(block.begin(), block.end(), all.begin() + 9 * std::size_t(i));
+        }
+    split.gather(all, 9);
+    inverse.resize(n_nodes);
+    for (unsigned int i = 0; i < n_nodes; ++i)
+      std::copy_n(all.begin() + 9 * std::size_t(i), 9, inverse[i].begin());
   }
 
   void RockStatics::multiply(const Unknowns &x, Unknowns &y) const
@@ -134,7 +141,7 @@ namespace Voussoir
     else
       messages.push_back({0, numbers(0), 38 * blocks.size(), nullptr, 0});
     Ranks::exchange(messages);
-    Ranks::on_first([&] { coarse = std::make_unique<CoarseRock>(aggregates, blocks); });
+    Ranks::on_first([&] { coarse = std::make_unique<CoarseRock>(aggregates, std::move(blocks)); });
   }
 
   /** Chebyshev's polynomial of degree 2 for the upper part of the spectrum of D^-1 K (Adams, Brezina, Hu and

@@ -125,6 +125,7 @@ namespace Voussoir
     for (const unsigned int node : boundary->nodes())
       exclude(inverse_mass, node);
     boundary_w.resize(3 * boundary->nodes().size());
+    boundary_kept = all_of(boundary->nodes().size());
     if (!prescribed.empty())
       boundary->check_prescribed(prescribed);
   }
@@ -171,12 +172,20 @@ namespace Voussoir
 
   const Unknowns &ExplicitRegion::advance(const Unknowns &u_prescribed, const Unknowns &v_prescribed)
   {
+    std::vector<Ranks::Message> messages;
+    begin_step(u_prescribed, v_prescribed, messages);
+    Ranks::exchange(messages);
+    return end_step(v_prescribed);
+  }
+
+  void ExplicitRegion::begin_step(const Unknowns &u_prescribed, const Unknowns &v_prescribed,
+                                  std::vector<Ranks::Message> &messages)
+  {
     if (clock[0] == 0. && boundary)
       boundary->start(step_of_boundary());
     if (!prescribed.empty())
       move_prescribed(u_prescribed, v_prescribed);
-    const bool with_energy = !K_u.empty();
-    if (with_energy)
+    if (!K_u.empty())
       add_work_of_motion(step_of_region(), prescribed, all_of(prescribed.size()), prescribed_w,
                          done_by_prescribed, 1.);
     const int n = pieces.size();
@@ -188,7 +197,14 @@ namespace Voussoir
         u[i] += dt * w[i];
         x[i] = u[i] + damping.stiffness * w[i];
       }
-    stiffness.multiply(x.data(), K_x.data());
+    stiffness.begin_product(x.data(), K_x.data(), messages);
+    if (free_field)
+      free_field->begin_step(messages);
+  }
+
+  const Unknowns &ExplicitRegion::end_step(const Unknowns &v_prescribed)
+  {
+    stiffness.end_product(K_x.data());
     clock[0] += 1.;
     for (std::size_t i = 0; i < prescribed.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
@@ -198,10 +214,10 @@ namespace Voussoir
     {
       field_before.swap(field);
       field.swap(field_next);
-      free_field->advance();
+      free_field->end_step();
       free_field->evaluate(field_next);
     }
-    if (with_energy)
+    if (!K_u.empty())
       step_explicit_nodes<true>();
     else
       step_explicit_nodes<false>();
@@ -213,7 +229,8 @@ namespace Voussoir
   template <bool with_energy> ExplicitRegion::Sums ExplicitRegion::step_nodes(const int first, const int last)
   {
     const int n = 3 * (last - first), offset = 3 * first;
-    double    zeros[3 * per_chunk] = {}, masses[3 * per_chunk], is_free[3 * per_chunk]; // of components
+    double    zeros[3 * per_chunk], masses[3 * per_chunk], is_free[3 * per_chunk]; // of components
+    std::fill_n(zeros, n, 0.);
     for (int i = 0; i < n; ++i)
       is_free[i] = inverse_mass[offset + i] != 0.;
     for (int i = 0; with_energy && i < n; ++i)
@@ -282,48 +299,6 @@ namespace Voussoir
     return result;
   }
 
-  void ExplicitRegion::split_up(RockSplit given, RockOperator part)
-  {
-    split = std::move(given);
-    stiffness = std::move(part);
-    pieces = split.pieces(n_nodes());
-    if (boundary)
-      boundary->keep(split.stepped());
-  }
-
-  void ExplicitRegion::gather_energy()
-  {
-    if (!account.empty())
-      split.gather_chunks(account, 2 + n_region_works);
-  }
-
-  void ExplicitRegion::gather_motion()
-  {
-    split.gather(u, 3);
-    split.gather(w, 3);
-  }
-
-  void ExplicitRegion::collect()
-  {
-    if (!is_split())
-      return;
-    gather_motion();
-    split.gather(K_x, 3);
-    split.gather(K_u, 3);
-    split.gather_chunks(work, n_region_works);
-    if (free_field)
-      free_field->collect();
-    if (!boundary)
-      return;
-    split.collect(boundary_w, 3, boundary->nodes());
-    const std::vector<unsigned int> node = boundary->nodes_of_points();
-    for (Unknowns *values : {&field, &field_before, &field_next})
-      split.collect(*values, 3, node);
-    for (auto *values : boundary->state())
-      if (values->size() == 3 * node.size())
-        split.collect(*values, 3, node);
-  }
-
   RegionStep ExplicitRegion::step_of_region()
   {
     return {dt,    damping,    mass,         is_fixed, u,          K_x, K_u,
@@ -333,8 +308,8 @@ namespace Voussoir
   RegionStep ExplicitRegion::step_of_boundary()
   {
     const std::vector<unsigned int> &nodes = boundary->nodes();
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      std::copy_n(w.begin() + 3 * std::size_t(nodes[i]), 3, boundary_w.begin() + 3 * i);
+    for (const unsigned int i : boundary_kept)
+      std::copy_n(w.begin() + 3 * std::size_t(nodes[i]), 3, boundary_w.begin() + 3 * std::size_t(i));
     return step_of_region();
   }
 

@@ -101,7 +101,7 @@ namespace Voussoir
     const FreeFieldColumn     &c = *columns[column];
     const std::vector<double> &height = c.z();
     const unsigned int         n = std::min<std::size_t>(4, height.size());
-    Point                      point{{}, {{1., 0., 0., 0.}}};
+    Point                      point{{}, {{1., 0., 0., 0.}}, column};
     const unsigned int         above = std::lower_bound(height.begin(), height.end(), z) - height.begin();
     for (unsigned int k = above == 0 ? 0 : above - 1; k <= above && k < height.size(); ++k)
       if (std::abs(height[k] - z) < 1e-9 * (height.back() - height.front()))
@@ -144,6 +144,7 @@ namespace Voussoir
     for (unsigned int i = 0; i < 4; ++i)
       point.value[i] = nearest->region->displacement().data() + 3 * std::size_t(node);
     point.weight = {{1., 0., 0., 0.}};
+    point.column = no_node;
     return true;
   }
 
@@ -194,17 +195,46 @@ namespace Voussoir
     kept = std::move(given);
     is_split = true;
     std::vector<double> work;
-    begin.assign(1, 0);
     for (const auto &column : columns)
-    {
       work.push_back(column->motion().size());
-      begin.push_back(begin.back() + column->motion().size());
-    }
     share = Shares(work);
-    exchanged.resize(begin.back());
+    find_partners();
   }
 
-  void FreeField::advance()
+  void FreeField::find_partners()
+  {
+    const unsigned int       n = n_columns(), me = Ranks::rank();
+    std::vector<double>      is_used(std::size_t(n) * Ranks::size(), 0.); // by each rank
+    std::vector<std::size_t> parts;
+    for (unsigned int r = 0; r <= Ranks::size(); ++r)
+      parts.push_back(std::size_t(n) * r);
+    for (const unsigned int i : kept)
+      if (points[i].column != no_node)
+        is_used[parts[me] + points[i].column] = 1.;
+    Ranks::gather(is_used.data(), parts);
+    for (unsigned int r = 0; r < Ranks::size(); ++r)
+    {
+      Partner     partner{r, {}, {}, {}, {}};
+      std::size_t n_out = 0, n_in = 0;
+      for (unsigned int c = 0; c < n && r != me; ++c)
+        if (share.owner(c) == me && is_used[parts[r] + c] != 0.)
+        {
+          partner.give.push_back(c);
+          n_out += columns[c]->motion().size();
+        }
+        else if (share.owner(c) == r && is_used[parts[me] + c] != 0.)
+        {
+          partner.take.push_back(c);
+          n_in += columns[c]->motion().size();
+        }
+      partner.out.resize(n_out);
+      partner.in.resize(n_in);
+      if (n_out + n_in > 0)
+        partners.push_back(std::move(partner));
+    }
+  }
+
+  void FreeField::begin_step(std::vector<Ranks::Message> &messages)
   {
     const int n = columns.size();
     for_each_parallel(n,
@@ -213,19 +243,32 @@ namespace Voussoir
                         if (!is_split || share.is_mine(c))
                           columns[c]->advance();
                       });
-    if (is_split)
+    for (Partner &partner : partners)
     {
-      for (int c = 0; c < n; ++c)
-        if (share.is_mine(c))
-          std::copy(columns[c]->motion().begin(), columns[c]->motion().end(), exchanged.begin() + begin[c]);
-      Ranks::gather(exchanged.data(), share.parts(begin));
-      for (int c = 0; c < n; ++c)
-        if (!share.is_mine(c))
-          std::copy_n(exchanged.begin() + begin[c], columns[c]->motion().size(),
-                      columns[c]->motion().begin());
+      auto to = partner.out.begin();
+      for (const unsigned int c : partner.give)
+        to = std::copy(columns[c]->motion().begin(), columns[c]->motion().end(), to);
+      messages.push_back(
+          {partner.rank, partner.out.data(), partner.out.size(), partner.in.data(), partner.in.size()});
     }
     for (const auto &section : sections)
-      section->region->advance();
+      section->region->begin_step({}, {}, messages);
+  }
+
+  void FreeField::end_step()
+  {
+    for (const Partner &partner : partners)
+    {
+      auto from = partner.in.begin();
+      for (const unsigned int c : partner.take)
+      {
+        Unknowns &motion = columns[c]->motion();
+        std::copy_n(from, motion.size(), motion.begin());
+        from += motion.size();
+      }
+    }
+    for (const auto &section : sections)
+      section->region->end_step({});
   }
 
   void FreeField::evaluate(Unknowns &u) const

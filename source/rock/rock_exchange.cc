@@ -64,22 +64,31 @@ namespace Voussoir
     }
   }
 
-  /** The forces of other ranks' cells on the nodes that this one steps. */
-  void RockOperator::exchange(double *y) const
+  /** The forces of this rank's cells on nodes that others step. */
+  void RockOperator::pack_forces(const double *y, std::vector<Ranks::Message> &messages) const
   {
-    const auto force = [&](const std::size_t at)
-    { return at < 3 * std::size_t(n_nodes) ? y + at : shared_force.data() + at - 3 * std::size_t(n_nodes); };
-    std::vector<Ranks::Message> messages;
+    const std::size_t n = 3 * std::size_t(n_nodes);
     for (const Partner &partner : partners)
     {
       for (std::size_t k = 0; k < partner.send.size(); ++k)
-        std::copy_n(force(partner.send[k]), 3, partner.out.begin() + 3 * k);
+      {
+        const std::size_t at = partner.send[k];
+        std::copy_n(at < n ? y + at : shared_force.data() + at - n, 3, partner.out.begin() + 3 * k);
+      }
       messages.push_back(
           {partner.rank, partner.out.data(), partner.out.size(), partner.in.data(), partner.in.size()});
     }
-    Ranks::exchange(messages);
+  }
+
+  /** Those of other ranks' cells on the nodes that this one steps. */
+  void RockOperator::unpack_forces(double *y) const
+  {
+    const std::size_t n = 3 * std::size_t(n_nodes);
     for (const Partner &partner : partners)
       for (std::size_t k = 0; k < partner.receive.size(); ++k)
-        std::copy_n(partner.in.begin() + 3 * k, 3, force(partner.receive[k]));
+      {
+        const std::size_t at = partner.receive[k];
+        std::copy_n(partner.in.begin() + 3 * k, 3, at < n ? y + at : shared_force.data() + at - n);
+      }
   }
 } // namespace Voussoir

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/quadrature_lib.h>
-
-#include <voussoir/base/parallel.h>
-#include <voussoir/rock/rock_grid.h>
-#include <voussoir/rock/rock_model.h>
-#include <voussoir/solid/cell_elasticity.h>
+#include "rock_assembly.h"
 
 #include <algorithm>
 #include <limits>
@@ -12,121 +7,18 @@
 
 namespace Voussoir
 {
-  using dealii::QGaussLobatto;
-
   namespace
   {
-    /** Nodal quadrature does not couple the two ends of a cell's diagonal. */
-    bool are_coupled(const unsigned int v, const unsigned int w, const bool nodal)
-    {
-      return !nodal || w != (v ^ 7u);
-    }
-
-    std::array<unsigned int, 8> nodes_of(const RockGrid &grid, const RockGrid::Cell &cell)
-    {
-      std::array<unsigned int, 8> nodes;
-      for (unsigned int v = 0; v < 8; ++v)
-        nodes[v] = grid.node(cell, v);
-      return nodes;
-    }
-
-    BlockSparseMatrix pattern(const RockGrid &grid, const std::vector<bool> &nodal)
-    {
-      std::vector<std::vector<unsigned int>> columns(grid.n_nodes());
-      for (const RockGrid::Cell &cell : grid.dof_handler.active_cell_iterators())
-      {
-        const auto nodes = nodes_of(grid, cell);
-        for (unsigned int v = 0; v < 8; ++v)
-          for (unsigned int w = 0; w < 8; ++w)
-            if (are_coupled(v, w, nodal[cell->active_cell_index()]))
-              columns[nodes[v]].push_back(nodes[w]);
-      }
-      const int n = columns.size();
-#pragma omp parallel for schedule(static)
-      for (int row = 0; row < n; ++row)
-      {
-        std::sort(columns[row].begin(), columns[row].end());
-        columns[row].erase(std::unique(columns[row].begin(), columns[row].end()), columns[row].end());
-      }
-      return BlockSparseMatrix(columns);
-    }
-
-    /** Element matrices of some cells, one behind the other. */
-    struct Chunk
-    {
-      static constexpr unsigned int most = 256; // cells
-
-      std::vector<RockGrid::Cell> cells;
-      std::vector<Matrix3>        stiffness; ///< 64 of each
-      std::vector<double>         mass;      ///< 8 of each
-
-      void integrate(const RockGrid &grid, const std::map<int, Material> &materials,
-                     const std::vector<bool> &nodal)
-      {
-        if (cells.empty())
-          return;
-        CellElasticity gauss(grid.fe, false), at_nodes(grid.fe, false, QGaussLobatto<3>(2));
-        stiffness.clear();
-        mass.clear();
-        for (const RockGrid::Cell &cell : cells)
-        {
-          CellElasticity &element = nodal[cell->active_cell_index()] ? at_nodes : gauss;
-          element.reinit(cell, materials.at(cell->material_id()));
-          stiffness.insert(stiffness.end(), element.stiffness.begin(), element.stiffness.end());
-          mass.insert(mass.end(), element.mass.begin(), element.mass.end());
-        }
-      }
-
-      void add_to(RockModel &model, const RockGrid &grid, const std::vector<bool> &nodal) const
-      {
-        const Matrix3 *block = stiffness.data();
-        const double  *m = mass.data();
-        for (const RockGrid::Cell &cell : cells)
-        {
-          const auto nodes = nodes_of(grid, cell);
-          for (unsigned int v = 0; v < 8; ++v)
-          {
-            model.mass[nodes[v]] += *m++;
-            for (unsigned int w = 0; w < 8; ++w, ++block)
-              if (are_coupled(v, w, nodal[cell->active_cell_index()]))
-                model.stiffness.add(nodes[v], nodes[w], *block);
-          }
-        }
-      }
-    };
-
-    /** Threads integrate some chunks of cells at a time, which are added in the cells' order: sums do not
-     * depend on the number of threads. */
-    void assemble(const RockGrid &grid, const std::vector<bool> &nodal, const RockParameters &parameters,
-                  RockModel &model)
-    {
-      model.stiffness = pattern(grid, nodal);
-      model.mass.assign(grid.n_nodes(), 0.);
-      std::vector<Chunk> chunks(16);
-      auto               cell = grid.dof_handler.begin_active();
-      const auto         end = grid.dof_handler.end();
-      while (cell != end)
-      {
-        for (Chunk &chunk : chunks)
-          for (chunk.cells.clear(); chunk.cells.size() < Chunk::most && cell != end; ++cell)
-            chunk.cells.push_back(cell);
-        for_each_parallel(chunks.size(),
-                          [&](const int c) { chunks[c].integrate(grid, parameters.materials, nodal); });
-        for (const Chunk &chunk : chunks)
-          chunk.add_to(model, grid, nodal);
-      }
-      model.stiffness.symmetrise();
-    }
-
     /** Which cells need no matrix. */
-    void sort_cells(const RockGrid &grid, const std::vector<bool> &nodal, const RockParameters &parameters,
-                    RockModel &model)
+    void sort_cells(const RockGrid &grid, const Corners &cells, const std::vector<bool> &nodal,
+                    const RockParameters &parameters, RockModel &model)
     {
       model.in_other_cell.assign(grid.n_nodes(), false);
+      model.nodal_cells.reserve(std::count(nodal.begin(), nodal.end(), true));
       for (const RockGrid::Cell &cell : grid.dof_handler.active_cell_iterators())
       {
-        const auto nodes = nodes_of(grid, cell);
-        bool       is_plain = nodal[cell->active_cell_index()];
+        const auto &nodes = cells[cell->active_cell_index()];
+        bool        is_plain = nodal[cell->active_cell_index()];
         for (unsigned int v = 0; v < 8; ++v)
           for (unsigned int c = 0; c < 3; ++c)
             is_plain = is_plain && grid.points[nodes[v]][c] == cell->vertex(v)[c]; // else tied to another
@@ -278,8 +170,8 @@ namespace Voussoir
     }
   } // namespace
 
-  RockModel make_rock_model(const HexMesh &mesh, const RockParameters &parameters,
-                            const std::vector<unsigned int> &master)
+  RockModel make_model_with_rows(const HexMesh &mesh, const RockParameters &parameters,
+                                 const std::vector<unsigned int> &master, const ChooseRows &choose)
   {
     const RockGrid                    grid(mesh, parameters, master);
     const std::vector<ArtificialFace> faces = artificial_faces(grid);
@@ -291,8 +183,11 @@ namespace Voussoir
     const std::vector<bool> nodal = parameters.nodal_everywhere
                                         ? std::vector<bool>(grid.triangulation.n_active_cells(), true)
                                         : cells_at_boundary(grid, faces, parameters.nodal_layers);
-    assemble(grid, nodal, parameters, model);
-    sort_cells(grid, nodal, parameters, model);
+    const Corners           cells = corners_of(grid);
+    assemble_rock(grid, cells, nodal, parameters,
+                  choose ? choose(grid, cells, nodal, faces) : std::vector<bool>(grid.n_nodes(), true),
+                  model);
+    sort_cells(grid, cells, nodal, parameters, model);
     find_lines(grid, faces, parameters, model);
     find_columns(grid, faces, parameters, model);
     for (const ArtificialFace &face : faces)
@@ -304,6 +199,12 @@ namespace Voussoir
       model.faces.push_back(f);
     }
     return model;
+  }
+
+  RockModel make_rock_model(const HexMesh &mesh, const RockParameters &parameters,
+                            const std::vector<unsigned int> &master)
+  {
+    return make_model_with_rows(mesh, parameters, master, {});
   }
 
   RockOperator make_operator(const RockModel &model, const NodalKernel kernel)

@@ -288,6 +288,14 @@ namespace Voussoir
 
   void RockOperator::multiply(const double *x, double *y) const
   {
+    std::vector<Ranks::Message> messages;
+    begin_product(x, y, messages);
+    Ranks::exchange(messages);
+    end_product(y);
+  }
+
+  void RockOperator::begin_product(const double *x, double *y, std::vector<Ranks::Message> &messages) const
+  {
     const int n_rows = row.size(), n_blocks = blocks.size(), n_shared = shared_node.size();
     int       n_threads = 1;
 #ifdef _OPENMP
@@ -306,16 +314,25 @@ namespace Voussoir
 #pragma omp for schedule(dynamic)
       for (int b = 0; b < n_blocks; ++b)
         multiply_block(blocks[b], x, y, scratch.get() + thread * scratch_size());
-      if (!partners.empty())
+      if (partners.empty())
       {
-#pragma omp master
-        exchange(y);
-#pragma omp barrier
-      }
 #pragma omp for schedule(static)
-      for (int i = 0; i < n_shared; ++i)
-        sum_shared(i, y);
+        for (int i = 0; i < n_shared; ++i)
+          sum_shared(i, y);
+      }
     }
+    pack_forces(y, messages);
+  }
+
+  void RockOperator::end_product(double *y) const
+  {
+    if (partners.empty())
+      return;
+    unpack_forces(y);
+    const int n_shared = shared_node.size();
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < n_shared; ++i)
+      sum_shared(i, y);
   }
 
   std::size_t RockOperator::memory() const

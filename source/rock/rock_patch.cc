@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
+
 #include <voussoir/base/error.h>
 #include <voussoir/rock/rock_patch.h>
 
@@ -19,6 +21,8 @@ namespace Voussoir
     const unsigned int n_rows = n_layer[n_steps - 1];
     for (unsigned int i = 0; i < n_rows; ++i)
     {
+      AssertThrow(model.stiffness.start[node[i]] < model.stiffness.start[node[i] + 1],
+                  dealii::ExcInternalError()); // a part: has it the row?
       if (on_boundary[node[i]])
         throw InputError(
             "The dam's base is fewer than " + std::to_string(n_steps) +

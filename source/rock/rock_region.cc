@@ -80,6 +80,25 @@ namespace Voussoir
 
   namespace
   {
+    /** The nodes that a rank steps, and their neighbours. */
+    std::vector<bool> stepped_or_near(const RockModel &model, const RockSplit &split, const unsigned int rank)
+    {
+      std::vector<bool> result(model.points.size());
+      for (unsigned int i = 0; i < result.size(); ++i)
+        result[i] = split.is_stepped(i, rank);
+      for (const NodalCell &cell : model.nodal_cells)
+        for (unsigned int v = 0; v < 8; ++v)
+          for (unsigned int w = 0; w < 8 && split.is_stepped(cell.nodes[v], rank); ++w)
+            if (w != (v ^ 7u)) // the ends of its diagonals do not feel each other
+              result[cell.nodes[w]] = true;
+      const BlockSparseMatrix &K = model.stiffness;
+      for (unsigned int i = 0; i < result.size(); ++i)
+        for (std::size_t k = K.start[i];
+             k < K.start[i + 1] && model.in_other_cell[i] && split.is_stepped(i, rank); ++k)
+          result[K.column[k]] = true;
+      return result;
+    }
+
     /** A rank steps what its nodes of the @p model, and their neighbours, see of the section. */
     RockSplit split_of_section(const RockModel &slice, const unsigned int direction, const RockModel &model,
                                const RockSplit &split)
@@ -94,24 +113,22 @@ namespace Voussoir
         p[direction] = 0.;
         size = std::max(size, std::abs(p[2] - places.front()[2]));
       }
-      const PointFinder                      finder(places, 1e-6 * size);
-      std::vector<std::vector<unsigned int>> seen(Ranks::size());
-      for (unsigned int i = 0; i < model.points.size(); ++i)
+      const PointFinder         finder(places, 1e-6 * size);
+      std::vector<unsigned int> on_slice; // node of each of the model's
+      for (auto p : model.points)
       {
-        auto p = model.points[i];
         p[direction] = 0.;
-        const unsigned int found = finder.find(p);
-        for (unsigned int r = 0; found != PointFinder::none && r < Ranks::size(); ++r)
-        {
-          bool is_near = split.is_stepped(i, r);
-          for (std::size_t k = model.stiffness.start[i]; k < model.stiffness.start[i + 1] && !is_near; ++k)
-            is_near = split.is_stepped(model.stiffness.column[k], r);
-          if (is_near)
-            seen[r].push_back(found);
-        }
+        on_slice.push_back(finder.find(p));
       }
       for (unsigned int r = 0; r < Ranks::size(); ++r)
-        result.step(seen[r], r);
+      {
+        const std::vector<bool>   near = stepped_or_near(model, split, r);
+        std::vector<unsigned int> seen;
+        for (unsigned int i = 0; i < on_slice.size(); ++i)
+          if (near[i] && on_slice[i] != PointFinder::none)
+            seen.push_back(on_slice[i]);
+        result.step(seen, r);
+      }
       return result;
     }
   } // namespace

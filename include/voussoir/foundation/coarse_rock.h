@@ -17,8 +17,8 @@ namespace Voussoir
   class CoarseRock
   {
   public:
-    /** Throws ComputationError where ML cannot make its levels. */
-    CoarseRock(const RockAggregates &aggregates, const std::vector<CoarseBlock> &stiffness);
+    /** The @p stiffness is gone before ML makes its levels. Throws ComputationError where it cannot. */
+    CoarseRock(const RockAggregates &aggregates, std::vector<CoarseBlock> &&stiffness);
     ~CoarseRock();
 
     /** Motions for @p forces, six numbers of each aggregate. */

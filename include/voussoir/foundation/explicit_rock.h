@@ -92,9 +92,9 @@ namespace Voussoir
     virtual double work_of_feet() const { return energy().prescribed; }
 
   protected:
-    /** @p of_first: nodes that the first rank asks for, besides the feet, which all do. */
+    /** @p near_feet: nodes that the rank which looks @p ahead asks for, besides the feet, which all do. */
     void                      make_rock(const GroundMotion &outcrop, const TimeGrid &steps, double delay,
-                                        const std::vector<unsigned int> &of_first = {});
+                                        const std::vector<unsigned int> &near_feet = {});
     void                      keep_account(double time);
     std::vector<unsigned int> feet_of_rock() const; ///< nodes of the region
 
@@ -115,6 +115,7 @@ namespace Voussoir
     std::unique_ptr<ExplicitRegion> region;
     std::unique_ptr<RockStatics>    statics; ///< while the static state is looked for
     unsigned int                    n_settled = 0;
+    unsigned int                    ahead = 0; ///< rank that has most nodes near the feet
     TimeGrid                        grid;
     double                          dt_critical = 0.;         ///< for the rock [s]
     double                          seconds_advancing = 0.;   ///< of wall time [s]

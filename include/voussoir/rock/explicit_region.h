@@ -62,6 +62,9 @@ namespace Voussoir
     bool             is_split() const { return !split.is_trivial(); }
     const RockSplit &parts() const { return split; }
 
+    /** Does a node that this rank steps move faster, or has it moved farther [m/s, m]? */
+    bool exceeds(double velocity, double displacement) const;
+
     /** With several ranks: all get the whole region's energies up to now, and displacement() and
      * half_step_velocity() of all nodes. */
     void gather_energy();
@@ -74,6 +77,10 @@ namespace Voussoir
      * at t + dt, three values each, in the order of set_prescribed(). Returns what the region's elements and
      * their damping take from these nodes, K u + C v [N]. */
     const Unknowns &advance(const Unknowns &u = {}, const Unknowns &v = {});
+
+    /** The same in two parts, between which the @p messages that it adds are to be exchanged. */
+    void            begin_step(const Unknowns &u, const Unknowns &v, std::vector<Ranks::Message> &messages);
+    const Unknowns &end_step(const Unknowns &v);
 
     double          time() const { return clock[0] * dt; } ///< [s]
     double          time_step() const { return dt; }
@@ -124,7 +131,8 @@ namespace Voussoir
     Unknowns                  prescribed_w, prescribed_force;
 
     std::unique_ptr<ArtificialBoundary> boundary;
-    Unknowns                            boundary_w; ///< w of its nodes a step before
+    Unknowns                            boundary_w;    ///< w of its nodes a step before
+    std::vector<unsigned int>           boundary_kept; ///< places of those of its nodes that are stepped here
 
     std::unique_ptr<IncidentField> free_field;
     Unknowns            field_before, field, field_next; ///< at its points: last, this and next time

@@ -30,10 +30,12 @@ namespace Voussoir
     /** These nodes become points. Nodes of lines move like their line. */
     void add_nodes(const RockModel &model, const std::vector<unsigned int> &nodes);
 
-    /** With several ranks: each steps its share of the columns, and asks for these points only. */
+    /** With several ranks: each steps its share of the columns, asks for these points only, and for the
+     * columns that they follow. To be called by all at once. */
     void split_up(std::vector<unsigned int> points);
 
-    void advance() override;
+    void begin_step(std::vector<Ranks::Message> &messages) override;
+    void end_step() override;
     void evaluate(Unknowns &u) const override;
 
     unsigned int n_columns() const { return static_cast<unsigned int>(columns.size()); }
@@ -47,8 +49,18 @@ namespace Voussoir
     {
       const double         *value[4]; ///< three components each
       std::array<double, 4> weight;
+      unsigned int          column = no_node; ///< that it follows, if any
     };
 
+    /** Columns that this rank steps for another one, and that one for this. */
+    struct Partner
+    {
+      unsigned int              rank;
+      std::vector<unsigned int> give, take;
+      std::vector<double>       out, in; ///< their displacements
+    };
+
+    void  find_partners();
     Point in_column(unsigned int column, double z) const;
     bool  in_section(const std::array<double, 3> &place, Point &point) const;
     Point of_line(const RockModel &model, unsigned int line, unsigned int k) const;
@@ -60,9 +72,8 @@ namespace Voussoir
     std::vector<Point>                            points;
     std::vector<unsigned int>                     kept; ///< of them
     bool                                          is_split = false;
-    Shares                                        share;     ///< of the columns, if split
-    std::vector<std::size_t>                      begin;     ///< of their displacements in ...
-    std::vector<double>                           exchanged; ///< ... what goes between the ranks
+    Shares                                        share; ///< of the columns, if split
+    std::vector<Partner>                          partners;
   };
 } // namespace Voussoir
 

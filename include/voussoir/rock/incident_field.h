@@ -2,6 +2,7 @@
 #ifndef voussoir_incident_field_h
 #define voussoir_incident_field_h
 
+#include <voussoir/base/ranks.h>
 #include <voussoir/base/tensor3.h>
 
 namespace Voussoir
@@ -14,7 +15,17 @@ namespace Voussoir
     virtual ~IncidentField() = default;
 
     /** To the next time step. */
-    virtual void advance() = 0;
+    void advance()
+    {
+      std::vector<Ranks::Message> messages;
+      begin_step(messages);
+      Ranks::exchange(messages);
+      end_step();
+    }
+
+    /** The same in two parts, between which the @p messages that it adds are to be exchanged. */
+    virtual void begin_step(std::vector<Ranks::Message> &messages) = 0;
+    virtual void end_step() = 0;
 
     /** Displacement of the points now, three values each [m]. */
     virtual void evaluate(Unknowns &u) const = 0;

@@ -44,6 +44,10 @@ namespace Voussoir
     /** y = K x; both arrays have 3 n_rows() entries. */
     void multiply(const double *x, double *y) const;
 
+    /** The same in two parts, between which the @p messages that it adds are to be exchanged. */
+    void begin_product(const double *x, double *y, std::vector<Ranks::Message> &messages) const;
+    void end_product(double *y) const;
+
     unsigned int n_rows() const { return n_nodes; }
     unsigned int n_matrix_rows() const { return static_cast<unsigned int>(row.size()); }
     std::size_t  memory() const; ///< of its arrays [bytes]
@@ -78,7 +82,8 @@ namespace Voussoir
 
     void        keep_rows(const BlockSparseMatrix &stiffness, const std::vector<bool> &has_row);
     void        find_partners(const RockSplit &split, const Numbering &numbering);
-    void        exchange(double *y) const;
+    void        pack_forces(const double *y, std::vector<Ranks::Message> &messages) const;
+    void        unpack_forces(double *y) const;
     void        add_block(const std::vector<NodalCell> &cells, const std::vector<unsigned int> &part,
                           const std::vector<Vector3> &points, Numbering &numbering);
     void        add_pack(const std::vector<const NodalCell *> &cells, Numbering &numbering);

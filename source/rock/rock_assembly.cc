@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rock_assembly.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <voussoir/base/parallel.h>
+#include <voussoir/solid/cell_elasticity.h>
+
+#include <algorithm>
+#include <numeric>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace Voussoir
+{
+  using dealii::QGaussLobatto;
+
+  namespace
+  {
+    /** Nodal quadrature does not couple the two ends of a cell's diagonal. */
+    bool are_coupled(const unsigned int v, const unsigned int w, const bool nodal)
+    {
+      return !nodal || w != (v ^ 7u);
+    }
+
+    std::array<unsigned int, 8> nodes_of(const RockGrid &grid, const RockGrid::Cell &cell)
+    {
+      std::array<unsigned int, 8> nodes;
+      for (unsigned int v = 0; v < 8; ++v)
+        nodes[v] = grid.node(cell, v);
+      return nodes;
+    }
+  } // namespace
+
+  Corners corners_of(const RockGrid &grid)
+  {
+    Corners result(grid.triangulation.n_active_cells());
+    for (const RockGrid::Cell &cell : grid.dof_handler.active_cell_iterators())
+      result[cell->active_cell_index()] = nodes_of(grid, cell);
+    return result;
+  }
+
+  void add_layers(const Corners &cells, const unsigned int n_layers, std::vector<bool> &nodes)
+  {
+    for (unsigned int layer = 0; layer < n_layers; ++layer)
+    {
+      const std::vector<bool> before = nodes;
+      for (const auto &cell : cells)
+        if (std::any_of(cell.begin(), cell.end(), [&](const unsigned int i) { return before[i]; }))
+          for (const unsigned int i : cell)
+            nodes[i] = true;
+    }
+  }
+
+  namespace
+  {
+    /** Of the given @p rows; the others are empty. */
+    BlockSparseMatrix pattern(const Corners &cells, const std::vector<bool> &nodal,
+                              const std::vector<bool> &rows)
+    {
+      const long                n = static_cast<long>(rows.size());
+      std::vector<unsigned int> first(n + 1, 0), corner; // of each node: where it is one, of all cells'
+      for (const auto &cell : cells)
+        for (const unsigned int i : cell)
+          first[i + 1] += rows[i];
+      std::partial_sum(first.begin(), first.end(), first.begin());
+      corner.resize(first.back());
+      std::vector<unsigned int> next(first.begin(), first.end() - 1);
+      for (unsigned int k = 0; k < cells.size(); ++k)
+        for (unsigned int v = 0; v < 8; ++v)
+          if (const unsigned int i = cells[k][v]; rows[i])
+            corner[next[i]++] = 8 * k + v;
+      const auto columns_of = [&](const long i)
+      {
+        std::vector<unsigned int> row;
+        for (unsigned int c = first[i]; c < first[i + 1]; ++c)
+          for (unsigned int w = 0; w < 8; ++w)
+            if (are_coupled(corner[c] % 8, w, nodal[corner[c] / 8]))
+              row.push_back(cells[corner[c] / 8][w]);
+        std::sort(row.begin(), row.end());
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+        return row;
+      };
+      BlockSparseMatrix matrix;
+      matrix.start.assign(n + 1, 0);
+#pragma omp parallel for schedule(static)
+      for (long i = 0; i < n; ++i)
+        matrix.start[i + 1] = columns_of(i).size();
+      std::partial_sum(matrix.start.begin(), matrix.start.end(), matrix.start.begin());
+      matrix.column.resize(matrix.start.back());
+#pragma omp parallel for schedule(static)
+      for (long i = 0; i < n; ++i)
+      {
+        const std::vector<unsigned int> row = columns_of(i);
+        std::copy(row.begin(), row.end(), matrix.column.begin() + matrix.start[i]);
+      }
+      matrix.value.assign(matrix.column.size(), Matrix3{});
+      return matrix;
+    }
+
+    void keep_rows(const std::vector<bool> &kept, BlockSparseMatrix &matrix)
+    {
+      std::size_t from = 0, to = 0;
+      for (unsigned int i = 0; i < matrix.n_rows(); ++i)
+      {
+        const std::size_t end = matrix.start[i + 1];
+        matrix.start[i] = to;
+        for (; from < end; ++from)
+          if (kept[i])
+          {
+            matrix.column[to] = matrix.column[from];
+            matrix.value[to++] = matrix.value[from];
+          }
+      }
+      matrix.start.back() = to;
+      matrix.column.resize(to);
+      matrix.value.resize(to);
+    }
+
+    /** Element matrices of some cells, one behind the other. */
+    struct Chunk
+    {
+      static constexpr unsigned int most = 256; // cells
+
+      std::vector<RockGrid::Cell> cells;
+      std::vector<Matrix3>        stiffness; ///< 64 of each
+      std::vector<double>         mass;      ///< 8 of each
+
+      void integrate(const RockGrid &grid, const std::map<int, Material> &materials,
+                     const std::vector<bool> &nodal)
+      {
+        if (cells.empty())
+          return;
+        CellElasticity gauss(grid.fe, false), at_nodes(grid.fe, false, QGaussLobatto<3>(2));
+        stiffness.clear();
+        mass.clear();
+        for (const RockGrid::Cell &cell : cells)
+        {
+          CellElasticity &element = nodal[cell->active_cell_index()] ? at_nodes : gauss;
+          element.reinit(cell, materials.at(cell->material_id()));
+          stiffness.insert(stiffness.end(), element.stiffness.begin(), element.stiffness.end());
+          mass.insert(mass.end(), element.mass.begin(), element.mass.end());
+        }
+      }
+
+      void add_to(RockModel &model, const RockGrid &grid, const std::vector<bool> &nodal) const
+      {
+        const Matrix3 *block = stiffness.data();
+        const double  *m = mass.data();
+        for (const RockGrid::Cell &cell : cells)
+        {
+          const auto nodes = nodes_of(grid, cell);
+          for (unsigned int v = 0; v < 8; ++v)
+          {
+            model.mass[nodes[v]] += *m++;
+            const bool has_row = model.stiffness.start[nodes[v]] < model.stiffness.start[nodes[v] + 1];
+            for (unsigned int w = 0; w < 8; ++w, ++block)
+              if (has_row && are_coupled(v, w, nodal[cell->active_cell_index()]))
+                model.stiffness.add(nodes[v], nodes[w], *block);
+          }
+        }
+      }
+    };
+  } // namespace
+
+  /** Threads integrate some chunks of cells at a time, which are added in the cells' order: sums do not
+   * depend on the number of threads. */
+  void assemble_rock(const RockGrid &grid, const Corners &cells, const std::vector<bool> &nodal,
+                     const RockParameters &parameters, const std::vector<bool> &rows, RockModel &model)
+  {
+    std::vector<bool> with_neighbours = rows; // for the transposes
+    add_layers(cells, 1, with_neighbours);
+    model.stiffness = pattern(cells, nodal, with_neighbours);
+    model.mass.assign(grid.n_nodes(), 0.);
+    int n_threads = 1;
+#ifdef _OPENMP
+    n_threads = omp_get_max_threads();
+#endif
+    std::vector<Chunk> chunks(n_threads);
+    auto               cell = grid.dof_handler.begin_active();
+    const auto         end = grid.dof_handler.end();
+    while (cell != end)
+    {
+      for (Chunk &chunk : chunks)
+        for (chunk.cells.clear(); chunk.cells.size() < Chunk::most && cell != end; ++cell)
+          chunk.cells.push_back(cell);
+      for_each_parallel(chunks.size(),
+                        [&](const int c) { chunks[c].integrate(grid, parameters.materials, nodal); });
+      for (const Chunk &chunk : chunks)
+        chunk.add_to(model, grid, nodal);
+    }
+    model.stiffness.symmetrise();
+    if (std::find(rows.begin(), rows.end(), false) != rows.end())
+      keep_rows(rows, model.stiffness);
+  }
+} // namespace Voussoir
