@@ -144,8 +144,10 @@ namespace
           "effect",
           "KSM"}},
         {"subsection Mesh\nset Source = file\nset File = a.msh\nsubsection Arch210\nset Joints = "
-         "3\nend\nend\n",
+         "3\nend\nend\nsubsection Reservoir\nset Water level = 50\nend\n",
          {"Mesh/Arch210/Joints", "Mesh/Source is file"}},
+        {"subsection Mesh\nset Source = file\nset File = a.msh\nend\n",
+         {"no Reservoir/Water level", "195 m"}},
         {"subsection Mesh\nset File = a.msh\nset Axes = y -x z\nend\n",
          {"Mesh/File", "Mesh/Axes", "Mesh/Source is arch210"}},
         {"subsection Foundation\nset Young's modulus = 2e10\nend\n", {"Young's modulus", "Model is rigid"}},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/simulation.h>
+#include <voussoir/base/blas_buffers.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/ranks.h>
 #include <voussoir/dam/face_pressure.h>
@@ -61,6 +62,8 @@ namespace Voussoir
   {
     provenance = provenance_now();
     check_ranks();
+    if (!options.validate)
+      take_blas_buffers();
     if (options.validate && options.resume)
       open_checkpoint();
     if (!options.validate)
