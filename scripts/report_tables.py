@@ -142,9 +142,9 @@ def blocks(run):
 def demands(run, limits):
     """Of the tensile strength."""
     overstress, found = run.summary.get("overstress"), {}
-    if not overstress:
+    faces = [overstress[name] for name in ("upstream", "downstream") if name in (overstress or {})]
+    if not faces:
         return found
-    faces = [overstress[name] for name in ("upstream", "downstream") if name in overstress]
     found["demand_capacity"] = Item("Demand-capacity ratio", "", max(face["demand_capacity"] for face in faces), limits.get("demand_capacity"))
     if not run.moves:  # the stresses are of one time
         overstress_of_faces(found, overstress, limits)

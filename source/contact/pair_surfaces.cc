@@ -218,8 +218,8 @@ namespace Voussoir
   }
 
   /** Change of the force of a surface with the gap. */
-  void PairSurfaces::add_change(const ContactSurface &s, const Beside &mine, const Vector3 &d_gap,
-                                double *change)
+  void PairSurfaces::find_change(const ContactSurface &s, const Beside &mine, const Vector3 &d_gap,
+                                 double *change)
   {
     std::copy(mine.constant.begin(), mine.constant.end(), change);
     if (mine.state == PairState::open)
@@ -294,7 +294,7 @@ namespace Voussoir
     const Vector3 moved = d_gap - Voussoir::inverse(normal) * (adjoint * rest);
     for (std::size_t k = 0; k < n_beside(); ++k)
       if (!other[k].is_idle)
-        add_change(regular[k + 1], other[k], moved, d_beside + 3 * k);
+        find_change(regular[k + 1], other[k], moved, d_beside + 3 * k);
   }
 
   double PairSurfaces::error_square(const Vector3 &force, const Vector3 &gap, const double *beside,

@@ -88,7 +88,7 @@ namespace Voussoir
         if (!other[k].is_idle)
         {
           double change[3];
-          add_change(regular[k + 1], other[k], d_gap, change);
+          find_change(regular[k + 1], other[k], d_gap, change);
           for (unsigned int c = 0; c < 3; ++c)
             now_beside[3 * k + c] += change[c];
         }

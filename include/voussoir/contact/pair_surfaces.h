@@ -114,7 +114,8 @@ namespace Voussoir
     };
     static void equations_of(const ContactSurface &s, const Vector3 &force, const Vector3 &gap, Beside &mine);
     static void resolve(const ContactSurface &s, Beside &mine, Matrix3 &stiffness);
-    static void add_change(const ContactSurface &s, const Beside &mine, const Vector3 &d_gap, double *change);
+    static void find_change(const ContactSurface &s, const Beside &mine, const Vector3 &d_gap,
+                            double *change);
     bool        eliminate(Matrix3 &stiffness, Vector3 &constant);
     Vector3     face_force(Vector3 force, const double *beside) const;
     double      newton(const Matrix3 &H, const Vector3 &b, double scale, double accuracy, Vector3 &force,
