@@ -5,6 +5,7 @@
 #include <voussoir/joints/body_factor.h>
 
 #include <cholmod.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <new>
@@ -148,6 +149,23 @@ namespace Voussoir
     }
   } // namespace
 
+  namespace
+  {
+    /** CHOLMOD asks for four threads for every supernode, also where there is one core or where the bodies are
+     * shared out already. What it does with them is little, and the same numbers. */
+    class NoThreads
+    {
+    public:
+      NoThreads() : levels(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
+      ~NoThreads() { omp_set_max_active_levels(levels); }
+      NoThreads(const NoThreads &) = delete;
+      NoThreads &operator=(const NoThreads &) = delete;
+
+    private:
+      const int levels;
+    };
+  } // namespace
+
   struct BodyFactor::Cholmod
   {
     cholmod_common  common;
@@ -198,6 +216,7 @@ namespace Voussoir
 
   void BodyFactor::factorise()
   {
+    const NoThreads threads;
     cholmod_factorize(cholmod->A, cholmod->L, &cholmod->common);
     check_memory(cholmod->common);
     const cholmod_factor *L = cholmod->L;

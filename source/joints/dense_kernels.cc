@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/joints/dense_kernels.h>
 
+#include <algorithm>
+#include <cstring>
+
 #define VOUSSOIR_CLONES __attribute__((target_clones("avx512f", "fma", "avx", "default"), optimize("O3")))
+#define VOUSSOIR_INLINE inline __attribute__((always_inline))
 
 namespace Voussoir
 {
@@ -20,11 +24,137 @@ namespace Voussoir
       for (std::size_t i = 0; i < n; ++i)
         y[i] += x[0] * a[i] + x[1] * b[i] + x[2] * c[i];
     }
+
+    // Sums are added up in as many parts as a pack has numbers: the same order with all processors'
+    // registers.
+    constexpr std::size_t width = 8;
+    typedef double        Pack __attribute__((vector_size(8 * width)));
+    typedef float         FloatPack __attribute__((vector_size(4 * width)));
+
+    template <class P, class Number> VOUSSOIR_INLINE P load(const Number *x)
+    {
+      P pack;
+      std::memcpy(&pack, x, sizeof(P));
+      return pack;
+    }
+
+    VOUSSOIR_INLINE double sum(const Pack &x)
+    {
+      return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
+    }
+
+    /** y += A x, and z += A^T v, for four columns of A, @p leading apart. */
+    VOUSSOIR_INLINE void four_columns(const double *A, const std::size_t leading, const std::size_t m,
+                                      const double *x, double *y, const double *v, double *z)
+    {
+      const double *column[4] = {A, A + leading, A + 2 * leading, A + 3 * leading};
+      Pack          sums[4] = {};
+      std::size_t   i = 0;
+      for (; i + width <= m; i += width)
+      {
+        const Pack v_i = load<Pack>(v + i);
+        Pack       y_i = load<Pack>(y + i);
+        for (unsigned int c = 0; c < 4; ++c)
+        {
+          const Pack a = load<Pack>(column[c] + i);
+          y_i += x[c] * a;
+          sums[c] += a * v_i;
+        }
+        std::memcpy(y + i, &y_i, sizeof(Pack));
+      }
+      for (; i < m; ++i)
+        for (unsigned int c = 0; c < 4; ++c)
+        {
+          y[i] += x[c] * column[c][i];
+          sums[c][0] += column[c][i] * v[i];
+        }
+      for (unsigned int c = 0; c < 4; ++c)
+        z[c] += sum(sums[c]);
+    }
+
+    VOUSSOIR_INLINE void one_column(const double *a, const std::size_t m, const double x, double *y,
+                                    const double *v, double &z)
+    {
+      double product = 0.;
+      for (std::size_t i = 0; i < m; ++i)
+      {
+        y[i] += x * a[i];
+        product += a[i] * v[i];
+      }
+      z += product;
+    }
+
+    VOUSSOIR_CLONES void both(const double *A, const std::size_t m, const std::size_t n, const double *x,
+                              double *y, const double *v, double *z)
+    {
+      std::size_t c = 0;
+      for (; c + 4 <= n; c += 4)
+        four_columns(A + c * m, m, m, x + c, y, v, z + c);
+      for (; c < n; ++c)
+        one_column(A + c * m, m, x[c], y, v, z[c]);
+    }
+
+    VOUSSOIR_CLONES void symmetric(const double *A, const std::size_t n, const double *x, double *y)
+    {
+      for (std::size_t c = 0; c < n; c += 4)
+      {
+        const std::size_t end = std::min(c + 4, n);
+        for (std::size_t j = c; j < end; ++j) // the block on the diagonal
+        {
+          y[j] += A[j * n + j] * x[j];
+          one_column(A + j * n + j + 1, end - j - 1, x[j], y + j + 1, x + j + 1, y[j]);
+        }
+        if (end < n)
+          four_columns(A + c * n + end, n, n - end, x + c, y + end, x + end, y + c);
+      }
+    }
+
+    VOUSSOIR_CLONES double product(const float *x, const float *y, const std::size_t n)
+    {
+      Pack        sums[4] = {};
+      std::size_t i = 0;
+      for (; i + 4 * width <= n; i += 4 * width)
+        for (unsigned int k = 0; k < 4; ++k)
+          sums[k] += __builtin_convertvector(load<FloatPack>(x + i + k * width), Pack) *
+                     __builtin_convertvector(load<FloatPack>(y + i + k * width), Pack);
+      double rest = 0.;
+      for (; i < n; ++i)
+        rest += double(x[i]) * y[i];
+      return sum((sums[0] + sums[1]) + (sums[2] + sums[3])) + rest;
+    }
+
+    VOUSSOIR_CLONES void add_scaled(const float factor, const float *x, const std::size_t n,
+                                    float *__restrict y)
+    {
+      for (std::size_t i = 0; i < n; ++i)
+        y[i] += factor * x[i];
+    }
   } // namespace
 
   void add_three_columns(const float *A, const std::size_t n, const float *x, float *y)
   {
     add_three(A, A + n, A + 2 * n, x, n, y);
+  }
+
+  void add_both(const double *A, const std::size_t m, const std::size_t n, const double *x, double *y,
+                const double *v, double *z)
+  {
+    both(A, m, n, x, y, v, z);
+  }
+
+  void add_symmetric(const double *A, const std::size_t n, const double *x, double *y)
+  {
+    symmetric(A, n, x, y);
+  }
+
+  double dot(const float *x, const float *y, const std::size_t n)
+  {
+    return product(x, y, n);
+  }
+
+  void add(const float factor, const float *x, const std::size_t n, float *y)
+  {
+    add_scaled(factor, x, n, y);
   }
 
   void add_columns(const float *A, const std::size_t leading, const std::size_t n,

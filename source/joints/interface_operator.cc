@@ -9,9 +9,6 @@
 #include <algorithm>
 #include <set>
 
-extern "C" void dgemv_(const char *, const int *, const int *, const double *, const double *, const int *,
-                       const double *, const int *, const double *, double *, const int *);
-
 extern "C" void sgemv_(const char *, const int *, const int *, const float *, const float *, const int *,
                        const float *, const int *, const float *, float *, const int *);
 
@@ -43,18 +40,6 @@ namespace Voussoir
     return inserted.first->second;
   }
 
-  void InterfaceOperator::add_coupling(const unsigned int j, const unsigned int k, const double factor,
-                                       const double *x, double *y) const
-  {
-    const auto found = blocks.find({std::min(j, k), std::max(j, k)});
-    if (found == blocks.end() || found->second.empty())
-      return;
-    const int    rows = size(std::min(j, k)), columns = size(std::max(j, k)), stride = 1;
-    const double one = 1.;
-    dgemv_(j <= k ? "N" : "T", &rows, &columns, &factor, found->second.data(), &rows, x, &stride, &one, y,
-           &stride);
-  }
-
   void InterfaceOperator::multiply(const Unknowns &x, Unknowns &y) const
   {
     AssertDimension(x.size(), n());
@@ -69,24 +54,26 @@ namespace Voussoir
                       [&](const int i)
                       {
                         const unsigned int j = list[i]->first.first, k = list[i]->first.second;
-                        if (is_mine(j))
+                        const double      *block = list[i]->second.data();
+                        products[i][0].assign(size(j), 0.);
+                        if (j == k)
                         {
-                          products[i][0].assign(size(j), 0.);
-                          add_coupling(j, k, 1., x.data() + offset[k], products[i][0].data());
+                          add_symmetric(block, size(j), x.data() + offset[j], products[i][0].data());
+                          return;
                         }
-                        if (j != k && is_mine(k))
-                        {
-                          products[i][1].assign(size(k), 0.);
-                          add_coupling(k, j, 1., x.data() + offset[j], products[i][1].data());
-                        }
+                        products[i][1].assign(size(k), 0.);
+                        add_both(block, size(j), size(k), x.data() + offset[k], products[i][0].data(),
+                                 x.data() + offset[j], products[i][1].data());
                       });
     y.assign(n(), 0.);
     for (std::size_t i = 0; i < list.size(); ++i)
       for (unsigned int side = 0; side < 2; ++side)
       {
-        double *out = y.data() + offset[side == 0 ? list[i]->first.first : list[i]->first.second];
-        for (const double p : products[i][side])
-          *out++ += p;
+        const unsigned int group = side == 0 ? list[i]->first.first : list[i]->first.second;
+        double            *out = y.data() + offset[group];
+        if (is_mine(group))
+          for (const double p : products[i][side])
+            *out++ += p;
       }
     gather(y);
     if (eliminated)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/parallel.h>
+#include <voussoir/joints/dense_kernels.h>
 #include <voussoir/joints/joint_jacobian.h>
 
 #include <algorithm>
@@ -11,14 +12,6 @@ namespace Voussoir
   namespace
   {
     using Floats = std::vector<float>;
-
-    double dot(const Floats &a, const Floats &b)
-    {
-      double sum = 0.;
-      for (std::size_t i = 0; i < a.size(); ++i)
-        sum += double(a[i]) * b[i];
-      return sum;
-    }
   } // namespace
 
   JointJacobian::JointJacobian(const InterfaceOperator &W) : W(W), joints(W.n_groups())
@@ -311,11 +304,10 @@ namespace Voussoir
       std::vector<double> column(k + 2);
       for (unsigned int i = 0; i <= k; ++i)
       {
-        column[i] = dot(v[i], w);
-        for (unsigned int j = 0; j < n; ++j)
-          w[j] -= static_cast<float>(column[i]) * v[i][j];
+        column[i] = dot(v[i].data(), w.data(), n);
+        add(-static_cast<float>(column[i]), v[i].data(), n, w.data());
       }
-      const double next = column[k + 1] = std::sqrt(dot(w, w));
+      const double next = column[k + 1] = std::sqrt(dot(w.data(), w.data(), n));
       if (!rotate(column, cosine, sine, g))
         break;
       h.push_back(column);

@@ -22,6 +22,19 @@ namespace Voussoir
 
   /** y += x[0] A_0 + x[1] A_1 + x[2] A_2 for the first three columns of A, @p n entries each. */
   void add_three_columns(const float *A, std::size_t n, const float *x, float *y);
+
+  /** y += A x and z += A^T v in one pass over A, @p m x @p n by column. */
+  void add_both(const double *A, std::size_t m, std::size_t n, const double *x, double *y, const double *v,
+                double *z);
+
+  /** y += A x for a symmetric A of @p n rows, of which the lower triangle is read. */
+  void add_symmetric(const double *A, std::size_t n, const double *x, double *y);
+
+  /** Product of two vectors of single precision, added up in double precision. */
+  double dot(const float *x, const float *y, std::size_t n);
+
+  /** y += factor x. */
+  void add(float factor, const float *x, std::size_t n, float *y);
 } // namespace Voussoir
 
 #endif

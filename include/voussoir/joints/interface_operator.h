@@ -59,9 +59,6 @@ namespace Voussoir
     /** y = W x. */
     void multiply(const Unknowns &x, Unknowns &y) const override;
 
-    /** y_j += factor * W_jk x_k for one pair of groups. */
-    void add_coupling(unsigned int j, unsigned int k, double factor, const double *x, double *y) const;
-
     Matrix3 diagonal(unsigned int pair) const override;
 
     bool is_in_blocks() const override { return !eliminated; }
