@@ -11,7 +11,7 @@ is all at the dam before the end, whatever the depth.
 The measures are those of `voussoir accuracy`: largest openings of the joints (root of the sum of squares), means of the
 tension envelope over nine zones of each face; over the strongest seconds of the scene's motion. Each group has a
 reference: the finest step, mesh or box. Prints Markdown tables, and draws doc/figures/choices_GROUP.png of quickstart, steps
-and elements. Cost: seconds of wall time of one thread per second of earthquake, without set-up; run it on a quiet machine.
+and elements. Cost: seconds of processor time of one thread per second of earthquake, without set-up.
 """
 
 import argparse
@@ -159,7 +159,7 @@ def study(name, options):
         for curve, label, settings in rows:
             openings, tensions, summary = runs.measure(settings)
             told = summary.get("error_estimate", {}).get("openings")
-            results.append((curve, str(label), summary["seconds"]["shaking"] / runs.duration,
+            results.append((curve, str(label), summary["seconds"]["shaking_cpu"] / runs.duration,
                             error(openings, reference[0]), error(tensions, reference[1]),
                             "" if told is None else f"{100 * told:.2g} %", summary["newton_iterations"]["mean"],
                             summary["energy_balance_error"]))

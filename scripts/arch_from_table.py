@@ -176,10 +176,15 @@ def crest_angles(dam, n):
     return np.linspace(*dam.ends, n + 1)
 
 
+def n_columns(joints, along):
+    """Elements along the crest: as many in each monolith."""
+    return -(-along // (joints + 1)) * (joints + 1)
+
+
 def build(dam, joints, along, up, through, end_height):
     """Nodes [m], hexahedra with their monolith, quadrilaterals with their group."""
-    per_monolith = -(-along // (joints + 1))
-    columns = per_monolith * (joints + 1)
+    columns = n_columns(joints, along)
+    per_monolith = columns // (joints + 1)
     number = lambda i, j, k: (i * (up + 1) + j) * (through + 1) + k
     nodes, cells, sides = [], [], []
     for angle in crest_angles(dam, columns):
@@ -269,9 +274,9 @@ def main():
     if not worst > 0:  # or not a number
         raise InputError("Elements are folded: the arcs of neighbouring elevations cross, or the end height is too small" + (", or the rock needs another extent." if options.rock else "."))
     write(options.output, nodes, cells, sides)
-    crest = np.array([dam.place(angle, dam.top, 0.) for angle in crest_angles(dam, 500)])
+    edges = np.array([[dam.place(angle, dam.top, side) for angle in crest_angles(dam, n_columns(options.joints, options.along))] for side in (0., 1.)])
     print(f"{options.output}: {len(nodes)} nodes, {n_dam} hexahedra{f' and {len(cells) - n_dam} of rock' if options.rock else ''}, {options.joints} joints; height {dam.top - dam.low:g} m, crest "
-          f"{np.linalg.norm(np.diff(crest, axis=0), axis=1).sum():.1f} m, volume {volume:.0f} m3, smallest scaled Jacobian {worst:.2f}")
+          f"{np.linalg.norm(np.diff(edges, axis=1), axis=2).sum() / 2:.1f} m, volume {volume:.0f} m3, smallest scaled Jacobian {worst:.2f}")
     return 0
 
 

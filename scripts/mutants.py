@@ -79,6 +79,18 @@ def read_list(path):
     return mutants
 
 
+def is_expression(text):
+    """Can it stand in brackets? No more than that brackets pair off, and that it neither begins nor ends in an operator."""
+    open_ones = []
+    for c in re.sub(r"'.'|\"[^\"]*\"", "", text):
+        if c in "([{":
+            open_ones.append(c)
+        elif c in ")]}" and (not open_ones or open_ones.pop() + c not in ("()", "[]", "{}")):
+            return False
+    text = re.sub(r"\+\+$|--$", "", text.strip())
+    return not open_ones and not re.search(r"^[/%,=<>|?:)]|[-+*/%,=<>&|?:(]$|(?<!\d)\.$", text)
+
+
 def mutate(text, mutant, number):
     """The text of a source with the choice of this mutant in it."""
     chosen = f"(voussoir_mutant == {number})"
@@ -96,6 +108,9 @@ def mutate(text, mutant, number):
         elif old.endswith(";") and before[-1] in ";{})":
             changed = f"{{ if {chosen} {{ {new} }} else {{ {old} }} }}"
         else:
+            for part in (old.rstrip(";"), new.rstrip(";")):
+                if not is_expression(part):
+                    raise Misfit(f"mutant {mutant['name']}: this is no expression, so it cannot be chosen by ?: (write MUTANT): {part}")
             semicolon = ";" if old.endswith(";") else ""
             changed = f"({chosen} ? ({new.rstrip(';')}) : ({old.rstrip(';')})){semicolon}"
         text = text[:begin] + changed + text[end:]

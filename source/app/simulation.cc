@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <numeric>
 
@@ -130,7 +131,8 @@ namespace Voussoir
     shaking_clock = Stopwatch();
     per_rank.work_before = Ranks::work();
     per_rank.messages_before = Ranks::n_messages();
-    const double before = count.seconds_shaking;
+    const double       before = count.seconds_shaking, cpu_so_far = count.cpu_shaking;
+    const std::clock_t start = std::clock();
     try
     {
       for (first_step = step; step < n_steps;)
@@ -142,6 +144,7 @@ namespace Voussoir
             {
               record();
               count.seconds_shaking = before + shaking_clock.seconds();
+              count.cpu_shaking = cpu_so_far + double(std::clock() - start) / CLOCKS_PER_SEC;
               if (step % scene.output.progress_interval == 0 || step == n_steps)
                 report_step();
             });

@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 
 #include <ctime>
+#include <omp.h>
 
 namespace Voussoir
 {
@@ -53,6 +54,7 @@ namespace Voussoir
         .add("setup", count.seconds_setup)
         .add("static", count.seconds_static)
         .add("shaking", count.seconds_shaking)
+        .add("shaking_cpu", count.cpu_shaking)
         .add("sweeps", count.seconds_sweeps)
         .add("joints", count.seconds_joints)
         .add("stepping", count.seconds_stepping)
@@ -158,6 +160,7 @@ namespace Voussoir
         .add("revision", VOUSSOIR_REVISION)
         .add("dealii", DEAL_II_PACKAGE_VERSION)
         .add("ranks", double(Ranks::size()))
+        .add("threads", omp_get_max_threads())
         .add("mesh", json_of_mesh())
         .add("zones", zones)
         .add("steps", step)

@@ -144,7 +144,8 @@ namespace Voussoir
       double newton = 0., newton_max = 0., krylov = 0., factorisations = 0., sweeps = 0., residual = 0.,
              imbalance = 0.; // largest |balance| of the energies of the dam [J]
       double seconds_setup = 0., seconds_static = 0., seconds_sweeps = 0., seconds_joints = 0.,
-             seconds_stepping = 0., seconds_stresses = 0., seconds_output = 0., seconds_shaking = 0.;
+             seconds_stepping = 0., seconds_stresses = 0., seconds_output = 0., seconds_shaking = 0.,
+             cpu_shaking = 0.; // of all threads
       template <class Archive> void serialize(Archive &archive, unsigned int)
       {
         archive &seconds_rock;
@@ -152,7 +153,7 @@ namespace Voussoir
           archive &n;
         archive &newton &newton_max &krylov &factorisations &sweeps &residual &imbalance;
         archive &seconds_setup &seconds_static &seconds_sweeps &seconds_joints &seconds_stepping
-            &seconds_stresses &seconds_output &seconds_shaking;
+            &seconds_stresses &seconds_output &seconds_shaking &cpu_shaking;
       }
     } count;
 
