@@ -4,16 +4,20 @@
 one of 110 m with 9 joints, an unsymmetrical one of 60 m with one, one of 270 m with 40), five invented motions, laws and steps; the
 truth is the same run with eight steps per sample.
 
-    benchmarks/held_back.py [--voussoir PROGRAM] [--jobs 2] [--output DIRECTORY]
+    benchmarks/held_back.py [--voussoir PROGRAM] [--jobs 2] [--output DIRECTORY] [--ladder]
 
 Prints a line for each case (estimate over true error of the openings, the largest opening, and the tension on both faces), and
 how many are within a factor of 2. Runs that are in DIRECTORY already are not repeated.
+
+With --ladder: the same question for `voussoir accuracy`, which refines the mesh, too. Two of the dams, with the meshes that they
+have and coarser ones; the truth has three times as many elements each way and four times as many steps.
 """
 
 import argparse
 import csv
 import json
 import math
+import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -21,7 +25,10 @@ from pathlib import Path
 import numpy as np
 from scipy import signal
 
-from program import add_program_argument, run
+from program import ROOT, add_program_argument, run
+
+sys.path.insert(0, str(ROOT / "scripts"))
+from zone_tension import zone_means  # noqa: E402
 
 G = 9.80665  # m/s^2
 HEAD = "elevation,upstream_x,upstream_radius,thickness,downstream_radius,right_angle,left_angle\n"
@@ -80,11 +87,16 @@ def cases():
     yield "high, ricker, 1", "high", "ricker", {}, 1
 
 
+def write_mesh(program, directory, dam, name, elements):
+    counts = zip(("--along", "--up", "--through"), elements)
+    run(program, "arcs", directory / f"{dam}.csv", "--output", directory / f"{name}.msh", "--joints", DAMS[dam][1],
+        *(word for count in counts for word in count))
+
+
 def write_scene(program, directory, dam):
-    table, joints, along, up, level = DAMS[dam]
+    table, _, along, up, level = DAMS[dam]
     (directory / f"{dam}.csv").write_text(HEAD + table)
-    run(program, "arcs", directory / f"{dam}.csv", "--output", directory / f"{dam}.msh", "--joints", joints, "--along", along,
-        "--up", up)
+    write_mesh(program, directory, dam, dam, (along, up, 2))
     entries = {"Mesh": {"Source": "file", "File": f"{dam}.msh"}, "Concrete": {"Young's modulus": "27 GPa", "Density": "2400 kg/m3"},
                "Reservoir": {"Water level": level}, "Joints": {"Friction": .75},
                "Motion": {"Source": "file", "Unit": "m/s^2"}, "Output": {"Figures": "false"}}
@@ -117,11 +129,52 @@ def ratios(program, directory, case):
     return [e / o if o > 0 else math.inf for e, o in zip(estimates, off)], off[0], estimates[0]
 
 
+# dam; elements along, up and through; motion
+LADDER = (("small", (16, 6, 2), "near"), ("small", (8, 4, 1), "far"), ("thin", (40, 6, 2), "far"), ("thin", (20, 10, 1), "near"))
+FINER = 3  # times as many elements each way has the truth
+
+
+def ladder(program, directory, case):
+    """Errors of a scene as `voussoir accuracy` says them, and as they are: openings, tension."""
+    dam, elements, motion = case
+    name = "_".join(map(str, (dam, *elements, motion)))
+    for mesh, factor in (("", 1), ("_fine", FINER)):
+        write_mesh(program, directory, dam, f"{name}{mesh}", [factor * n for n in elements])
+    settings = {"Mesh/File": directory / f"{name}.msh", "Motion/File": directory / f"{motion}.csv", "Motion/Unit": "m/s^2"}
+    words = [word for entry, value in settings.items() for word in ("--set", f"{entry}={value}")]
+    of_ladder = directory / f"{name}_ladder"
+    if not (of_ladder / "accuracy.json").exists():
+        run(program, "accuracy", directory / f"{dam}.prm", "--output", of_ladder, "--seconds", 5, *words)
+    said = json.loads((of_ladder / "accuracy.json").read_text())["error"]
+    base = of_ladder / "runs" / "base"
+    truth = directory / f"{name}_truth"
+    _, exact = result(program, truth, dam, {"Mesh/File": directory / f"{name}_fine.msh", "Motion/File": of_ladder / "motion.csv",
+                                            "Dynamics/Steps per sample": 4})
+    _, openings = result(program, base, dam, {})
+    (tension, _), (exact_tension, areas) = zone_means(base), zone_means(truth)
+    off = (np.linalg.norm(openings - exact) / np.linalg.norm(exact),
+           np.linalg.norm(np.sqrt(areas) * (tension - exact_tension)) / np.linalg.norm(np.sqrt(areas) * exact_tension))
+    return off, (said["openings"], said["tension"])
+
+
+def report_ladders(options, directory):
+    print("| dam, elements, motion | openings off by | by `accuracy` | zone means of tension off by | by `accuracy` |\n|---|---|---|---|---|")
+    good = []
+    with ThreadPoolExecutor(options.jobs) as pool:
+        for case, (off, said) in zip(LADDER, pool.map(lambda c: ladder(options.voussoir, directory, c), LADDER)):
+            good += [.5 <= s / o <= 2 for o, s in zip(off, said)]
+            dam, elements, motion = case
+            print(f"| {dam}, {' x '.join(map(str, elements))}, {motion} | " + " | ".join(
+                f"{100 * o:.2g} % | {100 * s:.2g} %" for o, s in zip(off, said)) + " |", flush=True)
+    print(f"within a factor of 2: {sum(good)} of {len(good)}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     add_program_argument(parser)
     parser.add_argument("--jobs", type=int, default=2, help="runs at a time, of one thread each")
     parser.add_argument("--output", type=Path, help="directory of the runs, kept")
+    parser.add_argument("--ladder", action="store_true", help="of `voussoir accuracy`")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as temporary:
         directory = (options.output or Path(temporary)).resolve()
@@ -131,6 +184,9 @@ def main():
             np.savetxt(directory / f"{name}.csv", np.column_stack([t, *components]), delimiter=",", fmt="%.8g")
         for dam in DAMS:
             write_scene(options.voussoir, directory, dam)
+        if options.ladder:
+            report_ladders(options, directory)
+            return
         print("| dam, motion, steps per sample | openings off by | by estimate | estimate over true: openings | largest opening | "
               "tension upstream | downstream |\n|---|---|---|---|---|---|---|")
         found = []

@@ -151,8 +151,8 @@ namespace Voussoir
 
   namespace
   {
-    /** CHOLMOD asks for four threads for every supernode, also where there is one core or where the bodies are
-     * shared out already. What it does with them is little, and the same numbers. */
+    /** CHOLMOD asks for four threads for every supernode, also where there is one core or where the bodies
+     * are shared out already. What it does with them is little, and the same numbers. */
     class NoThreads
     {
     public:
