@@ -10,7 +10,7 @@ Prints a line for each case (estimate over true error of the openings, the large
 how many are within a factor of 2. Runs that are in DIRECTORY already are not repeated.
 
 With --ladder: the same question for `voussoir accuracy`, which refines the mesh, too. Two of the dams, with the meshes that they
-have and coarser ones; the truth has three times as many elements each way and four times as many steps.
+have and others; the truth has three times as many elements each way and four times as many steps.
 """
 
 import argparse
@@ -141,10 +141,9 @@ def ladder(program, directory, case):
     for mesh, factor in (("", 1), ("_fine", FINER)):
         write_mesh(program, directory, dam, f"{name}{mesh}", [factor * n for n in elements])
     settings = {"Mesh/File": directory / f"{name}.msh", "Motion/File": directory / f"{motion}.csv", "Motion/Unit": "m/s^2"}
-    words = [word for entry, value in settings.items() for word in ("--set", f"{entry}={value}")]
     of_ladder = directory / f"{name}_ladder"
     if not (of_ladder / "accuracy.json").exists():
-        run(program, "accuracy", directory / f"{dam}.prm", "--output", of_ladder, "--seconds", 5, *words)
+        run(program, "accuracy", directory / f"{dam}.prm", "--output", of_ladder, "--seconds", 5, settings=settings)
     said = json.loads((of_ladder / "accuracy.json").read_text())["error"]
     base = of_ladder / "runs" / "base"
     truth = directory / f"{name}_truth"

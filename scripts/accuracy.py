@@ -39,6 +39,7 @@ STEPS, SUBSTEPS, DEGREE = "Dynamics/Steps per sample", "Foundation/Substeps", "E
 SUBDIVIDE = "Mesh/Subdivide"
 ROCK_SIZE = "Mesh/Arch210/Rock/Element size"
 TAPER = 0.2  # of the motion's beginning [s]
+RUNS = b"2"  # what this script reads of a run: those of another kind are made again
 FIRST, LAST = "base", "wish"  # names of the runs of the scene as it is, and of what is proposed
 
 
@@ -138,7 +139,7 @@ class Ladder:
         self.openings[name] = np.array([float(j[f"opening_{face}"]) for j in joints for face in ("upstream", "downstream")])
         self.tensions[name], self.areas[name] = zone_means(directory)
         seconds = summary["seconds"]
-        # Of each thread, not of the clock on the wall: what else the machine does must not decide.
+        # Processor time, not wall time: what else the machine does should not decide.
         self.cost[name] = seconds["per_second_of_earthquake"] * seconds["shaking_cpu"] / seconds["shaking"] / summary["threads"]
         done = len(self.cost)
         left = (time.monotonic() - self.began) / done * max(0, self.n_expected - done)
@@ -166,7 +167,7 @@ class Ladder:
     def key_of(self, changes):
         """A digest of all that a run reads: every entry of the scene, and the contents of its files."""
         entries = entries_of(self.scene, settings({**self.common, **changes})[1::2])
-        digest = hashlib.sha256(json.dumps(entries).encode() + self.common["Motion/File"].read_bytes())
+        digest = hashlib.sha256(RUNS + json.dumps(entries).encode() + self.common["Motion/File"].read_bytes())
         for entry, value in entries.items():
             file = self.scene.parent / value
             digest.update(file.read_bytes() if is_file_entry(entry) and file.is_file() else b"")
@@ -230,7 +231,7 @@ def draw(choices, ladder, wish, total, proposal, file):
     if "cost" in proposal:
         axes.plot(proposal["cost"], 100 * proposal["error"], "kD", markersize=9, label=f"proposed, {percent(proposal['error'])}")
     axes.axhline(100 * wish, color="0.5", linewidth=1, linestyle="--", label=f"the wish, {percent(wish)}")
-    axes.set(xscale="log", yscale="log", xlabel="cost: seconds per second of earthquake",
+    axes.set(xscale="log", yscale="log", xlabel="cost: processor seconds of each thread per second of earthquake",
              ylabel="error of openings or zone tension, the larger [%]")
     axes.grid(True, which="both", linewidth=0.4, color="0.88")
     axes.legend(frameon=False, fontsize=9)
@@ -352,7 +353,7 @@ def main():
     if len(choices) == 1:
         print("\n  The mesh cannot be refined from here (degree 2, already subdivided): its error is in none of these numbers.")
     print(f"\nThe scene as it is: error {percent(total[0])} of the openings, {percent(total[1])} of the zone means of tension, "
-          f"at {ladder.cost[FIRST]:.3g} s per second of earthquake.")
+          f"at {ladder.cost[FIRST]:.3g} s of processor time (of each thread) per second of earthquake.")
     proposal = propose(choices, ladder, wish)
     lines = " ".join(f"--set '{entry}={value}'" for entry, value in proposal["changes"].items()) or "(as it is)"
     if "cost" in proposal:

@@ -80,7 +80,7 @@ def read_list(path):
 
 
 def is_expression(text):
-    """Can it stand in brackets? No more than that brackets pair off, and that it neither begins nor ends in an operator."""
+    """Can it stand in brackets? A rough check: brackets pair off, no operator at an end, no assignment, no statement."""
     open_ones = []
     for c in re.sub(r"'.'|\"[^\"]*\"", "", text):
         if c in "([{":
@@ -88,7 +88,7 @@ def is_expression(text):
         elif c in ")]}" and (not open_ones or open_ones.pop() + c not in ("()", "[]", "{}")):
             return False
     text = re.sub(r"\+\+$|--$", "", text.strip())
-    return not open_ones and not re.search(r"^[/%,=<>|?:)]|[-+*/%,=<>&|?:(]$|(?<!\d)\.$", text)
+    return not open_ones and not re.search(r"^[/%,=<>|?:)]|[-+*/%,=<>&|?:(]$|(?<!\d)\.$|;|^return\b|(?<![=!<>+\-*/%&|^])=(?!=)", text)
 
 
 def mutate(text, mutant, number):

@@ -147,22 +147,27 @@ namespace Voussoir
       }
       return sum;
     }
-  } // namespace
 
-  namespace
-  {
-    /** CHOLMOD asks for four threads for every supernode, also where there is one core or where the bodies
-     * are shared out already. What it does with them is little, and the same numbers. */
+    /** CHOLMOD asks for four threads for every supernode, also where the program has one or there is one
+     * body; starting them costs more than they give. Where bodies are shared out it gets none anyway. */
     class NoThreads
     {
     public:
-      NoThreads() : levels(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
-      ~NoThreads() { omp_set_max_active_levels(levels); }
+      NoThreads() : levels(omp_in_parallel() ? -1 : omp_get_max_active_levels())
+      {
+        if (levels >= 0)
+          omp_set_max_active_levels(0);
+      }
+      ~NoThreads()
+      {
+        if (levels >= 0)
+          omp_set_max_active_levels(levels);
+      }
       NoThreads(const NoThreads &) = delete;
       NoThreads &operator=(const NoThreads &) = delete;
 
     private:
-      const int levels;
+      const int levels; ///< before, or -1: left alone
     };
   } // namespace
 

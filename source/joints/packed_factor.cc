@@ -8,8 +8,10 @@
 #include <cstring>
 #include <new>
 
-// One binary for all processors: the widest kernels that the processor has are chosen when it starts.
-#define VOUSSOIR_CLONES __attribute__((target_clones("avx512f", "fma", "avx", "default")))
+// One binary for all processors: the widest kernels that the processor has are chosen when it starts. Those
+// of AVX-512 have packs of their own: elsewhere GCC keeps what is wider than 32 bytes in memory.
+#define VOUSSOIR_AVX512 __attribute__((target("avx512f")))
+#define VOUSSOIR_CLONES __attribute__((target_clones("fma", "avx", "default")))
 #define VOUSSOIR_INLINE inline __attribute__((always_inline))
 
 namespace Voussoir
@@ -20,6 +22,7 @@ namespace Voussoir
     constexpr std::size_t triangle =
         16; // numbers: up to six below the diagonal, four inverted ones from 8 on
     typedef double Pack __attribute__((vector_size(8 * width)));
+    typedef double Half __attribute__((vector_size(4 * width)));
 
     std::size_t round_down(const std::size_t n)
     {
@@ -42,13 +45,13 @@ namespace Voussoir
       return std::min<std::size_t>(4, n_columns - column);
     }
 
-    VOUSSOIR_INLINE const Pack &load(const double *x)
+    template <class P> VOUSSOIR_INLINE const P &load(const double *x)
     {
-      return *reinterpret_cast<const Pack *>(x);
+      return *reinterpret_cast<const P *>(x);
     }
 
     /** @p t: rows of the supernode; @p column: first one of the panel, of @p n columns. */
-    template <std::size_t n>
+    template <class P, std::size_t n>
     VOUSSOIR_INLINE void forward_panel(const double *panel, const std::size_t column,
                                        const std::size_t n_rows, double *t)
     {
@@ -62,34 +65,36 @@ namespace Voussoir
       }
       const std::size_t begin = round_down(column + n), height = round_up(n_rows) - begin;
       const double     *L = panel + triangle;
-      for (std::size_t i = 0; i < height; i += width)
+      for (std::size_t i = 0; i < height; i += sizeof(P) / 8)
       {
-        Pack &below = *reinterpret_cast<Pack *>(t + begin + i);
-        Pack  sum = below;
+        P &below = *reinterpret_cast<P *>(t + begin + i);
+        P  sum = below;
         for (std::size_t j = 0; j < n; ++j)
-          sum -= y[j] * load(L + j * height + i);
+          sum -= y[j] * load<P>(L + j * height + i);
         below = sum;
       }
     }
 
-    template <std::size_t n>
+    template <class P, std::size_t n>
     VOUSSOIR_INLINE void backward_panel(const double *panel, const std::size_t column,
                                         const std::size_t n_rows, double *t)
     {
-      const std::size_t begin = round_down(column + n), height = round_up(n_rows) - begin;
-      const double     *L = panel + triangle;
-      Pack              sums[n] = {};
+      const std::size_t     begin = round_down(column + n), height = round_up(n_rows) - begin;
+      const double         *L = panel + triangle;
+      constexpr std::size_t lanes = sizeof(P) / 8, parts = width / lanes; // the same sums for all packs
+      P                     sums[n][parts] = {};
       for (std::size_t i = 0; i < height; i += width)
-      {
-        const Pack x = load(t + begin + i);
-        for (std::size_t j = 0; j < n; ++j)
-          sums[j] += x * load(L + j * height + i);
-      }
+        for (std::size_t part = 0; part < parts; ++part)
+        {
+          const P &x = load<P>(t + begin + i + part * lanes);
+          for (std::size_t j = 0; j < n; ++j)
+            sums[j][part] += x * load<P>(L + j * height + i + part * lanes);
+        }
       for (std::size_t i = n; i-- > 0;)
       {
         double sum = t[column + i];
         for (std::size_t k = 0; k < width; ++k)
-          sum -= sums[i][k];
+          sum -= sums[i][k / lanes][k % lanes];
         for (std::size_t j = i + 1; j < n; ++j)
           sum -= panel[j * (j - 1) / 2 + i] * t[column + j];
         t[column + i] = sum * panel[8 + i];
@@ -108,6 +113,7 @@ namespace Voussoir
         t[i] = 0.;
     }
 
+    template <class P>
     VOUSSOIR_INLINE void forward_supernode(const Supernode &s, const unsigned int *rows, const double *values,
                                            double *t, double *x)
     {
@@ -116,13 +122,13 @@ namespace Voussoir
       {
         const std::size_t n = panel_width(s.n_columns, column);
         if (n == 4)
-          forward_panel<4>(values, column, s.n_rows, t);
+          forward_panel<P, 4>(values, column, s.n_rows, t);
         else if (n == 3)
-          forward_panel<3>(values, column, s.n_rows, t);
+          forward_panel<P, 3>(values, column, s.n_rows, t);
         else if (n == 2)
-          forward_panel<2>(values, column, s.n_rows, t);
+          forward_panel<P, 2>(values, column, s.n_rows, t);
         else
-          forward_panel<1>(values, column, s.n_rows, t);
+          forward_panel<P, 1>(values, column, s.n_rows, t);
         values += round_up(panel_size(s.n_rows, column, n));
         column += n;
       }
@@ -133,6 +139,7 @@ namespace Voussoir
     }
 
     /** @p values: the end of the supernode's. */
+    template <class P>
     VOUSSOIR_INLINE void backward_supernode(const Supernode &s, const unsigned int *rows,
                                             const double *values, double *t, double *x)
     {
@@ -143,13 +150,13 @@ namespace Voussoir
         column -= n;
         values -= round_up(panel_size(s.n_rows, column, n));
         if (n == 4)
-          backward_panel<4>(values, column, s.n_rows, t);
+          backward_panel<P, 4>(values, column, s.n_rows, t);
         else if (n == 3)
-          backward_panel<3>(values, column, s.n_rows, t);
+          backward_panel<P, 3>(values, column, s.n_rows, t);
         else if (n == 2)
-          backward_panel<2>(values, column, s.n_rows, t);
+          backward_panel<P, 2>(values, column, s.n_rows, t);
         else
-          backward_panel<1>(values, column, s.n_rows, t);
+          backward_panel<P, 1>(values, column, s.n_rows, t);
       }
       for (unsigned int i = 0; i < s.n_columns; ++i)
         x[s.first + i] = t[i];
@@ -164,40 +171,53 @@ namespace Voussoir
       double             *work;
     };
 
-    VOUSSOIR_INLINE void forward_all(const Factor &L, double *x)
+    template <class P> VOUSSOIR_INLINE void forward_all(const Factor &L, double *x)
     {
       for (std::size_t i = 0; i < L.n_supernodes; ++i)
-        forward_supernode(L.supernodes[i], L.rows + L.supernodes[i].rows, L.values + L.supernodes[i].values,
-                          L.work, x);
+        forward_supernode<P>(L.supernodes[i], L.rows + L.supernodes[i].rows,
+                             L.values + L.supernodes[i].values, L.work, x);
     }
 
-    VOUSSOIR_INLINE void backward_all(const Factor &L, double *x)
+    template <class P> VOUSSOIR_INLINE void backward_all(const Factor &L, double *x)
     {
       for (std::size_t i = L.n_supernodes; i-- > 0;)
-        backward_supernode(L.supernodes[i], L.rows + L.supernodes[i].rows,
-                           i + 1 == L.n_supernodes ? L.end : L.values + L.supernodes[i + 1].values, L.work,
-                           x);
+        backward_supernode<P>(L.supernodes[i], L.rows + L.supernodes[i].rows,
+                              i + 1 == L.n_supernodes ? L.end : L.values + L.supernodes[i + 1].values, L.work,
+                              x);
     }
 
+    VOUSSOIR_AVX512 void forward_wide(const Factor &L, double *x)
+    {
+      forward_all<Pack>(L, x);
+    }
     VOUSSOIR_CLONES void forward_fast(const Factor &L, double *x)
     {
-      forward_all(L, x);
+      forward_all<Half>(L, x);
+    }
+    VOUSSOIR_AVX512 void backward_wide(const Factor &L, double *x)
+    {
+      backward_all<Pack>(L, x);
     }
     VOUSSOIR_CLONES void backward_fast(const Factor &L, double *x)
     {
-      backward_all(L, x);
+      backward_all<Half>(L, x);
     }
     void forward_plain(const Factor &L, double *x)
     {
-      forward_all(L, x);
+      forward_all<Half>(L, x);
     }
     void backward_plain(const Factor &L, double *x)
     {
-      backward_all(L, x);
+      backward_all<Half>(L, x);
     }
   } // namespace
 
   bool PackedFactor::plain_kernels = false;
+
+  namespace
+  {
+    const bool is_wide = __builtin_cpu_supports("avx512f");
+  } // namespace
 
   PackedFactor::Aligned PackedFactor::allocate(const std::size_t n)
   {
@@ -311,14 +331,14 @@ namespace Voussoir
   {
     const Factor L = {supernodes.data(), supernodes.size(),      row_list.data(),
                       first_value,       first_value + n_values, work.get()};
-    (plain_kernels ? forward_plain : forward_fast)(L, x);
+    (plain_kernels ? forward_plain : is_wide ? forward_wide : forward_fast)(L, x);
   }
 
   void PackedFactor::backward(double *x) const
   {
     const Factor L = {supernodes.data(), supernodes.size(),      row_list.data(),
                       first_value,       first_value + n_values, work.get()};
-    (plain_kernels ? backward_plain : backward_fast)(L, x);
+    (plain_kernels ? backward_plain : is_wide ? backward_wide : backward_fast)(L, x);
   }
 
   double PackedFactor::memory() const

@@ -23,7 +23,7 @@ namespace Voussoir
   /** y += x[0] A_0 + x[1] A_1 + x[2] A_2 for the first three columns of A, @p n entries each. */
   void add_three_columns(const float *A, std::size_t n, const float *x, float *y);
 
-  /** y += A x and z += A^T v in one pass over A, @p m x @p n by column. */
+  /** y += A x and z += A^T v in one pass over A, @p m x @p n by column. No two of the vectors may overlap. */
   void add_both(const double *A, std::size_t m, std::size_t n, const double *x, double *y, const double *v,
                 double *z);
 
