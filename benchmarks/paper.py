@@ -250,6 +250,26 @@ def print_joints(runs):
                     deviation = values.std(axis=0, ddof=1) if len(values) > 1 else 0 * values[0]
                     print(f"| {case}, {what} | " +
                           " | ".join(f"{v:.1f} +- {d:.1f}" for v, d in zip(values.mean(axis=0), deviation)) + " |")
+        seeds = both(runs, f"{section}_fja", f"{section}_fjb")
+        if len(seeds) > 1:
+            more = np.array([np.subtract(*(runs[f"{section}_{law}"][seed].openings.max(axis=1) for law in ("fjb", "fja"))) for seed in seeds])
+            print("| FJB less FJA, openings | " + " | ".join(
+                f"{v:+.1f} +- {d:.1f}" for v, d in zip(more.mean(axis=0), more.std(axis=0, ddof=1))) + " |")
+
+
+def print_cut(output):
+    """What is lost of section 3.2's largest openings without what comes after UNTIL, as in section 3.1."""
+    whole, cut = [], []
+    for file in sorted(file for law in ("fja", "fjb") for file in output.glob(f"3.2_{law}/seed_*/joint_history.csv")):
+        history = read_table(file)
+        for j in range(1, 1 + sum(name.startswith("opening_upstream_") for name in history)):
+            opening = np.maximum(*(history[f"opening_{face}_{j}"] for face in FACES))
+            whole.append(opening.max())
+            cut.append(opening[history["time"] <= UNTIL].max())
+    if whole:
+        whole, cut = np.array(whole), np.array(cut)
+        print(f"\n3.2, FJA and FJB: {(cut < whole).sum()} of {len(whole)} largest openings come after {UNTIL} s; without, the mean "
+              f"is {100 * (1 - cut.mean() / whole.mean()):.1f} % smaller, one {100 * (1 - cut / whole).max():.0f} %")
 
 
 def joint_names(n):
@@ -304,6 +324,7 @@ def main():
     print_cases(runs)
     print_pairs(runs)
     print_joints(runs)
+    print_cut(options.output)
     write_csv(runs, options.csv)
     from paper_figures import draw
     draw(runs, options.output, options.figures)

@@ -5,6 +5,8 @@
 #include <cstring>
 
 #define VOUSSOIR_CLONES __attribute__((target_clones("avx512f", "fma", "avx", "default"), optimize("O3")))
+#define VOUSSOIR_WIDE __attribute__((target("avx512f"), optimize("O3")))
+#define VOUSSOIR_OTHERS __attribute__((target_clones("fma", "avx", "default"), optimize("O3")))
 #define VOUSSOIR_INLINE inline __attribute__((always_inline))
 
 namespace Voussoir
@@ -25,11 +27,11 @@ namespace Voussoir
         y[i] += x[0] * a[i] + x[1] * b[i] + x[2] * c[i];
     }
 
-    // 32 bytes on every processor: without AVX-512 GCC keeps what is wider in memory. Sums are added up in as
-    // many parts, in the same order with all registers (not the same bits: some multiply and add at once).
-    constexpr std::size_t width = 4;
-    typedef double        Pack __attribute__((vector_size(8 * width)));
-    typedef float         FloatPack __attribute__((vector_size(4 * width)));
+    // Packs as wide as the registers: GCC keeps what is wider in memory. Sums are added up in as many parts.
+    typedef double Wide __attribute__((vector_size(64)));
+    typedef double Pack __attribute__((vector_size(32)));
+    typedef float  FloatPack __attribute__((vector_size(16)));
+    const bool     is_wide = __builtin_cpu_supports("avx512f");
 
     // By reference: passing vectors by value depends on the processor.
     template <class P, class Number> VOUSSOIR_INLINE void load(const Number *x, P &pack)
@@ -37,22 +39,26 @@ namespace Voussoir
       std::memcpy(&pack, x, sizeof(P));
     }
 
-    VOUSSOIR_INLINE double sum(const Pack &x)
+    template <class P> VOUSSOIR_INLINE double sum(const P &x)
     {
-      return (x[0] + x[2]) + (x[1] + x[3]);
+      double all = 0.;
+      for (std::size_t i = 0; i < sizeof(P) / 8; ++i)
+        all += x[i];
+      return all;
     }
 
     /** y += A x, and z += A^T v, for four columns of A, @p leading apart. */
+    template <class P>
     VOUSSOIR_INLINE void four_columns(const double *A, const std::size_t leading, const std::size_t m,
                                       const double *x, double *y, const double *v, double *z)
     {
       const double *column[4] = {A, A + leading, A + 2 * leading, A + 3 * leading};
       const double  factor[4] = {x[0], x[1], x[2], x[3]};
-      Pack          sums[4] = {};
+      P             sums[4] = {};
       std::size_t   i = 0;
-      for (; i + width <= m; i += width)
+      for (; i + sizeof(P) / 8 <= m; i += sizeof(P) / 8)
       {
-        Pack v_i, y_i, a;
+        P v_i, y_i, a;
         load(v + i, v_i);
         load(y + i, y_i);
         for (unsigned int c = 0; c < 4; ++c)
@@ -61,7 +67,7 @@ namespace Voussoir
           y_i += factor[c] * a;
           sums[c] += a * v_i;
         }
-        std::memcpy(y + i, &y_i, sizeof(Pack));
+        std::memcpy(y + i, &y_i, sizeof(P));
       }
       for (; i < m; ++i)
         for (unsigned int c = 0; c < 4; ++c)
@@ -85,17 +91,19 @@ namespace Voussoir
       z += product;
     }
 
-    VOUSSOIR_CLONES void both(const double *A, const std::size_t m, const std::size_t n, const double *x,
+    template <class P>
+    VOUSSOIR_INLINE void both(const double *A, const std::size_t m, const std::size_t n, const double *x,
                               double *y, const double *v, double *z)
     {
       std::size_t c = 0;
       for (; c + 4 <= n; c += 4)
-        four_columns(A + c * m, m, m, x + c, y, v, z + c);
+        four_columns<P>(A + c * m, m, m, x + c, y, v, z + c);
       for (; c < n; ++c)
         one_column(A + c * m, m, x[c], y, v, z[c]);
     }
 
-    VOUSSOIR_CLONES void symmetric(const double *A, const std::size_t n, const double *x, double *y)
+    template <class P>
+    VOUSSOIR_INLINE void symmetric(const double *A, const std::size_t n, const double *x, double *y)
     {
       for (std::size_t c = 0; c < n; c += 4)
       {
@@ -106,14 +114,35 @@ namespace Voussoir
           one_column(A + j * n + j + 1, end - j - 1, x[j], y + j + 1, x + j + 1, y[j]);
         }
         if (end < n)
-          four_columns(A + c * n + end, n, n - end, x + c, y + end, x + end, y + c);
+          four_columns<P>(A + c * n + end, n, n - end, x + c, y + end, x + end, y + c);
       }
+    }
+
+    VOUSSOIR_WIDE void both_wide(const double *A, const std::size_t m, const std::size_t n, const double *x,
+                                 double *y, const double *v, double *z)
+    {
+      both<Wide>(A, m, n, x, y, v, z);
+    }
+    VOUSSOIR_OTHERS void both_others(const double *A, const std::size_t m, const std::size_t n,
+                                     const double *x, double *y, const double *v, double *z)
+    {
+      both<Pack>(A, m, n, x, y, v, z);
+    }
+
+    VOUSSOIR_WIDE void symmetric_wide(const double *A, const std::size_t n, const double *x, double *y)
+    {
+      symmetric<Wide>(A, n, x, y);
+    }
+    VOUSSOIR_OTHERS void symmetric_others(const double *A, const std::size_t n, const double *x, double *y)
+    {
+      symmetric<Pack>(A, n, x, y);
     }
 
     VOUSSOIR_CLONES double product(const float *x, const float *y, const std::size_t n)
     {
-      Pack        sums[4] = {};
-      std::size_t i = 0;
+      constexpr std::size_t width = 4;
+      Pack                  sums[4] = {};
+      std::size_t           i = 0;
       for (; i + 4 * width <= n; i += 4 * width)
         for (unsigned int k = 0; k < 4; ++k)
         {
@@ -144,12 +173,12 @@ namespace Voussoir
   void add_both(const double *A, const std::size_t m, const std::size_t n, const double *x, double *y,
                 const double *v, double *z)
   {
-    both(A, m, n, x, y, v, z);
+    (is_wide ? both_wide : both_others)(A, m, n, x, y, v, z);
   }
 
   void add_symmetric(const double *A, const std::size_t n, const double *x, double *y)
   {
-    symmetric(A, n, x, y);
+    (is_wide ? symmetric_wide : symmetric_others)(A, n, x, y);
   }
 
   double dot(const float *x, const float *y, const std::size_t n)
