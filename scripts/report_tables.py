@@ -208,7 +208,7 @@ def extremes(runs):
     for key in keys:
         item = next(of_run[key] for of_run in found if key in of_run)
         titles = {of_run[key].title for of_run in found if key in of_run}
-        title = item.title if len(titles) == 1 else f"{item.title.partition(',')[0]}, at the level that decides in each run"
+        title = item.title if len(titles) == 1 else f"{item.title.partition(',')[0]}, where each run has its worst"
         cells = [f'<td>{escape(title)} <span class="unit">{"[" + item.unit + "]" if item.unit else ""}</span></td>']
         for of_run in found:
             one = of_run.get(key)

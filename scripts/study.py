@@ -84,8 +84,8 @@ def jobs_and_threads(options, study):
 # ---------------------------------------------------------------- scenes
 
 def slug(entry, text, length):
-    """A factor in a name: "factor-0.4"."""
-    value = Path(text).stem if is_file_entry(entry) or entry == "Scene" else text
+    """A factor in a name: "factor-0.4", "scale-y-minus-1"."""
+    value = Path(text).stem if is_file_entry(entry) or entry == "Scene" else re.sub(r"^-(?=[\d.])", "minus ", text)
     return re.sub("[^a-z0-9.]+", "-", " ".join([*entry.split("/")[-length:], value or "none"]).lower()).strip("-.")
 
 

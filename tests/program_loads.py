@@ -149,6 +149,16 @@ def stages():
     together, _ = result("together", *settings(Reservoir__Water_level=100, Reservoir__Added_mass="none"))
     print(f"    crest at 100 m: monoliths alone {1e3 * alone:.4f} mm, together {1e3 * together['static']['crest_displacement'][0]:.4f} mm")
     expect(alone > 1.2 * together["static"]["crest_displacement"][0], "monoliths alone move more")
+    overlaps = [row[names.index("max_overlap")] for row in rows]
+    expect(overlaps[0] > 0 == overlaps[-1], f"monoliths alone lean into each other, grouted ones do not: {overlaps}")
+    expect(("overlap by" in shown) == (max(overlaps) > 5e-3), f"{overlaps}: {shown}")
+    # Joints of law tied are not cut by lifts.
+    overrides = settings(Statics__Stages="fill 100, grout 210", Joints__Overrides="1: tied")
+    result("tied_in_part", *overrides)
+    names, rows = table("tied_in_part/stages.csv")
+    held = rows[0][names.index("crest_x")]
+    print(f"    the first joint tied: {1e3 * held:.4f} mm")
+    expect(held < .95 * alone, "a tied joint holds before it is grouted")
     expect(lifts["extremes"]["max_opening"]["value"] < 2e-3, "openings count from the grouting")
     at_first, _ = result("at_first", *settings(Statics__Stages="grout 1000, fill 100"))
     filled, _ = result("not_lifted", *settings(Statics__Stages="fill 100"))
@@ -173,6 +183,10 @@ def stages():
         refused(["static.prm", "--output", "x", *settings(Statics__Stages=value)], "Statics/Stages", *parts)
     refused(["static.prm", "--output", "x", *settings(Statics__Stages="grout 100", Joints__Model="tied")], "tied")
     refused(["static.prm", "--output", "x", *settings(Statics__Stages="fill 100", Reservoir__Density=0)], "Reservoir/Density")
+    refused(["static.prm", "--output", "x", *settings(Statics__Stages="grout 100", Statics__Self_weight="monolithic")], "monolithic")
+    dry = settings(Loads__Combinations="dry: weight", Loads__Combination="dry")
+    refused(["static.prm", "--output", "x", *settings(Statics__Stages="fill 100"), *dry], "leaves the water out")
+    expect("does not reach" not in runs("static.prm", "--validate", *dry), "no warning of water that the combination leaves out")
 
 
 def combinations():

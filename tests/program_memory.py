@@ -35,6 +35,7 @@ end
 {more}
 """
 ROCK = "subsection Rock\n set Enabled = true\n set Element size = 30\n end"
+MASSLESS = "subsection Foundation\n set Model = massless\n end\n subsection Elements\n set Degree = 2\n end"
 ON_ROCK = "subsection Foundation\n set Model = rock\n end\n subsection Dynamics\n set Steps per sample = 5\n end"
 
 
@@ -50,10 +51,11 @@ def estimate(text):
 
 
 def estimates():
-    """To a fifth: joints, tied, elements of degree 2, on rock."""
+    """To a fifth: joints, tied, elements of degree 2, on rock, on massless rock of degree 2."""
     for name, file in (("joints", scene("joints", 5, 60, 16, 2)), ("tied", scene("tied", 0, 60, 16, 3)),
                        ("quadratic", scene("quadratic", 5, 30, 8, 1, more="subsection Elements\n set Degree = 2\n end")),
-                       ("rock", scene("rock", 5, 30, 10, 1, ROCK, ON_ROCK))):
+                       ("rock", scene("rock", 5, 30, 10, 1, ROCK, ON_ROCK)),
+                       ("massless", scene("massless", 5, 20, 6, 1, ROCK.replace("30", "100"), MASSLESS))):
         run, halved = estimate(runs(file, "--validate"))
         runs(file, "--output", name)
         taken = summary(name)["memory_bytes"]

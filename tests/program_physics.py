@@ -145,6 +145,13 @@ def recorders():
         for c, value in zip("xyz", solution.displacement(crown)):
             expect(abs(row[f"crest_{c}"] - value) < 1e-6, f"crest_{c} at {row['time']} s: {row[f'crest_{c}']}, {value}")
 
+    # Probes on both sides of a joint are of two monoliths: what is between them is the opening.
+    runs("scene.prm", "--output", "sides", *settings("Mesh/Arch210/Joints=1", "Output/Probes=left: 0 0.5 210; right: 0 -0.5 210"))
+    apart = [row["left_y"] - row["right_y"] for row in rows_by_name("sides/history.csv")]
+    opening = [row["opening_upstream_1"] for row in rows_by_name("sides/joint_history.csv")]
+    expect(len(apart) == len(opening) and max(opening) > 1e-4, f"the joint at the crown opens by {max(opening)} m")
+    expect(max(abs(a - b) for a, b in zip(apart, opening)) < 1e-6 * max(opening), "the probes' distance is not the opening")
+
     # The joints' crest: of the places with an opening, the uppermost ones, upstream the one with the smallest x.
     sides = {}
     for i, (p, state) in enumerate(zip(solutions[0].points, solutions[0].data["joint_state"])):

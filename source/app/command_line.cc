@@ -148,6 +148,9 @@ namespace Voussoir
         for (const std::string &note : motion.notes)
           std::cout << note << '\n';
         print_report(report_motion(motion, scene.motion), std::cout);
+        if (const double factor = scene.loads.factor("earthquake"); factor != 1.)
+          std::cout << "The scene's combination of loads takes " << factor
+                    << " times this motion (Loads/Combination), which is not in these numbers.\n";
       }
       for (const std::string &warning : scene.warnings) // an error would come first
         std::cerr << "voussoir: warning: " << warning << "\n";

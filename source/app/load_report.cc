@@ -26,8 +26,8 @@ namespace Voussoir
         log.line("warning: the load %s is nothing: it does not reach the dam. Check its entries in Loads.",
                  load.name.c_str());
       else if (!usual || load.factor != 1.)
-        log.line("Loads     %s x %g: %.4g %.4g %.4g MN", load.name.c_str(), load.factor, 1e-6 * f[0],
-                 1e-6 * f[1], 1e-6 * f[2]);
+        log.line("Loads     %s x %g: %.4g %.4g %.4g MN%s", load.name.c_str(), load.factor, 1e-6 * f[0],
+                 1e-6 * f[1], 1e-6 * f[2], dam->base_is_held() ? ", without what acts on the held base" : "");
     }
     if (scene.loads.uplift.base && scene.loads.factor("uplift") != 0.)
     {

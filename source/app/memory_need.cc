@@ -24,6 +24,18 @@ namespace Voussoir
     // Measured, see tests/program_memory.py [bytes].
     constexpr double program = 178e6, per_cell = 700., per_node = 700., per_rock_node = 2300.;
 
+    /** How much more there is with elements of degree 2: nodes, blocks, entries of factors, and of what lies
+     * on surfaces, squared. */
+    struct Growth
+    {
+      explicit Growth(const unsigned int degree)
+      {
+        if (degree == 2)
+          nodes = 8., blocks = 19., entries = 32., surface = 16.;
+      }
+      double nodes = 1., blocks = 1., entries = 1., surface = 1.;
+    };
+
     /** The nodes of some cells, their neighbours, and which of them are in pairs. */
     struct Graph
     {
@@ -197,10 +209,7 @@ namespace Voussoir
       std::set<int> volumes;
       for (const HexMesh::Cell &cell : dam.cells)
         volumes.insert(tied || (massless && one_body) ? 1 : cell.volume);
-      // Of elements of degree 2: nodes, blocks, entries of factors, and of what lies on surfaces squared.
-      const bool   quadratic = scene.elements.degree == 2;
-      const double nodes_2 = quadratic ? 8. : 1., blocks_2 = quadratic ? 19. : 1.,
-                   entries_2 = quadratic ? 32. : 1., surface_2 = quadratic ? 16. : 1.;
+      const Growth        growth(scene.elements.degree);
       double              n_nodes = 0., n_blocks = 0.;
       std::vector<double> of_body; // what is shared out
       for (const int volume : volumes)
@@ -211,35 +220,37 @@ namespace Voussoir
         if (massless && one_body)
           couple(on_base, graph);
         const FactorSize size = factor_size(graph.neighbours, graph.is_interface);
-        factors.entries += entries_2 * size.entries;
-        factors.dense += surface_2 * size.interface;
-        factors.kept += surface_2 * size.kept;
-        of_body.push_back(entries_2 * size.entries + surface_2 * (size.kept + 2. * size.interface));
+        factors.entries += growth.entries * size.entries;
+        factors.dense += growth.surface * size.interface;
+        factors.kept += growth.surface * size.kept;
+        of_body.push_back(growth.entries * size.entries + growth.surface * (size.kept + 2. * size.interface));
         if (led)
           factors.feet += of_feet(graph, on_base);
-        n_nodes += nodes_2 * graph.neighbours.size();
-        n_blocks += blocks_2 * graph.n_blocks();
+        n_nodes += growth.nodes * graph.neighbours.size();
+        n_blocks += growth.blocks * graph.n_blocks();
       }
       factors.share = largest_share(of_body);
       if (massless && led)
         factors.feet += of_dense_feet(on_base);
       if (!tied)
         add_operator(joints, joint_unknowns(dam, joints, led ? on_base : held), factors);
-      factors.operators *= surface_2;
-      factors.diagonal *= surface_2;
+      factors.operators *= growth.surface;
+      factors.diagonal *= growth.surface;
       if (led && !tied)
         factors.feet += factors.operators; // a second one while the feet are eliminated
       return 2. * block * n_blocks + per_cell * dam.cells.size() + per_node * n_nodes; // stiffness, stress
     }
 
     /** Massless rock, while it is condensed: its stiffness, its factor, and what is dense at the base. */
-    double of_massless_rock(const HexMesh &mesh)
+    double of_massless_rock(const HexMesh &mesh, const unsigned int degree)
     {
       const auto nodes = [&](const int id)
       { return nodes_on(mesh, [&](const int surface) { return surface == id; }); };
       const Graph      rock = graph_of(mesh, is_rock, nodes(PhysicalId::artificial), nodes(PhysicalId::base));
       const FactorSize size = factor_size(rock.neighbours, rock.is_interface);
-      return block * rock.n_blocks() + 8. * (size.leading + 3. * size.interface);
+      const Growth     growth(degree);
+      return growth.blocks * block * rock.n_blocks() +
+             8. * (growth.entries * size.leading + growth.surface * 3. * size.interface);
     }
 
     /** Rock with mass: its stiffness and, at the peak, the static state, of which the first rank has the
@@ -278,7 +289,8 @@ namespace Voussoir
       need.of_others += others;
     }
     else if (scene.foundation.model == "massless") // before the dam has factors
-      need.run = need.of_others = std::max(need.run, program + dam + of_massless_rock(mesh));
+      need.run = need.of_others =
+          std::max(need.run, program + dam + of_massless_rock(mesh, scene.elements.degree));
     return need;
   }
 

@@ -101,7 +101,7 @@ namespace Voussoir
     }
     if (scene.mesh.source == "arch210" && scene.mesh.arch210_rock.enabled && !dam->foundation->uses_rock())
       log.line("warning: the rock of Mesh/Arch210/Rock is left out: Foundation/Model is rigid.");
-    if (scene.reservoir.density > 0. && !dam->has_water)
+    if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0. && !dam->has_water)
       log.line("warning: the water does not reach the dam: Reservoir/Water level is %g m, below the upstream "
                "face. Raise it, in the axes of the scene, or set Reservoir/Density to 0.",
                scene.reservoir.level);

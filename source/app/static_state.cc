@@ -13,6 +13,8 @@ namespace Voussoir
 {
   namespace
   {
+    constexpr double usual_gap = 5e-3; // of joints that are not grouted [m]
+
     /** The pairs between two heights are grouted where they are: their gap counts from there. */
     void close_pairs(const Structure &structure, const double from, const double to, const Unknowns &u,
                      Unknowns &closed, Unknowns &gap)
@@ -126,20 +128,28 @@ namespace Voussoir
     if (crown != rigid_ground)
       statics.crown = Vector3{{statics.u[3 * crown], statics.u[3 * crown + 1], statics.u[3 * crown + 2]}} -
                       dam->base_motion(statics.u);
-    double opening = 0.;
+    double opening = 0., overlap = 0.; // the latter of faces that nothing holds apart yet
     for (std::size_t p = 0; p < structure.pairs.size(); ++p)
       if (structure.pairs[p].place[2] <= part.grouted)
         opening = std::max(opening, gap[3 * p]);
+      else
+        overlap = std::max(overlap, -structure.jump(structure.pairs[p], statics.u)[0]);
     const auto n_of = [&](const PairState state)
     { return double(std::count(system.states().begin(), system.states().end(), state)); };
     const double n_wet = water == nullptr ? 0. : water->n_wet();
-    stages.columns = {"stage",   "share",      "level",      "crest_x",   "crest_y",
-                      "crest_z", "open_pairs", "slip_pairs", "wet_pairs", "max_opening"};
+    stages.columns = {"stage",      "share",      "level",     "crest_x",     "crest_y",    "crest_z",
+                      "open_pairs", "slip_pairs", "wet_pairs", "max_opening", "max_overlap"};
     stages.rows.push_back({double(path.number(i)), path.share(i), part.level, statics.crown[0],
                            statics.crown[1], statics.crown[2], n_of(PairState::open), n_of(PairState::slip),
-                           n_wet, opening});
+                           n_wet, opening, overlap});
     if (path.ends_part(i) && (path.n_parts() > 1 || n_wet > 0.))
       log.line("Stage     %s: crest %.1f mm downstream, %.0f pairs open, %.0f wet, largest opening %.2f mm",
                part.name.c_str(), 1e3 * statics.crown[0], n_of(PairState::open), n_wet, 1e3 * opening);
+    if (path.ends_part(i) && overlap > usual_gap)
+      log.line(
+          "warning: stage %s: joints above the lift of %g m overlap by %.1f mm, since what is not grouted "
+          "does not touch in this program. Beyond a joint's gap of a few millimetres that is no state of a "
+          "dam: grout higher before (Statics/Stages).",
+          part.name.c_str(), part.grouted, 1e3 * overlap);
   }
 } // namespace Voussoir

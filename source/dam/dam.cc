@@ -186,7 +186,7 @@ namespace Voussoir
   {
     laws.assign(structure.pairs);
     if (laws.have_memory() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)
-      throw InputError("The joint model cohesive needs \"Dynamics/Impact\" = mean-force, not " +
+      throw InputError("The joint models cohesive and KSM need \"Dynamics/Impact\" = mean-force, not " +
                        scene.impact_rule + ".");
     std::set<unsigned int> base;
     if (foundation->base() == Foundation::Base::tied)

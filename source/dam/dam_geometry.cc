@@ -92,6 +92,30 @@ namespace Voussoir
     return node_at(model, "Entry \"Output/Probes\": probe \"" + name + "\"", p);
   }
 
+  namespace
+  {
+    /** Of the nodes where @p node is, on both sides of a joint, that of the monolith with the element whose
+     * middle is the nearest to @p p. A point that is the node's own does not say. */
+    unsigned int on_side_of(const SolidModel &model, const unsigned int node, const Point<3> &p)
+    {
+      const double                         same = 1e-6; // place [m]
+      std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+      unsigned int                         result = node;
+      double                               nearest = std::numeric_limits<double>::infinity();
+      for (const auto &cell : model.dof_handler.active_cell_iterators())
+      {
+        cell->get_dof_indices(dofs);
+        for (const auto other : dofs)
+          if (model.points[other].distance(model.points[node]) < same && cell->center().distance(p) < nearest)
+          {
+            nearest = cell->center().distance(p);
+            result = other;
+          }
+      }
+      return model.points[node].distance(p) < same ? node : result;
+    }
+  } // namespace
+
   unsigned int node_at(const SolidModel &model, const std::string &what, const Point<3> &p)
   {
     const unsigned int                   node = nearest_node(model, p);
@@ -113,6 +137,6 @@ namespace Voussoir
               << ". Give a point of the dam, in the axes of the scene.";
       throw InputError(message.str());
     }
-    return node;
+    return on_side_of(model, node, p);
   }
 } // namespace Voussoir

@@ -50,6 +50,12 @@ namespace Voussoir
       throw InputError(entry +
                        " fills the reservoir, but \"Reservoir/Density\" is 0. Set it to 1000, or leave the "
                        "levels out.");
+    if (has_lifts && dam.scene.statics.self_weight == "monolithic")
+      throw InputError(entry + " grouts joints in lifts, but \"Statics/Self-weight\" = monolithic puts the "
+                               "weight on the finished dam. Choose staged, or leave the lifts out.");
+    if (has(stages, StaticStage::Kind::fill) && dam.scene.loads.factor("water") == 0.)
+      throw InputError(entry + " fills the reservoir, but the combination of loads leaves the water out. Add "
+                               "it to \"Loads/Combinations\", or leave the levels out.");
     if (has_lifts && dam.tied)
       throw InputError(entry +
                        " grouts joints, but the dam has none that are open: all are tied. Choose another "
@@ -141,7 +147,9 @@ namespace Voussoir
   {
     PairLaws laws = dam.laws;
     for (std::size_t p = 0; p < laws.of_pair.size(); ++p)
-      if (dam.structure.pairs[p].place[2] > grouted && laws.of_pair[p] != dam.laws.of_joint.back().get())
+      if (dam.structure.pairs[p].place[2] > grouted &&
+          dam.scene.joints.model_of(dam.structure.pairs[p].joint + 1) != "tied" &&
+          laws.of_pair[p] != dam.laws.of_joint.back().get())
         laws.of_pair[p] = &free;
     return laws;
   }
