@@ -151,6 +151,7 @@ def arcs():
     write("column.csv", "elevation,thickness\n1,2\n")
     # Radii that shrink downwards: columns stay in vertical planes normal to the crest, abutments are where the table has them
     write("radii.csv", head + "285,-2,74,22,50,22,20\n345,-8,112,15,95,43,40\n405,0,150,6,144,51,48\n")
+    import numpy as np
     from arch_from_table import Dam, read_table
     dam = Dam(read_table("radii.csv"))
     for crest in (-.8, -.3, .2, .7):
@@ -178,7 +179,10 @@ def arcs():
     expect(abs(frequencies[0] / 3.81 - 1) < .05 and abs(frequencies[1] / 4.27 - 1) < .05, f"{frequencies}")
     # Pacoima on massless rock, empty: 5.1 and 5.2 Hz are published for another model (doc/mesh.md); dimensions and volume are its own
     text = mesh(str(ROOT / "meshes" / "pacoima.csv"), "--along", "22", "--up", "7", "--rock", "170")
-    expect(abs(float(re.search(r"volume (\d+) m3", text)[1]) / 168.2e3 - 1) < .03 and abs(float(re.search(r"crest ([\d.]+)", text)[1]) - 179.5) < .5, text)
+    expect(abs(float(re.search(r"volume (\d+) m3", text)[1]) / 168.2e3 - 1) < .03, text)
+    edge = Dam(read_table(ROOT / "meshes" / "pacoima.csv"))  # upstream, as dams are measured
+    points = [edge.place(angle, edge.top, 0.) for angle in np.linspace(*edge.ends, 501)]
+    expect(abs(sum(map(math.dist, points, points[1:])) - 179.5) < .5, "the crest of Pacoima")
     text = runs("modes", str(ROOT / "benchmarks" / "pacoima.prm"), "--count", "2", "--set", f"Mesh/File={Path('dam.msh').resolve()}", "--set",
                 "Reservoir/Density=0")
     frequencies = [float(line.split()[1]) for line in text.splitlines()[1:]]
