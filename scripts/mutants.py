@@ -137,7 +137,11 @@ def make_tree(mutants, tree):
             errors.append(str(misfit))
     if errors:
         raise Misfit("\n".join(errors))
-    for file in {m["file"] for m in mutants}:
+    mutated = {m["file"] for m in mutants}
+    for part in {file for file in mutated if file.endswith(".h") and b"#ifndef voussoir_" not in texts[file]}:
+        name = Path(part).name.encode()  # is included inside of namespaces: the choice is declared where that is done
+        mutated = mutated - {part} | {file for file, text in texts.items() if b'#include "' + name in text or b"/" + name + b">" in text}
+    for file in mutated:
         texts[file] = b"#include <voussoir/mutant.h>\n" + texts[file]
     for old in (f for f in tree.rglob("*") if f.is_file()):
         if str(old.relative_to(tree)) not in texts:

@@ -85,7 +85,7 @@ def picture():
     """ParaView draws dam and joints: the picture shows much, in colour, and changes with the time; the state names this run and its arrays."""
     for need in ("pvpython", "xvfb-run", "Xvfb"):
         if not shutil.which(need):
-            print(f"SKIPPED: no {need} (apt-get install paraview xvfb): the picture of scripts/paraview_state.py is not tested")
+            print(f"SKIPPED: no {need} (apt-get install paraview python3-paraview xvfb): the picture of scripts/paraview_state.py is not tested")
             sys.exit(77)
     if subprocess.run(["/usr/bin/python3", "-c", "import matplotlib"], capture_output=True).returncode:
         print("SKIPPED: no matplotlib for /usr/bin/python3: the picture of scripts/paraview_state.py is not tested")
