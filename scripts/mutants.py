@@ -91,6 +91,19 @@ def is_expression(text):
     return not open_ones and not re.search(r"^[/%,=<>|?:)]|[-+*/%,=<>&|?:(]$|(?<!\d)\.$|;|^return\b|(?<![=!<>+\-*/%&|^])=(?!=)", text)
 
 
+def binds_less(text, before, after):
+    """Would brackets around this expression change what its neighbours mean? @p before, @p after: the source around it."""
+    inner = re.sub(r"'.'|\"[^\"]*\"", "", text)
+    while (shorter := re.sub(r"\([^()]*\)|\[[^][]*\]|\{[^{}]*\}", "", inner)) != inner:
+        inner = shorter
+    ends = not after.strip() or after.lstrip()[0] in ";,)]}:"
+    if re.search(r"[+\-*/%&|^]=", inner):
+        return not ends
+    weak, factor = r"(?<=[\w\s])\s*[-+]\s*(?=[\w.:])(?<!\de-)(?<!\de\+)", r"[*/%](?!=)"
+    return bool(re.search(weak, inner.strip()) and (re.match(factor, after.lstrip()) or re.search(r"[-*/%]$", before))
+                or re.search(factor, inner) and before.endswith("/"))
+
+
 def mutate(text, mutant, number):
     """The text of a source with the choice of this mutant in it."""
     chosen = f"(voussoir_mutant == {number})"
@@ -111,6 +124,9 @@ def mutate(text, mutant, number):
             for part in (old.rstrip(";"), new.rstrip(";")):
                 if not is_expression(part):
                     raise Misfit(f"mutant {mutant['name']}: this is no expression, so it cannot be chosen by ?: (write MUTANT): {part}")
+            if binds_less(old.rstrip(";"), before, text[end:] if not old.endswith(";") else ";"):
+                raise Misfit(f"mutant {mutant['name']}: its neighbours bind more, so brackets change what it means without the "
+                             f"mutant: {old}")
             semicolon = ";" if old.endswith(";") else ""
             changed = f"({chosen} ? ({new.rstrip(';')}) : ({old.rstrip(';')})){semicolon}"
         text = text[:begin] + changed + text[end:]
