@@ -171,6 +171,10 @@ namespace
         {"subsection Joints\nset Friction = 10\nend\n", {"Joints/Friction", "is 10:", "0.1 to 2"}},
         {"subsection Statics\nset Gravity = 1 g\nend\n", {}},
         {"subsection Statics\nset Gravity = 981\nend\n", {"Statics/Gravity"}},
+        {"subsection Statics\nset Gravity = 0\nend\n", {"Statics/Gravity", "is 0 m/s^2"}},
+        {"subsection Loads\nset Combinations = odd: weight, water -1, earthquake -1\nset Combination = "
+         "odd\nend\n",
+         {"Loads/Combination is odd, with water -1:"}},
         {"subsection Reservoir\nset Water level = 150000\nend\n", {"Reservoir/Water level"}}};
     for (const auto &c : cases)
     {

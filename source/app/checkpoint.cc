@@ -181,6 +181,11 @@ namespace Voussoir
           "The checkpoint " + checkpoint_name() +
           " is of a longer motion: on rock, whose free field is made for its length, a run can be "
           "resumed with a longer one only. Raise \"Motion/Duration\", or run without --resume.");
+    if (dam->foundation->resumes_longer_only() && n_steps > n_steps_then && step + 2 > n_steps_then)
+      throw InputError("The checkpoint " + checkpoint_name() +
+                       " was written at the end of its motion, which the rock, ahead of the dam, has "
+                       "felt already: it cannot be run on with a longer one. Set \"Motion/Duration\" as it "
+                       "was, or run without --resume.");
     if (dt != motion.dt || samples != beginning(motion, step + 1))
       throw InputError(
           "The motion differs from that of the checkpoint " + checkpoint_name() +

@@ -215,7 +215,7 @@ namespace Voussoir
                                        {"Joints/Keys/Friction", -1., 2.},
                                        {"Joints/Strength", 1e5, 6e6, true},
                                        {"Joints/Fracture energy", 10., 1000., true},
-                                       {"Statics/Gravity", 9.7, 9.9, true},
+                                       {"Statics/Gravity", 9.7, 9.9},
                                        {"Motion/Duration", 0., 300.},
                                        {"Motion/Time step", 1e-4, .05},
                                        {"Motion/Characteristic period", .1, 2.},
@@ -325,6 +325,18 @@ namespace Voussoir
       return text.str();
     }
 
+    std::string odd_factors(const LoadParameters &loads)
+    {
+      std::ostringstream text;
+      for (const char *load : {"weight", "water", "tail water", "silt", "uplift"}) // others may be reversed
+        if (const double factor = loads.factor(load); factor < 0. || factor > 5.)
+          text << (text.tellp() > 0 ? ", " : "") << load << ' ' << factor;
+      if (text.tellp() == 0)
+        return "";
+      return "Loads/Combination is " + loads.combination + ", with " + text.str() +
+             ": usual are factors of 0 to 5.";
+    }
+
     bool is_written(const std::vector<WrittenEntry> &entries, const std::string &name)
     {
       return std::any_of(entries.begin(), entries.end(),
@@ -371,7 +383,7 @@ namespace Voussoir
       warnings.push_back(text.str());
     }
     for (const std::string &warning :
-         {two_branches(scene), other_day(scene),
+         {two_branches(scene), other_day(scene), odd_factors(scene.loads),
           is_written(entries, "Motion/Unit") ? "" : unit_warning(scene.motion, scene.directory)})
       if (!warning.empty())
         warnings.push_back(warning);

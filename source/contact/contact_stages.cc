@@ -206,6 +206,7 @@ namespace Voussoir
     seat_alpha = 1e-3;
     best = Best();
     deadline = cpu_time() + parameters.max_seconds;
+    jacobian->begin();
     Iterate x;
     x.force = force;
     if (!is_finite(x.force))

@@ -32,16 +32,23 @@ namespace Voussoir
                       });
   }
 
+  void JointJacobian::begin()
+  {
+    use_chain = expects_chain;
+    for (JointBlock &joint : joints)
+      joint.forget();
+  }
+
   unsigned int JointJacobian::update(const std::vector<PairEquations> &new_equations)
   {
     equations = &new_equations;
-    if (use_chain)
+    has_chain = use_chain;
+    if (has_chain)
     {
       if (!chain)
-      {
         chain = std::make_unique<JointChain>(W);
+      if (expects_chain)
         joints.clear();
-      }
       chain->factorise(new_equations);
       return W.n_groups();
     }
@@ -136,7 +143,7 @@ namespace Voussoir
   void JointJacobian::precondition(const Floats &v, Floats &z, Floats &Wz) const
   {
     z = v;
-    if (chain)
+    if (has_chain)
     {
       chain->solve(v, z);
       multiply_W(z, Wz);

@@ -90,6 +90,7 @@ namespace Voussoir
     x = u;
     pieces = split.pieces(n_nodes());
     work.assign(n_region_works * ((n_nodes() + per_chunk - 1) / per_chunk), 0.);
+    account.assign((2 + n_region_works) * (work.size() / n_region_works), 0.);
     is_fixed.assign(u.size(), false);
     inverse_mass.resize(u.size());
     for (std::size_t i = 0; i < u.size(); ++i)
@@ -355,7 +356,8 @@ namespace Voussoir
   std::vector<std::vector<double> *> ExplicitRegion::state()
   {
     std::vector<std::vector<double> *> arrays = {
-        &clock, &work, &u, &w, &K_x, &K_u, &field, &field_before, &field_next, &boundary_w, &prescribed_w};
+        &clock, &work,  &account,      &u,          &w,          &K_x,
+        &K_u,   &field, &field_before, &field_next, &boundary_w, &prescribed_w};
     if (boundary)
       for (auto *array : boundary->state())
         arrays.push_back(array);

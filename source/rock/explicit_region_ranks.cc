@@ -33,8 +33,7 @@ namespace Voussoir
 
   void ExplicitRegion::gather_energy()
   {
-    if (!account.empty())
-      split.gather_chunks(account, 2 + n_region_works);
+    split.gather_chunks(account, 2 + n_region_works);
   }
 
   void ExplicitRegion::gather_motion()

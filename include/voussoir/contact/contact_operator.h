@@ -15,6 +15,9 @@ namespace Voussoir
   public:
     virtual ~ContactJacobian() = default;
 
+    /** A new problem: what it kept of those before would let a solution depend on where a run was resumed. */
+    virtual void begin() {}
+
     /** The pairs will feel each other from afar, as in statics: solve() may prepare for that. */
     virtual void expect_far_coupling() {}
 

@@ -24,6 +24,8 @@ namespace Voussoir
      * ones, which precondition as well. Returns whether it made new ones. */
     bool update(const PairEquations *present);
 
+    void forget() { factor.equations.clear(); } ///< the factors that it has
+
     /** z = D^-1 r, y = W_jj z. */
     void solve(const float *r, float *z, float *y) const;
 

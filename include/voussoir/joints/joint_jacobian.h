@@ -25,7 +25,8 @@ namespace Voussoir
   public:
     explicit JointJacobian(const InterfaceOperator &W); ///< @p W must outlive this
 
-    void         expect_far_coupling() override { use_chain = is_chain; }
+    void         begin() override;
+    void         expect_far_coupling() override { expects_chain = use_chain = is_chain; }
     unsigned int update(const std::vector<PairEquations> &equations) override;
     unsigned int solve(double tolerance, Unknowns &step, Unknowns &d_gap) override;
 
@@ -46,9 +47,11 @@ namespace Voussoir
     std::vector<std::pair<unsigned int, unsigned int>> keys; ///< of the blocks
     const std::vector<PairEquations>                  *equations = nullptr;
     std::vector<JointBlock>                            joints;
-    bool                        is_chain = true;   ///< is each joint coupled to its neighbours only?
-    bool                        use_chain = false; ///< from the next equations on
-    std::unique_ptr<JointChain> chain;             ///< instead of the joints' blocks, once GMRES was slow
+    bool                        is_chain = true;       ///< is each joint coupled to its neighbours only?
+    bool                        expects_chain = false; ///< in all problems
+    bool                        use_chain = false;     ///< from the next equations of this problem on
+    bool                        has_chain = false;     ///< in the present ones
+    std::unique_ptr<JointChain> chain;                 ///< instead of the joints' blocks, once GMRES was slow
   };
 } // namespace Voussoir
 
