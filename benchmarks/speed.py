@@ -28,12 +28,12 @@ def run(voussoir, scene, settings):
 STAGES = ("sweeps", "joints", "rock", "stepping", "stresses", "output")
 
 
-def compare(programs, scene, settings, repeat):
+def compare(programs, scene, settings, now, repeat):
     """Rows of a table: the medians of each program, and what the second one's are of the first one's."""
     measured = [[], []]
     for _ in range(repeat):
-        for program, runs in zip(programs, measured):
-            s = run(program, scene, settings)
+        for program, runs, more in zip(programs, measured, ([], now)):
+            s = run(program, scene, settings + more)
             seconds = s["seconds"]
             runs.append([seconds["per_second_of_earthquake"], seconds["setup"] + seconds["static"]]
                         + [1e3 * seconds.get(stage, 0) / s["steps"] for stage in STAGES]
@@ -52,6 +52,8 @@ def main():
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--duration", default="1.28", help="of the motion, with --before [s]")
     parser.add_argument("--set", action="append", default=[], metavar="ENTRY=VALUE", help="with --before")
+    parser.add_argument("--set-now", action="append", default=[], metavar="ENTRY=VALUE",
+                        help="with --before, which may be the same program: of the second one only")
     parser.add_argument("scenes", nargs="*")
     arguments = parser.parse_args()
     if arguments.before:
@@ -61,7 +63,7 @@ def main():
         print("|" + "---|" * (len(STAGES) + 5))
         for scene in arguments.scenes:
             compare((arguments.before, arguments.voussoir), scene,
-                    ["Motion/Duration=" + arguments.duration, *arguments.set], arguments.repeat)
+                    ["Motion/Duration=" + arguments.duration, *arguments.set], arguments.set_now, arguments.repeat)
         return
     cases = [(scene, []) for scene in arguments.scenes]
     if not cases:

@@ -91,8 +91,10 @@ namespace
     return Au;
   }
 
-  void check_body(const std::string &name, const Structure &structure, const bool free_order)
+  void check_body(const std::string &name, const Structure &structure, const bool free_order,
+                  const bool single = false)
   {
+    const double                           limit = single ? 2e-6 : 1e-12;
     const Body                            &body = structure.bodies[0];
     const std::size_t                      n = 3 * structure.n_nodes();
     std::mt19937                           random(3);
@@ -100,7 +102,7 @@ namespace
     Unknowns                               springs(n), b(n), u(n), free(n);
     for (std::size_t i = 0; i < n; ++i)
       springs[i] = i % 7 == 0 ? 1e8 : 0., b[i] = 1e6 * number(random);
-    CondensedBody     condensed(structure, body, mass_factor, stiffness_factor, dashpot_factor, springs);
+    CondensedBody condensed(structure, body, mass_factor, stiffness_factor, dashpot_factor, springs, single);
     const std::size_t m = condensed.n_interface();
     expect(m == 3 * body.interface.size(), name + ": size of the interface");
     if (m > 0)
@@ -116,7 +118,7 @@ namespace
       r[i] -= b[i];
     for (std::size_t i = 0; i < m; ++i)
       r[3 * body.interface[i / 3] + i % 3] -= f[i];
-    below(name + ": residual of A u = b + G f", norm(r) / norm(b), 1e-12);
+    below(name + ": residual of A u = b + G f", norm(r) / norm(b), limit);
 
     condensed.apply_load(b.data(), u_G.data());
     condensed.apply_joint_forces(none.data(), free.data());
@@ -135,8 +137,8 @@ namespace
     }
     if (m == 0)
       return;
-    below(name + ": displacement of the interface without forces", error / size, 1e-12);
-    below(name + ": its flexibility", forced / size, 1e-12);
+    below(name + ": displacement of the interface without forces", error / size, limit);
+    below(name + ": its flexibility", forced / size, limit);
   }
 
   void test_bodies()
@@ -151,9 +153,12 @@ namespace
         check_body("large body with joints, dissected", box(60, 10, 12, true), false);
       check_body("body without joints" + kernels, box(4, 5, 6, false), true);
       check_body("one node" + kernels, box(1, 1, 1, false), true);
+      check_body("thin body, single precision" + kernels, box(3, 5, 12, true), true, true);
+      check_body("thick body, single precision" + kernels, box(24, 4, 5, true), false, true);
     }
     PackedFactor::plain_kernels = false;
     check_body("large body, packed in place", box(6, 30, 60, false), true);
+    check_body("large body, single precision, packed in place", box(6, 30, 60, false), true, true);
   }
 
   /** A joint of @p n pairs whose W is smooth, with a small part of its own at each pair. */

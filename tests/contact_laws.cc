@@ -647,7 +647,7 @@ namespace
     below("  force out of the seat", (go({{.3, .005, 0.}}), go({{.3, .05, 0.}}) + go({{.3, 0., 0.}})),
           1e-300);
     below("  force where the key came back beside its seat", go({{.15, .05, 0.}}), 1e-3);
-    above("  and pressed further there", go({{.15, .051, 0.}}), .9 * .001 * area / 1e-10);
+    below("  and pressed further there by 1 mm", go({{.15, .051, 0.}}) / (.001 * area / 1e-10) - 1., 1e-9);
     below("  back in its play", go({{.15, 0., 0.}}), 1e-3);
     below("  pressed by the elastic 1 mm again", go({{.15, .002, 0.}}) / (.001 * area / 1e-10) - 1., 1e-9);
   }

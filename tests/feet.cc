@@ -5,6 +5,7 @@
 #include "blocks.h"
 
 #include <voussoir/base/error.h>
+#include <voussoir/foundation/massless_support.h>
 
 using namespace Columns;
 
@@ -223,9 +224,28 @@ namespace
     above("  forces of the joints", largest(force), 0.);
     above("  forces on the feet / largest force", largest(feet.force) / forces, .01);
   }
+
+  /** A part of a step of massless rock is a whole step of that length. */
+  void test_parts()
+  {
+    CondensedRock rock;
+    rock.feet = {{0, {0}}};
+    rock.stiffness = {3e9, 1e9, 0., 1e9, 2e9, 0., 0., 0., 4e9};
+    const StandingNodes standing(rock.feet);
+    constexpr double    damping = 2e-3, dt = 1e-2;
+    MasslessSupport     whole(rock, standing, damping, dt), quarter(rock, standing, damping, dt / 4);
+    const unsigned int  n = whole.n_substeps();
+    const Unknowns      at = {1., -2., 3.}, a = whole.predict(n / 4, at), b = quarter.predict(n, at);
+    const auto          c = whole.compliance(n / 4), d = quarter.compliance(n);
+    for (unsigned int i = 0; i < 3; ++i)
+      below("massless rock, a quarter of a step: place", a[i] / b[i] - 1., 1e-14);
+    for (unsigned int i = 0; i < 9; ++i)
+      below("  compliance", c.value[0][i] - d.value[0][i], 1e-14 * d.value[0][0]);
+    below("  place by hand", a[0] - (2. * damping * 4. / dt - 1.) / (2. * damping * 4. / dt + 1.), 1e-14);
+  }
 } // namespace
 
 int main()
 {
-  return run_all({test_operator, test_solution});
+  return run_all({test_operator, test_solution, test_parts});
 }

@@ -142,6 +142,11 @@ def stages():
     down, _ = result("down", *settings(Statics__Stages="fill 195", Reservoir__Water_level=20, Joints__Model="tied"))
     low, _ = result("low", *settings(Reservoir__Water_level=20, Joints__Model="tied"))
     expect(math.dist(down["static"]["crest_displacement"], low["static"]["crest_displacement"]) < 1e-12, f"{down['static']}")
+    # A tied dam is linear: in the middle of a stage it is half-way between the levels.
+    result("linear", *settings(Statics__Stages="fill 80, fill 140", Statics__Water_increments=2, Joints__Model="tied"))
+    names, rows = table("linear/stages.csv")
+    crests = [row[names.index("crest_x")] for row in rows]
+    expect(abs(crests[2] - .5 * (crests[1] + crests[3])) < 1e-6 * crests[3], f"half-way from 80 to 140 m: {crests}")
     # Lifts. Nothing is grouted at first: monoliths alone.
     lifts, shown = result("lifts", *settings(Statics__Stages="fill 100, grout 210"))
     names, rows = table("lifts/stages.csv")
@@ -160,6 +165,13 @@ def stages():
     print(f"    the first joint tied: {1e3 * held:.4f} mm")
     expect(held < .95 * alone, "a tied joint holds before it is grouted")
     expect(lifts["extremes"]["max_opening"]["value"] < 2e-3, "openings count from the grouting")
+    # Where nothing is loaded after the grouting, nothing opens.
+    at_rest, _ = result("at_rest", *settings(Statics__Stages="fill 100, grout 210", Reservoir__Water_level=100))
+    expect(at_rest["extremes"]["max_opening"]["value"] < 1e-9, f"opened after the grouting: {at_rest['extremes']['max_opening']}")
+    names, rows = table("at_rest/stages.csv")
+    crests = [row[names.index("crest_x")] for row in rows]
+    print(f"    grouted at rest: crest {crests}")
+    expect(abs(crests[-1] - alone) < 1e-7 * alone, f"the grouting moves the crest from {alone}: {crests}")
     at_first, _ = result("at_first", *settings(Statics__Stages="grout 1000, fill 100"))
     filled, _ = result("not_lifted", *settings(Statics__Stages="fill 100"))
     expect(math.dist(at_first["static"]["crest_displacement"], filled["static"]["crest_displacement"]) < 1e-12, "all grouted at first")

@@ -25,7 +25,8 @@ namespace Voussoir
 
   template <class Archive> void serialize(Archive &archive, DynamicState &s, unsigned int)
   {
-    archive &s.time &s.u &s.v &s.force &s.load &s.Ku &s.base_velocity &s.energy &s.memory;
+    archive &s.time &s.u &s.v &s.force &s.load &s.Ku &s.base_velocity &s.energy &s.memory &s.carried.left &s
+        .carried.moved &s.carried.resisted &s.carried.dt;
   }
 
   namespace
@@ -160,6 +161,25 @@ namespace Voussoir
     }
   }
 
+  /** Does the checkpoint's rock, whose motion had @p n_steps_then, allow for that of now? */
+  void Simulation::check_longer_motion(const unsigned int n_steps_then) const
+  {
+    if (!dam->foundation->resumes_longer_only())
+      return;
+    if (n_steps < n_steps_then)
+      throw InputError(
+          "The checkpoint " + checkpoint_name() +
+          " is of a longer motion: on rock, whose free field is made for its length, a run can be "
+          "resumed with a longer one only. Raise \"Motion/Duration\", or run without --resume.");
+    constexpr unsigned int ahead = 1; // steps by which the rock knows the motion before the dam
+    if (n_steps > n_steps_then && step + ahead >= n_steps_then)
+      throw InputError(
+          "The checkpoint " + checkpoint_name() +
+          " was written at the end of its motion, or a step before it, which the rock, ahead of the "
+          "dam, has felt already: it cannot be run on with a longer one. Set \"Motion/Duration\" as it "
+          "was, or run without --resume.");
+  }
+
   void Simulation::load_checkpoint()
   {
     std::istringstream              in(checkpoint, std::ios::binary);
@@ -176,16 +196,7 @@ namespace Voussoir
       throw InputError("The checkpoint " + checkpoint_name() + " was written after step " +
                        std::to_string(step) + ", but the motion now ends after " + std::to_string(n_steps) +
                        ". Raise \"Motion/Duration\", or run without --resume.");
-    if (dam->foundation->resumes_longer_only() && n_steps < n_steps_then)
-      throw InputError(
-          "The checkpoint " + checkpoint_name() +
-          " is of a longer motion: on rock, whose free field is made for its length, a run can be "
-          "resumed with a longer one only. Raise \"Motion/Duration\", or run without --resume.");
-    if (dam->foundation->resumes_longer_only() && n_steps > n_steps_then && step + 2 > n_steps_then)
-      throw InputError("The checkpoint " + checkpoint_name() +
-                       " was written at the end of its motion, which the rock, ahead of the dam, has "
-                       "felt already: it cannot be run on with a longer one. Set \"Motion/Duration\" as it "
-                       "was, or run without --resume.");
+    check_longer_motion(n_steps_then);
     if (dt != motion.dt || samples != beginning(motion, step + 1))
       throw InputError(
           "The motion differs from that of the checkpoint " + checkpoint_name() +

@@ -6,6 +6,8 @@
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/mesh/mesh_source.h>
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -211,7 +213,9 @@ namespace Voussoir
         volumes.insert(tied || (massless && one_body) ? 1 : cell.volume);
       const Growth        growth(scene.elements.degree);
       double              n_nodes = 0., n_blocks = 0.;
+      const bool          single = scene.has_single_factors() && !led;
       std::vector<double> of_body; // what is shared out
+      double              largest_factor = 0.;
       for (const int volume : volumes)
       {
         Graph graph = graph_of(
@@ -219,8 +223,9 @@ namespace Voussoir
             held, in_pair);
         if (massless && one_body)
           couple(on_base, graph);
-        const FactorSize size = factor_size(graph.neighbours, graph.is_interface);
+        const FactorSize size = factor_size(graph.neighbours, graph.is_interface, single);
         factors.entries += growth.entries * size.entries;
+        largest_factor = std::max(largest_factor, growth.entries * size.entries);
         factors.dense += growth.surface * size.interface;
         factors.kept += growth.surface * size.kept;
         of_body.push_back(growth.entries * size.entries + growth.surface * (size.kept + 2. * size.interface));
@@ -229,6 +234,8 @@ namespace Voussoir
         n_nodes += growth.nodes * graph.neighbours.size();
         n_blocks += growth.blocks * graph.n_blocks();
       }
+      if (single) // those in hand are made in double precision, one by each thread
+        factors.entries += largest_factor * std::min<std::size_t>(of_body.size(), omp_get_max_threads());
       factors.share = largest_share(of_body);
       if (massless && led)
         factors.feet += of_dense_feet(on_base);
@@ -247,7 +254,7 @@ namespace Voussoir
       const auto nodes = [&](const int id)
       { return nodes_on(mesh, [&](const int surface) { return surface == id; }); };
       const Graph      rock = graph_of(mesh, is_rock, nodes(PhysicalId::artificial), nodes(PhysicalId::base));
-      const FactorSize size = factor_size(rock.neighbours, rock.is_interface);
+      const FactorSize size = factor_size(rock.neighbours, rock.is_interface, false);
       const Growth     growth(degree);
       return growth.blocks * block * rock.n_blocks() +
              8. * (growth.entries * size.leading + growth.surface * 3. * size.interface);

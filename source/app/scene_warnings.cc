@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/scene_warnings.h>
+#include <voussoir/dam/dam.h>
 #include <voussoir/motion/motion_files.h>
 
 #include <algorithm>
@@ -151,6 +152,15 @@ namespace Voussoir
          },
          {"Statics/Gravity"},
          {}},
+        {"a dam that rock with steps of its own, or massless rock, leads by its feet has them in double "
+         "precision",
+         [](const Scene &s)
+         {
+           return (s.foundation.model == "rock" && s.foundation.has_own_steps()) ||
+                  (s.foundation.model == "massless" && !Dam::is_one_body(s, all_tied(s)));
+         },
+         {"Dynamics/Factors"},
+         {}},
         {"Motion/Source is none",
          [](const Scene &s) { return s.motion.source == "none"; },
          {"Motion/", "Dynamics/", "Damping/"},
@@ -187,73 +197,6 @@ namespace Voussoir
                          { return name.back() == '/' ? entry.rfind(name, 0) == 0 : entry == name; });
     }
 
-    /** What dams, rock, water and earthquakes have; in the declared units. Zero switches things off. */
-    struct Range
-    {
-      const char *entry;
-      double      low, high;
-      bool        or_zero = false;
-    };
-
-    const std::vector<Range> ranges = {{"Mesh/Arch210/Rock/Upstream", 50., 2000.},
-                                       {"Mesh/Arch210/Rock/Downstream", 50., 2000.},
-                                       {"Mesh/Arch210/Rock/Sides", 50., 2000.},
-                                       {"Mesh/Arch210/Rock/Depth", 50., 2000.},
-                                       {"Mesh/Arch210/Rock/Element size", 2., 100.},
-                                       {"Concrete/Young's modulus", 5e9, 6e10},
-                                       {"Concrete/Poisson's ratio", .1, .3, true},
-                                       {"Concrete/Density", 1800., 3000.},
-                                       {"Damping/Ratio", .001, .2, true},
-                                       {"Damping/Frequency 1", 0., 20.},
-                                       {"Damping/Frequency 2", .5, 100.},
-                                       {"Reservoir/Density", 900., 1300., true},
-                                       {"Reservoir/Factor", .1, 1.5, true},
-                                       {"Reservoir/Water level", -500., 9000.},
-                                       {"Joints/Friction", .1, 2., true},
-                                       {"Joints/Keys/Height", .005, 2., true},
-                                       {"Joints/Keys/Clearance", 0., .1},
-                                       {"Joints/Keys/Friction", -1., 2.},
-                                       {"Joints/Strength", 1e5, 6e6, true},
-                                       {"Joints/Fracture energy", 10., 1000., true},
-                                       {"Statics/Gravity", 9.7, 9.9},
-                                       {"Motion/Duration", 0., 300.},
-                                       {"Motion/Time step", 1e-4, .05},
-                                       {"Motion/Characteristic period", .1, 2.},
-                                       {"Motion/Maximum beta", 1.5, 4.},
-                                       {"Motion/Peak acceleration", .005, 2.},
-                                       {"Motion/Vertical ratio", .2, 1.5},
-                                       {"Motion/Damping", .005, .2},
-                                       {"Loads/Temperature/Upstream face", -40., 50.},
-                                       {"Loads/Temperature/Downstream face", -40., 60.},
-                                       {"Loads/Temperature/Grouting", -10., 40.},
-                                       {"Loads/Temperature/Expansion", 5e-6, 1.5e-5},
-                                       {"Loads/Silt/Density", 300., 1300., true},
-                                       {"Loads/Silt/Friction angle", 10., 45.},
-                                       {"Loads/Silt/Coefficient", .2, 1.},
-                                       {"Limits/Tensile strength", 1e5, 2e7, true},
-                                       {"Limits/Demand-capacity ratio", .2, 10., true},
-                                       {"Limits/Overstress duration", .01, 10., true},
-                                       {"Limits/Tension", 1e5, 5e7, true},
-                                       {"Limits/Compression", 1e6, 2e8, true},
-                                       {"Limits/Opening", 1e-4, .5, true},
-                                       {"Limits/Slip", 1e-4, .5, true},
-                                       {"Limits/Waterstop depth", .1, 10.},
-                                       {"Limits/Waterstop opening", 1e-4, .5, true},
-                                       {"Limits/Waterstop slip", 1e-4, .5, true},
-                                       {"Limits/Base friction", .2, 2., true},
-                                       {"Limits/Base cohesion", 1e4, 1e7, true},
-                                       {"Limits/Sliding safety", .5, 10., true},
-                                       {"Limits/Key shear stress", 1e4, 2e7, true},
-                                       {"Foundation/Young's modulus", 5e8, 1.2e11},
-                                       {"Foundation/Poisson's ratio", .1, .4, true},
-                                       {"Foundation/Density", 1800., 3300.},
-                                       {"Foundation/Mass damping", 0., 10.},
-                                       {"Foundation/Stiffness damping", 0., .01}};
-
-    const std::map<std::string, std::string> examples = {{"Pa", "21 GPa"}, {"kg/m^3", "2.4 t/m^3"},
-                                                         {"m", "20 cm"},   {"s", "10 ms"},
-                                                         {"g", "3 m/s^2"}, {"m/s^2", "1 g"}};
-
     bool is_default(const WrittenEntry &entry)
     {
       const std::string &value = entry.value, &standard = entry.declared.default_value;
@@ -269,26 +212,6 @@ namespace Voussoir
       for (const WrittenEntry *entry : entries)
         text += (text.empty() ? "" : ", ") + entry->declared.name() + " (" + entry->place + ")";
       return text + (entries.size() == 1 ? " has" : " have") + " no effect: " + reason + ".";
-    }
-
-    /** Empty if the value is plausible, or nothing is known about it. */
-    std::string implausible(const WrittenEntry &entry)
-    {
-      const double value = std::strtod(entry.value.c_str(), nullptr);
-      for (const Range &range : ranges)
-      {
-        if (entry.declared.name() != range.entry || (value >= range.low && value <= range.high) ||
-            (range.or_zero && value == 0.))
-          continue;
-        const std::string  unit = entry.declared.unit() == "-" ? "" : " " + entry.declared.unit();
-        std::ostringstream text;
-        text << range.entry << " (" << entry.place << ") is " << value << unit << ": usual is " << range.low
-             << " to " << range.high << unit << ".";
-        if (const auto example = examples.find(entry.declared.unit()); example != examples.end())
-          text << " A value may carry its unit, as in \"" << example->second << "\".";
-        return text.str();
-      }
-      return "";
     }
 
     /** Keys for which Coulomb's law itself has two branches (reference: contact, 12). */
@@ -396,8 +319,8 @@ namespace Voussoir
     for (const Rule &rule : rules)
       for (const auto *list : {&rule.entries, &rule.exceptions})
         entries.insert(entries.end(), list->begin(), list->end());
-    for (const Range &range : ranges)
-      entries.push_back(range.entry);
+    for (const std::string &entry : entries_with_ranges())
+      entries.push_back(entry);
     return entries;
   }
 } // namespace Voussoir

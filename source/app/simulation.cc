@@ -250,9 +250,9 @@ namespace Voussoir
     const Structure &structure = dam->structure;
     if (n_steps > 0)
       start_foundation();
-    newmark = std::make_unique<Newmark>(structure, dam->laws, contact_parameters("shaking"), motion.dt,
-                                        impact_rule(scene.impact_rule),
-                                        n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr);
+    newmark = std::make_unique<Newmark>(
+        structure, dam->laws, contact_parameters("shaking"), motion.dt, impact_rule(scene.impact_rule),
+        n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr, scene.has_single_factors());
     Unknowns load = statics.load;
     if (n_steps > 0 && dam->foundation->moves_base())
       for (unsigned int d = 0; d < 3; ++d)

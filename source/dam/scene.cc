@@ -268,6 +268,13 @@ namespace Voussoir
         "impulses); paper (Taylor and Papadopoulos); none (plain Newmark, which rings). The last three for "
         "comparison.",
         Patterns::Selection(impact_rule_names()));
+    prm.add_parameter(
+        "Factors", factors,
+        "Precision in which the factors of the monoliths' matrices are kept: single halves what a step reads "
+        "of "
+        "them, and their memory. The displacement of a step is then found as an increment, and what the "
+        "equations of motion leave over is carried to the next step (doc/method.md).",
+        Patterns::Selection("double|single"));
     prm.leave_subsection();
     contact.add_parameters(prm);
     limits.add_parameters(prm);

@@ -17,9 +17,9 @@ namespace Voussoir
   }
 
   Newmark::Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters,
-                   const double dt, const ImpactRule rule, Support *support)
+                   const double dt, const ImpactRule rule, Support *support, const bool single_factors)
       : structure(structure), laws(laws), parameters(parameters), rule(rule), support(support),
-        impact(structure, laws, rule)
+        is_single(single_factors && !support), impact(structure, laws, rule)
   {
     for (const JointLaw *law : laws.of_pair)
       if (law->needs_mean_force() && rule != ImpactRule::mean_force)
@@ -53,6 +53,8 @@ namespace Voussoir
     now.v = v;
     now.load = load;
     now.force = force;
+    now.carried.left.assign(is_single ? u.size() : 0, 0.);
+    now.carried.moved = now.carried.resisted = now.carried.left;
     structure.multiply_stiffness(now.u, now.Ku);
     account_states();
     now.energy.bond = bond_energy();
@@ -111,12 +113,13 @@ namespace Voussoir
 
   /** The sum of the equations of motion at both ends of the step, in which accelerations cancel:
    *  S u_new = load + load_old + M (4/dt^2 u + 4/dt v) + 2/dt C u - K u + G^T (force + force_old), and the
-   *  damping's part of the moving base. */
+   *  damping's part of the moving base. With factors in single precision for u_new - u: less S u, and with
+   * what the step before left over. */
   Unknowns Newmark::right_hand_side(const double dt, const Unknowns &load, const Vector3 &base_velocity) const
   {
     Unknowns     rhs(load.size());
-    const double c_m = 4. / (dt * dt) + 2. / dt * structure.mass_damping,
-                 c_k = 2. / dt * structure.stiffness_damping - 1.;
+    const double c_m = is_single ? 0. : 4. / (dt * dt) + 2. / dt * structure.mass_damping,
+                 c_k = is_single ? -2. : 2. / dt * structure.stiffness_damping - 1.;
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < static_cast<int>(structure.n_nodes()); ++i)
     {
@@ -129,7 +132,9 @@ namespace Voussoir
       {
         const std::size_t k = 3 * i + c;
         rhs[k] = load[k] + now.load[k] + Mx[c] + c_k * now.Ku[k];
-        if (!structure.dashpots.empty())
+        if (is_single)
+          rhs[k] += 2. / dt * now.carried.left[k];
+        else if (!structure.dashpots.empty())
           rhs[k] += 2. / dt * structure.dashpots[k] * now.u[k];
       }
     }
@@ -149,9 +154,9 @@ namespace Voussoir
   bool Newmark::step(Level &level, const Unknowns &load, const Vector3 &base_velocity, ContactResult &result)
   {
     const double dt = level.dt;
-    Unknowns     force, u_new;
+    Unknowns     force, u_new, left;
     FeetOfStep   feet;
-    result = solve(level, load, base_velocity, force, u_new, feet);
+    result = solve(level, load, base_velocity, force, u_new, left, feet);
     if (!result.converged)
       return false;
     const double half_dt = .5 * dt; // the impulse of each pair, from the mean of its force over the step
@@ -163,7 +168,7 @@ namespace Voussoir
     add_work_of_joints(dt, u_new, change, work);
     if (support)
       work.input += push_support(level, feet, u_new);
-    move(dt, load, base_velocity, u_new, work);
+    move(dt, load, base_velocity, u_new, left, work);
     if (!std::isfinite(work.input))
       throw ComputationError("The displacements are not finite at t = " + std::to_string(now.time) + " s.");
     const double kinetic_before = kinetic_energy_of_pairs();
@@ -181,10 +186,26 @@ namespace Voussoir
     return true;
   }
 
+  /** Is the next step, with these @p forces, nearer to the last one than to none? */
+  bool Newmark::continues(const double dt, const Unknowns &forces) const
+  {
+    if (now.carried.dt != dt)
+      return false;
+    double change = 0., whole = 0.;
+    for (std::size_t k = 0; k < forces.size(); ++k)
+    {
+      const double more = forces[k] - now.carried.resisted[k];
+      change += more * more;
+      whole += forces[k] * forces[k];
+    }
+    return change < whole;
+  }
+
   /** Displacements and joint forces at the end of a step; the memory of the laws, once they have converged.
+   * @p left: with factors in single precision, the forces of the equations of motion without S (u_new - u).
    */
   ContactResult Newmark::solve(Level &level, const Unknowns &load, const Vector3 &base_velocity,
-                               Unknowns &force, Unknowns &u_new, FeetOfStep &feet)
+                               Unknowns &force, Unknowns &u_new, Unknowns &left, FeetOfStep &feet)
   {
     if (support)
       feet.place = support->predict(level.n_substeps, at_feet(now.u));
@@ -194,14 +215,39 @@ namespace Voussoir
     {
       set(start, p, opening_and_slip(p));
       for (unsigned int c = 0; c < 3; ++c)
-        offset[3 * p + c] = -reference[3 * p + c];
+        offset[3 * p + c] = is_single ? start[3 * p + c] : -reference[3 * p + c];
     }
     force = now.force;
     if (rule == ImpactRule::mean_force)
       for (double &f : force)
         f *= 2.;
-    const ContactResult result = level.system.solve(right_hand_side(level.dt, load, base_velocity), offset,
-                                                    start, memory, force, gap, u_new, &feet);
+    left = right_hand_side(level.dt, load, base_velocity);
+    bool goes_on = false;
+    if (is_single)
+    {
+      Unknowns expected = left; // with joint forces as they were
+      for (std::size_t p = 0; p < n_pairs; ++p)
+        structure.add_pair_force(structure.pairs[p], get(force, p), expected);
+      goes_on = continues(level.dt, expected);
+    }
+    const auto add_resisted = [&](const double factor)
+    {
+      for (std::size_t k = 0; goes_on && k < left.size(); ++k)
+        left[k] += factor * now.carried.resisted[k];
+    };
+    for (std::size_t p = 0; goes_on && p < n_pairs; ++p)
+    {
+      const Vector3 moved = structure.jump(structure.pairs[p], now.carried.moved);
+      for (unsigned int c = 0; c < 3; ++c)
+        offset[3 * p + c] += moved[c];
+    }
+    add_resisted(-1.);
+    const ContactResult result = level.system.solve(left, offset, start, memory, force, gap, u_new, &feet);
+    add_resisted(1.);
+    for (std::size_t k = 0; is_single && k < u_new.size(); ++k)
+      u_new[k] += (goes_on ? now.carried.moved[k] : 0.) + now.u[k];
+    for (std::size_t p = 0; is_single && p < n_pairs; ++p)
+      structure.add_pair_force(structure.pairs[p], get(force, p), left);
     if (result.converged)
     {
       level.system.commit(start, force, gap, memory);
@@ -228,10 +274,13 @@ namespace Voussoir
     }
   }
 
-  /** The state at the end of the step, but for joint forces and impacts; the work of loads and damping. */
+  /** The state at the end of the step, but for joint forces and impacts; the work of loads and damping;
+   * @p left: of solve(). */
   void Newmark::move(const double dt, const Unknowns &load, const Vector3 &base_velocity,
-                     const Unknowns &u_new, Work &work)
+                     const Unknowns &u_new, const Unknowns &left, Work &work)
   {
+    const double c_m = 4. / (dt * dt) + 2. / dt * structure.mass_damping,
+                 c_k = 1. + 2. / dt * structure.stiffness_damping;
     Unknowns Ku;
     structure.multiply_stiffness(u_new, Ku);
     double  input = 0., damping = 0.;
@@ -249,8 +298,24 @@ namespace Voussoir
         damping += structure.stiffness_damping / dt * (Ku[k] - now.Ku[k]) * du[c];
         if (!structure.dashpots.empty())
           damping += structure.dashpots[k] / dt * du[c] * du[c];
+        if (is_single)
+        {
+          now.carried.resisted[k] = c_k * (Ku[k] - now.Ku[k]);
+          if (!structure.dashpots.empty())
+            now.carried.resisted[k] += 2. / dt * structure.dashpots[k] * du[c];
+          now.carried.moved[k] = du[c];
+        }
         now.v[k] = 2. / dt * du[c] - now.v[k];
         now.u[k] = u_new[k];
+      }
+      if (is_single)
+      {
+        const Vector3 Md = structure.mass[i] * du;
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          now.carried.resisted[3 * i + c] += c_m * Md[c];
+          now.carried.left[3 * i + c] = .5 * dt * (left[3 * i + c] - now.carried.resisted[3 * i + c]);
+        }
       }
       const Vector3 relative = {{du[0] - dt * base[0], du[1] - dt * base[1], du[2] - dt * base[2]}};
       const Vector3 momentum = structure.mass[i] * relative;
@@ -260,6 +325,7 @@ namespace Voussoir
     work.input += input;
     work.damping = damping;
     now.Ku.swap(Ku);
+    now.carried.dt = dt;
     now.load = load;
     now.base_velocity = base_velocity;
     now.time += dt;

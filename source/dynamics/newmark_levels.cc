@@ -27,7 +27,7 @@ namespace Voussoir
         new Level{dt, part.n_substeps,
                   JointSystem(structure, laws, of_level, 4. / (dt * dt) + 2. / dt * structure.mass_damping,
                               1. + 2. / dt * structure.stiffness_damping, 2. / dt, meaning, Unknowns(),
-                              support ? &feet : nullptr)});
+                              support ? &feet : nullptr, is_single)});
   }
 
   /** Its number; made when there is none yet. */

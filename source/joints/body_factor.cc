@@ -249,9 +249,9 @@ namespace Voussoir
     return entries_of(cholmod->L, order == Order::interface_last ? n() - n_interface() : n());
   }
 
-  PackedFactor BodyFactor::take_leading_columns()
+  PackedFactor BodyFactor::take_leading_columns(const bool single)
   {
-    return PackedFactor(cholmod->L, order == Order::interface_last ? n() - n_interface() : n());
+    return PackedFactor(cholmod->L, order == Order::interface_last ? n() - n_interface() : n(), single);
   }
 
   std::vector<unsigned int> BodyFactor::permutation() const
@@ -366,18 +366,19 @@ namespace Voussoir
   } // namespace
 
   FactorSize factor_size(const std::vector<std::vector<unsigned int>> &neighbours,
-                         const std::vector<bool>                      &is_interface)
+                         const std::vector<bool> &is_interface, const bool single)
   {
+    const double   entry = single ? .5 : 1.;
     cholmod_common common;
     cholmod_start(&common);
     common.print = 0;
     cholmod_sparse *A = matrix_of(neighbours, common);
     const double    m = std::count(is_interface.begin(), is_interface.end(), true);
     FactorSize      size;
-    size.entries = 9. * fill_in(A, {}, common); // of 3 x 3
+    size.entries = 9. * entry * fill_in(A, {}, common); // of 3 x 3
     if (m > 0.)
     {
-      size.leading = 9. * (fill_in(A, is_interface, common) - .5 * m * (m + 1.));
+      size.leading = 9. * entry * (fill_in(A, is_interface, common) - .5 * m * (m + 1.));
       size.interface = 9. * m * m;
       if (!prefer_free_order(size.entries, size.leading, 3. * m))
       {

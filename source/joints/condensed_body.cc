@@ -23,8 +23,9 @@ namespace Voussoir
 
   CondensedBody::CondensedBody(const Structure &structure, const Body &body, const double mass_factor,
                                const double stiffness_factor, const double dashpot_factor,
-                               const Unknowns &springs)
+                               const Unknowns &springs, const bool single)
   {
+    const double       entry = single ? .5 : 1.; // of eight bytes
     BodyFactor         A(structure, body, mass_factor, stiffness_factor, dashpot_factor, springs);
     const unsigned int m = A.n_interface();
     A.analyse(BodyFactor::Order::any);
@@ -35,13 +36,13 @@ namespace Voussoir
       A.analyse(BodyFactor::Order::interface_last);
       A.factorise();
       flexibility = A.flexibility();
-      free_order = prefer_free_order(free_entries, A.n_entries(), m);
+      free_order = prefer_free_order(entry * free_entries, entry * A.n_entries(), m);
       if (free_order)
         A.analyse(BodyFactor::Order::any);
     }
     if (free_order)
       A.factorise();
-    factor = A.take_leading_columns();
+    factor = A.take_leading_columns(single);
     permutation = A.permutation();
     std::vector<unsigned int> row(A.n());
     for (unsigned int i = 0; i < row.size(); ++i)

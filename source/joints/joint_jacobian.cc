@@ -35,6 +35,8 @@ namespace Voussoir
   void JointJacobian::begin()
   {
     use_chain = expects_chain;
+    if (!use_chain)
+      chain.reset();
     for (JointBlock &joint : joints)
       joint.forget();
   }

@@ -61,7 +61,7 @@ namespace Voussoir
                            const ContactParameters &parameters, const double mass_factor,
                            const double stiffness_factor, const double dashpot_factor,
                            const ForceMeaning meaning, const Unknowns &springs,
-                           const FootElimination::Feet *given_feet)
+                           const FootElimination::Feet *given_feet, const bool single_factors)
       : structure(structure), parameters(parameters), laws(laws), meaning(meaning),
         is_static(mass_factor == 0.), sides(structure.pairs.size()),
         W(pairs_per_joint(structure), shares_of_joints(structure)), n_solved(parameters.first_problem)
@@ -75,8 +75,9 @@ namespace Voussoir
     for_each_own_body(
         [&](const unsigned int b)
         {
-          bodies[b] = std::make_unique<CondensedBody>(structure, structure.bodies[b], mass_factor,
-                                                      stiffness_factor, dashpot_factor, springs);
+          bodies[b] =
+              std::make_unique<CondensedBody>(structure, structure.bodies[b], mass_factor, stiffness_factor,
+                                              dashpot_factor, springs, single_factors);
         });
     for (const Body &body : structure.bodies)
       interface.begin.push_back(interface.begin.back() + 3 * body.interface.size());

@@ -12,8 +12,9 @@ namespace Voussoir
                                        const ImpactRule rule, const DynamicState &start,
                                        const Unknowns &reference_jump)
       : support(dam.foundation->support_of_companion(dam.structure, 2. * dt)),
-        newmark(dam.structure, dam.laws, parameters, 2. * dt, rule, support.get()), dam(dam),
-        joints(dam.structure, *dam.geometry)
+        newmark(dam.structure, dam.laws, parameters, 2. * dt, rule, support.get(),
+                dam.scene.has_single_factors()),
+        dam(dam), joints(dam.structure, *dam.geometry)
   {
     joints.reach = JointReach(*dam.model, dam.structure.pairs);
     newmark.start(start.u, start.v, start.force, start.load, reference_jump, start.memory);

@@ -84,6 +84,7 @@ namespace Voussoir
     std::string          name;      ///< of the file, without directory and .prm
     std::string          directory; ///< of the file: paths in it are relative to this
     std::string          impact_rule = "mean-force";
+    std::string          factors = "double"; ///< precision in which those of steps are kept
     MeshParameters       mesh;
     ElementParameters    elements;
     Material             concrete; ///< where no zone says otherwise
@@ -100,6 +101,8 @@ namespace Voussoir
     MotionParameters     motion;
     LimitParameters      limits;
     OutputParameters     output;
+
+    bool has_single_factors() const { return factors == "single"; }
 
     /** Of the area of the faces where tension is above it: Output/Tensile strength, else that of the limits;
      * 0: none [Pa]. */

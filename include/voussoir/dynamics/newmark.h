@@ -18,6 +18,15 @@ namespace Voussoir
     double balance(const Energy &start) const;
   };
 
+  /** What a step with factors in single precision hands on to the next one; 3 per node, else empty. */
+  struct Carried
+  {
+    Unknowns left;     ///< impulse that it owes [N s]
+    Unknowns moved;    ///< its displacement, to which the next one is an increment [m]
+    Unknowns resisted; ///< what its operator made of that [N]
+    double   dt = 0.;  ///< its length [s]
+  };
+
   /** Displacement and velocity, and joint forces, at one time; on a rigid base relative to it. */
   struct DynamicState
   {
@@ -27,6 +36,7 @@ namespace Voussoir
     Unknowns load;   ///< [N], that of this time
     Unknowns Ku;     ///< stiffness times displacement [N]
     Unknowns memory; ///< of the joint laws: JointLaws::initial_memory() at first
+    Carried  carried;
     Vector3  base_velocity = {{0., 0., 0.}}; ///< see Newmark::advance() [m/s]
     Energy   energy;
   };
@@ -40,9 +50,12 @@ namespace Voussoir
   public:
     /** @p support: what the dam's feet stand on if that makes steps of its own, or null; it must outlive
      * this. Steps are halved down to one of its own then, at most three times, and it is to be where the dam
-     * is at the start. InputError for laws, and a support, that need the rule mean-force without it. */
+     * is at the start. @p single_factors: in single precision, which halves what a step reads, without a
+     * support; a step's displacement is then found as an increment to that of the step before, and what the
+     * equations of motion leave over is carried to the next one. InputError for laws, and a support, that
+     * need the rule mean-force without it. */
     Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters, double dt,
-            ImpactRule rule, Support *support = nullptr);
+            ImpactRule rule, Support *support = nullptr, bool single_factors = false);
 
     /** Start from displacement @p u and velocity @p v with the joint forces @p force of that state under @p
      * load; @p reference: jump of each pair, 3 per pair, at which it is closed and
@@ -99,12 +112,13 @@ namespace Voussoir
                                     const ContactResult &failed);
     bool step(Level &level, const Unknowns &load, const Vector3 &base_velocity, ContactResult &result);
     ContactResult solve(Level &level, const Unknowns &load, const Vector3 &base_velocity, Unknowns &force,
-                        Unknowns &u_new, FeetOfStep &feet);
+                        Unknowns &u_new, Unknowns &left, FeetOfStep &feet);
     Unknowns      at_feet(const Unknowns &u) const;
     double        push_support(const Level &level, FeetOfStep &feet, const Unknowns &u_new);
     void          add_work_of_joints(double dt, const Unknowns &u_new, Unknowns &change, Work &work) const;
+    bool          continues(double dt, const Unknowns &left) const;
     void          move(double dt, const Unknowns &load, const Vector3 &base_velocity, const Unknowns &u_new,
-                       Work &work);
+                       const Unknowns &left, Work &work);
     void          account(const Work &work, double kinetic_before);
     Unknowns      right_hand_side(double dt, const Unknowns &load, const Vector3 &base_velocity) const;
     Unknowns      force_without_joints() const;
@@ -117,6 +131,7 @@ namespace Voussoir
     const ContactParameters             parameters;
     const ImpactRule                    rule;
     Support *const                      support;
+    const bool                          is_single; ///< are the factors in single precision?
     Impact                              impact;
     Unknowns                            reference, impulse, gap;
     DynamicState                        now;

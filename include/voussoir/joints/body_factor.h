@@ -37,8 +37,9 @@ namespace Voussoir
 
     double n_entries() const; ///< of L in leading columns (Order::interface_last) or all, once analysed
 
-    /** Those of n_entries(). The factor is gone afterwards, but for its permutation. */
-    PackedFactor take_leading_columns();
+    /** Those of n_entries(), kept in @p single precision or double. The factor is gone afterwards, but for
+     * its permutation. */
+    PackedFactor take_leading_columns(bool single);
 
     /** Unknown of the body at each row of L. */
     std::vector<unsigned int> permutation() const;
@@ -61,7 +62,7 @@ namespace Voussoir
     std::unique_ptr<Cholmod> cholmod;
   };
 
-  /** Numbers that a CondensedBody holds, to a tenth. */
+  /** Numbers of eight bytes that a CondensedBody holds, to a tenth. */
   struct FactorSize
   {
     double entries = 0.;   ///< of the factor
@@ -71,9 +72,9 @@ namespace Voussoir
   };
 
   /** That without making it; @p neighbours of each node, ascending, the node itself included;
-   * @p is_interface: nodes in pairs. */
+   * @p is_interface: nodes in pairs; @p single: kept in single precision. */
   FactorSize factor_size(const std::vector<std::vector<unsigned int>> &neighbours,
-                         const std::vector<bool>                      &is_interface);
+                         const std::vector<bool> &is_interface, bool single);
 
   /** Is it cheaper to solve twice with a factor of @p free entries than once with one of @p leading entries
    * before an interface of @p n_interface unknowns, whose flexibility is applied twice? */

@@ -17,11 +17,12 @@ namespace Voussoir
   class CondensedBody
   {
   public:
-    /** @p springs: to the ground, per component of the structure [N/m], or empty.
+    /** @p springs: to the ground, per component of the structure [N/m], or empty; @p single: the factor is
+     * kept in single precision, which leaves 1e-7 of the solution as its error.
      *  Throws ComputationError when A is not positive definite (a body that nothing holds, or bad elements),
      *  and std::bad_alloc. */
     CondensedBody(const Structure &structure, const Body &body, double mass_factor, double stiffness_factor,
-                  double dashpot_factor, const Unknowns &springs = Unknowns());
+                  double dashpot_factor, const Unknowns &springs = Unknowns(), bool single = false);
 
     /** @p b: 3 n_nodes, the body's part of the load; @p u_G: receives n_interface() entries, the displacement
      * without joint forces. */

@@ -29,12 +29,12 @@ namespace Voussoir
   {
   public:
     /** @p meaning: of the forces of this system, for the laws; @p springs: to the ground, per component
-     * [N/m], or empty; @p feet: on a support that gives way, compliance for forces of this meaning, or null.
-     */
+     * [N/m], or empty; @p feet: on a support that gives way, compliance for forces of this meaning, or null;
+     * @p single_factors: of the bodies, see CondensedBody; W is in double precision all the same. */
     JointSystem(const Structure &structure, const PairLaws &laws, const ContactParameters &parameters,
                 double mass_factor, double stiffness_factor, double dashpot_factor,
                 ForceMeaning meaning = ForceMeaning(), const Unknowns &springs = Unknowns(),
-                const FootElimination::Feet *feet = nullptr);
+                const FootElimination::Feet *feet = nullptr, bool single_factors = false);
     JointSystem(const JointSystem &) = delete; // the solver knows the joint operator by its place
 
     /** @p start: gap at the start of the step, 3 per pair [m]; @p memory: of the pairs, as committed before

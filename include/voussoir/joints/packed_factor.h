@@ -2,6 +2,8 @@
 #ifndef voussoir_packed_factor_h
 #define voussoir_packed_factor_h
 
+#include <voussoir/joints/packed_kernels.h>
+
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
@@ -13,9 +15,12 @@ namespace Voussoir
 {
   /** Leading columns of a supernodal Cholesky factor L, packed for substitutions at the speed of the memory.
    *
-   * Panels of four columns lie one behind the other in the order in which they are used, in rows of eight,
-   * the width of the widest SIMD registers; their triangles, with inverted diagonals, come before them. The
-   * kernels are compiled for AVX-512, AVX and plain x86-64, and chosen when the program starts. */
+   * Of each panel of eight columns, with the triangle D and the rows B below, M = (D^-1; -B D^-1) is kept: a
+   * forward substitution is the product M t, a backward one M^T t, without a chain of divisions. Panels lie
+   * one behind the other in the order in which they are used, in blocks of eight rows, the width of the
+   * widest SIMD registers. The kernels are compiled for AVX-512, AVX and plain x86-64, and chosen when the
+   * program starts. In single precision only M is kept so, which halves what is read; all arithmetic is in
+   * double precision. */
   class PackedFactor
   {
   public:
@@ -23,7 +28,7 @@ namespace Voussoir
 
     /** The first @p n_columns of the supernodal factor @p L, whose numbers are gone afterwards: a large
      * factor is packed where it is, so that there are never two of it. */
-    PackedFactor(cholmod_factor_struct *L, std::size_t n_columns);
+    PackedFactor(cholmod_factor_struct *L, std::size_t n_columns, bool single);
 
     /** The columns' part of x = L^-1 x, and what it does to the rows below; @p x: all rows, in the order of
      * L.
@@ -38,30 +43,25 @@ namespace Voussoir
     /** The kernels for processors without AVX, on any: for tests. Not to be changed while others solve. */
     static bool plain_kernels;
 
-    /** Columns of L that belong together: the rows below them are the same. */
-    struct Supernode
-    {
-      unsigned int first, n_columns, n_rows; ///< n_rows: the columns' own included
-      std::size_t  rows;                     ///< of those below in PackedFactor::row_list
-      std::size_t  values;                   ///< in PackedFactor::values
-    };
-
   private:
     struct Free
     {
-      void operator()(double *x) const { std::free(x); }
+      void operator()(void *x) const { std::free(x); }
     };
-    using Aligned = std::unique_ptr<double[], Free>; ///< to 64 bytes
-    static Aligned allocate(std::size_t n);
-    void           pack(const Supernode &supernode, const double *L, std::size_t leading_dimension);
-    bool           pack_in_place(cholmod_factor_struct *L);
+    using Aligned = std::unique_ptr<void, Free>; ///< to 64 bytes
+    static Aligned               allocate(std::size_t bytes);
+    template <class Number> void take(cholmod_factor_struct *L);
+    template <class Number> bool pack_in_place(cholmod_factor_struct *L);
+    template <class Number> void pack(const PackedSupernode &supernode, const double *L);
+    template <class Number> void substitute_with(bool forward, double *x) const;
 
-    std::vector<Supernode>    supernodes;
-    std::vector<unsigned int> row_list;
-    std::size_t               n_values = 0;
-    Aligned                   values;
-    double                   *first_value = nullptr; ///< of values, at a multiple of 64 bytes
-    Aligned                   work;                  ///< the rows of one supernode
+    bool                         is_single = false; ///< are the values floats?
+    std::vector<PackedSupernode> supernodes;
+    std::vector<unsigned int>    row_list;
+    std::size_t                  n_values = 0;
+    Aligned                      values;
+    void                        *first_value = nullptr; ///< of values, at a multiple of 64 bytes
+    Aligned                      work;                  ///< the rows of one supernode, doubles
   };
 } // namespace Voussoir
 
