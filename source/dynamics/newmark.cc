@@ -139,8 +139,7 @@ namespace Voussoir
       }
     }
     if (rule != ImpactRule::mean_force) // there the unknown is the sum of the forces
-      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-        structure.add_pair_force(structure.pairs[p], get(now.force, p), rhs);
+      add_joint_forces(now.force, rhs);
     return rhs;
   }
 
@@ -201,6 +200,39 @@ namespace Voussoir
     return change < whole;
   }
 
+  void Newmark::add_joint_forces(const Unknowns &force, Unknowns &nodal_force) const
+  {
+    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+      structure.add_pair_force(structure.pairs[p], get(force, p), nodal_force);
+  }
+
+  /** With factors in single precision: finds the displacement as an increment to that of the step before, or
+   * to none. @p left: the right-hand side, then with the joint forces. */
+  ContactResult Newmark::solve_for_increment(Level &level, const Unknowns &start, Unknowns &memory,
+                                             Unknowns &force, Unknowns &u_new, Unknowns &left)
+  {
+    Unknowns expected = left;
+    add_joint_forces(force, expected); // as they were
+    const bool goes_on = continues(level.dt, expected);
+    Unknowns   reduced = left, offset = start;
+    if (goes_on)
+    {
+      for (std::size_t k = 0; k < reduced.size(); ++k)
+        reduced[k] -= now.carried.resisted[k];
+      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+      {
+        const Vector3 moved = structure.jump(structure.pairs[p], now.carried.moved);
+        for (unsigned int c = 0; c < 3; ++c)
+          offset[3 * p + c] += moved[c];
+      }
+    }
+    const ContactResult result = level.system.solve(reduced, offset, start, memory, force, gap, u_new);
+    for (std::size_t k = 0; k < u_new.size(); ++k)
+      u_new[k] += goes_on ? now.u[k] + now.carried.moved[k] : now.u[k];
+    add_joint_forces(force, left);
+    return result;
+  }
+
   /** Displacements and joint forces at the end of a step; the memory of the laws, once they have converged.
    * @p left: with factors in single precision, the forces of the equations of motion without S (u_new - u).
    */
@@ -215,39 +247,16 @@ namespace Voussoir
     {
       set(start, p, opening_and_slip(p));
       for (unsigned int c = 0; c < 3; ++c)
-        offset[3 * p + c] = is_single ? start[3 * p + c] : -reference[3 * p + c];
+        offset[3 * p + c] = -reference[3 * p + c];
     }
     force = now.force;
     if (rule == ImpactRule::mean_force)
       for (double &f : force)
         f *= 2.;
     left = right_hand_side(level.dt, load, base_velocity);
-    bool goes_on = false;
-    if (is_single)
-    {
-      Unknowns expected = left; // with joint forces as they were
-      for (std::size_t p = 0; p < n_pairs; ++p)
-        structure.add_pair_force(structure.pairs[p], get(force, p), expected);
-      goes_on = continues(level.dt, expected);
-    }
-    const auto add_resisted = [&](const double factor)
-    {
-      for (std::size_t k = 0; goes_on && k < left.size(); ++k)
-        left[k] += factor * now.carried.resisted[k];
-    };
-    for (std::size_t p = 0; goes_on && p < n_pairs; ++p)
-    {
-      const Vector3 moved = structure.jump(structure.pairs[p], now.carried.moved);
-      for (unsigned int c = 0; c < 3; ++c)
-        offset[3 * p + c] += moved[c];
-    }
-    add_resisted(-1.);
-    const ContactResult result = level.system.solve(left, offset, start, memory, force, gap, u_new, &feet);
-    add_resisted(1.);
-    for (std::size_t k = 0; is_single && k < u_new.size(); ++k)
-      u_new[k] += (goes_on ? now.carried.moved[k] : 0.) + now.u[k];
-    for (std::size_t p = 0; is_single && p < n_pairs; ++p)
-      structure.add_pair_force(structure.pairs[p], get(force, p), left);
+    const ContactResult result =
+        is_single ? solve_for_increment(level, start, memory, force, u_new, left)
+                  : level.system.solve(left, offset, start, memory, force, gap, u_new, &feet);
     if (result.converged)
     {
       level.system.commit(start, force, gap, memory);

