@@ -51,8 +51,10 @@ def estimate(text):
 
 
 def estimates():
-    """To a fifth: joints, tied, elements of degree 2, on rock, on massless rock of degree 2."""
+    """To a fifth: joints, tied, with factors in single precision (which are made in double), elements of degree 2, on rock, on
+    massless rock of degree 2."""
     for name, file in (("joints", scene("joints", 5, 60, 16, 2)), ("tied", scene("tied", 0, 60, 16, 3)),
+                       ("single", scene("single", 0, 110, 40, 6, more="subsection Dynamics\n set Factors = single\n end")),
                        ("quadratic", scene("quadratic", 5, 30, 8, 1, more="subsection Elements\n set Degree = 2\n end")),
                        ("rock", scene("rock", 5, 30, 10, 1, ROCK, ON_ROCK)),
                        ("massless", scene("massless", 5, 20, 6, 1, ROCK.replace("30", "100"), MASSLESS))):

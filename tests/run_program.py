@@ -481,7 +481,7 @@ def factors():
         for kind in ("double", "single"):
             runs("scene.prm", "--output", f"{law}_{kind}", "--set", "Dynamics/Steps per sample=5", "--set", f"Joints/Model={law}", "--set", f"Dynamics/Factors={kind}")
         one, two = summary(f"{law}_double"), summary(f"{law}_single")
-        same(f"{law}_double", f"{law}_single", 1e-5 if law == "KSM" else 2e-6)
+        same(f"{law}_double", f"{law}_single", 2e-6)
         for name, extreme in one["extremes"].items():
             error = abs(two["extremes"][name]["value"] / extreme["value"] - 1) if extreme["value"] else 0.
             expect(error < 2e-6, f"{law}: {name} differs by {error:.1e}")
