@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/index_set.h>
 #include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <Epetra_BasicRowMatrix.h>
+#include <Epetra_MpiComm.h>
+#include <Epetra_Vector.h>
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
 #include <voussoir/base/error.h>
@@ -55,37 +56,102 @@ namespace Voussoir
       bool started = false;
     };
 
-    /** With a trace on the diagonal for motions that an aggregate has not: rotations of one or two nodes. */
-    dealii::TrilinosWrappers::SparseMatrix matrix_of(const std::vector<CoarseBlock> &blocks,
-                                                     const unsigned int              n_aggregates)
+    /** The stiffness of the aggregates, as ML wants to see it: the blocks are not copied. */
+    class BlockRows : public Epetra_BasicRowMatrix
     {
-      constexpr double          trace = 1e-10;
-      double                    largest = 0.;
-      std::vector<unsigned int> length(6 * n_aggregates, 0);
-      for (const CoarseBlock &block : blocks)
-        for (unsigned int k = 0; k < 6; ++k)
-        {
-          length[6 * static_cast<unsigned int>(block.row) + k] += 6;
-          largest = std::max(largest, block.row == block.column ? block.value[7 * k] : 0.);
-        }
-      dealii::TrilinosWrappers::SparseMatrix matrix(dealii::complete_index_set(length.size()), MPI_COMM_SELF,
-                                                    length);
-      for (const CoarseBlock &block : blocks)
+    public:
+      /** @p given: by rows, in whatever order the rows are. */
+      BlockRows(std::vector<CoarseBlock> &&given, const unsigned int n_aggregates)
+          : Epetra_BasicRowMatrix(Epetra_MpiComm(MPI_COMM_SELF)), blocks(std::move(given)),
+            row(n_aggregates, {0, 0})
       {
-        std::array<dealii::types::global_dof_index, 6> columns;
-        for (unsigned int k = 0; k < 6; ++k)
-          columns[k] = 6 * static_cast<unsigned int>(block.column) + k;
-        for (unsigned int k = 0; k < 6; ++k)
+        const Epetra_Map map(static_cast<int>(6 * n_aggregates), 0, Epetra_MpiComm(MPI_COMM_SELF));
+        SetMaps(map, map);
+        float largest = 0.f;
+        for (std::size_t b = 0; b < blocks.size(); ++b)
         {
-          std::array<double, 6> values;
-          std::copy_n(block.value.begin() + 6 * k, 6, values.begin());
-          values[k] += block.row == block.column ? trace * largest : 0.;
-          matrix.set(6 * static_cast<unsigned int>(block.row) + k, 6, columns.data(), values.data());
+          auto &[begin, end] = row[blocks[b].row];
+          begin = begin == end ? b : begin;
+          end = b + 1;
+          for (unsigned int k = 0; k < 6 && blocks[b].row == blocks[b].column; ++k)
+            largest = std::max(largest, blocks[b].value[7 * k]);
         }
+        constexpr float trace =
+            1e-10f; // for motions that an aggregate has not: rotations of one or two nodes
+        for (CoarseBlock &block : blocks)
+          for (unsigned int k = 0; k < 6 && block.row == block.column; ++k)
+            block.value[7 * k] += trace * largest;
       }
-      matrix.compress(dealii::VectorOperation::insert);
-      return matrix;
-    }
+
+      int NumMyRowEntries(const int i, int &n) const override
+      {
+        n = 6 * static_cast<int>(row[i / 6].second - row[i / 6].first);
+        return 0;
+      }
+
+      int MaxNumEntries() const override
+      {
+        std::size_t most = 0;
+        for (const auto &[begin, end] : row)
+          most = std::max(most, end - begin);
+        return 6 * static_cast<int>(most);
+      }
+
+      int ExtractMyRowCopy(const int i, const int length, int &n, double *values, int *columns) const override
+      {
+        NumMyRowEntries(i, n);
+        if (length < n)
+          return -1;
+        for (std::size_t b = row[i / 6].first; b < row[i / 6].second; ++b)
+          for (unsigned int k = 0; k < 6; ++k)
+          {
+            *values++ = blocks[b].value[6 * (i % 6) + k];
+            *columns++ = static_cast<int>(6 * blocks[b].column + k);
+          }
+        return 0;
+      }
+
+      int Multiply(const bool transposed, const Epetra_MultiVector &x, Epetra_MultiVector &y) const override
+      {
+        if (transposed)
+          return -1; // nobody asks
+        for (int v = 0; v < x.NumVectors(); ++v)
+#pragma omp parallel for schedule(static)
+          for (std::size_t a = 0; a < row.size(); ++a)
+          {
+            std::array<double, 6> sum{};
+            for (std::size_t b = row[a].first; b < row[a].second; ++b)
+              for (unsigned int c = 0; c < 6; ++c)
+                for (unsigned int k = 0; k < 6; ++k)
+                  sum[c] += double(blocks[b].value[6 * c + k]) * x[v][6 * blocks[b].column + k];
+            std::copy(sum.begin(), sum.end(), y[v] + 6 * a);
+          }
+        return 0;
+      }
+
+      int ExtractDiagonalCopy(Epetra_Vector &diagonal) const override
+      {
+        for (const CoarseBlock &block : blocks)
+          for (unsigned int k = 0; k < 6 && block.row == block.column; ++k)
+            diagonal[6 * block.row + k] = block.value[7 * k];
+        return 0;
+      }
+
+      /** Views of single entries would be of numbers in double precision. @{ */
+      int ExtractMyEntryView(int, double *&, int &, int &) override
+      {
+        return -1;
+      }
+      int ExtractMyEntryView(int, const double *&, int &, int &) const override
+      {
+        return -1;
+      }
+      /** @} */
+
+    private:
+      std::vector<CoarseBlock>                         blocks;
+      std::vector<std::pair<std::size_t, std::size_t>> row; ///< its blocks: first, and behind the last
+    };
 
     /** Those that deal.II gives to ML for elliptic equations, and the @p modes. */
     Teuchos::ParameterList level_parameters(std::vector<double> &modes)
@@ -110,18 +176,20 @@ namespace Voussoir
 
   struct CoarseRock::Multigrid
   {
-    explicit Multigrid(dealii::TrilinosWrappers::SparseMatrix &&matrix) : matrix(std::move(matrix)) {}
+    Multigrid(std::vector<CoarseBlock> &&stiffness, const unsigned int n_aggregates)
+        : matrix(std::move(stiffness), n_aggregates)
+    {
+    }
 
-    dealii::TrilinosWrappers::SparseMatrix    matrix;
+    BlockRows                                 matrix;
     dealii::TrilinosWrappers::PreconditionAMG levels;
   };
 
   CoarseRock::CoarseRock(const RockAggregates &aggregates, std::vector<CoarseBlock> &&stiffness)
   {
     static LoneProcess mpi;
-    multigrid = std::make_unique<Multigrid>(matrix_of(stiffness, aggregates.n()));
-    std::vector<CoarseBlock>().swap(stiffness); // its memory
-    std::vector<double> modes;                  // deal.II's own take ones and zeros only
+    multigrid = std::make_unique<Multigrid>(std::move(stiffness), aggregates.n());
+    std::vector<double> modes; // deal.II's own take ones and zeros only
     for (unsigned int mode = 0; mode < 6; ++mode)
       for (const RigidMotion &motion : aggregates.rigid(mode))
         modes.insert(modes.end(), motion.begin(), motion.end());

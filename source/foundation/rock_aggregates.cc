@@ -80,21 +80,23 @@ namespace Voussoir
             visit(j, part);
     }
 
-    std::vector<unsigned int> groups(const Squares &K, const std::vector<bool> &held)
+    /** The group of each node; @p seeds receives those of the groups. */
+    std::vector<unsigned int> groups(const Squares &K, const std::vector<bool> &held,
+                                     std::vector<unsigned int> &seeds)
     {
       const unsigned int        n = K.n_rows();
       std::vector<unsigned int> group(n, none);
-      unsigned int              count = 0;
       const auto                gather = [&](const unsigned int i)
       {
-        group[i] = count;
+        const unsigned int number = seeds.size();
+        seeds.push_back(i);
+        group[i] = number;
         for_neighbours(K, held, i,
                        [&](const unsigned int j, double)
                        {
                          if (group[j] == none)
-                           group[j] = count;
+                           group[j] = number;
                        });
-        ++count;
       };
       for (unsigned int i = 0; i < n; ++i)
       {
@@ -126,7 +128,7 @@ namespace Voussoir
 
   RockAggregates::RockAggregates(const BlockSparseMatrix &stiffness, const std::vector<Vector3> &points,
                                  const std::vector<bool> &held)
-      : group(groups(Squares(stiffness), held)), arm(points.size(), Vector3{})
+      : group(groups(Squares(stiffness), held, seeds)), arm(points.size(), Vector3{})
   {
     for (unsigned int i = 0; i < group.size(); ++i)
       if (group[i] != none)
@@ -245,7 +247,10 @@ namespace Voussoir
           }
         }
         for (const auto &[column, block] : row)
-          blocks.push_back({double(aggregate), double(column), block});
+        {
+          blocks.push_back({aggregate, column, {}});
+          std::copy(block.begin(), block.end(), blocks.back().value.begin());
+        }
       }
 
     private:

@@ -12,10 +12,10 @@ namespace Voussoir
     const Stopwatch watch;
     for (unsigned int a = 0; a < aggregates.n(); ++a)
     {
-      roots.push_back(aggregates.nodes(a)[0]);
+      seeds.push_back(aggregates.seed(a));
       n_free += 3 * aggregates.nodes(a).size();
       if (!split.is_trivial())
-        split.step(aggregates.nodes(a), split.owner(roots.back()));
+        split.step(aggregates.nodes(a), split.owner(seeds.back()));
     }
     stiffness = std::make_unique<RockOperator>(model.stiffness, model.points, model.nodal_cells,
                                                model.in_other_cell, nodal_kernel(), split);
@@ -116,11 +116,12 @@ namespace Voussoir
   {
     std::vector<unsigned int> mine;
     for (unsigned int a = 0; a < aggregates.n(); ++a)
-      if (split.owner(roots[a]) == Ranks::rank())
+      if (split.owner(seeds[a]) == Ranks::rank())
         mine.push_back(a);
     const RockSmoothing      smoothing{model.stiffness, inverse, 4. / (3. * eigenvalue)};
     std::vector<CoarseBlock> blocks = coarse_rows(aggregates, smoothing, mine);
-    static_assert(sizeof(CoarseBlock) == 38 * sizeof(double), "CoarseBlock is sent as an array of doubles");
+    constexpr std::size_t    length = sizeof(CoarseBlock) / sizeof(double); // they are sent as doubles
+    static_assert(sizeof(CoarseBlock) == 19 * sizeof(double), "no bytes between the blocks");
     const std::vector<double>   counts = Ranks::of_all(double(blocks.size()));
     std::size_t                 total = blocks.size();
     std::vector<Ranks::Message> messages;
@@ -134,12 +135,12 @@ namespace Voussoir
       for (unsigned int r = 1; r < counts.size(); ++r)
       {
         const auto n = static_cast<std::size_t>(counts[r]);
-        messages.push_back({r, nullptr, 0, numbers(begin), 38 * n});
+        messages.push_back({r, nullptr, 0, numbers(begin), length * n});
         begin += n;
       }
     }
     else
-      messages.push_back({0, numbers(0), 38 * blocks.size(), nullptr, 0});
+      messages.push_back({0, numbers(0), length * blocks.size(), nullptr, 0});
     Ranks::exchange(messages);
     Ranks::on_first([&] { coarse = std::make_unique<CoarseRock>(aggregates, std::move(blocks)); });
   }
@@ -182,7 +183,7 @@ namespace Voussoir
     multiply(correction, work);
     std::vector<double> forces(6 * std::size_t(aggregates.n()), 0.), motions = forces;
     for (unsigned int a = 0; a < aggregates.n(); ++a)
-      if (split.owner(roots[a]) == Ranks::rank())
+      if (split.owner(seeds[a]) == Ranks::rank())
       {
         RigidMotion sum{};
         for (const unsigned int i : aggregates.nodes(a))
@@ -194,7 +195,7 @@ namespace Voussoir
         }
         std::copy(sum.begin(), sum.end(), forces.begin() + 6 * std::size_t(a));
       }
-    split.collect(forces, 6, roots);
+    split.collect(forces, 6, seeds);
     if (coarse)
       coarse->solve(forces, motions);
     Ranks::broadcast(motions.data(), motions.size(), 0);

@@ -17,7 +17,7 @@ namespace Voussoir
                                   const std::vector<ArtificialFace> &faces,
                                   const std::vector<unsigned int> &feet, const unsigned int n_layers)
     {
-      constexpr unsigned int  of_coarse_space = 6; // layers
+      constexpr unsigned int  of_coarse_space = 4; // layers
       const unsigned int      n = grid.n_nodes();
       const RockSplit         split(n);
       const std::vector<bool> none(n, false);

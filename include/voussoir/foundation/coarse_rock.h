@@ -17,7 +17,7 @@ namespace Voussoir
   class CoarseRock
   {
   public:
-    /** The @p stiffness is gone before ML makes its levels. Throws ComputationError where it cannot. */
+    /** Blocks of a row of @p stiffness are to stand together. Throws ComputationError where it cannot. */
     CoarseRock(const RockAggregates &aggregates, std::vector<CoarseBlock> &&stiffness);
     ~CoarseRock();
 

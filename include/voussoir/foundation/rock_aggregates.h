@@ -29,6 +29,9 @@ namespace Voussoir
     /** Its nodes, ascending. */
     const std::vector<unsigned int> &nodes(const unsigned int aggregate) const { return members[aggregate]; }
 
+    /** The node that it was made around: its nodes are neighbours of this one, or of its neighbours. */
+    unsigned int seed(const unsigned int aggregate) const { return seeds[aggregate]; }
+
     /** Of a node, with its aggregate's @p motion. */
     Vector3 displacement(unsigned int node, const RigidMotion &motion) const;
 
@@ -39,6 +42,7 @@ namespace Voussoir
     std::vector<RigidMotion> rigid(unsigned int mode) const;
 
   private:
+    std::vector<unsigned int>              seeds;
     std::vector<unsigned int>              group; ///< of each node
     std::vector<std::vector<unsigned int>> members;
     std::vector<Vector3>                   centre, arm; ///< of aggregates [m]; of nodes, over the size
@@ -54,15 +58,17 @@ namespace Voussoir
     double                      damping;
   };
 
-  /** Stiffness between two aggregates; all of doubles, to be sent. */
-  struct CoarseBlock
+  /** Stiffness between two aggregates: as many bytes as 19 doubles, to be sent. Single precision, since it
+   * serves a preconditioner only, and the first rank has all of them. */
+  struct alignas(double) CoarseBlock
   {
-    double                 row, column; ///< numbers of the aggregates
-    std::array<double, 36> value;       ///< row by row
+    unsigned int          row, column; ///< numbers of the aggregates
+    std::array<float, 36> value;       ///< row by row
   };
 
   /** Rows of P^T K P for the aggregates in @p wanted, where P is S times the motions of the aggregates.
-   * Each is computed alone, from the nodes around it. */
+   * Each is computed alone, from the nodes around it: from rows of the stiffness within four layers of cells
+   * around the aggregate's seed. */
   std::vector<CoarseBlock> coarse_rows(const RockAggregates &aggregates, const RockSmoothing &smoothing,
                                        const std::vector<unsigned int> &wanted);
 } // namespace Voussoir

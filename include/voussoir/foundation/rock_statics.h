@@ -55,7 +55,7 @@ namespace Voussoir
     std::unique_ptr<RockOperator>    stiffness;
     std::vector<std::pair<int, int>> pieces;          ///< nodes that this rank steps, in ranges
     std::vector<Matrix3>             inverse;         ///< of the diagonal's blocks [m/N]; zero where held
-    std::vector<unsigned int>        roots;           ///< a node of each aggregate, whose owner has it
+    std::vector<unsigned int>        seeds;           ///< of each aggregate, whose owner has it
     double                           eigenvalue = 0.; ///< a bound of those of D^-1 K
     std::unique_ptr<CoarseRock>      coarse;          ///< of the first rank
     std::vector<std::vector<double>> solutions;       ///< at the pieces, A-orthonormal
