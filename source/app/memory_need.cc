@@ -24,7 +24,7 @@ namespace Voussoir
     constexpr double       block = 9 * 8. + 4.; // of a sparse matrix: 3 x 3 numbers and a column [bytes]
 
     // Measured, see tests/program_memory.py [bytes].
-    constexpr double program = 178e6, per_cell = 700., per_node = 700., per_rock_node = 2300.;
+    constexpr double program = 178e6, per_cell = 700., per_node = 700., per_rock_node = 2100.;
 
     /** How much more there is with elements of degree 2: nodes, blocks, entries of factors, and of what lies
      * on surfaces, squared. */
@@ -270,10 +270,10 @@ namespace Voussoir
       if (scene.foundation.nodal_everywhere) // does not couple the ends of a cell's diagonals
         n_blocks -= 8. * std::count_if(mesh.cells.begin(), mesh.cells.end(), is_rock);
       const double part = 1. / Ranks::size(), matrix = block * n_blocks; // kept of it: see make_rock_part()
-      const double kept = scene.foundation.nodal_everywhere ? std::min(1., part + .2) : 1.;
+      const double kept = scene.foundation.nodal_everywhere ? std::min(1., part + .13) : 1.;
       const double all = per_rock_node * rock.neighbours.size() - (1. - kept) * matrix;
       others = all + .1 * matrix;
-      return all + (.55 + .45 * part) * matrix;
+      return all + (.15 + .4 * part) * matrix;
     }
   } // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/give_back.h>
 #include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/rock/arrival.h>
@@ -54,6 +55,7 @@ namespace Voussoir
     };
     model = make_rock_part(mesh, region_parameters(parameters, centre, 0.).rock, find, parameters.substeps);
     mesh = HexMesh(); // the model has all of it
+    give_back_memory();
     RayleighDamping damping;
     damping.mass = parameters.mass_damping;
     damping.stiffness = parameters.stiffness_damping;
@@ -105,7 +107,8 @@ namespace Voussoir
   void ExplicitRock::make_rock(const GroundMotion &outcrop, const TimeGrid &steps, const double delay,
                                const std::vector<unsigned int> &near_feet)
   {
-    statics.reset(); // its memory
+    statics.reset();
+    give_back_memory();
     grid = steps;
     const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
     RockSplit                  split(n_nodes());
