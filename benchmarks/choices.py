@@ -62,6 +62,7 @@ def groups():
     linear, quadratic = [(30, 8, 1), (60, 16, 2), (90, 24, 3)], [(18, 6, 1), (30, 8, 1), (48, 12, 1)]
     modes, degree = "Elements/Incompatible modes", "Elements/Degree"
     rock = {**mesh(30, 10, 1), STEPS: 6, "Mesh/Arch210/Rock/Boundary layers": 8}
+    gauss = {"Foundation/Nodal quadrature everywhere": "false"}
     boundaries = ("mtf3", "mtf4")
     boxes = [(b, label, {**settings, "Foundation/Boundary": b}) for b in boundaries for label, settings in
              (("210 m", {}), ("depth 315 m", box(315, ("Depth",))), ("depth 420 m", box(420, ("Depth",))),
@@ -104,7 +105,8 @@ def groups():
         "box": (ROCK, rock, boxes, deep, far),
         "box_tied": (ROCK, {**rock, "Joints/Model": "tied"}, boxes, deep, far),
         "box_static": (ROCK, {**rock, "Motion/Source": "none"}, boxes[:len(boxes) // len(boundaries)], deep, far + ", the static state alone"),
-        "rock_cells": (ROCK, {**rock, STEPS: 8}, [("cells", f"{size} m", {"Mesh/Arch210/Rock/Element size": size}) for size in (30, 22)],
+        "rock_cells": (ROCK, {**rock, STEPS: 8}, [("cells", f"{size} m", {"Mesh/Arch210/Rock/Element size": size}) for size in (30, 22)]
+                       + [("Gauss points behind 6 layers", f"{size} m", {"Mesh/Arch210/Rock/Element size": size, **gauss}) for size in (30, 22, 15)],
                        {"Mesh/Arch210/Rock/Element size": 15}, "cells of 15 m"),
         "rock_steps": (ROCK, rock, [("dam at its own step", f"{10 / n:g} ms, {6 // n} of the rock",
                                      {STEPS: n, "Foundation/Substeps": 6 // n}) for n in (1, 2)]

@@ -24,6 +24,7 @@ from command import PROGRAM, ComputationError, InputError, end_with, entries_of,
 from study_file import is_file_entry, read_study, value_in
 from study_scene import end_with_parent, record_of, revision_of, row_in_words, write_whole
 
+PLAIN_NUMBER = re.compile(r"[-+]?[0-9]+(\.[0-9]*)?(e[-+]?[0-9]+)?")
 SNAKEFILE = """# Written by `voussoir study`, which runs it, and gathers the results when all scenes are done.
 import json
 STUDY = json.load(open("scenes.json"))
@@ -128,7 +129,20 @@ def prm_text(entries):
     return "\n".join(lines + ["end"] * len(path)) + "\n"
 
 
-def text_of_scene(study, scene):
+def entries_with(base, words, known):
+    """All entries of the base with these words. Scenes that differ in plain numbers are asked for once: a start of the program
+    takes longer than all else here. Whether the numbers can be is for --validate to say."""
+    numbers = {entry: text for entry, text in words.items() if PLAIN_NUMBER.fullmatch(text)}
+    kind = (base, frozenset(numbers), tuple(sorted((entry, text) for entry, text in words.items() if entry not in numbers)))
+    if kind not in known:
+        entries = entries_of(base, [f"{entry}={text}" for entry, text in words.items()])
+        if any(entries.get(entry) != text for entry, text in numbers.items()):
+            return entries  # it is written in another way
+        known[kind] = entries
+    return {**known[kind], **numbers}
+
+
+def text_of_scene(study, scene, known):
     """A scene with every entry, files by their whole path, and the files it reads."""
     base, fixed, values = scene
     chosen = {value.entry: value for value in [*fixed.values(), *values.values()] if value.entry != "Scene"}
@@ -136,7 +150,7 @@ def text_of_scene(study, scene):
     for entry, value in chosen.items():
         words[entry] = str((study.file.parent / value.text).resolve()) if is_file_entry(entry) and value.text else value.text
     try:
-        entries = entries_of(base, [f"{entry}={text}" for entry, text in words.items()])
+        entries = entries_with(base, words, known)
     except InputError as error:
         named = [value.place for entry, value in chosen.items() if f'"{entry}"' in str(error)]
         raise InputError(str(error).replace("--set:", f"{named[0]}:", 1) if named else
@@ -159,9 +173,9 @@ def key_of(text, files):
     return digest.hexdigest()
 
 
-def validated(study, directory, scene, name, old):
+def validated(study, directory, scene, name, old, known):
     """One line of scenes.json: key, memory, values. Writes the scene's file; runs --validate unless that was done."""
-    text, files = text_of_scene(study, scene)
+    text, files = text_of_scene(study, scene, known)
     key, path = key_of(text, files), directory / "scenes" / f"{name}.prm"
     known = old.get(name, {})
     if not path.exists() or path.read_text() != text:
@@ -170,6 +184,7 @@ def validated(study, directory, scene, name, old):
     if memory is None:
         result = voussoir(path, "--validate", "--output", directory / "runs" / name, "--overwrite")
         if result.returncode != 0:
+            text_of_scene(study, scene, {})  # tells the line of the study if an entry's value cannot be
             message = result.stderr.strip().split("voussoir: error: ", 1)[-1]
             raise InputError(f"{study.file.name}, {in_words(study, scene[2])}: {message}")
         found = re.search(r"^Memory\s+about ([0-9.]+) GiB", result.stdout, re.MULTILINE)
@@ -184,7 +199,8 @@ def validate_all(study, directory, names, jobs):
     except (OSError, ValueError, KeyError):
         old = {}
     with ThreadPoolExecutor(min(jobs, len(os.sched_getaffinity(0)))) as pool:
-        futures = [pool.submit(validated, study, directory, scene, name, old) for scene, name in zip(study.scenes, names)]
+        known = {}
+        futures = [pool.submit(validated, study, directory, scene, name, old, known) for scene, name in zip(study.scenes, names)]
         scenes, errors = {}, []
         for name, future in zip(names, futures):
             try:
@@ -257,7 +273,7 @@ def start_snakemake(options, directory, jobs, threads):
         words += ["--profile", str(profile.resolve()) if profile.is_dir() else options.profile]
         words += ["--jobs", options.jobs] if options.jobs else []
     else:
-        words += ["--cores", str(jobs * threads), "--resources", f"mem_mb={memory_at_hand()}"]
+        words += ["--cores", str(jobs * threads), "--resources", f"mem_mb={memory_at_hand()}", "--scheduler", "greedy"]
     if options.keep_going:
         words.append("--keep-going")
     with open(directory / "snakemake.log", "w", encoding="utf-8") as log:

@@ -34,30 +34,74 @@ namespace Voussoir
     finish = forced(0., 1. / h);
   }
 
-  Oscillator::Peak Oscillator::peak(const std::vector<double> &acceleration) const
+  /** Of @p n oscillators with the same number of substeps: their chains of sums do not wait for each other.
+   */
+  template <unsigned int n>
+  void Oscillator::find_peaks(const Oscillator *oscillator, const std::vector<double> &acceleration,
+                              Peak *peak)
   {
-    Peak        peak;
-    double      u = 0., v = 0., largest = 0.;
-    std::size_t substep = 0;
+    double A[4][n], S[2][n], F[2][n], u[n] = {}, v[n] = {}, largest[n] = {};
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int c = 0; c < 2; ++c)
+      {
+        A[2 * c][i] = oscillator[i].a[c][0];
+        A[2 * c + 1][i] = oscillator[i].a[c][1];
+        S[c][i] = oscillator[i].start[c];
+        F[c][i] = oscillator[i].finish[c];
+      }
+    const std::size_t n_substeps = oscillator[0].n_substeps;
+    std::size_t       substep = 0;
     for (std::size_t k = 0; k + 1 < acceleration.size(); ++k)
     {
       const double increment = (acceleration[k + 1] - acceleration[k]) / n_substeps;
       for (std::size_t r = 0; r < n_substeps; ++r)
       {
         const double before = acceleration[k] + r * increment, after = before + increment;
-        const double u_next = a[0][0] * u + a[0][1] * v + start[0] * before + finish[0] * after;
-        v = a[1][0] * u + a[1][1] * v + start[1] * before + finish[1] * after;
-        u = u_next;
-        ++substep;
-        if (std::abs(u) > largest)
+        for (unsigned int i = 0; i < n; ++i)
         {
-          largest = std::abs(u);
-          peak = {stiffness * u, substep, peak.sampled};
+          const double u_next = A[0][i] * u[i] + A[1][i] * v[i] + S[0][i] * before + F[0][i] * after;
+          v[i] = A[2][i] * u[i] + A[3][i] * v[i] + S[1][i] * before + F[1][i] * after;
+          u[i] = u_next;
         }
+        ++substep;
+        for (unsigned int i = 0; i < n; ++i)
+          if (std::abs(u[i]) > largest[i])
+          {
+            largest[i] = std::abs(u[i]);
+            peak[i].value = oscillator[i].stiffness * u[i];
+            peak[i].substep = substep;
+          }
       }
-      peak.sampled = std::max(peak.sampled, stiffness * std::abs(u));
+      for (unsigned int i = 0; i < n; ++i)
+        peak[i].sampled = std::max(peak[i].sampled, oscillator[i].stiffness * std::abs(u[i]));
     }
+  }
+
+  Oscillator::Peak Oscillator::peak(const std::vector<double> &acceleration) const
+  {
+    Peak peak;
+    find_peaks<1>(this, acceleration, &peak);
     return peak;
+  }
+
+  std::vector<Oscillator::Peak> Oscillator::peaks(const std::vector<Oscillator> &oscillators,
+                                                  const std::vector<double>     &acceleration)
+  {
+    constexpr std::size_t n = 4;
+    std::vector<Peak>     peaks(oscillators.size());
+    for (std::size_t i = 0; i < peaks.size();)
+    {
+      std::size_t end = i;
+      while (end < peaks.size() && end < i + n && oscillators[end].n_substeps == oscillators[i].n_substeps)
+        ++end;
+      if (end == i + n)
+        find_peaks<n>(&oscillators[i], acceleration, &peaks[i]);
+      else
+        for (std::size_t k = i; k < end; ++k)
+          find_peaks<1>(&oscillators[k], acceleration, &peaks[k]);
+      i = end;
+    }
+    return peaks;
   }
 
   std::vector<double> Oscillator::sensitivity(std::size_t substep, std::size_t n_samples) const
@@ -82,9 +126,12 @@ namespace Voussoir
   std::vector<double> pseudo_acceleration_spectrum(const std::vector<double> &acceleration, double dt,
                                                    const std::vector<double> &periods, double damping)
   {
-    std::vector<double> spectrum;
+    std::vector<Oscillator> oscillators;
     for (const double period : periods)
-      spectrum.push_back(std::abs(Oscillator(period, damping, dt).peak(acceleration).value));
+      oscillators.emplace_back(period, damping, dt);
+    std::vector<double> spectrum;
+    for (const Oscillator::Peak &peak : Oscillator::peaks(oscillators, acceleration))
+      spectrum.push_back(std::abs(peak.value));
     return spectrum;
   }
 

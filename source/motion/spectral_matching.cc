@@ -3,6 +3,7 @@
 #include <voussoir/motion/spectral_matching.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -23,6 +24,25 @@ namespace Voussoir
       for (std::size_t i = n; i < a.size(); ++i)
         sum[0] += a[i] * b[i];
       return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    }
+
+    /** dot() of a and four others, the same sums: each number of a is read once. */
+    std::array<double, 4> dots(const Vector &a, const Vector *b)
+    {
+      double            sum[4][4] = {};
+      const std::size_t n = a.size() / 4 * 4;
+      for (std::size_t i = 0; i < n; i += 4)
+        for (unsigned int d = 0; d < 4; ++d)
+          for (unsigned int j = 0; j < 4; ++j)
+            sum[d][j] += a[i + j] * b[d][i + j];
+      std::array<double, 4> result;
+      for (unsigned int d = 0; d < 4; ++d)
+      {
+        for (std::size_t i = n; i < a.size(); ++i)
+          sum[d][0] += a[i] * b[d][i];
+        result[d] = (sum[d][0] + sum[d][1]) + (sum[d][2] + sum[d][3]);
+      }
+      return result;
     }
 
     /** Solve A x = b by Cholesky's method; A is symmetric positive (semi)definite with a diagonal near one,
@@ -83,7 +103,13 @@ namespace Voussoir
         std::vector<Vector> gram(gradients.size(), Vector(gradients.size()));
         for (std::size_t i = 0; i < gradients.size(); ++i)
         {
-          for (std::size_t j = 0; j < i; ++j)
+          std::size_t j = 0;
+          for (; j + 4 <= i; j += 4)
+          {
+            const std::array<double, 4> four = dots(gradients[i], &gradients[j]);
+            std::copy(four.begin(), four.end(), gram[i].begin() + j);
+          }
+          for (; j < i; ++j)
             gram[i][j] = dot(gradients[i], gradients[j]);
           gram[i][i] = 1. + slacks[i];
         }
@@ -154,35 +180,49 @@ namespace Voussoir
       }
     }
 
-    /** The peak of each oscillator is to become the target. Programs that look at the samples alone see
+    using Peaks = std::vector<Oscillator::Peak>;
+
+    /** Of the oscillators of all periods. */
+    Peaks peaks_of(const Vector &acceleration, const double dt, const SpectralTarget &target)
+    {
+      std::vector<Oscillator> oscillators;
+      for (const double period : target.periods)
+        oscillators.emplace_back(period, target.damping, dt);
+      return Oscillator::peaks(oscillators, acceleration);
+    }
+
+    /** The @p peak of each oscillator is to become the target. Programs that look at the samples alone see
      *  less of short periods: what they see and the true peak are put on either side of the target. */
-    void add_spectrum(Conditions &conditions, const Vector &acceleration, double dt,
+    void add_spectrum(Conditions &conditions, const Peaks &peak, const std::size_t n_samples, const double dt,
                       const SpectralTarget &target)
     {
       constexpr double slack = 0.01; // neighbours with peaks at different times cannot both be exact
-      for (std::size_t i = 0; i < target.periods.size(); ++i)
+      for (std::size_t i = 0; i < peak.size(); ++i)
       {
         const Oscillator oscillator(target.periods[i], target.damping, dt);
-        const auto       peak = oscillator.peak(acceleration);
-        const double     change = target.pseudo_acceleration[i] - 0.5 * (std::abs(peak.value) + peak.sampled);
-        conditions.add(oscillator.sensitivity(peak.substep, acceleration.size()),
-                       std::copysign(1., peak.value) * change, slack);
+        const double     seen = 0.5 * (std::abs(peak[i].value) + peak[i].sampled);
+        conditions.add(oscillator.sensitivity(peak[i].substep, n_samples),
+                       std::copysign(1., peak[i].value) * (target.pseudo_acceleration[i] - seen), slack);
       }
+    }
+
+    SpectralError error_of(const Peaks &peak, const SpectralTarget &target)
+    {
+      SpectralError error;
+      for (std::size_t i = 0; i < peak.size(); ++i)
+      {
+        const double aim = target.pseudo_acceleration[i];
+        const double relative = std::max(std::abs(peak[i].value) - aim, aim - peak[i].sampled) / aim;
+        error.maximum = std::max(error.maximum, relative);
+        error.mean += relative / peak.size();
+      }
+      return error;
     }
   } // namespace
 
   SpectralError spectral_error(const Vector &acceleration, double dt, const SpectralTarget &target)
   {
-    SpectralError error;
-    for (std::size_t i = 0; i < target.periods.size(); ++i)
-    {
-      const auto   peak = Oscillator(target.periods[i], target.damping, dt).peak(acceleration);
-      const double aim = target.pseudo_acceleration[i];
-      const double relative = std::max(std::abs(peak.value) - aim, aim - peak.sampled) / aim;
-      error.maximum = std::max(error.maximum, relative);
-      error.mean += relative / target.periods.size();
-    }
-    return error;
+    return error_of(peaks_of(acceleration, dt, target), target);
   }
 
   Vector match_spectrum(Vector acceleration, double dt, const Vector &envelope, const SpectralTarget &target,
@@ -193,7 +233,8 @@ namespace Voussoir
     for (unsigned int pass = 0; pass <= n_passes; ++pass)
     {
       finish(acceleration, envelope, target.peak_acceleration);
-      const double error = spectral_error(acceleration, dt, target).maximum;
+      const Peaks  peaks = peaks_of(acceleration, dt, target);
+      const double error = error_of(peaks, target).maximum;
       if (error < least_error)
       {
         least_error = error;
@@ -205,7 +246,7 @@ namespace Voussoir
       Conditions conditions(envelope);
       add_baseline(conditions, acceleration);
       add_peak(conditions, acceleration, target.peak_acceleration);
-      add_spectrum(conditions, acceleration, dt, target);
+      add_spectrum(conditions, peaks, acceleration.size(), dt, target);
       add_change(acceleration, conditions.least_change());
     }
     return best;
