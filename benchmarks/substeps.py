@@ -57,8 +57,9 @@ def main():
             else:
                 size = np.sqrt(np.mean(reference ** 2, axis=0))
                 off = ", ".join(f"{100 * x:.2f}" for x in np.sqrt(np.mean((way - reference) ** 2, axis=0)) / size)
+            opening = summary["extremes"]["max_opening"]["value"]
             words = coupling + "".join(f", {name.rsplit('/', 1)[1].lower()} {value:g}" for name, value in more.items())
-            print(f"| {scene} | {words} | {10 / steps:.3g}, {substeps} | {off} | {1e3 * summary["extremes"]["max_opening"]["value"]:.2f} | "
+            print(f"| {scene} | {words} | {10 / steps:.3g}, {substeps} | {off} | {1e3 * opening:.2f} | "
                   f"{summary['newton_iterations']['mean']:.1f} | {summary['seconds']['shaking_cpu'] / common['Motion/Duration']:.1f} |", flush=True)
 
 
