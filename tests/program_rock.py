@@ -6,7 +6,7 @@
 """
 
 from program_watch import ROCK, settings
-from run_program import run_cases, refused, runs, write_scene
+from run_program import expect, run_cases, refused, runs, table, write_scene
 
 
 def sections():
@@ -22,5 +22,29 @@ def sections():
         runs("scene.prm", "--validate", *fixed, *settings(*entries, "Foundation/Free field=columns"))
 
 
+def at_dam():
+    """With the dam's elements in all of the rock its static state is that of massless rock, which has them; layers at the dam
+    bring it near, layers at the boundary stay nodal."""
+    write_scene()
+    still = settings("Motion/Source=none", "Joints/Model=FJA")
+
+    def crest(directory, *entries):
+        runs("scene.prm", "--output", directory, *ROCK, *still, *settings(*entries))
+        names, rows = table(f"{directory}/history.csv")
+        return [rows[0][names.index(name)] for name in ("crest_x", "crest_z", "base_x")]
+
+    alike = "Foundation/Boundary=fixed", "Foundation/Free field=columns", "Foundation/Nodal layers=0"
+    truth = crest("massless", "Foundation/Model=massless")
+    off = {}
+    for name, entries in (("nodal", ()), ("two", ("Foundation/Layers at the dam=2",)), ("all", ("Foundation/Layers at the dam=1000",))):
+        found = crest(name, *alike, *entries)
+        off[name] = max(abs(a - b) for a, b in zip(found, truth)) / max(map(abs, truth))
+    print(f"    crest and base off by {off}")
+    expect(off["all"] < 1e-8, "all of the rock has the dam's elements")
+    expect(off["two"] < .5 * off["nodal"], "layers at the dam")
+    same_as_nodal = crest("none", *alike[:2], "Foundation/Nodal layers=1000", "Foundation/Layers at the dam=1000")
+    expect(same_as_nodal == crest("plain", *alike), "layers at the boundary stay nodal")
+
+
 if __name__ == "__main__":
-    run_cases(sections)
+    run_cases(sections, at_dam)

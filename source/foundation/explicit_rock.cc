@@ -19,6 +19,7 @@ namespace Voussoir
     result.rock.materials = p.materials_by_volume();
     result.rock.nodal_everywhere = p.nodal_everywhere;
     result.rock.nodal_layers = p.nodal_layers;
+    result.rock.layers_at_dam = p.layers_at_dam;
     result.rock.centre = centre;
     result.damping.mass = p.mass_damping;
     result.damping.stiffness = p.stiffness_damping;

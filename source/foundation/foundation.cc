@@ -41,6 +41,11 @@ namespace Voussoir
         "needs to be exact; else only the layers at the boundary.");
     prm.add_parameter("Nodal layers", nodal_layers, "Layers of nodal quadrature at the artificial boundary.",
                       Integer(0));
+    prm.add_parameter("Layers at the dam", layers_at_dam,
+                      "Layers of rock elements about the dam's base whose stiffness is that of the dam's "
+                      "elements (Gauss points, incompatible modes), but for the layers at the artificial "
+                      "boundary: nodal quadrature makes the rock there too stiff.",
+                      Integer(0, 1000));
     prm.add_parameter("Substeps", substeps, "Explicit steps of the rock in each step of the dam.",
                       Integer(1, 100));
     prm.add_parameter(

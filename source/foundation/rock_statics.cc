@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/lac/tridiagonal_matrix.h>
+
 #include <voussoir/base/error.h>
 #include <voussoir/foundation/rock_statics.h>
 
@@ -94,22 +96,49 @@ namespace Voussoir
     }
   } // namespace
 
-  /** Of D^-1 K, by power iteration. */
+  /** Of D^-1 K, by Lanczos' method: badly shaped cells have eigenvalues that power iteration takes long to
+   * find, and whose waves the smoother would blow up. */
   double RockStatics::largest_eigenvalue() const
   {
-    constexpr unsigned int n_iterations = 20;
-    Unknowns               x(3 * std::size_t(n_nodes), 0.);
-    double                 value = 0.;
-    everywhere([&](const std::size_t k) { work[k] = 1. + .5 * std::sin(12.9898 * double(k)); });
-    for (unsigned int i = 0; i <= n_iterations; ++i)
+    constexpr unsigned int n_iterations = 30;
+    Unknowns               v(3 * std::size_t(n_nodes), 0.), w = v, w_before = v; // w = D v
+    std::vector<double>    diagonal, beside;
+    everywhere(
+        [&](const std::size_t k)
+        {
+          work[k] = aggregates.of_node(k / 3) == RockAggregates::none
+                        ? 0.
+                        : 1. + .5 * std::sin(12.9898 * double(k));
+        });
+    for (unsigned int i = 0; i < n_iterations; ++i)
     {
-      value = std::sqrt(product(work, work));
+      everywhere([&](const std::size_t k) { rest[k] = component(inverse[k / 3], k, work); });
+      const double size = std::sqrt(product(work, rest));
+      if (i > 0)
+        beside.push_back(size);
+      if (!(size > 0.))
+        break;
+      everywhere(
+          [&](const std::size_t k)
+          {
+            w_before[k] = w[k];
+            w[k] = work[k] / size;
+            v[k] = rest[k] / size;
+          });
+      multiply(v, work);
+      diagonal.push_back(product(v, work));
       everywhere([&](const std::size_t k)
-                 { x[k] = aggregates.of_node(k / 3) == RockAggregates::none ? 0. : work[k] / value; });
-      multiply(x, rest);
-      everywhere([&](const std::size_t k) { work[k] = component(inverse[k / 3], k, rest); });
+                 { work[k] -= diagonal.back() * w[k] + (i > 0 ? beside.back() * w_before[k] : 0.); });
     }
-    return value;
+    dealii::TridiagonalMatrix<double> T(diagonal.size(), true);
+    for (std::size_t i = 0; i < diagonal.size(); ++i)
+    {
+      T(i, i) = diagonal[i];
+      if (i + 1 < diagonal.size())
+        T(i, i + 1) = beside[i];
+    }
+    T.compute_eigenvalues();
+    return T.eigenvalue(diagonal.size() - 1);
   }
 
   void RockStatics::make_coarse(const RockModel &model)

@@ -20,9 +20,9 @@ namespace Voussoir
   namespace
   {
     /** Nodal quadrature does not couple the two ends of a cell's diagonal. */
-    bool are_coupled(const unsigned int v, const unsigned int w, const bool nodal)
+    bool are_coupled(const unsigned int v, const unsigned int w, const Integration kind)
     {
-      return !nodal || w != (v ^ 7u);
+      return kind != Integration::nodal || w != (v ^ 7u);
     }
 
     std::array<unsigned int, 8> nodes_of(const RockGrid &grid, const RockGrid::Cell &cell)
@@ -57,7 +57,7 @@ namespace Voussoir
   namespace
   {
     /** Of the given @p rows; the others are empty. */
-    BlockSparseMatrix pattern(const Corners &cells, const std::vector<bool> &nodal,
+    BlockSparseMatrix pattern(const Corners &cells, const std::vector<Integration> &kind,
                               const std::vector<bool> &rows)
     {
       const long                n = static_cast<long>(rows.size());
@@ -77,7 +77,7 @@ namespace Voussoir
         std::vector<unsigned int> row;
         for (unsigned int c = first[i]; c < first[i + 1]; ++c)
           for (unsigned int w = 0; w < 8; ++w)
-            if (are_coupled(corner[c] % 8, w, nodal[corner[c] / 8]))
+            if (are_coupled(corner[c] % 8, w, kind[corner[c] / 8]))
               row.push_back(cells[corner[c] / 8][w]);
         std::sort(row.begin(), row.end());
         row.erase(std::unique(row.begin(), row.end()), row.end());
@@ -129,23 +129,27 @@ namespace Voussoir
       std::vector<double>         mass;      ///< 8 of each
 
       void integrate(const RockGrid &grid, const std::map<int, Material> &materials,
-                     const std::vector<bool> &nodal)
+                     const std::vector<Integration> &kind)
       {
         if (cells.empty())
           return;
-        CellElasticity gauss(grid.fe, false), at_nodes(grid.fe, false, QGaussLobatto<3>(2));
+        CellElasticity gauss(grid.fe, false), with_modes(grid.fe, true),
+            at_nodes(grid.fe, false, QGaussLobatto<3>(2));
         stiffness.clear();
         mass.clear();
         for (const RockGrid::Cell &cell : cells)
         {
-          CellElasticity &element = nodal[cell->active_cell_index()] ? at_nodes : gauss;
+          const Integration of_cell = kind[cell->active_cell_index()];
+          CellElasticity   &element = of_cell == Integration::nodal   ? at_nodes
+                                      : of_cell == Integration::gauss ? gauss
+                                                                      : with_modes;
           element.reinit(cell, materials.at(cell->material_id()));
           stiffness.insert(stiffness.end(), element.stiffness.begin(), element.stiffness.end());
           mass.insert(mass.end(), element.mass.begin(), element.mass.end());
         }
       }
 
-      void add_to(RockModel &model, const RockGrid &grid, const std::vector<bool> &nodal) const
+      void add_to(RockModel &model, const RockGrid &grid, const std::vector<Integration> &kind) const
       {
         const Matrix3 *block = stiffness.data();
         const double  *m = mass.data();
@@ -157,7 +161,7 @@ namespace Voussoir
             model.mass[nodes[v]] += *m++;
             const bool has_row = model.stiffness.start[nodes[v]] < model.stiffness.start[nodes[v] + 1];
             for (unsigned int w = 0; w < 8; ++w, ++block)
-              if (has_row && are_coupled(v, w, nodal[cell->active_cell_index()]))
+              if (has_row && are_coupled(v, w, kind[cell->active_cell_index()]))
                 model.stiffness.add(nodes[v], nodes[w], *block);
           }
         }
@@ -167,12 +171,12 @@ namespace Voussoir
 
   /** Threads integrate some chunks of cells at a time, which are added in the cells' order: sums do not
    * depend on the number of threads. */
-  void assemble_rock(const RockGrid &grid, const Corners &cells, const std::vector<bool> &nodal,
+  void assemble_rock(const RockGrid &grid, const Corners &cells, const std::vector<Integration> &kind,
                      const RockParameters &parameters, const std::vector<bool> &rows, RockModel &model)
   {
     std::vector<bool> with_neighbours = rows; // for the transposes
     add_layers(cells, 1, with_neighbours);
-    model.stiffness = pattern(cells, nodal, with_neighbours);
+    model.stiffness = pattern(cells, kind, with_neighbours);
     model.mass.assign(grid.n_nodes(), 0.);
     int n_threads = 1;
 #ifdef _OPENMP
@@ -187,9 +191,9 @@ namespace Voussoir
         for (chunk.cells.clear(); chunk.cells.size() < Chunk::most && cell != end; ++cell)
           chunk.cells.push_back(cell);
       for_each_parallel(chunks.size(),
-                        [&](const int c) { chunks[c].integrate(grid, parameters.materials, nodal); });
+                        [&](const int c) { chunks[c].integrate(grid, parameters.materials, kind); });
       for (const Chunk &chunk : chunks)
-        chunk.add_to(model, grid, nodal);
+        chunk.add_to(model, grid, kind);
     }
     model.stiffness.symmetrise();
     if (std::find(rows.begin(), rows.end(), false) != rows.end())

@@ -17,14 +17,21 @@ namespace Voussoir
   /** The @p nodes, and those within so many layers of cells around them. */
   void add_layers(const Corners &cells, unsigned int n_layers, std::vector<bool> &nodes);
 
-  /** Stiffness and mass of the @p model. @p nodal: cells that are integrated at their nodes. @p rows: of the
-   * stiffness; the others stay empty. */
-  void assemble_rock(const RockGrid &grid, const Corners &cells, const std::vector<bool> &nodal,
+  /** How the stiffness of a cell is integrated. */
+  enum class Integration : unsigned char
+  {
+    nodal,
+    gauss,
+    with_modes ///< as the dam's elements
+  };
+
+  /** Stiffness and mass of the @p model. @p rows: of the stiffness; the others stay empty. */
+  void assemble_rock(const RockGrid &grid, const Corners &cells, const std::vector<Integration> &kind,
                      const RockParameters &parameters, const std::vector<bool> &rows, RockModel &model);
 
   /** Rows of the stiffness that are needed, by node. */
   using ChooseRows =
-      std::function<std::vector<bool>(const RockGrid &, const Corners &, const std::vector<bool> &nodal,
+      std::function<std::vector<bool>(const RockGrid &, const Corners &, const std::vector<Integration> &,
                                       const std::vector<ArtificialFace> &)>;
 
   /** make_rock_model() with these rows; without a choice, all. */

@@ -9,16 +9,42 @@ namespace Voussoir
 {
   namespace
   {
+    /** Of all cells. */
+    std::vector<Integration> integrations(const RockGrid &grid, const Corners &cells,
+                                          const std::vector<ArtificialFace> &faces,
+                                          const RockParameters              &parameters)
+    {
+      std::vector<Integration> kind(cells.size(),
+                                    parameters.nodal_everywhere ? Integration::nodal : Integration::gauss);
+      std::vector<bool>        near(grid.n_nodes(), false); // the dam
+      for (const RockGrid::Cell &cell : grid.dof_handler.active_cell_iterators())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == PhysicalId::base)
+            for (unsigned int i = 0; i < 4; ++i)
+              near[grid.node(cell, dealii::GeometryInfo<3>::face_to_cell_vertices(f, i))] = true;
+      std::vector<bool> reached = near;
+      add_layers(cells, parameters.layers_at_dam, reached);
+      if (parameters.layers_at_dam > 0)
+        for (std::size_t k = 0; k < cells.size(); ++k)
+          if (std::all_of(cells[k].begin(), cells[k].end(), [&](const unsigned int i) { return reached[i]; }))
+            kind[k] = Integration::with_modes;
+      const std::vector<bool> at_boundary = cells_at_boundary(grid, faces, parameters.nodal_layers);
+      for (std::size_t k = 0; k < cells.size(); ++k)
+        if (at_boundary[k])
+          kind[k] = Integration::nodal;
+      return kind;
+    }
+
     /** Which cells need no matrix. */
-    void sort_cells(const RockGrid &grid, const Corners &cells, const std::vector<bool> &nodal,
+    void sort_cells(const RockGrid &grid, const Corners &cells, const std::vector<Integration> &kind,
                     const RockParameters &parameters, RockModel &model)
     {
       model.in_other_cell.assign(grid.n_nodes(), false);
-      model.nodal_cells.reserve(std::count(nodal.begin(), nodal.end(), true));
+      model.nodal_cells.reserve(std::count(kind.begin(), kind.end(), Integration::nodal));
       for (const RockGrid::Cell &cell : grid.dof_handler.active_cell_iterators())
       {
         const auto &nodes = cells[cell->active_cell_index()];
-        bool        is_plain = nodal[cell->active_cell_index()];
+        bool        is_plain = kind[cell->active_cell_index()] == Integration::nodal;
         for (unsigned int v = 0; v < 8; ++v)
           for (unsigned int c = 0; c < 3; ++c)
             is_plain = is_plain && grid.points[nodes[v]][c] == cell->vertex(v)[c]; // else tied to another
@@ -180,14 +206,11 @@ namespace Voussoir
     model.node.assign(mesh.nodes.size(), no_node);
     for (unsigned int d = 0; d < grid.mesh_node.size(); ++d)
       model.node[grid.mesh_node[d]] = grid.node_of_dof[d];
-    const std::vector<bool> nodal = parameters.nodal_everywhere
-                                        ? std::vector<bool>(grid.triangulation.n_active_cells(), true)
-                                        : cells_at_boundary(grid, faces, parameters.nodal_layers);
-    const Corners           cells = corners_of(grid);
-    assemble_rock(grid, cells, nodal, parameters,
-                  choose ? choose(grid, cells, nodal, faces) : std::vector<bool>(grid.n_nodes(), true),
-                  model);
-    sort_cells(grid, cells, nodal, parameters, model);
+    const Corners                  cells = corners_of(grid);
+    const std::vector<Integration> kind = integrations(grid, cells, faces, parameters);
+    assemble_rock(grid, cells, kind, parameters,
+                  choose ? choose(grid, cells, kind, faces) : std::vector<bool>(grid.n_nodes(), true), model);
+    sort_cells(grid, cells, kind, parameters, model);
     find_lines(grid, faces, parameters, model);
     find_columns(grid, faces, parameters, model);
     for (const ArtificialFace &face : faces)

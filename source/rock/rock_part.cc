@@ -13,7 +13,8 @@ namespace Voussoir
     }
 
     /** Those rows of the stiffness that make_rock_part() promises. */
-    std::vector<bool> needed_rows(const RockGrid &grid, const Corners &cells, const std::vector<bool> &nodal,
+    std::vector<bool> needed_rows(const RockGrid &grid, const Corners &cells,
+                                  const std::vector<Integration>    &kind,
                                   const std::vector<ArtificialFace> &faces,
                                   const std::vector<unsigned int> &feet, const unsigned int n_layers)
     {
@@ -33,7 +34,7 @@ namespace Voussoir
         for (const unsigned int v : face.corners)
           result[grid.node(face.cell, v)] = true;
       for (std::size_t k = 0; k < cells.size(); ++k)
-        for (unsigned int v = 0; v < 8 && !nodal[k]; ++v)
+        for (unsigned int v = 0; v < 8 && kind[k] != Integration::nodal; ++v)
           result[cells[k][v]] = true;
       return result;
     }
@@ -42,12 +43,12 @@ namespace Voussoir
   RockModel make_rock_part(const HexMesh &mesh, const RockParameters &parameters, const FindFeet &feet,
                            const unsigned int n_layers)
   {
-    const auto choose = [&](const RockGrid &grid, const Corners &cells, const std::vector<bool> &nodal,
+    const auto choose = [&](const RockGrid &grid, const Corners &cells, const std::vector<Integration> &kind,
                             const std::vector<ArtificialFace> &faces)
     {
       const std::vector<unsigned int> found = feet(grid.points);
       return Ranks::size() > 1 && nodal_kernel() != nullptr
-                 ? needed_rows(grid, cells, nodal, faces, found, n_layers)
+                 ? needed_rows(grid, cells, kind, faces, found, n_layers)
                  : std::vector<bool>(grid.n_nodes(), true);
     };
     return make_model_with_rows(mesh, parameters, {}, choose);
