@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Dam and rock at steps of their own: how far is the crest from where one step for both has it, and at what cost?
 
-    benchmarks/substeps.py [--voussoir PROGRAM] [--scenes rock_fja rock28]
+    benchmarks/substeps.py [--voussoir PROGRAM] [--scenes rock_fja rock28] [--set ENTRY=VALUE ...]
 
 Five seconds of strong shaking of prm/rock_fja.prm, 2.56 s of prm/rock28.prm; prints a Markdown table for doc/rock.md. Differences
 are root mean squares over the samples of the motion (10 ms), over that of the reference's way from its static place. Cost:
@@ -42,7 +42,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     add_program_argument(parser)
     parser.add_argument("--scenes", nargs="+", choices=SCENES, default=list(SCENES))
+    parser.add_argument("--set", action="append", default=[], metavar="ENTRY=VALUE", help="for all runs")
     options = parser.parse_args()
+    for_all = dict(text.split("=", 1) for text in options.set)
     print("| scene | coupling | dam's step [ms], m | crest x, y, z off by [%] | largest opening [mm] | Newton per step | s per s |\n|" + "---|" * 7)
     for scene in options.scenes:
         common, rows = SCENES[scene]
@@ -50,7 +52,7 @@ def main():
         for coupling, steps, substeps, more in rows:
             with tempfile.TemporaryDirectory() as directory:
                 summary = simulate(options.voussoir, ROOT / "prm" / f"{scene}.prm",
-                                   {**common, COUPLING: coupling, STEPS: steps, SUBSTEPS: substeps, **more}, directory)
+                                   {**common, **for_all, COUPLING: coupling, STEPS: steps, SUBSTEPS: substeps, **more}, directory)
                 way = crest(directory)
             if reference is None:
                 reference, off = way, ""

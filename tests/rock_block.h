@@ -217,6 +217,7 @@ namespace Blocks
     std::string  coupling = "partition";
     double       pulse_length = .1; ///< [s]
     std::string  law = "tied";      ///< of the joint of two monoliths
+    unsigned int layers_at_dam = 0; ///< none in implicit runs
   };
 
   /** Sees the dam and its foundation after each step. */
@@ -234,6 +235,7 @@ namespace Blocks
     p.boundary = c.boundary;
     p.substeps = c.substeps;
     p.coupling = c.coupling;
+    p.layers_at_dam = c.layers_at_dam;
     p.free_field = "columns"; // no earthquake: the box has too few layers for sections beside "fixed"
     const HexMesh both = make_mesh(ground, true, cut);
     const auto    made = make_explicit_rock({p, both, "test"});

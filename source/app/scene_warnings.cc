@@ -184,8 +184,8 @@ namespace Voussoir
          {"Foundation/"},
          {"Foundation/Model", "Foundation/Young's modulus", "Foundation/Poisson's ratio",
           "Foundation/Zones"}},
-        {"Foundation/Nodal quadrature everywhere is true",
-         [](const Scene &s) { return s.foundation.nodal_everywhere; },
+        {"Foundation/Nodal quadrature everywhere is true and Foundation/Layers at the dam is 0",
+         [](const Scene &s) { return s.foundation.nodal_everywhere && s.foundation.layers_at_dam == 0; },
          {"Foundation/Nodal layers"},
          {}},
     };

@@ -37,8 +37,8 @@ namespace Voussoir
         Selection("sections|columns"));
     prm.add_parameter(
         "Nodal quadrature everywhere", nodal_everywhere,
-        "Integrate all rock elements at their nodes, which is fastest and what free field by sections "
-        "needs to be exact; else only the layers at the boundary.");
+        "Integrate all rock elements but those at the dam at their nodes, which is fastest and what free "
+        "field by sections needs to be exact; else only the layers at the boundary.");
     prm.add_parameter("Nodal layers", nodal_layers, "Layers of nodal quadrature at the artificial boundary.",
                       Integer(0));
     prm.add_parameter("Layers at the dam", layers_at_dam,

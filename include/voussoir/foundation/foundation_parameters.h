@@ -24,7 +24,7 @@ namespace Voussoir
     std::string  boundary = "mtf3", free_field = "sections";
     bool         nodal_everywhere = true;
     unsigned int nodal_layers = 6;
-    unsigned int layers_at_dam = 0;
+    unsigned int layers_at_dam = 3;
     unsigned int substeps = 1;      ///< of the rock in each step of the dam
     std::string  coupling = "auto"; ///< or mean traction, partition
 

@@ -14,8 +14,8 @@ namespace Voussoir
   /** The rock's model as make_rock_model() makes it, but with several ranks its stiffness has only the rows
    * that this rank needs; the others are empty. They are those of
    *  - its own nodes, as RockSplit shares them out, and of nodes within four layers of cells around them,
-   *    for the coarse space of the static state: coarse_rows() goes two layers beyond aggregates, which go two
-   *    beyond their seeds;
+   *    for the coarse space of the static state: coarse_rows() goes two layers beyond aggregates, which go
+   * two beyond their seeds;
    *  - nodes within @p n_layers of the @p feet, which all ranks need, and of the artificial boundary;
    *  - nodes whose cells are not all nodal: RockOperator takes their rows from the matrix. */
   RockModel make_rock_part(const HexMesh &mesh, const RockParameters &parameters, const FindFeet &feet,
