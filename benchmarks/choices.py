@@ -6,8 +6,8 @@
 
 Groups: quickstart, joints28 (mesh and time step together), steps (time step and rule of impact), steps28 (28 joints), estimate,
 estimate28 (Dynamics/Error estimate), elements, solvers, boundary, free_field, box (its sizes), box_tied (without joints), box_static,
-rock_cells, rock_layers, rock_layers_static, rock_steps. On rock the motion ends in 0.2 s, and half a second of rest follows: what rises from the bottom
-is all at the dam before the end, whatever the depth.
+rock_cells, rock_layers, rock_steps. On rock the motion ends in 0.2 s, and half a second of rest follows: what rises from
+the bottom is all at the dam before the end, whatever the depth.
 The measures are those of `voussoir accuracy`: largest openings of the joints (root of the sum of squares), means of the
 tension envelope over nine zones of each face; over the strongest seconds of the scene's motion. Each group has a
 reference: the finest step, mesh or box. Prints Markdown tables, and draws doc/figures/choices_GROUP.png of quickstart, steps
@@ -62,7 +62,7 @@ def groups():
     linear, quadratic = [(30, 8, 1), (60, 16, 2), (90, 24, 3)], [(18, 6, 1), (30, 8, 1), (48, 12, 1)]
     modes, degree = "Elements/Incompatible modes", "Elements/Degree"
     rock = {**mesh(30, 10, 1), STEPS: 6, "Mesh/Arch210/Rock/Boundary layers": 8}
-    layers, still = "Foundation/Layers at the dam", {"Motion/Source": "none", "Joints/Model": "tied"}
+    layers = "Foundation/Layers at the dam"
     at_dam = [(name(m), f"{n} layers", {**mesh(*m), layers: n}) for m, some in (((30, 10, 1), (0, 1, 2, 3, 4, 8)), ((60, 20, 2), (0, 3, 4)))
               for n in some]
     boundaries = ("mtf3", "mtf4")
@@ -110,8 +110,6 @@ def groups():
         "rock_cells": (ROCK, {**rock, STEPS: 8}, [("cells", f"{size} m", {"Mesh/Arch210/Rock/Element size": size}) for size in (30, 22)],
                        {"Mesh/Arch210/Rock/Element size": 15}, "cells of 15 m"),
         "rock_layers": (ROCK, rock, at_dam, {**mesh(90, 30, 3), layers: 4}, "90 x 30 x 3 elements, 4 layers"),
-        "rock_layers_static": (ROCK, {**rock, **still}, at_dam, {**mesh(90, 30, 3), "Foundation/Model": "massless"},
-                               "90 x 30 x 3 elements on massless rock, the static state alone"),
         "rock_steps": (ROCK, rock, [("dam at its own step", f"{10 / n:g} ms, {6 // n} of the rock",
                                      {STEPS: n, "Foundation/Substeps": 6 // n}) for n in (1, 2)]
                        + [("one step", "1.67 ms", {})], {STEPS: 20}, "one step for dam and rock, 0.5 ms"),

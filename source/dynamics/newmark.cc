@@ -53,7 +53,6 @@ namespace Voussoir
     now.v = v;
     now.load = load;
     now.force = force;
-    now.trend.assign(force.size(), 0.);
     now.carried.left.assign(is_single ? u.size() : 0, 0.);
     now.carried.moved = now.carried.resisted = now.carried.left;
     structure.multiply_stiffness(now.u, now.Ku);
@@ -163,10 +162,8 @@ namespace Voussoir
     for (std::size_t k = 0; k < force.size(); ++k)
       impulse[k] = half_dt * (rule == ImpactRule::mean_force ? force[k] : now.force[k] + force[k]);
 
-    const bool     as_before = now.carried.dt == dt;
-    const Unknowns last = now.force;
-    Work           work;
-    Unknowns       change; // of the jumps
+    Work     work;
+    Unknowns change; // of the jumps
     add_work_of_joints(dt, u_new, change, work);
     if (support)
       work.input += push_support(level, feet, u_new);
@@ -185,8 +182,6 @@ namespace Voussoir
       now.force = force;
     else
       now.force = impact.end_force(level.system, force, now.v, force_without_joints());
-    for (std::size_t k = 0; k < force.size(); ++k)
-      now.trend[k] = as_before ? now.force[k] - last[k] : 0.;
     return true;
   }
 
@@ -254,9 +249,7 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
         offset[3 * p + c] = -reference[3 * p + c];
     }
-    force = now.force; // as a first guess
-    for (std::size_t k = 0; k < force.size() && now.carried.dt == level.dt; ++k)
-      force[k] += now.trend[k];
+    force = now.force;
     if (rule == ImpactRule::mean_force)
       for (double &f : force)
         f *= 2.;

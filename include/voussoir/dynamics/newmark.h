@@ -33,7 +33,6 @@ namespace Voussoir
     double   time = 0.;
     Unknowns u, v;   ///< [m], [m/s], 3 per node
     Unknowns force;  ///< [N], 3 per pair, in the frame of the pair: mean over the last step, or at its end
-    Unknowns trend;  ///< how the force has changed over the last step, if that was as long as the one before
     Unknowns load;   ///< [N], that of this time
     Unknowns Ku;     ///< stiffness times displacement [N]
     Unknowns memory; ///< of the joint laws: JointLaws::initial_memory() at first
