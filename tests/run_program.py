@@ -529,7 +529,7 @@ def rock():
     expect(early < 1e-8 * largest, f"the dam moves before the earthquake arrives: {early} J of {largest} J")
     runs("mesh", "scene.prm", "--output", "rock.msh", *settings)
     runs("scene.prm", "--output", "from_file", *settings, *from_file("rock.msh"))
-    same("built_in", "from_file", 1e-9, ("history",))
+    same("built_in", "from_file", 1e-7, ("history",))  # tables have eight digits: the last may be rounded the other way
     expect(result["rock"]["energy_balance_error"] < 1e-10, f"energy of the rock: {result['rock']}")
     expect(abs(result["rock"]["critical_time_step"] / critical - 1) < 1e-3, f"{result['rock']}")
     expect(result["contact_path"]["newton"] == result["steps"], f"path of the contact solver {result['contact_path']}")
