@@ -6,7 +6,7 @@
 #include "column.h"
 #include "quarter_box.h"
 
-#include <voussoir/foundation/foundation_parameters.h>
+#include <voussoir/foundation/explicit_rock.h>
 
 namespace
 {
@@ -46,6 +46,44 @@ namespace
     q.rock.nodal_everywhere = false;
     const Result layered = run(q, quarter(q), n_long);
     below("  with 6 layers of nodal quadrature only", layered.end / layered.peak, 1e-6);
+  }
+
+  /** The dam's elements in all of the box but what the boundary keeps. */
+  void layers_at_dam()
+  {
+    for (const std::string name : {"mtf2", "mtf3", "mtf4", "viscous-spring"})
+    {
+      FoundationParameters scene;
+      scene.boundary = name;
+      scene.layers_at_dam = 1000;
+      auto p = parameters(name);
+      p.rock.layers_at_dam = scene.layers_at_dam;
+      p.rock.nodal_layers = region_parameters(scene, p.rock.centre, p.dt).rock.nodal_layers;
+      const RockModel model = quarter(p);
+      const Result    early = run(p, model, n_long / 4), late = run(p, model, n_long);
+      below(name + ", all of it the dam's elements but " + std::to_string(p.rock.nodal_layers) +
+                " layers: max |u| / peak",
+            late.end / late.peak, 1e-2);
+      below("  late / early", late.end / early.end, 2.);
+      p.damping.stiffness = .02 * p.dt;
+      const Result damped = run(p, model, n_long);
+      below("  with a stiffness damping of 0.02 dt: max |u| / peak", damped.end / damped.peak, 1e-6);
+    }
+    // In a large box they must end before the layers of the boundary begin, as Gauss points: see large().
+    for (const unsigned int layers : {3, 1000})
+    {
+      auto p = parameters("mtf3");
+      p.rock.layers_at_dam = layers;
+      const RockModel   model = half_plane(p, 120, 120);
+      const Result      r = run(p, model, 4000);
+      const std::string what =
+          "120 x 120 cells in plane strain, mtf3, " + std::to_string(layers) + " layers: end / peak";
+      if (layers == 3)
+        below(what, r.end / r.peak, 1e-2);
+      else
+        above(what, r.end / r.peak, 1.);
+      Columns::report("  layers meet", 0., "-", (model.n_nodal_at_dam > 0) == (layers > 3));
+    }
   }
 
   void gauss()
@@ -199,5 +237,5 @@ int main(const int argc, char **argv)
 {
   if (argc > 1)
     n_long = std::stoi(argv[1]);
-  return Columns::run_all({gauss, settlement, poisson, drift, diagonal, large, stable});
+  return Columns::run_all({layers_at_dam, gauss, settlement, poisson, drift, diagonal, large, stable});
 }

@@ -118,6 +118,7 @@ def rock():
     any_number("sections", (3,), *ROCK, *settings("Foundation/Free field=sections"))
     any_number("gauss", (2,), *ROCK, *settings("Foundation/Nodal quadrature everywhere=false",
                                                "Foundation/Stiffness damping=6e-4"))
+    any_number("wide", (3,), *ROCK, *settings("Foundation/Layers at the dam=4", "Foundation/Nodal layers=3", "Foundation/Boundary=viscous-spring"))
     any_number("own", (2, 4), *ROCK, *OWN, *settings("Mesh/Arch210/Joints=5", "Mesh/Arch210/Elements along=12"))
 
 

@@ -5,8 +5,11 @@
     program_rock.py VOUSSOIR CASE...     cases: see the functions with that name below
 """
 
+import re
+from pathlib import Path
+
 from program_watch import ROCK, settings
-from run_program import expect, run_cases, refused, runs, table, write_scene
+from run_program import expect, run_cases, refused, runs, summary, table, write_scene
 
 
 def sections():
@@ -44,6 +47,11 @@ def at_dam():
     expect(off["two"] < .5 * off["nodal"], "layers at the dam")
     same_as_nodal = crest("none", *alike[:2], "Foundation/Nodal layers=1000", "Foundation/Layers at the dam=1000")
     expect(same_as_nodal == crest("plain", *alike, "Foundation/Layers at the dam=0"), "layers at the boundary stay nodal")
+    logs = {name: Path(name, "log.txt").read_text() for name in ("nodal", "two", "all", "none")}
+    expect("dam's base are as the dam's" not in logs["nodal"], "no layers")
+    expect("elements of rock in" not in logs["two"] + logs["all"], "all of the layers")
+    expect(re.search(r"warning: (\d+) of \1 elements of rock in .*too stiff", logs["none"]) is not None, "none of the layers")
+    expect(summary("none")["rock"]["elements_at_dam"] == 0 < summary("two")["rock"]["elements_at_dam"], "how many there are")
 
 
 if __name__ == "__main__":

@@ -38,23 +38,40 @@ namespace QuarterBoxes
     return p;
   }
 
+  /** A dam stands on the two cells of the ground next to x = y = 0. */
+  inline void add_base(HexMesh &mesh, const double top)
+  {
+    const auto in = [&](const unsigned int node)
+    { return mesh.nodes[node][0] < 2.5 && mesh.nodes[node][1] < 2.5 && mesh.nodes[node][2] == top; };
+    for (const HexMesh::Cell &cell : mesh.cells)
+    {
+      HexMesh::Face f{{}, PhysicalId::base};
+      for (unsigned int v = 0; v < 4; ++v)
+        f.nodes[v] = cell.nodes[hex_faces[1][v]];
+      if (std::all_of(f.nodes.begin(), f.nodes.end(), in))
+        mesh.faces.push_back(f);
+    }
+  }
+
   inline RockModel quarter(const RockRegionParameters &p)
   {
-    return make_rock_model(box({n, n, n}, {"x+", "y+", "z-"},
-                               [](const double i, const double j, const double k) -> Vector3 {
-                                 return {{i, j, k}};
-                               }),
-                           p.rock);
+    HexMesh mesh = box({n, n, n}, {"x+", "y+", "z-"},
+                       [](const double i, const double j, const double k) -> Vector3 {
+                         return {{i, j, k}};
+                       });
+    add_base(mesh, n);
+    return make_rock_model(mesh, p.rock);
   }
 
   /** Plane strain in x and z, a half, the ground on top. */
   inline RockModel half_plane(const RockRegionParameters &p, const unsigned int nx, const unsigned int nz)
   {
-    const HexMesh mesh = box({nx, 1, nz}, {"x+", "z-"},
-                             [](const double i, const double j, const double k) -> Vector3 {
-                               return {{i, j, k}};
-                             });
-    auto          rock = p.rock;
+    HexMesh mesh = box({nx, 1, nz}, {"x+", "z-"},
+                       [](const double i, const double j, const double k) -> Vector3 {
+                         return {{i, j, k}};
+                       });
+    add_base(mesh, nz);
+    auto rock = p.rock;
     rock.centre = {{0., 0., double(nz)}};
     return make_rock_model(mesh, rock, tie_layer(mesh, 1));
   }

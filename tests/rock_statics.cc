@@ -22,16 +22,29 @@ namespace
   };
 
   /** Rock of 600 m x 600 m x 300 m of flat elements, n of them along its length, held but for its ground,
-   * whose middle is pushed. */
-  Solved push(const unsigned int n)
+   * whose middle is pushed. @p thin: under the ground like sheets, all of them as the dam's. */
+  Solved push(const unsigned int n, const bool thin = false)
   {
     const double   h = 600. / n;
-    const HexMesh  mesh = Boxes::box({n, n, n}, {"x-", "x+", "y-", "y+", "z-"},
-                                     [&](const double i, const double j, const double k) {
-                                      return Vector3{{h * i, h * j, .5 * h * k}};
-                                    });
+    HexMesh        mesh = Boxes::box({n, n, n}, {"x-", "x+", "y-", "y+", "z-"},
+                                     [&](const double i, const double j, const double k)
+                                     {
+                                const bool sheets =
+                                    thin && std::abs(i - .5 * n) < 1.5 && std::abs(j - .5 * n) < 1.5;
+                                const double z = sheets ? 300. * (1. - std::pow(1. - k / n, 2)) : .5 * h * k;
+                                return Vector3{{h * i, h * j, z}};
+                              });
     RockParameters parameters;
     parameters.nodal_everywhere = true;
+    if (thin)
+    {
+      parameters.layers_at_dam = n;
+      parameters.nodal_layers = 0;
+      HexMesh::Face ground{{}, PhysicalId::base};
+      for (unsigned int v = 0; v < 4; ++v)
+        ground.nodes[v] = mesh.cells.back().nodes[hex_faces[1][v]];
+      mesh.faces.push_back(ground);
+    }
     parameters.materials[Boxes::rock] = Material{15e9, .25, 2700.};
     const RockModel   model = make_rock_model(mesh, parameters);
     const std::size_t n_nodes = model.points.size();
@@ -90,9 +103,18 @@ namespace
     std::cout << "iterations: " << coarse.iterations << " on 12^3 elements, " << fine.iterations
               << " on 24^3\n";
   }
+
+  /** Elements with large eigenvalues. */
+  void sheets()
+  {
+    const Solved solved = push(16, true);
+    expect(solved.residual < 2e-11, "equilibrium");
+    std::cout << "iterations: " << solved.iterations << " with sheets\n";
+    expect(solved.iterations < 200, "iterations");
+  }
 } // namespace
 
 int main()
 {
-  return run({{"halving the mesh", halving}});
+  return run({{"halving the mesh", halving}, {"sheets", sheets}});
 }

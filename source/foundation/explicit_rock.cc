@@ -4,6 +4,7 @@
 #include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/rock/arrival.h>
+#include <voussoir/rock/boundary_table.h>
 #include <voussoir/rock/rock_part.h>
 
 #include <algorithm>
@@ -19,6 +20,8 @@ namespace Voussoir
     result.rock.materials = p.materials_by_volume();
     result.rock.nodal_everywhere = p.nodal_everywhere;
     result.rock.nodal_layers = p.nodal_layers;
+    if (p.nodal_everywhere) // but at the dam: the boundary has what it needs
+      result.rock.nodal_layers = std::max(p.nodal_layers, make_boundary(p.boundary)->n_layers());
     result.rock.layers_at_dam = p.layers_at_dam;
     result.rock.centre = centre;
     result.damping.mass = p.mass_damping;
@@ -28,6 +31,23 @@ namespace Voussoir
     result.free_field = p.free_field;
     return result;
   }
+
+  namespace
+  {
+    /** Work of a step at each node, over that at a node whose force comes from cells; at @p near_feet one
+     * looks ahead, too. */
+    std::vector<double> work_of_nodes(const RockModel &model, const std::vector<unsigned int> &near_feet)
+    {
+      constexpr double    of_row = 2.5, of_look_ahead = 1.5; // measured, see doc/parallel.md
+      std::vector<double> result(model.points.size(), 1.);
+      for (std::size_t i = 0; i < result.size(); ++i)
+        if (model.in_other_cell[i])
+          result[i] += of_row;
+      for (const unsigned int i : near_feet)
+        result[i] += of_look_ahead;
+      return result;
+    }
+  } // namespace
 
   ExplicitRock::ExplicitRock(const FoundationSite &site)
       : parameters(site.parameters), mesh(site.parameters.volumes_by_material(site.mesh)), source(site.source)
@@ -112,7 +132,7 @@ namespace Voussoir
     give_back_memory();
     grid = steps;
     const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
-    RockSplit                  split(n_nodes());
+    RockSplit                  split(work_of_nodes(model, near_feet));
     split.step_everywhere(feet_of_rock());
     if (!split.is_trivial() && !near_feet.empty())
     {

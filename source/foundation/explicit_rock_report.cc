@@ -20,6 +20,27 @@ namespace Voussoir
         make_boundary(parameters.boundary)->warning(region_parameters(parameters, {}, steps.substep()));
     if (!warning.empty())
       log.line("warning: %s", warning.c_str());
+    report_layers(log);
+  }
+
+  void ExplicitRock::report_layers(Log &log) const
+  {
+    if (parameters.layers_at_dam == 0)
+      return;
+    const unsigned int n = model.n_cells_at_dam, n_nodal = model.n_nodal_at_dam;
+    log.line("          %u elements about the dam's base are as the dam's", n - n_nodal);
+    if (n == 0)
+      log.line(
+          "warning: no element of the rock has a face in the surface \"base\", so \"Foundation/Layers at the "
+          "dam\" finds none: the rock is too stiff under the dam (doc/rock.md)");
+    else if (n_nodal > 0)
+      log.line("warning: %u of %u elements of rock in \"Foundation/Layers at the dam\" lie in the layers of "
+               "nodal quadrature that keep the artificial boundary stable, so the rock there is too stiff "
+               "(doc/rock.md)%s: make the rock larger, its elements smaller, or the layers fewer",
+               n_nodal, n,
+               make_boundary(parameters.boundary)->n_layers() > 0
+                   ? ", and in large rock a transmitting boundary of order 3 or 4 may grow without bound"
+                   : "");
   }
 
   std::string ExplicitRock::about_steps() const
@@ -37,6 +58,7 @@ namespace Voussoir
     json.add("nodes", n_nodes())
         .add("dofs", 3. * n_nodes())
         .add("boundary", parameters.boundary)
+        .add("elements_at_dam", model.n_cells_at_dam - model.n_nodal_at_dam)
         .add("arrival", arrival()[0])
         .add("time_step", steps.substep())
         .add("critical_time_step", dt_critical);

@@ -103,7 +103,7 @@ namespace Voussoir
     return springs;
   }
 
-  void ExplicitRock::solve_rock(const Unknowns &r, const double tolerance, Unknowns &u_base, Log &log)
+  void ExplicitRock::solve_rock(const Unknowns &r, Unknowns &u_base, Log &log)
   {
     if (!statics)
     {
@@ -121,7 +121,8 @@ namespace Voussoir
         for (unsigned int c = 0; c < 3; ++c)
           b[3 * f.rock + c] += r[3 * node + c];
     const Stopwatch    watch;
-    const unsigned int iterations = statics->solve(b, u, log, tolerance);
+    constexpr double   tolerance = 1e-11, part = .01; // the rounds go on anyway
+    const unsigned int iterations = statics->solve(b, u, log, tolerance, part);
     log.line("          load %u: %u iterations, %.1f s", ++n_settled, iterations, watch.seconds());
     u_base.resize(3 * foot.size());
     for (std::size_t i = 0; i < foot.size(); ++i)
@@ -175,7 +176,7 @@ namespace Voussoir
       if (!contact.converged)
         break;
       double slack = add_slack(springs, u, base, r), size = 1e-300;
-      solve_rock(r, 1e-11, settled, log);
+      solve_rock(r, settled, log);
       Unknowns f = settled;
       for (std::size_t k = 0; k < n; ++k)
       {

@@ -98,6 +98,8 @@ namespace Voussoir
       text << ", a \"Foundation/Stiffness damping\" of " << .02 * rock_dt << " s (0.02 of the rock's step)";
     if (!p.nodal_everywhere)
       text << ", \"Foundation/Nodal quadrature everywhere\" = true";
+    if (p.layers_at_dam > 0)
+      text << ", \"Foundation/Layers at the dam\" = 0";
     if (p.substeps > 1 && !p.has_own_steps())
       text << ", fewer \"Foundation/Substeps\"";
     text << ", or a smaller time step (\"Dynamics/Steps per sample\"); see doc/boundary.md.";

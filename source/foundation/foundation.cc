@@ -39,8 +39,11 @@ namespace Voussoir
         "Nodal quadrature everywhere", nodal_everywhere,
         "Integrate all rock elements but those at the dam at their nodes, which is fastest and what free "
         "field by sections needs to be exact; else only the layers at the boundary.");
-    prm.add_parameter("Nodal layers", nodal_layers, "Layers of nodal quadrature at the artificial boundary.",
-                      Integer(0));
+    prm.add_parameter(
+        "Nodal layers", nodal_layers,
+        "Layers of nodal quadrature at the artificial boundary; but for Nodal quadrature everywhere at least "
+        "as many as the boundary's formula sees.",
+        Integer(0));
     prm.add_parameter("Layers at the dam", layers_at_dam,
                       "Layers of rock elements about the dam's base whose stiffness is that of the dam's "
                       "elements (Gauss points, incompatible modes), but for the layers at the artificial "

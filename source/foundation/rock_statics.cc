@@ -116,8 +116,11 @@ namespace Voussoir
       const double size = std::sqrt(product(work, rest));
       if (i > 0)
         beside.push_back(size);
+      if (!(size > 0.) && i > 0)
+        break; // an invariant space
       if (!(size > 0.))
-        break;
+        throw ComputationError("The rock's stiffness is not positive definite: its elements may be badly "
+                               "shaped (see voussoir mesh), or all of its nodes are held.");
       everywhere(
           [&](const std::size_t k)
           {
@@ -260,26 +263,34 @@ namespace Voussoir
     smooth(true, rest, z);
   }
 
-  unsigned int RockStatics::solve(const Unknowns &b, Unknowns &x, Log &log, const double tolerance)
+  unsigned int RockStatics::solve(const Unknowns &b, Unknowns &x, Log &log, const double tolerance,
+                                  const double part)
   {
-    Unknowns guess(b.size(), 0.);
+    last.resize(b.size(), 0.);
+    multiply(last, work);
+    everywhere([&](const std::size_t k)
+               { rest[k] = aggregates.of_node(k / 3) == RockAggregates::none ? 0. : b[k] - work[k]; });
+    const double goal = part * std::sqrt(product(rest, rest));
+    Unknowns     guess = last;
     for (const std::vector<double> &before : solutions)
     {
       std::size_t j = 0;
       for (const auto &[begin, end] : pieces)
         for (std::size_t k = 3 * std::size_t(begin); k < 3 * std::size_t(end); ++k)
           correction[k] = before[j++];
-      const double part = product(correction, b);
-      everywhere([&](const std::size_t k) { guess[k] += part * correction[k]; });
+      const double along = product(correction, rest);
+      everywhere([&](const std::size_t k) { guess[k] += along * correction[k]; });
     }
     x = guess;
-    const unsigned int n = iterate(b, x, log, tolerance);
+    const unsigned int n = iterate(b, x, log, tolerance, goal);
     keep(guess, x);
+    last = x;
     split.gather(x, 3);
     return n;
   }
 
-  unsigned int RockStatics::iterate(const Unknowns &b, Unknowns &x, Log &log, const double tolerance) const
+  unsigned int RockStatics::iterate(const Unknowns &b, Unknowns &x, Log &log, const double tolerance,
+                                    const double goal) const
   {
     constexpr unsigned int most = 1000;
     constexpr double       interval = 10.; // [s]
@@ -296,7 +307,7 @@ namespace Voussoir
     for (unsigned int n = 0; n <= most; ++n)
     {
       const double residual = std::sqrt(product(r, r));
-      if (residual <= tolerance * size)
+      if (residual <= std::max(tolerance * size, goal))
         return n;
       if (watch.seconds() > next)
       {

@@ -7,7 +7,7 @@
 
 namespace Voussoir
 {
-  void RockOperator::Numbering::share_blocks(const std::vector<std::size_t> &ends)
+  void RockOperator::Numbering::share_blocks(const std::vector<std::size_t> &ends, const RockSplit &split)
   {
     const unsigned int  n_blocks = ends.size(), n_ranks = Ranks::size();
     std::vector<double> sum(n_blocks, 0.), count(n_blocks, 0.);
@@ -21,12 +21,18 @@ namespace Voussoir
     std::sort(by_place.begin(), by_place.end(),
               [&](const unsigned int a, const unsigned int b)
               { return std::make_pair(sum[a] / count[a], a) < std::make_pair(sum[b] / count[b], b); });
+    std::vector<std::size_t> until(n_ranks, 0); // nodes of cells that this and lower ranks own
+    for (unsigned int i = 0; i < kind.size(); ++i)
+      if (kind[i] != of_matrix)
+        ++until[split.owner(i)];
+    std::partial_sum(until.begin(), until.end(), until.begin());
     rank.resize(n_blocks);
     std::size_t before = 0;
     for (const unsigned int b : by_place)
     {
       const std::size_t n = ends[b] - (b == 0 ? 0 : ends[b - 1]);
-      rank[b] = std::min<std::size_t>(n_ranks - 1, (2 * before + n) * n_ranks / (2 * ends.back()));
+      const std::size_t middle = (2 * before + n) * until.back() / (2 * ends.back());
+      rank[b] = std::upper_bound(until.begin(), until.end() - 1, middle) - until.begin();
       before += n;
     }
   }

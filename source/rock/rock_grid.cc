@@ -91,30 +91,52 @@ namespace Voussoir
     return line;
   }
 
+  namespace
+  {
+    /** Of each active cell: does it lie within @p n_layers of cells about the vertices that are @p reached?
+     */
+    std::vector<bool> cells_about(const RockGrid &grid, std::vector<bool> reached,
+                                  const unsigned int n_layers)
+    {
+      std::vector<bool> found(grid.triangulation.n_active_cells(), false);
+      for (unsigned int layer = 0; layer < n_layers; ++layer)
+      {
+        const std::vector<bool> before = reached;
+        for (const auto &cell : grid.triangulation.active_cell_iterators())
+          if (const auto vertices = cell->vertex_indices();
+              !found[cell->active_cell_index()] &&
+              std::any_of(vertices.begin(), vertices.end(),
+                          [&](const unsigned int v) { return before[cell->vertex_index(v)]; }))
+          {
+            found[cell->active_cell_index()] = true;
+            for (const unsigned int v : vertices)
+              reached[cell->vertex_index(v)] = true;
+          }
+        if (reached == before)
+          break; // there are no more
+      }
+      return found;
+    }
+  } // namespace
+
   std::vector<bool> cells_at_boundary(const RockGrid &grid, const std::vector<ArtificialFace> &faces,
                                       const unsigned int n_layers)
   {
-    std::vector<bool> found(grid.triangulation.n_active_cells(), false),
-        reached(grid.triangulation.n_vertices(), false);
+    std::vector<bool> reached(grid.triangulation.n_vertices(), false);
     for (const ArtificialFace &face : faces)
       for (const unsigned int v : face.corners)
         reached[face.cell->vertex_index(v)] = true;
-    for (unsigned int layer = 0; layer < n_layers; ++layer)
-    {
-      const std::vector<bool> before = reached;
-      for (const auto &cell : grid.triangulation.active_cell_iterators())
-        if (const auto vertices = cell->vertex_indices();
-            !found[cell->active_cell_index()] &&
-            std::any_of(vertices.begin(), vertices.end(),
-                        [&](const unsigned int v) { return before[cell->vertex_index(v)]; }))
-        {
-          found[cell->active_cell_index()] = true;
-          for (const unsigned int v : vertices)
-            reached[cell->vertex_index(v)] = true;
-        }
-      if (reached == before)
-        break; // there are no more
-    }
-    return found;
+    return cells_about(grid, std::move(reached), n_layers);
+  }
+
+  std::vector<bool> cells_at_dam(const RockGrid &grid, const unsigned int n_layers)
+  {
+    std::vector<bool> reached(grid.triangulation.n_vertices(), false);
+    for (const auto &cell : grid.triangulation.active_cell_iterators())
+      for (const unsigned int f : cell->face_indices())
+        if (const auto face = cell->face(f); face->at_boundary() && face->boundary_id() == PhysicalId::base)
+          for (const unsigned int v : face->vertex_indices())
+            reached[face->vertex_index(v)] = true;
+    return cells_about(grid, std::move(reached), n_layers);
   }
 } // namespace Voussoir

@@ -9,29 +9,23 @@ namespace Voussoir
 {
   namespace
   {
-    /** Of all cells. */
-    std::vector<Integration> integrations(const RockGrid &grid, const Corners &cells,
-                                          const std::vector<ArtificialFace> &faces,
-                                          const RockParameters              &parameters)
+    /** Of all cells; counts in the @p model those at the dam. */
+    std::vector<Integration> integrations(const RockGrid &grid, const std::vector<ArtificialFace> &faces,
+                                          const RockParameters &parameters, RockModel &model)
     {
-      std::vector<Integration> kind(cells.size(),
+      const std::vector<bool> at_boundary = cells_at_boundary(grid, faces, parameters.nodal_layers),
+                              at_dam = cells_at_dam(grid, parameters.layers_at_dam);
+      std::vector<Integration> kind(at_dam.size(),
                                     parameters.nodal_everywhere ? Integration::nodal : Integration::gauss);
-      std::vector<bool>        near(grid.n_nodes(), false); // the dam
-      for (const RockGrid::Cell &cell : grid.dof_handler.active_cell_iterators())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == PhysicalId::base)
-            for (unsigned int i = 0; i < 4; ++i)
-              near[grid.node(cell, dealii::GeometryInfo<3>::face_to_cell_vertices(f, i))] = true;
-      std::vector<bool> reached = near;
-      add_layers(cells, parameters.layers_at_dam, reached);
-      if (parameters.layers_at_dam > 0)
-        for (std::size_t k = 0; k < cells.size(); ++k)
-          if (std::all_of(cells[k].begin(), cells[k].end(), [&](const unsigned int i) { return reached[i]; }))
-            kind[k] = Integration::with_modes;
-      const std::vector<bool> at_boundary = cells_at_boundary(grid, faces, parameters.nodal_layers);
-      for (std::size_t k = 0; k < cells.size(); ++k)
+      for (std::size_t k = 0; k < kind.size(); ++k)
+      {
+        if (at_dam[k])
+          kind[k] = Integration::with_modes;
         if (at_boundary[k])
           kind[k] = Integration::nodal;
+        model.n_cells_at_dam += at_dam[k];
+        model.n_nodal_at_dam += at_dam[k] && at_boundary[k];
+      }
       return kind;
     }
 
@@ -207,7 +201,7 @@ namespace Voussoir
     for (unsigned int d = 0; d < grid.mesh_node.size(); ++d)
       model.node[grid.mesh_node[d]] = grid.node_of_dof[d];
     const Corners                  cells = corners_of(grid);
-    const std::vector<Integration> kind = integrations(grid, cells, faces, parameters);
+    const std::vector<Integration> kind = integrations(grid, faces, parameters, model);
     assemble_rock(grid, cells, kind, parameters,
                   choose ? choose(grid, cells, kind, faces) : std::vector<bool>(grid.n_nodes(), true), model);
     sort_cells(grid, cells, kind, parameters, model);

@@ -51,8 +51,9 @@ namespace Voussoir
           kind[i] = of_matrix;
     }
 
-    /** Blocks in the order of their nodes' numbers, in parts of about the same number of cells. */
-    void share_blocks(const std::vector<std::size_t> &ends);
+    /** Blocks in the order of their nodes' numbers; each rank gets as many cells as it has of the nodes
+     * whose forces come from cells. */
+    void share_blocks(const std::vector<std::size_t> &ends, const RockSplit &split);
   };
 } // namespace Voussoir
 

@@ -96,7 +96,7 @@ namespace Voussoir
     Numbering numbering(cells, order, ends, has_row);
     if (!split.is_trivial())
     {
-      numbering.share_blocks(ends);
+      numbering.share_blocks(ends, split);
       for (const auto &[i, b] : numbering.in_block)
         split.step({i}, numbering.rank[b]);
       for (unsigned int i = 0; i < n_nodes; ++i)

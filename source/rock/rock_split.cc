@@ -2,17 +2,29 @@
 #include <voussoir/rock/rock_split.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace Voussoir
 {
-  RockSplit::RockSplit(const unsigned int n) : n_nodes(n)
+  RockSplit::RockSplit(const std::vector<double> &work) : n_nodes(work.size())
   {
     const unsigned int n_ranks = Ranks::size();
+    const std::size_t  n = n_nodes;
     if (n_ranks == 1)
       return;
-    const std::size_t n_chunks = (n + per_chunk - 1) / per_chunk;
+    const std::size_t   n_chunks = (n + per_chunk - 1) / per_chunk;
+    std::vector<double> before(1, 0.); // work of the chunks before
+    for (std::size_t c = 0; c < n_chunks; ++c)
+      before.push_back(std::accumulate(work.begin() + c * per_chunk,
+                                       work.begin() + std::min<std::size_t>(n, (c + 1) * per_chunk),
+                                       before.back()));
     for (unsigned int r = 0; r <= n_ranks; ++r)
-      begin.push_back(n_chunks * r / n_ranks);
+    {
+      const double part = before.back() * r / n_ranks;
+      const auto   above = std::lower_bound(before.begin(), before.end(), part);
+      const bool   below_is_nearer = above != before.begin() && part - above[-1] < *above - part;
+      begin.push_back(above - before.begin() - below_is_nearer);
+    }
     for (unsigned int r = 0; r < n_ranks; ++r)
     {
       steps.emplace_back(n, false);

@@ -95,12 +95,13 @@ namespace Voussoir
     /** @p near_feet: nodes that the rank which looks @p ahead asks for, besides the feet, which all do. */
     void                      make_rock(const GroundMotion &outcrop, const TimeGrid &steps, double delay,
                                         const std::vector<unsigned int> &near_feet = {});
+    void                      report_layers(Log &log) const;
     void                      keep_account(double time);
     std::vector<unsigned int> feet_of_rock() const; ///< nodes of the region
 
   private:
     void     check_stability(const TimeGrid &grid) const;
-    void     solve_rock(const Unknowns &r, double tolerance, Unknowns &u_base, Log &log);
+    void     solve_rock(const Unknowns &r, Unknowns &u_base, Log &log);
     Unknowns with_springs(const Unknowns &external, const Unknowns &springs, const Unknowns &base,
                           const Unknowns &r) const;
     double   add_slack(const Unknowns &springs, const Unknowns &u, const Unknowns &base, Unknowns &r) const;

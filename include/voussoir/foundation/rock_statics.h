@@ -32,9 +32,10 @@ namespace Voussoir
     double       seconds_setup() const { return setup; }
 
     /** Displacements @p x of all nodes [m] under the forces @p b [N], until the residual is less than
-     * @p tolerance times |b|; returns the number of iterations. Says where it stands in @p log every ten
+     * @p tolerance times |b|, or @p part of what the solution before leaves of them; returns the number of
+     * iterations, few where the forces are much as they were before. Says where it stands in @p log every ten
      * seconds. Throws ComputationError if it does not converge. */
-    unsigned int solve(const Unknowns &b, Unknowns &x, Log &log, double tolerance = 1e-11);
+    unsigned int solve(const Unknowns &b, Unknowns &x, Log &log, double tolerance = 1e-11, double part = 0.);
 
   private:
     void         find_inverse(const RockModel &model);
@@ -45,7 +46,7 @@ namespace Voussoir
     void         smooth(bool is_last, Unknowns &residual, Unknowns &z) const;
     void         correct(Unknowns &residual, Unknowns &z) const;
     void         precondition(const Unknowns &r, Unknowns &z) const;
-    unsigned int iterate(const Unknowns &b, Unknowns &x, Log &log, double tolerance) const;
+    unsigned int iterate(const Unknowns &b, Unknowns &x, Log &log, double tolerance, double goal) const;
     void         keep(const Unknowns &guess, const Unknowns &x);
     template <class Action> void everywhere(const Action &action) const; ///< that this rank steps
 
@@ -56,9 +57,10 @@ namespace Voussoir
     std::vector<std::pair<int, int>> pieces;          ///< nodes that this rank steps, in ranges
     std::vector<Matrix3>             inverse;         ///< of the diagonal's blocks [m/N]; zero where held
     std::vector<unsigned int>        seeds;           ///< of each aggregate, whose owner has it
-    double                           eigenvalue = 0.; ///< a bound of those of D^-1 K
+    double                           eigenvalue = 0.; ///< above those of D^-1 K
     std::unique_ptr<CoarseRock>      coarse;          ///< of the first rank
-    std::vector<std::vector<double>> solutions;       ///< at the pieces, A-orthonormal
+    std::vector<std::vector<double>> solutions;       ///< at the pieces, about A-orthonormal
+    Unknowns                         last;            ///< solution
     mutable Unknowns                 correction, work, rest;
     double                           setup = 0.; ///< [s]
   };

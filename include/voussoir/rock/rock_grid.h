@@ -73,6 +73,9 @@ namespace Voussoir
   /** Of each active cell: is it one of the @p n_layers of cells at the artificial boundary? */
   std::vector<bool> cells_at_boundary(const RockGrid &grid, const std::vector<ArtificialFace> &faces,
                                       unsigned int n_layers);
+
+  /** Of each active cell: is it one of the @p n_layers of cells about the surfaces PhysicalId::base? */
+  std::vector<bool> cells_at_dam(const RockGrid &grid, unsigned int n_layers);
 } // namespace Voussoir
 
 #endif

@@ -45,12 +45,14 @@ namespace Voussoir
     std::vector<unsigned int>          node;      ///< of each mesh node, no_node if it is not in the rock
     std::vector<std::array<double, 3>> points;    ///< places of the nodes [m]
     BlockSparseMatrix                  stiffness; ///< [N/m]
-    std::vector<NodalCell>    nodal_cells;   ///< those with nodal quadrature, unless their nodes are tied
-    std::vector<bool>         in_other_cell; ///< of each node: is it one of a cell of another kind?
-    std::vector<double>       mass;          ///< lumped, of each node [kg]
-    std::vector<BoundaryLine> lines;         ///< one for each node of the artificial boundary
-    std::vector<BoundaryFace> faces;         ///< of the artificial boundary
-    std::vector<RockColumn>   columns;       ///< along side faces; at least one
+    std::vector<NodalCell> nodal_cells;        ///< those with nodal quadrature, unless their nodes are tied
+    std::vector<bool>      in_other_cell;      ///< of each node: is it one of a cell of another kind?
+    unsigned int           n_cells_at_dam = 0; ///< in RockParameters::layers_at_dam
+    unsigned int           n_nodal_at_dam = 0; ///< of these, those in the layers at the artificial boundary
+    std::vector<double>    mass;               ///< lumped, of each node [kg]
+    std::vector<BoundaryLine> lines;           ///< one for each node of the artificial boundary
+    std::vector<BoundaryFace> faces;           ///< of the artificial boundary
+    std::vector<RockColumn>   columns;         ///< along side faces; at least one
 
     /** For each line, where its free field is to be taken: side lines have a column and the place of their
      * node in it; lines of the bottom have column no_node. */

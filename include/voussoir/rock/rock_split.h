@@ -19,7 +19,9 @@ namespace Voussoir
     static constexpr unsigned int per_chunk = 256; ///< nodes
 
     RockSplit() = default; ///< all by this rank
-    explicit RockSplit(unsigned int n_nodes);
+    explicit RockSplit(unsigned int n_nodes) : RockSplit(std::vector<double>(n_nodes, 1.)) {}
+    /** All ranks get about the same sum of the @p work of the nodes. */
+    explicit RockSplit(const std::vector<double> &work);
 
     bool         is_trivial() const { return steps.empty(); }
     unsigned int owner(unsigned int node) const;
