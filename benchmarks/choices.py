@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Error against cost of the choices that a scene has, each against the best of its kind.
 
-    benchmarks/choices.py [GROUP...] [--seconds 3] [--voussoir PROGRAM]
+    benchmarks/choices.py [GROUP...] [--seconds 3] [--seed N] [--set ENTRY=VALUE] [--voussoir PROGRAM]
 
 Groups: quickstart, joints28 (mesh and time step together), steps (time step and rule of impact), steps28 (28 joints), estimate,
 estimate28 (Dynamics/Error estimate), elements, solvers, boundary, free_field, box (its sizes), box_tied (without joints), box_static,
@@ -63,7 +63,7 @@ def groups():
     modes, degree = "Elements/Incompatible modes", "Elements/Degree"
     rock = {**mesh(30, 10, 1), STEPS: 6, "Mesh/Arch210/Rock/Boundary layers": 8}
     layers = "Foundation/Layers at the dam"
-    at_dam = [(name(m), f"{n} layers", {**mesh(*m), layers: n}) for m, some in (((30, 10, 1), (0, 1, 2, 3, 4, 8)), ((60, 20, 2), (0, 3, 4)))
+    at_dam = [(name(m), f"{n} layers", {**mesh(*m), layers: n}) for m, some in (((30, 10, 1), (0, 1, 2, 3, 4, 8)), ((60, 20, 2), (0, 3, 4)), ((90, 30, 3), (0, 3)))
               for n in some]
     boundaries = ("mtf3", "mtf4")
     boxes = [(b, label, {**settings, "Foundation/Boundary": b}) for b in boundaries for label, settings in
@@ -109,7 +109,7 @@ def groups():
         "box_static": (ROCK, {**rock, "Motion/Source": "none"}, boxes[:len(boxes) // len(boundaries)], deep, far + ", the static state alone"),
         "rock_cells": (ROCK, {**rock, STEPS: 8}, [("cells", f"{size} m", {"Mesh/Arch210/Rock/Element size": size}) for size in (30, 22)],
                        {"Mesh/Arch210/Rock/Element size": 15}, "cells of 15 m"),
-        "rock_layers": (ROCK, rock, at_dam, {**mesh(90, 30, 3), layers: 4}, "90 x 30 x 3 elements, 4 layers"),
+        "rock_layers": (ROCK, {**rock, STEPS: 8}, at_dam, {**mesh(90, 30, 3), layers: 4}, "90 x 30 x 3 elements, 4 layers"),
         "rock_steps": (ROCK, rock, [("dam at its own step", f"{10 / n:g} ms, {6 // n} of the rock",
                                      {STEPS: n, "Foundation/Substeps": 6 // n}) for n in (1, 2)]
                        + [("one step", "1.67 ms", {})], {STEPS: 20}, "one step for dam and rock, 0.5 ms"),
@@ -127,7 +127,8 @@ def at_rest_after(motion):
 class Runs:
     def __init__(self, options, scene, common, directory):
         self.options, self.scene, self.directory, self.n, self.areas = options, scene, Path(directory), 0, None
-        run(options.voussoir, "motion", scene, "--output", self.directory / "whole.csv")
+        seed = [] if options.seed is None else ["--set", f"Motion/Seed={options.seed}"]
+        run(options.voussoir, "motion", scene, "--output", self.directory / "whole.csv", *seed)
         part, _ = strongest(np.loadtxt(self.directory / "whole.csv", delimiter=",", skiprows=1), options.seconds)
         if scene == ROCK:
             part = at_rest_after(part)
@@ -200,6 +201,7 @@ def main():
     add_program_argument(parser)
     parser.add_argument("groups", nargs="*", choices=list(groups()) + [[]])
     parser.add_argument("--seconds", type=float, default=3)
+    parser.add_argument("--seed", type=int, help="of the motion, instead of the scene's")
     parser.add_argument("--set", action="append", default=[], metavar="ENTRY=VALUE", help="for all runs")
     options = parser.parse_args()
     for group in options.groups or groups():

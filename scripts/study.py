@@ -177,10 +177,10 @@ def validated(study, directory, scene, name, old, known):
     """One line of scenes.json: key, memory, values. Writes the scene's file; runs --validate unless that was done."""
     text, files = text_of_scene(study, scene, known)
     key, path = key_of(text, files), directory / "scenes" / f"{name}.prm"
-    known = old.get(name, {})
+    before = old.get(name, {})
     if not path.exists() or path.read_text() != text:
         write_whole(path, text)
-    memory = known.get("mem_mb") if known.get("key") == key else None
+    memory = before.get("mem_mb") if before.get("key") == key else None
     if memory is None:
         result = voussoir(path, "--validate", "--output", directory / "runs" / name, "--overwrite")
         if result.returncode != 0:

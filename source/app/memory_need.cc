@@ -270,7 +270,9 @@ namespace Voussoir
       if (scene.foundation.nodal_everywhere) // does not couple the ends of a cell's diagonals
         n_blocks -= 8. * std::count_if(mesh.cells.begin(), mesh.cells.end(), is_rock);
       const double part = 1. / Ranks::size(), matrix = block * n_blocks; // kept of it: see make_rock_part()
-      const double kept = scene.foundation.nodal_everywhere ? std::min(1., part + .13) : 1.;
+      constexpr unsigned int few = 10;                                   // layers, whose rows all ranks keep
+      const bool   is_shared = scene.foundation.nodal_everywhere && scene.foundation.layers_at_dam <= few;
+      const double kept = is_shared ? std::min(1., part + .13) : 1.;
       const double all = per_rock_node * rock.neighbours.size() - (1. - kept) * matrix;
       others = all + .1 * matrix;
       return all + (.15 + .4 * part) * matrix;

@@ -76,8 +76,7 @@ namespace Voussoir
           for (unsigned int k = 0; k < 6 && blocks[b].row == blocks[b].column; ++k)
             largest = std::max(largest, blocks[b].value[7 * k]);
         }
-        constexpr float trace =
-            1e-10f; // for motions that an aggregate has not: rotations of one or two nodes
+        constexpr float trace = 1e-6f; // for motions that an aggregate has not: rotations of one or two nodes
         for (CoarseBlock &block : blocks)
           for (unsigned int k = 0; k < 6 && block.row == block.column; ++k)
             block.value[7 * k] += trace * largest;
@@ -113,8 +112,7 @@ namespace Voussoir
 
       int Multiply(const bool transposed, const Epetra_MultiVector &x, Epetra_MultiVector &y) const override
       {
-        if (transposed)
-          return -1; // nobody asks
+        AssertThrow(!transposed, dealii::ExcNotImplemented()); // it is symmetric
         for (int v = 0; v < x.NumVectors(); ++v)
 #pragma omp parallel for schedule(static)
           for (std::size_t a = 0; a < row.size(); ++a)
@@ -140,15 +138,21 @@ namespace Voussoir
       /** Views of single entries would be of numbers in double precision. @{ */
       int ExtractMyEntryView(int, double *&, int &, int &) override
       {
-        return -1;
+        return no_view();
       }
       int ExtractMyEntryView(int, const double *&, int &, int &) const override
       {
-        return -1;
+        return no_view();
       }
       /** @} */
 
     private:
+      static int no_view()
+      {
+        AssertThrow(false, dealii::ExcNotImplemented());
+        return -1;
+      }
+
       std::vector<CoarseBlock>                         blocks;
       std::vector<std::pair<std::size_t, std::size_t>> row; ///< its blocks: first, and behind the last
     };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/lac/tridiagonal_matrix.h>
-
 #include <voussoir/base/error.h>
+#include <voussoir/base/tridiagonal.h>
 #include <voussoir/foundation/rock_statics.h>
 
 #include <cmath>
@@ -102,7 +101,7 @@ namespace Voussoir
   {
     constexpr unsigned int n_iterations = 30;
     Unknowns               v(3 * std::size_t(n_nodes), 0.), w = v, w_before = v; // w = D v
-    std::vector<double>    diagonal, beside;
+    Tridiagonal            T;
     everywhere(
         [&](const std::size_t k)
         {
@@ -115,7 +114,7 @@ namespace Voussoir
       everywhere([&](const std::size_t k) { rest[k] = component(inverse[k / 3], k, work); });
       const double size = std::sqrt(product(work, rest));
       if (i > 0)
-        beside.push_back(size);
+        T.beside.push_back(size);
       if (!(size > 0.) && i > 0)
         break; // an invariant space
       if (!(size > 0.))
@@ -129,19 +128,11 @@ namespace Voussoir
             v[k] = rest[k] / size;
           });
       multiply(v, work);
-      diagonal.push_back(product(v, work));
+      T.diagonal.push_back(product(v, work));
       everywhere([&](const std::size_t k)
-                 { work[k] -= diagonal.back() * w[k] + (i > 0 ? beside.back() * w_before[k] : 0.); });
+                 { work[k] -= T.diagonal.back() * w[k] + (i > 0 ? T.beside.back() * w_before[k] : 0.); });
     }
-    dealii::TridiagonalMatrix<double> T(diagonal.size(), true);
-    for (std::size_t i = 0; i < diagonal.size(); ++i)
-    {
-      T(i, i) = diagonal[i];
-      if (i + 1 < diagonal.size())
-        T(i, i + 1) = beside[i];
-    }
-    T.compute_eigenvalues();
-    return T.eigenvalue(diagonal.size() - 1);
+    return T.largest_eigenvalue();
   }
 
   void RockStatics::make_coarse(const RockModel &model)

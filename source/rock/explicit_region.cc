@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/tridiagonal.h>
 #include <voussoir/rock/explicit_region.h>
 
 #include <algorithm>
@@ -10,55 +11,67 @@ namespace Voussoir
 {
   namespace
   {
-    template <class Matrix> double power_iteration(const Matrix &stiffness, const std::vector<double> &mass)
+    /** By Lanczos' method, of D K D with D = M^(-1/2), until ten iterations change it by less than 1e-6.
+     * (Power iteration, until its residual was 1 %, had found one of the next: 1 % too small.) */
+    template <class Matrix> double lanczos(const Matrix &stiffness, const std::vector<double> &mass)
     {
-      const int n = 3 * static_cast<int>(stiffness.n_rows());
-      Unknowns  scaled(n), x(n), y(n); // of D K D with D = M^(-1/2), which is symmetric
-      double    norm = 0.;
+      constexpr unsigned int most = 300, interval = 10;
+      constexpr double       enough = 1e-6;
+      const int              n = 3 * static_cast<int>(stiffness.n_rows());
+      Unknowns               scale(n), v(n), x(n), next(n), before(n, 0.);
+      double                 size = 0., found = 0.;
       for (int i = 0; i < n; ++i)
       {
-        scaled[i] = mass[i / 3] > 0. ? 1. / std::sqrt(mass[i / 3]) : 0.;
-        x[i] = 1. + .5 * std::sin(12.9898 * i); // smooth and rough parts
-        norm += x[i] * x[i];
+        scale[i] = mass[i / 3] > 0. ? 1. / std::sqrt(mass[i / 3]) : 0.;
+        v[i] = 1. + .5 * std::sin(12.9898 * i); // smooth and rough parts
+        size += v[i] * v[i];
       }
-      for (double &value : x)
-        value /= std::sqrt(norm);
-      double           value = 0., residual = 0.;
-      constexpr double enough = 1e-2;
-      for (unsigned int iteration = 0; iteration < 1000; ++iteration)
+      for (double &value : v)
+        value /= std::sqrt(size);
+      Tridiagonal T;
+      for (unsigned int iteration = 1; iteration <= most; ++iteration)
       {
-        Unknowns z(n);
         for (int i = 0; i < n; ++i)
-          z[i] = scaled[i] * x[i];
-        stiffness.multiply(z.data(), y.data());
+          x[i] = scale[i] * v[i];
+        stiffness.multiply(x.data(), next.data());
         double product = 0., square = 0.;
         for (int i = 0; i < n; ++i)
         {
-          y[i] *= scaled[i];
-          product += x[i] * y[i];
-          square += y[i] * y[i];
+          next[i] *= scale[i];
+          product += v[i] * next[i];
         }
-        value = product;
-        residual = std::sqrt(std::max(0., square - value * value));
-        if (square == 0.)
-          return 0.;
+        const double beside = T.beside.empty() ? 0. : T.beside.back();
         for (int i = 0; i < n; ++i)
-          x[i] = y[i] / std::sqrt(square);
-        if (residual < enough * value)
-          break;
+        {
+          next[i] -= product * v[i] + beside * before[i];
+          square += next[i] * next[i];
+        }
+        T.diagonal.push_back(product);
+        T.beside.push_back(std::sqrt(square));
+        const bool is_last = !(square > 1e-20 * product * product) || iteration == most;
+        if (iteration % interval == 0 || is_last)
+        {
+          const double last = found;
+          found = T.largest_eigenvalue();
+          if (is_last || !(found - last > enough * found))
+            break;
+        }
+        before.swap(v);
+        for (int i = 0; i < n; ++i)
+          v[i] = next[i] / T.beside.back();
       }
-      return std::sqrt(value + residual);
+      return std::sqrt(found);
     }
   } // namespace
 
   double largest_frequency(const RockOperator &stiffness, const std::vector<double> &mass)
   {
-    return power_iteration(stiffness, mass);
+    return lanczos(stiffness, mass);
   }
 
   double largest_frequency(const BlockSparseMatrix &stiffness, const std::vector<double> &mass)
   {
-    return power_iteration(stiffness, mass);
+    return lanczos(stiffness, mass);
   }
 
   double critical_time_step(const double w, const RayleighDamping &damping)

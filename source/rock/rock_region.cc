@@ -70,6 +70,7 @@ namespace Voussoir
   RockRegionParameters of_sections(const RockRegionParameters &parameters)
   {
     RockRegionParameters result = parameters;
+    result.rock.layers_at_dam = 0;
     if (!make_boundary(parameters)->absorbs())
     {
       result.boundary = RockRegionParameters().boundary;

@@ -55,11 +55,17 @@ namespace Voussoir
       return text;
     }
 
+    /** At the dam they are, if anywhere. */
+    bool has_gauss_points(const RockParameters &rock)
+    {
+      return !rock.nodal_everywhere || rock.layers_at_dam > 0;
+    }
+
     /** Gauss points at a transmitting boundary; tests/boundary_stability.cc shows how they explode. */
     void check_quadrature(const RockRegionParameters &p, const unsigned int layers)
     {
       const double damping = .2 * p.dt;
-      if (!p.rock.nodal_everywhere && p.rock.nodal_layers < layers && p.damping.stiffness < .99 * damping)
+      if (has_gauss_points(p.rock) && p.rock.nodal_layers < layers && p.damping.stiffness < .99 * damping)
         throw InputError("Gauss points within " + std::to_string(layers) +
                          " layers of the transmitting boundary " + p.boundary +
                          " make it explode: set \"Foundation/Nodal layers\" to " + std::to_string(layers) +
@@ -115,7 +121,7 @@ namespace Voussoir
     constexpr unsigned int enough_layers = 6;
     constexpr double       enough_damping = .2;
     std::string            text;
-    if (!p.rock.nodal_everywhere && p.rock.nodal_layers < enough_layers &&
+    if (has_gauss_points(p.rock) && p.rock.nodal_layers < enough_layers &&
         p.damping.stiffness < enough_damping * p.dt)
       text = "the transmitting boundary will be unstable: use nodal quadrature in 6 layers of rock at the "
              "artificial boundary, or stiffness-proportional damping of at least 0.2 time steps";

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_tridiagonal_h
+#define voussoir_tridiagonal_h
+
+#include <vector>
+
+namespace Voussoir
+{
+  /** The symmetric matrix that Lanczos' method makes of a large one, whose largest eigenvalue its own comes
+   * near from below. */
+  struct Tridiagonal
+  {
+    std::vector<double> diagonal, beside; ///< beside: at least as many as diagonal, less one
+
+    /** Of at least one row. */
+    double largest_eigenvalue() const;
+  };
+} // namespace Voussoir
+
+#endif
