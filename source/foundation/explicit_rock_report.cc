@@ -32,11 +32,11 @@ namespace Voussoir
     if (n == 0)
       log.line(
           "warning: no element of the rock has a face in the surface \"base\", so \"Foundation/Layers at the "
-          "dam\" finds none: the rock is too stiff under the dam (doc/rock.md)");
+          "dam\" finds none: the rock is too stiff under the dam (doc/accuracy.md)");
     else if (n_nodal > 0)
       log.line("warning: %u of %u elements of rock in \"Foundation/Layers at the dam\" lie in the layers of "
                "nodal quadrature that keep the artificial boundary stable, so the rock there is too stiff "
-               "(doc/rock.md)%s: make the rock larger, its elements smaller, or the layers fewer",
+               "(doc/accuracy.md)%s: make the rock larger, its elements smaller, or the layers fewer",
                n_nodal, n,
                make_boundary(parameters.boundary)->n_layers() > 0
                    ? ", and in large rock a transmitting boundary of order 3 or 4 may grow without bound"

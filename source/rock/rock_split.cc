@@ -18,13 +18,14 @@ namespace Voussoir
       before.push_back(std::accumulate(work.begin() + c * per_chunk,
                                        work.begin() + std::min<std::size_t>(n, (c + 1) * per_chunk),
                                        before.back()));
-    for (unsigned int r = 0; r <= n_ranks; ++r)
+    begin.push_back(0);
+    for (unsigned int r = 1; r < n_ranks; ++r)
     {
       const double part = before.back() * r / n_ranks;
-      const auto   above = std::lower_bound(before.begin(), before.end(), part);
-      const bool   below_is_nearer = above != before.begin() && part - above[-1] < *above - part;
-      begin.push_back(above - before.begin() - below_is_nearer);
+      const auto   above = std::upper_bound(before.begin() + 1, before.end() - 1, part);
+      begin.push_back(above - before.begin() - (part - above[-1] < *above - part));
     }
+    begin.push_back(n_chunks);
     for (unsigned int r = 0; r < n_ranks; ++r)
     {
       steps.emplace_back(n, false);
