@@ -17,8 +17,8 @@ namespace
 
   struct Solved
   {
-    unsigned int iterations = 0, again = 0;
-    double       residual = 0., held = 0., middle = 0.;
+    unsigned int iterations = 0, again = 0, rounds = 0;
+    double       residual = 0., held = 0., middle = 0., part = 0.;
   };
 
   /** Rock of 600 m x 600 m x 300 m of flat elements, n of them along its length, held but for its ground,
@@ -82,6 +82,19 @@ namespace
     for (double &force : b)
       force *= -3.;
     result.again = statics.solve(b, x, log, 1e-9); // known
+    for (std::size_t k = 0; k < b.size(); ++k)
+      b[k] *= 1. + .1 * std::sin(double(k));
+    const auto left = [&]
+    {
+      model.stiffness.multiply(x.data(), Kx.data());
+      double sum = 0.;
+      for (std::size_t k = 0; k < b.size(); ++k)
+        sum += held[k / 3] ? 0. : std::pow(b[k] - Kx[k], 2);
+      return std::sqrt(sum);
+    };
+    const double before = left();
+    result.rounds = statics.solve(b, x, log, 1e-11, .01);
+    result.part = left() / before;
     return result;
   }
 
@@ -93,6 +106,10 @@ namespace
       expect(solved.residual < 2e-11, "equilibrium");
       expect(solved.held == 0., "held nodes");
       expect(solved.again == 0, "a load that is a multiple of the one before");
+      expect(solved.part <= .01 && solved.part > 1e-5,
+             "a hundredth of what the solution before leaves: " + std::to_string(solved.part));
+      expect(solved.rounds > 0 && 2 * solved.rounds < solved.iterations,
+             "in few iterations: " + std::to_string(solved.rounds));
     }
     expect(coarse.middle < -1e-4, "the ground gives way");
     expect_close(fine.middle, coarse.middle, .03, "displacement of the ground");

@@ -103,7 +103,7 @@ namespace Voussoir
     return springs;
   }
 
-  void ExplicitRock::solve_rock(const Unknowns &r, Unknowns &u_base, Log &log)
+  void ExplicitRock::solve_rock(const Unknowns &r, const double part, Unknowns &u_base, Log &log)
   {
     if (!statics)
     {
@@ -121,7 +121,7 @@ namespace Voussoir
         for (unsigned int c = 0; c < 3; ++c)
           b[3 * f.rock + c] += r[3 * node + c];
     const Stopwatch    watch;
-    constexpr double   tolerance = 1e-11, part = .01; // the rounds go on anyway
+    constexpr double   tolerance = 1e-11;
     const unsigned int iterations = statics->solve(b, u, log, tolerance, part);
     log.line("          load %u: %u iterations, %.1f s", ++n_settled, iterations, watch.seconds());
     u_base.resize(3 * foot.size());
@@ -162,6 +162,7 @@ namespace Voussoir
   ContactResult ExplicitRock::settle(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
                                      Unknowns &load, Log &log)
   {
+    constexpr double  enough = 1e-9;
     const std::size_t n = 3 * foot.size();
     Unknowns          base(n, 0.), r(load.size(), 0.), settled;
     Differences       differences;
@@ -169,26 +170,34 @@ namespace Voussoir
     ContactResult     total;
     unsigned int      round = 0;
     total.converged = true;
-    for (; round < 60 && error > 1e-9; ++round)
+    for (; round < 60 && error > enough; ++round)
     {
       const ContactResult contact = solve(with_springs(load, springs, base, r));
       total += contact;
       if (!contact.converged)
         break;
-      double slack = add_slack(springs, u, base, r), size = 1e-300;
-      solve_rock(r, settled, log);
-      Unknowns f = settled;
-      for (std::size_t k = 0; k < n; ++k)
+      const double slack = add_slack(springs, u, base, r);
+      Unknowns     f;
+      const auto   give_way = [&](const double part) // relative error then
       {
-        f[k] -= base[k];
-        slack = std::max(slack, std::abs(f[k]));
-        size = std::max(size, std::abs(settled[k]));
-      }
-      error = slack / size;
+        solve_rock(r, part, settled, log);
+        f = settled;
+        double most = slack, size = 1e-300;
+        for (std::size_t k = 0; k < n; ++k)
+        {
+          f[k] -= base[k];
+          most = std::max(most, std::abs(f[k]));
+          size = std::max(size, std::abs(settled[k]));
+        }
+        return most / size;
+      };
+      error = give_way(.01); // the rounds go on anyway
+      if (error <= enough)
+        error = give_way(0.);
       differences.add(f, base);
       accelerate(differences.df, differences.dx, f, base);
     }
-    if (total.converged && error > 1e-9)
+    if (total.converged && error > enough)
     {
       std::ostringstream message;
       message << "The static state of dam and rock did not converge: relative error " << error << " after "

@@ -115,7 +115,7 @@ namespace Voussoir
       const double size = std::sqrt(product(work, rest));
       if (i > 0)
         T.beside.push_back(size);
-      if (!(size > 0.) && i > 0)
+      if (size == 0. && i > 0)
         break; // an invariant space
       if (!(size > 0.))
         throw ComputationError("The rock's stiffness is not positive definite: its elements may be badly "

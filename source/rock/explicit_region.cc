@@ -11,12 +11,12 @@ namespace Voussoir
 {
   namespace
   {
-    /** By Lanczos' method, of D K D with D = M^(-1/2), until ten iterations change it by less than 1e-6.
-     * (Power iteration, until its residual was 1 %, had found one of the next: 1 % too small.) */
+    /** By Lanczos' method, of D K D with D = M^(-1/2), until ten iterations change its square by less than
+     * 1e-8. (Power iteration, until its residual was 1 %, had found one of the next: 1 % too small.) */
     template <class Matrix> double lanczos(const Matrix &stiffness, const std::vector<double> &mass)
     {
       constexpr unsigned int most = 300, interval = 10;
-      constexpr double       enough = 1e-6;
+      constexpr double       enough = 1e-8;
       const int              n = 3 * static_cast<int>(stiffness.n_rows());
       Unknowns               scale(n), v(n), x(n), next(n), before(n, 0.);
       double                 size = 0., found = 0.;

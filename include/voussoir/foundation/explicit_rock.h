@@ -101,7 +101,7 @@ namespace Voussoir
 
   private:
     void     check_stability(const TimeGrid &grid) const;
-    void     solve_rock(const Unknowns &r, Unknowns &u_base, Log &log);
+    void     solve_rock(const Unknowns &r, double part, Unknowns &u_base, Log &log);
     Unknowns with_springs(const Unknowns &external, const Unknowns &springs, const Unknowns &base,
                           const Unknowns &r) const;
     double   add_slack(const Unknowns &springs, const Unknowns &u, const Unknowns &base, Unknowns &r) const;
