@@ -22,7 +22,8 @@ namespace
   };
 
   /** Rock of 600 m x 600 m x 300 m of flat elements, n of them along its length, held but for its ground,
-   * whose middle is pushed. @p thin: under the ground like sheets, all of them as the dam's. */
+   * whose middle is pushed. @p thin: those in the middle are like sheets under the ground, and all are as the
+   * dam's. */
   Solved push(const unsigned int n, const bool thin = false)
   {
     const double   h = 600. / n;

@@ -6,8 +6,8 @@
 
 namespace Voussoir
 {
-  /** The symmetric matrix that Lanczos' method makes of a large one, whose largest eigenvalue its own comes
-   * near from below. */
+  /** The symmetric matrix that Lanczos' method makes of a large one. Its largest eigenvalue comes near that
+   * of the large one from below. */
   struct Tridiagonal
   {
     std::vector<double> diagonal, beside; ///< beside: at least as many as diagonal, less one
