@@ -78,10 +78,10 @@ namespace Voussoir
       return axis;
     }
 
-    class Check
+    class AxesCheck
     {
     public:
-      Check(const HexMesh &mesh, const MeshParameters &parameters, const std::string &source)
+      AxesCheck(const HexMesh &mesh, const MeshParameters &parameters, const std::string &source)
           : mesh(mesh), parameters(parameters), source(source)
       {
         const FaceTable table(mesh);
@@ -248,7 +248,7 @@ namespace Voussoir
   {
     if (parameters.source != "file")
       return;
-    const Check check(mesh, parameters, source);
+    const AxesCheck check(mesh, parameters, source);
     check.axes();
     check.height();
   }
