@@ -59,11 +59,11 @@ namespace
     const PairPast at_rest = bond.past({});
     below("bonded: tied below its strength, whatever the shear", bond.residual(pull, {}, at_rest), 1e-300);
     above("  so it is against any movement", bond.residual(pull, {{0., 1e-6, 0.}}, at_rest), 100.);
-    above("  no event: 1 - excess", 1. - bond.law->excess(pull, at_rest), 5e-4);
+    above("  no event: 1 - excess", 1. - bond.law->excess(pull, {}, at_rest), 5e-4);
     const Vector3 tear = {{-1.001 * strength * area, 0., 0.}};
-    above("beyond it is to crack: excess - 1", bond.law->excess(tear, at_rest) - 1., 5e-4);
+    above("beyond it is to crack: excess - 1", bond.law->excess(tear, {}, at_rest) - 1., 5e-4);
     bond.law->release(bond.memory);
-    report("  once", bond.law->excess(tear, at_rest), "0", bond.law->excess(tear, at_rest) == 0.);
+    report("  once", bond.law->excess(tear, {}, at_rest), "0", bond.law->excess(tear, {}, at_rest) == 0.);
     bond.open("stress at a third of the last opening", 0., end / 3., strength * 2. / 3.);
     below("  energy: held and lost, over the law's integral",
           bond.law->bond_energy({{end / 3., 0., 0.}}, area, bond.memory) /

@@ -549,6 +549,79 @@ namespace
         }
   }
 
+  /** A squeezed problem: a force direction d >= 0, normal to all faces, with W d = 0. A solution has
+   *  d u = d (W r + b) = d b and d u >= 0. So d b = -@p eps |d| |b| below 0 excludes a solution, by the
+   * duality of linear programming; and d b above 0 ensures one if d alone spans the kernel of W (Acary,
+   * Cadoux, Lemarechal and Malick 2011). */
+  Problem squeezed(const double eps)
+  {
+    const auto uniform = [](const double low, const double high)
+    { return low + .5 * (high - low) * (1. + random_number()); };
+    const unsigned int n = 2 + static_cast<unsigned int>(uniform(0., 4.99)), size = 3 * n,
+                       rank = eps < 0. ? 2 + static_cast<unsigned int>(uniform(0., size - 2.01)) : size;
+    Problem             p = make_problem(n, uniform(0., 1.2));
+    std::vector<double> d(size, 0.), H(size * rank);
+    for (unsigned int i = 0; i < n; ++i)
+      d[3 * i] = i < 2 || uniform(0., 1.) < .5 ? uniform(.2, 1.) : 0.;
+    const auto product = [&](const double *x, const std::size_t stride)
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < size; ++i)
+        sum += d[i] * x[i * stride];
+      return sum;
+    };
+    const double dd = product(d.data(), 1);
+    for (double &x : H)
+      x = uniform(-1., 1.);
+    for (unsigned int k = 0; k < rank; ++k)
+    {
+      const double along = product(&H[k], rank) / dd;
+      for (unsigned int i = 0; i < size; ++i)
+        H[i * rank + k] -= d[i] * along;
+    }
+    for (unsigned int i = 0; i < size; ++i)
+      for (unsigned int j = 0; j < size; ++j)
+        for (unsigned int k = 0; k < rank; ++k)
+          p(i, j) += H[i * rank + k] * H[j * rank + k];
+    for (double &x : p.b)
+      x = uniform(-1., 1.);
+    const double along = product(p.b.data(), 1) / dd;
+    double       bb = 0.;
+    for (unsigned int i = 0; i < size; ++i)
+    {
+      p.b[i] -= d[i] * along;
+      bb += p.b[i] * p.b[i];
+    }
+    for (unsigned int i = 0; i < size; ++i)
+      p.b[i] += eps * std::sqrt(bb / dd) * d[i];
+    return p;
+  }
+
+  /** 500 problems that a squeeze of 1 to 1e-10 of the load makes infeasible, 500 that as much room makes
+   *  feasible. */
+  void test_squeezed()
+  {
+    for (const double tolerance : {1e-4, 1e-8, 1e-12})
+    {
+      unsigned int false_claims = 0, missed = 0, dishonest = 0;
+      for (unsigned int trial = 0; trial < 1000; ++trial)
+      {
+        const double   eps = std::pow(10., -static_cast<double>(trial / 2 % 11));
+        const bool     feasible = trial % 2 == 0;
+        const Problem  p = squeezed(feasible ? eps : -eps);
+        const Solution s = solve(p, "sparse", with("newton", tolerance));
+        false_claims += !feasible && s.result.converged && eps > 10. * tolerance;
+        missed += feasible && !s.result.converged;
+        dishonest += s.result.converged && natural_map(p, s.force) > 1.01 * tolerance + 1e-14;
+      }
+      const std::string what = "tolerance " + text(tolerance) + ": ";
+      report(what + "infeasible by more than ten times it, but converged, of 500", false_claims, "0",
+             false_claims == 0);
+      report(what + "feasible, but not converged, of 500", missed, "0", missed == 0);
+      report(what + "converged, but wrong", dishonest, "0", dishonest == 0);
+    }
+  }
+
   /** Every contact twice: the forces are not unique, the gaps are. And numbers whose squares are none. */
   void test_twice_and_extreme()
   {
@@ -787,5 +860,5 @@ int main()
 {
   return run_all({test_sizes, test_coupling, test_friction, test_hyperstatic, test_separate_chains,
                   test_reversals, test_units, test_noise, test_methods, test_bad_problems, test_unconverged,
-                  test_infeasible, test_twice_and_extreme, test_condensation});
+                  test_infeasible, test_squeezed, test_twice_and_extreme, test_condensation});
 }

@@ -191,6 +191,7 @@ namespace Voussoir
                                    .add("contacts", problem.W.n_rows())
                                    .add_flag("converged", result.converged)
                                    .add("residual", result.residual)
+                                   .add("residual_over_load", result.residual_over_load)
                                    .add("iterations", result.iterations)
                                    .add("seconds", seconds)
                                    .add("solver", solution.solver)

@@ -140,7 +140,7 @@ namespace Voussoir
         return held;
       }
 
-      double excess(const Vector3 &force, const PairPast &past) const override
+      double excess(const Vector3 &force, const Vector3 &, const PairPast &past) const override
       {
         return is_bonded(past.memory) ? -force[0] / (strength * past.area) : 0.;
       }

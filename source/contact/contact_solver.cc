@@ -60,6 +60,25 @@ namespace Voussoir
       }
       return std::exp((log_scale + std::log(trace)) / 64.); // (trace A^64)^(1/64), within 2 % from above
     }
+
+    /** 2-norm of W [m/N], nearly: power iteration. */
+    double norm(const ContactOperator &W)
+    {
+      Unknowns x(3 * std::size_t(W.n_pairs())), y;
+      for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] = 1. + .5 * std::sin(double(i));
+      double result = 0.;
+      for (unsigned int i = 0; i < 6; ++i)
+      {
+        const double size = std::sqrt(norm_square(x));
+        if (!(size > 0.) || !std::isfinite(size))
+          break;
+        W.multiply(x, y);
+        result = std::sqrt(norm_square(y)) / size;
+        x.swap(y);
+      }
+      return result;
+    }
   } // namespace
 
   ContactSolver::ContactSolver(const ContactOperator &W, std::vector<const JointLaw *> laws,
@@ -92,6 +111,7 @@ namespace Voussoir
     for (double &r : rho)
       if (!(r > 0.))
         r = mean_rho;
+    norm_of_W = norm(W);
   }
 
   ContactSolver::~ContactSolver() = default;
@@ -177,18 +197,20 @@ namespace Voussoir
         u += (g[c] - before) * (g[c] - before);
       }
     }
-    // Where slip is a small part of the gap, no better than the round-off of the gap can be asked.
-    const double force_size = std::sqrt(p), load_size = mean_rho * std::sqrt(q),
+    // Where slip is a small part of the gap, the round-off of the gap bounds the accuracy.
+    const double force_size = std::sqrt(p), load_size = mean_rho * std::sqrt(q), error = std::sqrt(f),
                  round_off = 1e-15 * mean_rho * std::sqrt(norm_square(*past));
     scale = std::max({force_size, load_size, mean_rho * std::sqrt(u), round_off / parameters.tolerance});
-    // A singular step, or a problem without a solution, leaves forces without bound, which would make any
-    // error look small: it must be small against the load, too, as far as round-off allows.
     result.force_over_load = load_size > 0. ? force_size / load_size : 0.;
+    result.residual = scale > 0. ? error / scale : 0.;
+    result.residual_over_load = load_size > 0. ? error / load_size : result.residual;
     if (!std::isfinite(f + scale) || force_size > 1e8 * (load_size + round_off))
       return std::numeric_limits<double>::infinity();
-    const double against_load =
-        std::max({1e2 * load_size, 1e-12 / parameters.tolerance * scale, round_off / parameters.tolerance});
-    return scale > 0. ? std::sqrt(f) / std::min(scale, std::max(against_load, 1e-300)) : 0.;
+    // Forces without bound (a problem without a solution, a singular step) make any error small against the
+    // forces. The error must be small against the load, too, as far as the round-off of W force allows.
+    const double allowance = 4. * std::numeric_limits<double>::epsilon() * norm_of_W * mean_rho * force_size;
+    scale = std::min(scale, std::max(load_size, (allowance + round_off) / parameters.tolerance));
+    return scale > 0. ? error / scale : 0.;
   }
 
   /** gap = W force + b, free of the round-off of updates; the last product is kept for the next step. */

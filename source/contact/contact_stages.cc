@@ -41,7 +41,9 @@ namespace Voussoir
       pair.surfaces.regularise(alpha / rho[pair.pair], get(x.force, pair.pair), x.beside.data() + pair.begin);
   }
 
-  /** Regularised problems around the last solution; superlinear, since alpha falls with the residual. */
+  /** Regularised problems around the last solution; superlinear, since alpha falls with the residual. Where
+   *  six of them in a row cannot be solved and do not bring the residual down, Gauss-Seidel iterations go on
+   *  from there: the best iterate would lead to the same place again. */
   bool ContactSolver::proximal_point(Iterate &x)
   {
     const auto here = [&]
@@ -49,8 +51,10 @@ namespace Voussoir
       regularise(0., x);
       return remember(x);
     };
+    const bool   flat = with_surfaces.empty();
     double       now = here();
     double       boost = 1., halved = now; // halved: the last residual that was half of the one before
+    double       lower = best.residual;    // the residual that counts as progress
     unsigned int n_sweeps = 20, failures = 0, halved_at = result.iterations;
     while (now > tolerance && steps_left() > 0 && !out_of_time())
     {
@@ -60,25 +64,28 @@ namespace Voussoir
         halved_at = result.iterations;
       }
       // Where Coulomb's law has several solutions it may circle for ever: better a smaller step.
-      else if (!with_surfaces.empty() && result.iterations > halved_at + 60)
+      else if (!flat && result.iterations > halved_at + 60)
         break;
-      const double alpha =
-          with_surfaces.empty() ? std::min(1., 5. * now) * boost : std::min(1., 5. * now * boost);
+      // Forces that grow while the residual stays are those of a problem without a solution.
+      else if (flat && result.force_over_load > 1e4 && result.iterations > halved_at + 60)
+        break;
+      const double usual = 5. * result.residual, // not over the load: forces may be much larger
+          alpha = flat ? std::min(1., usual) * boost : std::min(1., usual * boost);
       regularise(alpha, x);
-      const bool solved = newton(std::max(.1 * now, .3 * tolerance), 50, with_surfaces.empty() ? 15 : 4, x);
+      const bool solved = newton(std::max(.1 * now, .3 * tolerance), 50, flat ? 15 : 4, x);
       now = here();
+      failures = best.residual < .7 * lower ? 0 : failures + !solved;
+      lower = failures == 0 ? best.residual : lower;
       if (solved)
-        boost = std::max(1., .1 * boost);
-      else if (with_surfaces.empty() ? ++failures < 4 : alpha < 1.)
+        boost = std::max(1., (flat ? .3 : .1) * boost);
+      else if (flat ? failures < 6 : alpha < 1.)
         boost *= 10.;
       else if (steps_left() > 0)
       {
         failures = 0;
-        if (with_surfaces.empty())
-          set_force(x, best);
         sweep(n_sweeps, x);
         refresh_gap(x);
-        n_sweeps = std::min(2 * n_sweeps, 2000u);
+        n_sweeps = std::min(2 * n_sweeps, flat ? 200u : 2000u);
         boost = 1.;
         now = here();
       }
@@ -248,8 +255,7 @@ namespace Voussoir
     regularise(0., x);
     refresh_gap(x);
     evaluate(x);
-    result.residual = residual(x, true);
-    result.converged = result.residual <= parameters.tolerance;
+    result.converged = residual(x, true) <= parameters.tolerance;
     for (std::size_t i = 0; i < law.size(); ++i)
     {
       state[i] = equations[i].state;

@@ -34,13 +34,6 @@ namespace Voussoir
       }
     }
 
-    /** What a seat remembers: three values per flank. */
-    struct SeatMemory
-    {
-      double passed_by;   ///< how far the flank was passed by while the key was out [m]
-      double friction[2]; ///< stress along the flank [Pa]
-    };
-
     class KSM : public SurfacesLaw
     {
     public:
@@ -49,19 +42,18 @@ namespace Voussoir
       {
       }
 
-      /** Keys out of their seats at the start of the step (opening >= height) hold nothing; when they are
-       *  out of line, too, the joint cannot close but on their crests. A flank that was passed by while the
-       *  key was out is taken as it lies. */
+      /** A key that is in its seat at the start of the step touches the face and its flanks. A key that is
+       * out (opening >= height) and out of line closes on its crest. A key that is out and in line touches
+       * the face only; if the step would then pass through a flank, the step is solved again with the flanks,
+       *  and if it ends out of line on their extension, with the crest: see excess(). */
       PresentSurfaces present(const PairPast &past) const override
       {
         PresentSurfaces result{{surfaces[0]}, {1}, past.start};
-        if (is_out(past.start))
-        {
-          for (std::size_t k = 1; k < surfaces.size(); ++k)
-            if (surfaces[k].distance({{height, past.start[1], past.start[2]}}) < 0.)
-              result.surfaces[0].clearance = -height;
+        const Contact   contact = contact_of(past);
+        if (contact == Contact::crest)
+          result.surfaces[0].clearance = -height;
+        if (contact == Contact::face || contact == Contact::crest)
           return result;
-        }
         if (seat == 0.)
           free_of_round_off(result.start);
         for (std::size_t k = 1; k < surfaces.size(); ++k)
@@ -71,10 +63,9 @@ namespace Voussoir
             flank.clearance = std::max(flank.clearance, -(flank.axes * result.start)[0]);
           else
           {
-            const SeatMemory memory = at(past.memory, k);
+            const double *friction = friction_of(past.memory, k);
             flank.compliance = seat / past.area;
-            flank.clearance += memory.passed_by;
-            flank.rest = {{0., memory.friction[0] * past.area, memory.friction[1] * past.area}};
+            flank.rest = {{0., friction[0] * past.area, friction[1] * past.area}};
           }
           result.surfaces.push_back(flank);
           result.bits.push_back(static_cast<unsigned char>(1u << k));
@@ -82,23 +73,41 @@ namespace Voussoir
         return result;
       }
 
-      unsigned int n_memory() const override { return seat > 0. ? 3 * n_beside() : 0; }
+      /** Events of the step, then, with elastic seats, two stresses of friction per flank [Pa]. */
+      unsigned int n_memory() const override
+      {
+        return n_beside() == 0 ? 0 : 1 + (seat > 0. ? 2 * n_beside() : 0);
+      }
+
+      bool needs_mean_force() const override { return seat > 0.; }
+
+      /** 2 if the step passes through a flank, or over its end, as no key can: then the step needs the next
+       *  event. */
+      double excess(const Vector3 &, const Vector3 &gap, const PairPast &past) const override
+      {
+        if (!is_out(past.start))
+          return 0.;
+        const Contact contact = contact_of(past);
+        return (contact == Contact::face && !is_out(gap) && is_behind(gap)) ||
+                       (contact == Contact::flanks && is_behind({{height, gap[1], gap[2]}}))
+                   ? 2.
+                   : 0.;
+      }
+
+      void release(double *memory) const override { ++memory[0]; }
 
       void commit(const Vector3 &, const Vector3 &gap, const PairPast &past, double *memory) const override
       {
-        if (seat == 0.)
+        if (n_beside() == 0)
           return;
         const PresentSurfaces now = present(past);
-        const bool            out = is_out(gap);
-        for (std::size_t k = 1; k < surfaces.size(); ++k)
+        memory[0] = 0.;
+        for (std::size_t k = 1; k < surfaces.size() && seat > 0.; ++k)
         {
-          const double  behind = std::max(0., -surfaces[k].distance(gap));
-          double       *mine = memory + 3 * (k - 1);
-          const bool    carries = !out && k < now.surfaces.size();
+          const bool    carries = !is_out(gap) && k < now.surfaces.size();
           const Vector3 force = carries ? now.surfaces[k].seat_force(gap, now.start) : Vector3{};
-          mine[0] = carries ? std::min(mine[0], behind) : behind;
-          mine[1] = force[1] / past.area;
-          mine[2] = force[2] / past.area;
+          memory[2 * k - 1] = force[1] / past.area;
+          memory[2 * k] = force[2] / past.area;
         }
       }
 
@@ -108,43 +117,69 @@ namespace Voussoir
         double energy = 0.;
         for (std::size_t k = 1; k < surfaces.size() && seat > 0. && !is_out(gap); ++k)
         {
-          const SeatMemory mine = at(memory, k);
-          const double     pressed = std::max(0., -(surfaces[k].distance(gap) + mine.passed_by) / seat);
+          const double *friction = friction_of(memory, k);
+          const double  pressed = std::max(0., -surfaces[k].distance(gap) / seat);
           if (pressed > 0.)
             energy += .5 * seat * area *
-                      (pressed * pressed + mine.friction[0] * mine.friction[0] +
-                       mine.friction[1] * mine.friction[1]);
+                      (pressed * pressed + friction[0] * friction[0] + friction[1] * friction[1]);
         }
         return energy;
       }
 
     private:
-      bool is_out(const Vector3 &gap) const { return gap[0] >= height * (1. - 1e-9); }
-
-      static SeatMemory at(const double *memory, const std::size_t flank)
+      enum class Contact
       {
-        if (!memory)
-          return {};
-        const double *mine = memory + 3 * (flank - 1);
-        return {mine[0], {mine[1], mine[2]}};
+        face,
+        flanks, ///< and the face
+        crest
+      };
+
+      bool is_out(const Vector3 &gap) const { return gap[0] >= height * (1. - round_off); }
+
+      /** Is the pair on the other side of a flank, by more than round-off? */
+      bool is_behind(const Vector3 &gap) const
+      {
+        return std::any_of(surfaces.begin() + 1, surfaces.end(),
+                           [&](const ContactSurface &flank)
+                           { return flank.distance(gap) < -round_off * height; });
+      }
+
+      /** On what the pair can touch in the step from past.start, with the events so far. */
+      Contact contact_of(const PairPast &past) const
+      {
+        if (!is_out(past.start))
+          return Contact::flanks;
+        if (is_behind({{height, past.start[1], past.start[2]}}))
+          return Contact::crest;
+        const double events = past.memory && n_beside() > 0 ? past.memory[0] : 0.;
+        return events == 0. ? Contact::face : events == 1. ? Contact::flanks : Contact::crest;
+      }
+
+      /** Two stresses of friction that elastic seats of a flank carry [Pa]. */
+      static const double *friction_of(const double *memory, const std::size_t flank)
+      {
+        static const double none[2] = {0., 0.};
+        return memory ? memory + 2 * flank - 1 : none;
       }
 
       /** A start within round-off of a surface is moved onto it: otherwise the direction of friction would
        *  hang on a slip of 1e-14 m before the flank stops it. */
       void free_of_round_off(Vector3 &start) const
       {
-        const double round_off = 1e-9 * height;
-        if (std::abs(start[0]) <= round_off)
+        const double small = round_off * height;
+        if (std::abs(start[0]) <= small)
           start[0] = 0.;
         for (std::size_t k = 1; k < surfaces.size(); ++k)
         {
           const Vector3      normal = {{surfaces[k].axes[0], surfaces[k].axes[1], surfaces[k].axes[2]}};
           const unsigned int d = normal[1] != 0. ? 1 : 2; // of the slip that it restrains
           const double       phi = dot(normal, start) + surfaces[k].clearance;
-          if (std::abs(phi) <= round_off)
+          if (std::abs(phi) <= small)
             start[d] -= phi / normal[d];
         }
       }
+
+      static constexpr double round_off = 1e-9; ///< of a gap, over the height
 
       const double height;
       const double seat; ///< compliance of the flanks [m/Pa]

@@ -185,8 +185,9 @@ namespace Voussoir
   void Dam::tie_feet()
   {
     laws.assign(structure.pairs);
-    if (laws.have_memory() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)
-      throw InputError("The joint models cohesive and KSM need \"Dynamics/Impact\" = mean-force, not " +
+    if (laws.need_mean_force() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)
+      throw InputError("The joint models cohesive and KSM (with a compliance of its seats) need "
+                       "\"Dynamics/Impact\" = mean-force, not " +
                        scene.impact_rule + ".");
     std::set<unsigned int> base;
     if (foundation->base() == Foundation::Base::tied)

@@ -21,9 +21,8 @@ namespace Voussoir
       : structure(structure), laws(laws), parameters(parameters), rule(rule), support(support),
         is_single(single_factors && !support), impact(structure, laws, rule)
   {
-    for (const JointLaw *law : laws.of_pair)
-      if (law->needs_mean_force() && rule != ImpactRule::mean_force)
-        throw InputError("The joint law \"cohesive\" needs the impact rule mean-force (Dynamics/Impact).");
+    if (laws.need_mean_force() && rule != ImpactRule::mean_force)
+      throw InputError("A joint law of this model needs the impact rule mean-force (Dynamics/Impact).");
     if (support && rule != ImpactRule::mean_force)
       throw InputError("Rock with steps of its own needs the impact rule mean-force (Dynamics/Impact).");
     add_level({dt, support ? support->n_substeps() : 1, 0});

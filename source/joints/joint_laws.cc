@@ -32,6 +32,12 @@ namespace Voussoir
     area.push_back(tributary_area);
   }
 
+  bool PairLaws::need_mean_force() const
+  {
+    return std::any_of(of_pair.begin(), of_pair.end(),
+                       [](const JointLaw *law) { return law->needs_mean_force(); });
+  }
+
   std::vector<PairPast> PairLaws::pasts(const Unknowns &start, const ForceMeaning &meaning,
                                         const Unknowns &memory) const
   {
@@ -49,16 +55,17 @@ namespace Voussoir
     return list;
   }
 
-  unsigned int PairLaws::revise(const ForceMeaning &meaning, Unknowns &force, Unknowns &memory) const
+  unsigned int PairLaws::revise(const Unknowns &start, const ForceMeaning &meaning, const Unknowns &gap,
+                                Unknowns &force, Unknowns &memory) const
   {
     AssertDimension(force.size(), 3 * of_pair.size());
     constexpr double            among_the_worst = .9;
-    const std::vector<PairPast> past = pasts(Unknowns(force.size(), 0.), meaning, memory);
+    const std::vector<PairPast> past = pasts(start, meaning, memory);
     std::vector<double>         excess(of_pair.size());
     double                      largest = 0.;
     for (std::size_t p = 0; p < of_pair.size(); ++p)
     {
-      excess[p] = of_pair[p]->excess(get(force, p), past[p]);
+      excess[p] = of_pair[p]->excess(get(force, p), get(gap, p), past[p]);
       largest = std::max(largest, excess[p]);
     }
     unsigned int count = 0;

@@ -308,7 +308,7 @@ namespace Voussoir
       if (!laws.have_memory())
         return result;
       total += result;
-      again = result.converged && laws.revise(meaning, force, memory) > 0;
+      again = result.converged && laws.revise(start, meaning, gap, force, memory) > 0;
     }
     return total;
   }

@@ -18,11 +18,12 @@ namespace Voussoir
   struct ContactResult
   {
     bool         converged = false;
-    double       residual = 0.;      ///< natural map, relative: see ContactSolver
-    unsigned int iterations = 0;     ///< Newton steps
-    unsigned int krylov = 0;         ///< iterations of the linear solver
-    unsigned int factorisations = 0; ///< of joints
-    unsigned int sweeps = 0;         ///< Gauss-Seidel sweeps
+    double       residual = 0.; ///< natural map over forces, load or gap, the largest: see ContactSolver
+    double       residual_over_load = 0.; ///< the same over the load
+    unsigned int iterations = 0;          ///< Newton steps
+    unsigned int krylov = 0;              ///< iterations of the linear solver
+    unsigned int factorisations = 0;      ///< of joints
+    unsigned int sweeps = 0;              ///< Gauss-Seidel sweeps
     ContactPath  path = ContactPath::newton;
     double       force_over_load = 0.; ///< sizes, in forces; where no solution exists it grows without bound
 

@@ -22,11 +22,11 @@ namespace Voussoir
    * small compliance, 1e-3 of the pair's own flexibility, around the forces of the solution before, until
    * these stay.
    *
-   *  Convergence is measured by the law's own error, |error|/max(|force|, |b|/w, |gap|/w) in 2-norms, w: mean
-   *  diagonal of W; where forces are above 100 times the load |b|/w, by the load as far as round-off allows,
-   *  so that forces that grow without bound do not pass for a solution. For Coulomb's law this is the full
-   * relative natural-map error of Siconos on the problem scaled to mean diagonal 1; it does not depend on
-   * units. */
+   *  Convergence: |error|/max(|force|, |b|/w, |gap|/w) <= tolerance, in 2-norms, w: mean diagonal of W. For
+   *  Coulomb's law this is the full relative natural-map error of Siconos on the problem scaled to mean
+   *  diagonal 1. And |error|/(|b|/w) <= tolerance, or |error| <= 4 eps |W| |force|/w, the round-off of
+   *  W force: a problem without a solution, whose forces grow without bound, does not converge. Both do not
+   *  depend on units. */
   class ContactSolver
   {
   public:
@@ -101,8 +101,9 @@ namespace Voussoir
     const std::vector<const JointLaw *> law;
     const ContactParameters             parameters;
     std::unique_ptr<ContactJacobian>    jacobian;
-    std::vector<double>                 rho;      ///< per pair [N/m]
-    double                              mean_rho; ///< of the measure of convergence [N/m]
+    std::vector<double>                 rho;            ///< per pair [N/m]
+    double                              mean_rho;       ///< of the measure of convergence [N/m]
+    double                              norm_of_W = 0.; ///< [m/N]
     std::vector<PairEquations>          equations;
     std::vector<WithSurfaces>           with_surfaces;
     std::vector<std::size_t>            number; ///< of each pair in with_surfaces, or none

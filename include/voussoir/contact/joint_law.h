@@ -92,11 +92,12 @@ namespace Voussoir
     /** Must the force be the mean over the step (Newmark with the rule mean-force)? */
     virtual bool needs_mean_force() const { return false; }
 
-    /** How far a solution is beyond what the pair can carry, such as its tension over its strength: above 1
-     * the pair, if it is among the worst, is released, and the step is solved once more. */
-    virtual double excess(const Vector3 &, const PairPast &) const { return 0.; }
+    /** How far a solution with this force and gap is beyond what the pair can carry, such as its tension over
+     *  its strength: above 1 the pair, if it is among the worst, is released, and the step is solved again.
+     */
+    virtual double excess(const Vector3 &, const Vector3 &, const PairPast &) const { return 0.; }
 
-    /** Puts the event (a bond that breaks) into @p memory. */
+    /** Puts the event (a bond that breaks, a key that meets its flank) into @p memory. */
     virtual void release(double *) const {}
 
     /** The step is accepted with this force and gap: bring @p memory up to date, to which past.memory points.

@@ -23,6 +23,7 @@ namespace Voussoir
     /** Memory of all pairs, one after the other, before anything has happened. */
     Unknowns initial_memory() const { return Unknowns(n_memory(), 0.); }
     bool     have_memory() const { return n_memory() > 0; }
+    bool     need_mean_force() const; ///< does any: see JointLaw::needs_mean_force()
 
     /** What each law is told of its pair; points into @p memory. @p start: 3 per pair [m]. */
     std::vector<PairPast> pasts(const Unknowns &start, const ForceMeaning &meaning,
@@ -30,7 +31,8 @@ namespace Voussoir
 
     /** Releases the pairs that a solution asks most of, within a tenth of the worst, since others may then be
      * relieved: the events go into @p memory, and the forces become 0, a guess for the next. How many. */
-    unsigned int revise(const ForceMeaning &meaning, Unknowns &force, Unknowns &memory) const;
+    unsigned int revise(const Unknowns &start, const ForceMeaning &meaning, const Unknowns &gap,
+                        Unknowns &force, Unknowns &memory) const;
 
     /** The step from @p start with this solution is accepted. */
     void commit(const Unknowns &start, const ForceMeaning &meaning, const Unknowns &force,
