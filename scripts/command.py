@@ -5,8 +5,10 @@
 environment variable VOUSSOIR_PROGRAM (by default build/voussoir). Bad input ends with status 2, a failed computation with 1.
 """
 
+import argparse
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -20,6 +22,19 @@ class InputError(Exception):
 
 class ComputationError(Exception):
     """What could not be computed; status 1."""
+
+
+class Parser(argparse.ArgumentParser):
+    """Of a command line; what it does not understand is an InputError."""
+
+    def __init__(self, **options):
+        super().__init__(formatter_class=argparse.RawDescriptionHelpFormatter, **options)
+
+    def error(self, message):
+        message = message.removeprefix("argument ")
+        if found := re.fullmatch(r"(\S+): invalid (int|float|Path) value: (.*)", message, re.S):
+            message = f"{found[1]} must be a {'whole ' if found[2] == 'int' else ''}number, not {found[3]}"
+        raise InputError(f"{message}. `{self.prog} --help` shows how.")
 
 
 def end_with(main):

@@ -13,7 +13,6 @@ The picture of doc/report.md, from coarse.prm:
 With a directory, the solution whose joints are widest open is taken.
 """
 
-import argparse
 import re
 import sys
 from pathlib import Path
@@ -26,6 +25,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import matplotlib.pyplot as plt  # noqa: E402 (after the choice of the backend)
 from matplotlib.collections import PolyCollection  # noqa: E402
 from matplotlib.colors import LinearSegmentedColormap  # noqa: E402
+from command import InputError, Parser, end_with  # noqa: E402
+from runs import Skip, read_table  # noqa: E402
 from vtu import read_vtu  # noqa: E402
 
 # The corners of the faces of a hexahedron of VTK, seen from outside counter-clockwise.
@@ -38,21 +39,42 @@ FINE = 3  # each side of a face is painted in so many parts
 
 def widest(directory):
     """The solution of a run whose joints are widest open, by joint_history.csv."""
-    with open(directory / "joint_history.csv") as file:
-        names = file.readline().strip().split(",")
-        table = np.loadtxt(file, delimiter=",", ndmin=2)
-    openings = table[:, [i for i, name in enumerate(names) if name.startswith("opening")]].max(axis=1, initial=0.)  # no joints: the first
-    steps = {int(path.stem[9:]): path for path in directory.glob("solution-*.vtu")}
-    if not steps:
-        raise SystemExit(f"picture: {directory} has no solution-*.vtu; run with --set 'Output/Solution interval=1'")
+    try:
+        table = read_table(directory / "joint_history.csv")
+    except Skip as reason:
+        raise InputError(f"{directory}: {reason}, so its widest opening is not known. Repeat the run, or name a solution-*.vtu.") from reason
+    columns = [column for name, column in table.items() if name.startswith("opening")]
+    openings = np.max([0. * table["time"], *columns], axis=0)  # no joints: the first
+    steps = {int(path.stem[9:]): path for path in directory.glob("solution-*.vtu") if path.stem[9:].isdecimal()}
+    if not any(k < len(openings) for k in steps):
+        raise InputError(f"{directory} has no solution-*.vtu: run the scene with --set 'Output/Solution interval=1'.")
     return steps[max((k for k in steps if k < len(openings)), key=lambda k: openings[k])]
 
 
-def time_of(solution):
-    """By solution.pvd [s]; None without it."""
-    pvd = solution.parent / "solution.pvd"
-    found = re.search(rf'timestep="([^"]*)" file="{re.escape(solution.name)}"', pvd.read_text()) if pvd.exists() else None
-    return float(found[1]) if found else None
+def times_of(directory):
+    """Time [s] and file of each solution, by solution.pvd; none without it."""
+    pvd = directory / "solution.pvd"
+    found = re.findall(r'timestep="([^"]*)" file="(solution-[^"]*)"', pvd.read_text(errors="replace")) if pvd.exists() else []
+    try:
+        return [(float(time), directory / name) for time, name in found]
+    except ValueError as error:
+        raise InputError(f"{pvd} is damaged: {error}. Repeat the run.") from error
+
+
+def read_solution(path, **widths):
+    """Arrays of a file of hexahedra by name, a row for each point or cell; widths: numbers in a row of those that the caller needs.
+    Throws InputError for a damaged file."""
+    data = {name: np.asarray(values) for name, values in read_vtu(path).items()}
+    for name, width in {"Points": 3, "connectivity": 8, **widths}.items():
+        values = data.get(name, np.zeros(0))
+        rows = len(data["Points"]) if name in widths else len(values) // width
+        if rows == 0 or len(values) != rows * width or name != "opening" and not np.isfinite(values).all():
+            raise InputError(f"{path} is damaged: the array {name} is missing, or has values that are not finite, or not {width} in each row. "
+                             "Repeat the run.")
+        data[name] = values.reshape((rows, width) if width > 1 else rows)
+    if data["connectivity"].min() < 0 or data["connectivity"].max() >= len(data["Points"]):
+        raise InputError(f"{path} is damaged: the array connectivity names points that are not there. Repeat the run.")
+    return data
 
 
 def outer(points, moved, cells):
@@ -209,7 +231,7 @@ def view_of(points, azimuth=-12., elevation=34.):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(description=__doc__)
     parser.add_argument("solution", type=Path)
     parser.add_argument("picture", type=Path)
     parser.add_argument("--magnify", type=float, default=250., help="displacements, from the state at rest")
@@ -220,12 +242,10 @@ def main():
     if options.solution.is_dir():
         options.solution = widest(options.solution)
     if not options.solution.is_file():
-        raise SystemExit(f"picture: there is no {options.solution}: give a solution-*.vtu, or the output directory of a run")
-    time = time_of(options.solution)
-    data = {name: np.asarray(values) for name, values in read_vtu(options.solution).items()}
-    points = data["Points"].reshape(-1, 3).astype(float)
-    moved = data["displacement"].reshape(-1, 3).astype(float)
-    cells = data["connectivity"].reshape(-1, 8)
+        raise InputError(f"There is no {options.solution}: give a solution-*.vtu, or the output directory of a run.")
+    time = next((time for time, file in times_of(options.solution.parent) if file.name == options.solution.name), None)
+    data = read_solution(options.solution, displacement=3, max_principal=1, opening=1)
+    points, moved, cells = data["Points"].astype(float), data["displacement"].astype(float), data["connectivity"]
     stress = 1e-6 * data["max_principal"]
     faces = outer_faces(points, moved, cells)
     x = points + options.magnify * moved
@@ -251,10 +271,14 @@ def main():
     if np.isfinite(data["opening"]).any():
         text += [f"widest opening {1e3 * np.nanmax(data['opening']):.0f} mm"]
     axes.set_title(options.title or ", ".join(text), fontsize=11, color=".25")
-    options.picture.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(options.picture, dpi=120, bbox_inches="tight", facecolor="white")
+    try:
+        options.picture.parent.mkdir(parents=True, exist_ok=True)
+        figure.savefig(options.picture, dpi=120, bbox_inches="tight", facecolor="white")
+    except (OSError, ValueError) as error:
+        raise InputError(f"The picture {options.picture} cannot be written: {error}. Choose another name, such as dam.png.") from error
     print(f"{options.solution} -> {options.picture}")
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    end_with(main)

@@ -5,26 +5,23 @@
     voussoir report DIR... [--output FILE.html] [--pdf]
 
 DIR are output directories of finished runs. The page holds its figures and its style, and asks nothing of the network.
---pdf prints it to FILE.pdf with a Chromium that is installed (on Debian: apt-get install chromium).
+Its texts are those of the directories' files, which may be another person's: all are escaped, and its Content-Security-Policy allows neither
+scripts nor other files. --pdf prints it to FILE.pdf with a Chromium that is installed (on Debian: apt-get install chromium), without scripts, files and network.
 """
 
-import argparse
-import os
-import shutil
-import subprocess
 import sys
-import tempfile
+from base64 import b64encode
 from datetime import datetime
+from hashlib import sha256
 from html import escape
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import report_figures as figures  # noqa: E402
-from command import ComputationError, InputError, end_with  # noqa: E402
+from chromium import find_browser, print_page  # noqa: E402
+from command import ComputationError, InputError, Parser, end_with  # noqa: E402
 from report_tables import blocks, blocks_of, differences, extremes, facts, number, tiles, verdict  # noqa: E402
 from runs import Run, Skip, name_apart, scene_of  # noqa: E402
-
-BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
 
 class Page:
@@ -65,7 +62,7 @@ class Page:
             return make()
         except Skip as reason:
             self.missing.append(f"{what}: {reason}")
-        except (KeyError, ValueError, IndexError) as error:
+        except (ArithmeticError, LookupError, ValueError) as error:
             self.missing.append(f"{what}: the data are not understood ({type(error).__name__}: {error})")
             print(f"voussoir: warning: {what}: {type(error).__name__}: {error}", file=sys.stderr)
         return None
@@ -255,36 +252,30 @@ def page_of(runs):
     page.add("<footer>Made by Voussoir’s <code>report</code>. Units are SI; stresses in MPa, openings and slips in mm.</footer>")
     style = (Path(__file__).resolve().parent / "report.css").read_text()
     title = escape(", ".join(run.heading for run in runs))
-    return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
+    policy = f"default-src 'none'; img-src data:; style-src 'sha256-{b64encode(sha256(style.encode()).digest()).decode()}'; base-uri 'none'; form-action 'none'"
+    text = (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="{policy}">'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">'
             f'<title>{title}</title><link rel="icon" href="data:,"><style>{style}</style></head><body>\n' + "\n".join(page.parts) +
             "\n</body></html>\n")
+    return text.encode("utf-8", "backslashreplace").decode()  # JSON may hold halves of characters
 
 
 # ---------------------------------------------------------------- files
 
-def print_pdf(page, pdf):
-    """By the first Chromium of the PATH, or the one that VOUSSOIR_BROWSER names."""
-    chosen = os.environ.get("VOUSSOIR_BROWSER")
-    browser = chosen or next((found for name in BROWSERS if (found := shutil.which(name))), None)
-    if browser is None:
+def print_pdf(page, text, pdf):
+    """The page's text as PDF. Throws InputError where there is no Chromium."""
+    if (browser := find_browser()) is None:
         raise InputError("--pdf needs a Chromium, and none is on the PATH. On Debian: apt-get install chromium; or open "
                          f"{page} in any browser and print it; the environment variable VOUSSOIR_BROWSER may name one.")
     pdf.unlink(missing_ok=True)
-    with tempfile.TemporaryDirectory() as profile:
-        words = [browser, "--headless", "--disable-gpu", "--no-pdf-header-footer", f"--user-data-dir={profile}",
-                 f"--print-to-pdf={pdf.resolve()}", page.resolve().as_uri()]
-        if os.geteuid() == 0:
-            words.insert(1, "--no-sandbox")  # which Chromium does not have for root
-        try:
-            result = subprocess.run(words, capture_output=True, text=True, timeout=180, check=False)
-        except (OSError, subprocess.TimeoutExpired) as error:
-            raise ComputationError(f"{browser} did not print {pdf}: {error}. The page {page} is complete.") from error
-    if not pdf.exists() or pdf.stat().st_size == 0:
-        raise ComputationError(f"{browser} did not print {pdf}: {result.stderr.strip()[-300:]} The page {page} is complete.")
+    try:
+        pdf.write_bytes(print_page(text))
+    except OSError as error:
+        raise ComputationError(f"{browser} did not print {pdf}: {error}. The page {page} is complete.") from error
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="voussoir report", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog="voussoir report", description=__doc__)
     parser.add_argument("directories", nargs="*", metavar="DIR")
     parser.add_argument("--output", type=Path)
     parser.add_argument("--pdf", action="store_true")
@@ -298,7 +289,7 @@ def main():
         raise InputError(f"The report is a page: give --output a name that ends in .html, instead of {output}.")
     try:
         text = page_of(runs)
-    except (AttributeError, KeyError, TypeError, ValueError) as error:
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise InputError(f"summary.json of {', '.join(options.directories)} is not what this version writes ({type(error).__name__}: {error}). "
                          "Repeat the run.") from error
     try:
@@ -307,7 +298,7 @@ def main():
         raise InputError(f"{output} cannot be written: {error.strerror}. Choose another file with --output.") from error
     print(f"Report    {output}")
     if options.pdf:
-        print_pdf(output, output.with_suffix(".pdf"))
+        print_pdf(output, text, output.with_suffix(".pdf"))
         print(f"          {output.with_suffix('.pdf')}")
     return 0
 

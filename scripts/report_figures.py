@@ -10,8 +10,8 @@ import picture
 from drawing import (COLOURS, DIRECTIONS, DOWNSTREAM, LIMIT, UPSTREAM, aspect, common_levels, common_top, draw_base,
                      draw_crest, draw_crest_bars, draw_energy, draw_face, draw_joint_history, draw_spectrum, energy_parts, energy_unit,
                      plt, stress_bar, worst_joints)
+from command import InputError
 from runs import Skip
-from vtu import read_vtu
 
 NARROW, WIDE = 4.3, 9.0  # inches: a telephone or half a page, and a whole page
 SMALL = {"font.size": 8.5, "axes.titlesize": 9, "axes.labelsize": 8.5, "legend.fontsize": 8, "xtick.labelsize": 8,
@@ -57,11 +57,14 @@ def dam(run):
     file = next((file for file in [run.directory / "envelope.vtu", *sorted(run.directory.glob("solution-*.vtu"))] if file.exists()), None)
     if file is None:
         raise Skip("no envelope.vtu: Output/Envelope interval is 0")
+    try:
+        data = picture.read_solution(file, monolith=1)
+    except InputError as error:
+        raise Skip(error) from error
     with plt.rc_context(SMALL):
         figure, axes = plt.subplots(figsize=(NARROW * 1.25, NARROW * 0.85))
-        data = {name: np.asarray(values) for name, values in read_vtu(file).items()}
-        points, cells = data["Points"].reshape(-1, 3).astype(float), data["connectivity"].reshape(-1, 8)
-        monolith = data["monolith"][cells[:, 0]].astype(int) if "monolith" in data else np.zeros(len(cells), dtype=int)
+        points, cells = data["Points"].astype(float), data["connectivity"]
+        monolith = data["monolith"][cells[:, 0]].astype(int)
         picture.draw_mesh(axes, points, cells, monolith, picture.view_of(points))
         return image(figure, "png")
 

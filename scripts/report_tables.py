@@ -135,7 +135,7 @@ def blocks(run):
         for key, _, unit in columns:
             value, time = block[key]["value"], block[key]["time"]
             cells.append(f"{number(value, unit)} ({time:.2f})" if is_number(value) else "–")  # of no shear at all
-        rows += f"<tr><td>{cells[0]}</td>" + "".join(f'<td class="n">{cell}</td>' for cell in cells[1:]) + "</tr>"
+        rows += f"<tr><td>{escape(cells[0])}</td>" + "".join(f'<td class="n">{cell}</td>' for cell in cells[1:]) + "</tr>"
     return f'<div class="table"><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
 
 

@@ -95,7 +95,7 @@ class Run:
                              "directory that voussoir was told to write to with --output.")
         try:
             self.summary = json.loads(file.read_text())
-        except ValueError as error:
+        except (RecursionError, ValueError) as error:
             raise InputError(f"{file} is not valid JSON: {error}. Repeat the run.") from error
         if not isinstance(self.summary, dict):
             raise InputError(f"{file} does not hold an object. Repeat the run.")
@@ -168,7 +168,7 @@ class Run:
     @cached_property
     def entries(self):
         file = self.directory / "scene.prm"
-        return read_entries(file.read_text()) if file.is_file() else {}
+        return read_entries(file.read_text(errors="replace")) if file.is_file() else {}
 
     def limit(self, name):
         """Entry "Limits/NAME" of the scene in its unit, 0 if there is none."""
@@ -181,7 +181,7 @@ class Run:
     def facts(self):
         """What the log says before the first step: title -> text."""
         file, facts, title = self.directory / "log.txt", {}, None
-        for line in file.read_text().splitlines() if file.exists() else []:
+        for line in file.read_text(errors="replace").splitlines() if file.exists() else []:
             if line.startswith(("   time", "Limits ", "Joints    largest", "Tension ")):  # results of a static state follow it at once
                 break
             if match := re.match(r"([A-Z]\w+) {1,9}(?=\S)(.*)", line):

@@ -7,13 +7,22 @@ import struct
 import zlib
 from array import array
 
+from command import InputError
+
 TYPES = {"Float32": "f", "Float64": "d", "Int8": "b", "UInt8": "B", "Int32": "i", "UInt32": "I", "Int64": "q"}
 
 
 def read_vtu(path):
-    """The arrays by name, flat; with Points (3 per point), connectivity, offsets and types."""
-    with open(path, encoding="ascii") as file:
-        text = file.read()
+    """The arrays by name, flat; with Points (3 per point), connectivity, offsets and types. Throws InputError for a damaged file."""
+    try:
+        with open(path, encoding="ascii") as file:
+            return arrays_of(file.read())
+    except (ArithmeticError, LookupError, ValueError, struct.error, zlib.error) as error:
+        raise InputError(f"{path} is damaged: its arrays cannot be decoded ({error}). Repeat the run.") from error
+
+
+def arrays_of(text):
+    """The same, of the text of a file."""
     result = {}
     for tag, body in re.findall(r"<DataArray\s([^>]*)>(.*?)</DataArray>", text, re.S):
         attributes = dict(re.findall(r'(\w+)="([^"]*)"', tag))

@@ -48,12 +48,13 @@ class Reader(HTMLParser):
 
     def __init__(self, path):
         super().__init__()
-        self.images, self.addresses, self.open, self.text = [], [], [], ""
+        self.images, self.addresses, self.open, self.text, self.tags = [], [], [], "", set()
         self.feed(Path(path).read_text(encoding="utf-8"))
         expect(not self.open, f"{path}: not closed: {self.open}")
 
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
+        self.tags |= {tag, *attributes}
         self.addresses += [attributes[name] for name in ("src", "href", "srcset") if name in attributes]
         if tag == "img":
             expect(attributes.get("alt"), "an image without an alternative text")
