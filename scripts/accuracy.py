@@ -16,7 +16,6 @@ are not repeated. Cost: seconds of processor time of each thread per second of e
 Writes accuracy.csv, accuracy.json and accuracy.png into DIR; runs, with their tables, are beside them.
 """
 
-import argparse
 import csv
 import hashlib
 import itertools
@@ -30,7 +29,7 @@ from pathlib import Path
 
 import numpy as np
 
-from command import ComputationError, InputError, end_with, entries_of, results_of, settings, voussoir
+from command import ComputationError, InputError, Parser, end_with, entries_of, results_of, settings, voussoir
 from study_file import is_file_entry
 from zone_tension import read, zone_means
 
@@ -330,7 +329,7 @@ def propose(choices, ladder, wish):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="voussoir accuracy")
+    parser = Parser(prog="voussoir accuracy")
     parser.add_argument("--for", dest="wish", default="1%")
     parser.add_argument("--seconds", default="5")
     parser.add_argument("--output")

@@ -20,7 +20,6 @@ they are radial at every elevation. At both ends, where the height goes to zero,
 of rock for Foundation/Model = massless.
 """
 
-import argparse
 import csv
 import sys
 from pathlib import Path
@@ -28,7 +27,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import numpy as np  # noqa: E402
 from arch_rock import NAMES as ROCK_NAMES, ROCK, add_rock  # noqa: E402
-from command import InputError, end_with  # noqa: E402
+from command import InputError, Parser, end_with  # noqa: E402
 
 COLUMNS = ("elevation", "upstream_x", "upstream_radius", "thickness", "downstream_radius", "right_angle", "left_angle")
 LARGEST = 1e5  # of a table's numbers [m, degrees]
@@ -246,7 +245,7 @@ def write(path, nodes, cells, sides):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="voussoir arcs", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog="voussoir arcs", description=__doc__)
     parser.add_argument("table", help="CSV; columns: " + ", ".join(COLUMNS))
     parser.add_argument("--output", required=True, help="the mesh, MSH 2.2")
     parser.add_argument("--joints", type=int, default=10)

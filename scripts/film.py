@@ -8,29 +8,25 @@
 Each solution is a picture; --slower says how many times longer the film lasts than the earthquake.
 """
 
-import argparse
-import re
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import numpy as np  # noqa: E402
-from command import InputError, end_with  # noqa: E402
+from command import InputError, Parser, end_with  # noqa: E402
 from drawing import plt  # noqa: E402
 from matplotlib.animation import PillowWriter  # noqa: E402
 from matplotlib.collections import PolyCollection  # noqa: E402
-from picture import COLOURS, normals, outer_faces, view_of  # noqa: E402
-from vtu import read_vtu  # noqa: E402
+from picture import COLOURS, normals, outer_faces, read_solution, times_of, view_of  # noqa: E402
 
 
 class Picture:
     """One time: corners of the outer faces, moved, and their stress [MPa]."""
 
     def __init__(self, path, magnify):
-        data = {name: np.asarray(values) for name, values in read_vtu(path).items()}
-        self.points = data["Points"].reshape(-1, 3).astype(float)
-        moved = data["displacement"].reshape(-1, 3).astype(float)
-        faces = outer_faces(self.points, moved, data["connectivity"].reshape(-1, 8))
+        data = read_solution(path, displacement=3, max_principal=1, opening=1)
+        self.points, moved = data["Points"].astype(float), data["displacement"].astype(float)
+        faces = outer_faces(self.points, moved, data["connectivity"])
         self.corners = (self.points + magnify * moved)[faces]
         self.stress = 1e-6 * data["max_principal"][faces].mean(axis=1)
         known = data["opening"][np.isfinite(data["opening"])]
@@ -52,17 +48,8 @@ def draw(axes, picture, view, limits):
     axes.axis("off")
 
 
-def times_of(directory):
-    """Time and file of each solution, by solution.pvd."""
-    pvd = directory / "solution.pvd"
-    if not pvd.exists():
-        raise InputError(f"{directory} holds no solution.pvd: run the scene with --set 'Output/Solution interval=4'.")
-    found = re.findall(r'timestep="([^"]*)" file="(solution-[^"]*)"', pvd.read_text())
-    return [(float(time), directory / name) for time, name in found]
-
-
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(description=__doc__)
     parser.add_argument("directory", type=Path)
     parser.add_argument("film", type=Path)
     parser.add_argument("--magnify", type=float, default=250.)
@@ -77,11 +64,13 @@ def main():
         raise InputError("--slower and --width must be greater than 0.")
     if not options.film.absolute().parent.is_dir():
         raise InputError(f"The film {options.film} cannot be written: there is no directory {options.film.parent}.")
+    if not (options.directory / "solution.pvd").is_file():
+        raise InputError(f"{options.directory} holds no solution.pvd: run the scene with --set 'Output/Solution interval=4'.")
     chosen = [(time, file) for time, file in times_of(options.directory) if options.begin <= time <= options.until]
     for _, file in chosen:
         if not file.is_file():
             raise InputError(f"{file} of solution.pvd is not there. Repeat the run, or choose other times with --from and --until.")
-    if len(chosen) < 2:
+    if len(chosen) < 2 or not chosen[-1][0] > chosen[0][0]:
         raise InputError(f"There are {len(chosen)} solutions in {options.directory} between these times, too few for a film.")
     pictures = [Picture(file, options.magnify) for _, file in chosen]
     top = max(1., float(np.ceil(np.quantile(np.concatenate([picture.stress for picture in pictures]), .998))))

@@ -4,9 +4,8 @@
 import numpy as np
 
 from drawing import plt
-from picture import creases, normals, outer_faces, view_of
+from picture import creases, normals, outer_faces, read_solution, view_of
 from runs import read_table
-from vtu import read_vtu
 from matplotlib.collections import LineCollection, PolyCollection
 
 PER_PAGE = 12
@@ -14,9 +13,8 @@ PER_PAGE = 12
 
 def draw_shape(axes, data, part=.09):
     """The shape with its largest displacement drawn as a part of the dam's size, coloured by the displacement along x."""
-    points = data["Points"].reshape(-1, 3).astype(float)
-    moved = data["displacement"].reshape(-1, 3).astype(float)
-    faces = outer_faces(points, 0. * points, data["connectivity"].reshape(-1, 8))
+    points, moved = data["Points"].astype(float), data["displacement"].astype(float)
+    faces = outer_faces(points, 0. * points, data["connectivity"])
     corners = (points + part * max(np.ptp(points, axis=0)) * moved)[faces]
     view = view_of(points, -8., 30.)
     place, depth = view(corners)
@@ -43,7 +41,7 @@ def draw_modes(directory):
     for axes in grid.ravel()[count:]:
         axes.set_visible(False)
     for k, axes in enumerate(grid.ravel()[:count]):
-        draw_shape(axes, {name: np.asarray(values) for name, values in read_vtu(directory / f"mode-{k + 1:03d}.vtu").items()})
+        draw_shape(axes, read_solution(directory / f"mode-{k + 1:03d}.vtu", displacement=3))
         shares = ", ".join(f"{d} {100 * table[f'share_{d}'][k]:.0f} %" for d in "xyz")
         axes.set_title(f"{k + 1}: {table['frequency'][k]:.2f} Hz; effective mass {shares}", fontsize=9)
     figure.savefig(directory / "modes.png", dpi=130)

@@ -4,7 +4,6 @@
     study.py [--jobs N] [--output DIR] [--profile PROFILE] [--keep-going] [--dry-run] [--set ENTRY=VALUE]... -- STUDY.prm
 """
 
-import argparse
 import fcntl
 import hashlib
 import json
@@ -20,7 +19,7 @@ from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from command import PROGRAM, ComputationError, InputError, end_with, entries_of, voussoir
+from command import PROGRAM, ComputationError, InputError, Parser, end_with, entries_of, voussoir
 from study_file import is_file_entry, read_study, value_in
 from study_scene import end_with_parent, record_of, revision_of, row_in_words, write_whole
 
@@ -44,7 +43,7 @@ rule scene:
 
 def arguments():
     """The command line, which the program has looked at."""
-    parser = argparse.ArgumentParser(prog="voussoir study", add_help=False)
+    parser = Parser(prog="voussoir study", add_help=False)
     parser.add_argument("--jobs", default="")
     parser.add_argument("--output")
     parser.add_argument("--profile", default="")

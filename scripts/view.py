@@ -10,13 +10,12 @@ DIR/surfaces.vtu  the faces in groups, with the number of the group (doc/mesh.md
 DIR/mesh.msh      the mesh as the program has it, for gmsh
 """
 
-import argparse
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import numpy as np  # noqa: E402
-from command import InputError, end_with, entries_of, voussoir  # noqa: E402
+from command import InputError, Parser, end_with, entries_of, voussoir  # noqa: E402
 from drawing import plt  # noqa: E402
 from picture import CONCRETE, FACES, draw_mesh, view_of  # noqa: E402
 from vtu import write_vtu  # noqa: E402
@@ -192,7 +191,7 @@ def sheet(mesh, level, wet, title, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="voussoir view", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog="voussoir view", description=__doc__)
     parser.add_argument("scenes", nargs="*", metavar="SCENE.prm")
     parser.add_argument("--output", type=Path)
     parser.add_argument("--set", action="append", default=[], dest="overrides")

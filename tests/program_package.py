@@ -167,8 +167,10 @@ def arcs():
     write("twice.csv", head.replace("thickness", "thickness,thickness") + "0,0,100,20,20,80,30,40\n")
     expect("thickness is there twice" in mesh("twice.csv", status=2), "a column twice")
     for options, part in ((("--along", "10001"), "1 to 10000"), (("--up", "99999999999999999999"), "1 to 10000"), (("--through", "0"), "1 to 10000"),
-                          (("--along", "9000", "--up", "9000"), "more than 5000000 elements"), (("--end-height", "nan"), "--end-height")):
-        expect(part in mesh("ring.csv", *options, status=2), f"{options}")
+                          (("--along", "9000", "--up", "9000"), "more than 5000000 elements"), (("--end-height", "nan"), "--end-height"),
+                          (("--along", "3.5"), "voussoir: error: --along must be a whole number, not '3.5'."), (("--rock", "much"), "--rock must be a number, not 'much'.")):
+        text = mesh("ring.csv", *options, status=2)
+        expect(part in text and text.count("\n") == 1 and text.startswith("voussoir: error: "), f"{options}: {text}")
     # Morrow Point on a rigid base, empty: 3.81 and 4.27 Hz are quoted (doc/mesh.md); the table has its outer dimensions and its volume
     text = mesh(str(ROOT / "meshes" / "morrow_point.csv"), "--joints", "9", "--along", "40", "--up", "12")
     expect(abs(float(re.search(r"volume (\d+) m3", text)[1]) / 275e3 - 1) < .03, text)

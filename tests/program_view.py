@@ -7,6 +7,8 @@
 
 import csv
 import math
+import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -144,7 +146,60 @@ def film():
 
 
 def film_of(*arguments):
-    return subprocess.run(["/usr/bin/python3", str(SCRIPTS / "film.py"), *arguments], capture_output=True, text=True, check=False)
+    return script("film.py", *arguments)
+
+
+def script(name, *arguments):
+    """A script called as the pages call it."""
+    return subprocess.run([str(SCRIPTS / name), *arguments], capture_output=True, text=True, check=False)
+
+
+def damaged():
+    """A damaged file of a run, and options that are no numbers: one paragraph that names the file or the option; no traceback."""
+    write_scene()
+    runs("scene.prm", "--output", "run", *settings("Output/Solution interval=10"))
+    path, pvd = Path("run/solution-00020.vtu"), Path("run/solution.pvd")
+    sound, times = path.read_bytes(), pvd.read_text()
+    middle = sound.index(b">", sound.index(b"displacement")) + 200
+    for what, data in (("cut", sound[:len(sound) // 2]), ("empty", b""), ("changed", sound[:middle] + b"AAAAAAAA" + sound[middle + 8:]),
+                       ("no text", sound[:middle] + b"\xff\xfe" + sound[middle + 2:]), ("no base64", sound[:middle] + b"A" + sound[middle:]),
+                       ("type", sound.replace(b"Float32", b"Float16")), ("no stress", sound.replace(b'"max_principal"', b'"max"')),
+                       ("other points", sound.replace(b'Name="connectivity"', b'Name="was"').replace(b'Name="offsets"', b'Name="connectivity"'))):
+        path.write_bytes(data)
+        for name, arguments in (("film.py", ("run", "film.gif")), ("picture.py", (str(path), "dam.png"))):
+            said(script(name, *arguments), "solution-00020.vtu is damaged", "Repeat the run")
+    path.write_bytes(sound)
+    pvd.write_text(times.replace('timestep="0.2"', 'timestep="soon"'))
+    expect("soon" in pvd.read_text(), "the times are written in another way: mend this test")
+    said(script("film.py", "run", "film.gif"), "solution.pvd is damaged", "soon")
+    pvd.write_text(times)
+    said(script("film.py", "run", "film.gif", "--width", "3.5"), "--width must be a whole number, not '3.5'")
+    said(script("film.py", "run", "film.gif", "--from", "soon"), "--from must be a number, not 'soon'")
+    said(script("film.py", "run"), "film", "--help")
+    said(script("picture.py", "nothing.vtu", "dam.png"), "nothing.vtu")
+    history = Path("run/joint_history.csv").read_text()
+    Path("run/joint_history.csv").write_text(history.replace("\n0.1,", "\nsoon,", 1))
+    said(script("picture.py", "run", "dam.png"), "joint_history.csv is damaged", "soon")
+    Path("run/joint_history.csv").write_text(history)
+    said(script("picture.py", "run", "dam.doc"), "dam.doc")
+    expect(script("picture.py", "run", "dam.png").returncode == 0 and picture_of("dam.png")[0] > 500, "no picture of the run")
+
+
+def said(result, *parts):
+    """One paragraph with these parts, and the status of bad input."""
+    what = f"status {result.returncode}: {result.stderr[-400:]}"
+    expect(result.returncode == 2 and result.stderr.count("\n") == 1 and result.stderr.startswith("voussoir: error: "), what)
+    expect(all(part in result.stderr for part in parts), f"{parts} are missing: {what}")
+
+
+def commands():
+    """Scripts that pages and docstrings call by their path can be called so."""
+    root = SCRIPTS.parent
+    files = [*root.glob("*.md"), *root.glob("doc/**/*.md"), *root.glob("scripts/*.py"), *root.glob("benchmarks/*.py")]
+    called = {found for file in files for found in re.findall(r"^ +((?:scripts|benchmarks)/\w+\.(?:py|sh))\b", file.read_text(encoding="utf-8"), re.M)}
+    expect(len(called) > 20 and {"scripts/film.py", "scripts/picture.py"} <= called, f"{sorted(called)}")
+    for name in sorted(called):
+        expect(os.access(root / name, os.X_OK), f"{name} is called by its path, but is not there or not executable")
 
 
 def figures():
@@ -164,4 +219,4 @@ def figures():
 
 
 if __name__ == "__main__":
-    run_cases(view, water_line, modes, joint_surfaces, film, figures)
+    run_cases(view, water_line, modes, joint_surfaces, film, damaged, commands, figures)
