@@ -1,24 +1,31 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Do the tests notice errors? Builds all mutants of scripts/mutants.txt into one program, in a scratch directory, and
-runs against each the tests that are likeliest to see it, until one fails: then the mutant is killed.
+runs against each the tests that are likeliest to see it, until one fails: then the mutant is killed, if that test passes without it.
+Mutants of Python (scripts/mutants_python.txt) need no build: each is put into a copy of scripts, package and tests, which runs with
+the program of build/.
 
-    scripts/mutants.py [--scratch build-mutants] [--only REGEX] [--all] [--table FILE] [--check] [--no-build]
+    scripts/mutants.py [--scratch build-mutants] [--only REGEX] [--python] [--random N --seed TEXT] [--all] [--table FILE]
+                       [--check] [--no-build] [--build build]
 
---check looks only whether all mutants still fit the sources; --all runs the other tests, too, against those that survive.
+--check looks only whether all mutants still fit the sources; --all runs the other tests, too, against those that survive. --random
+takes N mutants by the seed, not those of headers, and builds what they need only: the rest comes from ccache after scripts/build.sh.
 Prints a table in Markdown and the survivors. Exit status: 0 none survives, 1 some do, 2 a mutant does not fit the sources.
 """
 
 import argparse
 import os
+import random
 import re
 import shutil
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+LISTS = ROOT / "scripts/mutants.txt", ROOT / "scripts/mutants_python.txt"
 HEADER = """#ifndef voussoir_mutant_h
 #define voussoir_mutant_h
 
@@ -104,17 +111,33 @@ def binds_less(text, before, after):
                 or re.search(factor, inner) and before.endswith("/"))
 
 
+def place_of(old, text, mutant):
+    """Begin and end of the original text in the source."""
+    pattern = r"\s+".join(re.escape(word) for word in old.split())
+    found = list(re.finditer(pattern, text))
+    if len(found) != 1:
+        raise Misfit(f"mutant {mutant['name']}: its original text occurs {len(found)} times in {mutant['file']}, not once: {old}")
+    return found[0].span()
+
+
+def mutate_script(text, mutant):
+    """The text of a script in Python with this mutant instead of the original."""
+    for old, new in mutant["edits"]:
+        begin, end = place_of(old, text, mutant)
+        text = text[:begin] + new + text[end:]
+    try:
+        compile(text, mutant["file"], "exec")
+    except SyntaxError as error:
+        raise Misfit(f"mutant {mutant['name']}: it is no Python: {error}") from error
+    return text
+
+
 def mutate(text, mutant, number):
     """The text of a source with the choice of this mutant in it."""
     chosen = f"(voussoir_mutant == {number})"
     for old, new in mutant["edits"]:
-        pattern = r"\s+".join(re.escape(word) for word in old.split())
-        found = list(re.finditer(pattern, text))
-        if len(found) != 1:
-            raise Misfit(f"mutant {mutant['name']}: its original text occurs {len(found)} times in {mutant['file']}, "
-                         f"not once: {old}")
-        begin, end = found[0].span()
-        old = found[0].group()
+        begin, end = place_of(old, text, mutant)
+        old = text[begin:end]
         before = re.sub(r"//[^\n]*", "", text[:begin]).rstrip()
         if "MUTANT" in new:
             changed = new.replace("MUTANT", chosen)
@@ -137,9 +160,7 @@ def make_tree(mutants, tree):
     """Copies what git has, and puts the mutants in. Files that do not change keep their time."""
     needed = ["CMakeLists.txt", "CITATION.cff", "LICENSE", "README.md", "benchmarks", "cmake", "doc/Doxyfile.in", "include",
               "meshes", "prm", "scripts", "source", "tests"]
-    listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-co", "--exclude-standard", "--", *needed],
-                            capture_output=True, check=True).stdout.decode().split("\n")
-    texts = {file: (ROOT / file).read_bytes() for file in listed if file and (ROOT / file).is_file()}
+    texts = sources(*needed)
     names = ", ".join(f'"{m["name"]}"' for m in mutants)
     texts["include/voussoir/mutant.h"] = (HEADER % names).encode()
     errors = []
@@ -159,7 +180,21 @@ def make_tree(mutants, tree):
         mutated = mutated - {part} | {file for file, text in texts.items() if b'#include "' + name in text or b"/" + name + b">" in text}
     for file in mutated:
         texts[file] = b"#include <voussoir/mutant.h>\n" + texts[file]
-    for old in (f for f in tree.rglob("*") if f.is_file()):
+    if mutated:  # they compile with the flags of all others, so that ccache has these, but their warnings are no errors
+        texts["CMakeLists.txt"] += f"set_source_files_properties({' '.join(sorted(mutated))} PROPERTIES COMPILE_OPTIONS -Wno-error)\n".encode()
+    write_tree(texts, tree)
+
+
+def sources(*needed):
+    """File -> content of what git has, or would have, of these files and directories."""
+    listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-co", "--exclude-standard", "--", *needed],
+                            capture_output=True, check=True).stdout.decode().split("\n")
+    return {file: (ROOT / file).read_bytes() for file in listed if file and (ROOT / file).is_file()}
+
+
+def write_tree(texts, tree):
+    """Makes the tree that of these files; those that do not change keep their time."""
+    for old in (f for f in tree.rglob("*") if f.is_file() and f.relative_to(tree).parts[0] != "build"):
         if str(old.relative_to(tree)) not in texts:
             old.unlink()
     for file, text in texts.items():
@@ -170,21 +205,68 @@ def make_tree(mutants, tree):
             path.chmod((ROOT / file).stat().st_mode if (ROOT / file).exists() else 0o644)
 
 
-def build(tree, directory):
+def build(tree, directory, patterns=None):
+    """The program, and all tests or those of these patterns, with the flags of scripts/build.sh and at the same place in the tree."""
     launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
     samples = ROOT.parent / "shared/reference/data/peers"
-    for command in (["cmake", "-S", str(tree), "-B", str(directory), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                     "-DVOUSSOIR_UNITY=ON", f"-DVOUSSOIR_SAMPLES={samples}", *launcher],
-                    ["cmake", "--build", str(directory), "--parallel", str(os.cpu_count()), "--", "-k", "0"]):
-        with open(directory.parent / "build.log", "a") as log:
-            if subprocess.run(command, stdout=log, stderr=subprocess.STDOUT).returncode != 0:
+    log_name = tree.parent / "build.log"
+    configure = ["cmake", "-S", str(tree), "-B", str(directory), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_COMPILE_WARNING_AS_ERROR=ON",
+                 "-DVOUSSOIR_UNITY=ON", f"-DVOUSSOIR_SAMPLES={samples}", *launcher]
+    compilation = ["cmake", "--build", str(directory), "--parallel", str(os.cpu_count())]
+    for command in (configure, compilation):
+        if command is compilation:
+            command += ["--target", *(targets_of(directory, patterns) if patterns else ["all"]), "--", "-k", "0"]
+        with open(log_name, "a") as log:
+            if subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, env={**os.environ, "CCACHE_BASEDIR": str(tree), "CCACHE_NOHASHDIR": "1"}).returncode != 0:
                 sys.exit(f"mutants: the build failed; see {log.name}")
+
+
+def targets_of(directory, patterns):
+    """What the tests of these patterns need of a build that has been configured."""
+    text = (directory / "tests" / "CTestTestfile.cmake").read_text()
+    targets = {"voussoir"}
+    for name, words in re.findall(r"^add_test\((\S+) (.*)\)$", text, re.M):
+        if any(re.search(pattern, name.strip("[]=")) for pattern in patterns):
+            targets |= set(re.findall(rf'"{re.escape(str(directory))}/tests/(test_\w+)"', words))
+    return sorted(targets)
+
+
+def make_overlay(overlay, program):
+    """Copies scripts, package and tests, with links to what else they read; the tests run with the program's build."""
+    write_tree(sources("scripts", "python", "tests"), overlay)
+    for path in (path for path in ROOT.iterdir() if not path.name.startswith(("build", ".")) and not (overlay / path.name).exists()):
+        (overlay / path.name).symlink_to(path)
+    text = (program / "tests" / "CTestTestfile.cmake").read_text()
+    text = text.replace(f'WORKING_DIRECTORY "{program}/tests"', f'WORKING_DIRECTORY "{overlay}/build"').replace(f'"{ROOT}/tests/', f'"{overlay}/tests/')
+    (overlay / "build").mkdir(exist_ok=True)
+    (overlay / "build" / "CTestTestfile.cmake").write_text(re.sub(r"^subdirs\(.*\)$", "", text, flags=re.M))
+
+
+@contextmanager
+def put_into(overlay, mutant):
+    """The overlay with this mutant, if it is one of Python."""
+    path = overlay / mutant["file"]
+    sound = path.read_text(encoding="utf-8") if is_script(mutant) else None
+    if sound is not None:
+        path.write_text(mutate_script(sound, mutant), encoding="utf-8")
+    try:
+        yield
+    finally:
+        if sound is not None:
+            path.write_text(sound, encoding="utf-8")
+
+
+def is_script(mutant):
+    return mutant["file"].endswith(".py")
 
 
 def run_tests(directory, pattern, mutant):
     """Runs the tests of this pattern against a mutant; the number of tests that ran, and the one that failed."""
+    environment = {**os.environ, "VOUSSOIR_MUTANT": mutant, "PYTHONDONTWRITEBYTECODE": "1"}  # bytecode of a mutant may pass for that of the next
+    if (scripts := directory.parent / "scripts").is_dir():
+        environment["VOUSSOIR_SCRIPTS"] = str(scripts)
     result = subprocess.run(["ctest", "-R", pattern, "--stop-on-failure", "--no-tests=ignore", "--timeout", "300"],
-                            cwd=directory, env={**os.environ, "VOUSSOIR_MUTANT": mutant}, capture_output=True, text=True)
+                            cwd=directory, env=environment, capture_output=True, text=True)
     ran = len(re.findall(r"^ *\d+/\d+ Test ", result.stdout, re.M))
     failed = re.search(r"Test +#\d+: (\S+) [ .]*\*\*\*(?!Skipped|Not Run)", result.stdout)
     if result.returncode != 0 and failed is None:
@@ -205,50 +287,86 @@ def kill(directory, mutant, everything):
     return None
 
 
+def check(compiled, scripts, scratch):
+    """Throws Misfit unless all mutants fit the sources."""
+    errors = []
+    for mutant in scripts:
+        try:
+            mutate_script((ROOT / mutant["file"]).read_text(encoding="utf-8"), mutant)
+        except (OSError, Misfit) as error:
+            errors.append(f"{error}")
+    try:
+        make_tree(compiled, scratch / "tree")
+    except Misfit as misfit:
+        errors.append(str(misfit))
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)
+    if errors:
+        raise Misfit("\n".join(errors))
+
+
+def prepare(mutants, options, directory, overlay):
+    """Builds what these mutants need."""
+    compiled = [m for m in mutants if not is_script(m)]
+    if compiled and not options.no_build:
+        chosen = compiled if options.random else [m for m in read_list(LISTS[0]) if not is_script(m)]
+        make_tree(chosen, directory.parent)
+        build(directory.parent, directory, [p for m in compiled for p in m["tests"]] if options.random and not options.all else None)
+    if len(compiled) < len(mutants):
+        overlay.mkdir(parents=True, exist_ok=True)
+        make_overlay(overlay, options.build.resolve())
+
+
+def judge(mutants, options, directory, overlay):
+    """Runs the tests against each; prints the table. Its lines, and the survivors."""
+    lines = ["| room | mutant | what it means | killed by |", "|---|---|---|---|"]
+    print("\n".join(lines), flush=True)
+    survivors, sound = [], set()
+    for mutant in mutants:
+        begin, place = time.monotonic(), overlay / "build" if is_script(mutant) else directory
+        with put_into(overlay, mutant):
+            killer = kill(place, mutant, options.all)
+        if killer and (place, killer) not in sound:
+            if run_tests(place, f"^{re.escape(killer)}$", "")[1]:
+                sys.exit(f"mutants: the test {killer} fails without any mutant")
+            sound.add((place, killer))
+        lines.append(f"| {mutant['room']} | {mutant['name']} | {mutant['meaning']} | {killer or '**nothing**'} |")
+        print(lines[-1], flush=True)
+        print(f"    {time.monotonic() - begin:.0f} s", file=sys.stderr, flush=True)
+        if killer is None:
+            survivors.append(mutant["name"])
+    return lines, survivors
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scratch", type=Path, default=ROOT / "build-mutants", help="directory")
+    parser.add_argument("--build", type=Path, default=ROOT / "build", help="build with the program for the mutants of Python")
     parser.add_argument("--only", default="", help="mutants whose name has this regular expression")
+    parser.add_argument("--python", action="store_true", help="those of Python only")
+    parser.add_argument("--random", type=int, metavar="N", help="that many of them")
+    parser.add_argument("--seed", default="", help="of the choice")
     parser.add_argument("--all", action="store_true", help="all other tests against those that survive")
     parser.add_argument("--table", type=Path, help="write the table to this file")
     parser.add_argument("--check", action="store_true", help="look only whether all mutants fit the sources")
     parser.add_argument("--no-build", action="store_true", help="the scratch directory is built already")
     options = parser.parse_args()
     scratch = options.scratch.resolve()
-    directory = scratch / "build"
+    directory, overlay = scratch / "tree" / "build", scratch / "python"
     try:
-        mutants = read_list(ROOT / "scripts/mutants.txt")
+        mutants = [mutant for path in LISTS for mutant in read_list(path)]
         if options.check:
-            scratch = Path(os.environ.get("TMPDIR", "/tmp")) / f"voussoir-mutants-{os.getpid()}"
-        try:
-            if not options.no_build:
-                make_tree(mutants, scratch / "tree")
-        finally:
-            if options.check:
-                shutil.rmtree(scratch, ignore_errors=True)
-        if options.check:
-            print(f"{len(mutants)} mutants fit the sources.")
+            check([m for m in mutants if not is_script(m)], [m for m in mutants if is_script(m)],
+                  Path(os.environ.get("TMPDIR", "/tmp")) / f"voussoir-mutants-{os.getpid()}")
+            print(f"{len(mutants)} mutants fit the sources, {sum(map(is_script, mutants))} of them in Python.")
             return 0
-        directory.mkdir(parents=True, exist_ok=True)
-        if not options.no_build:
-            build(scratch / "tree", directory)
-        chosen = [m for m in mutants if re.search(options.only, m["name"])]
-        patterns = sorted({p for m in chosen for p in m["tests"]})
-        for pattern in patterns:
-            _, failed = run_tests(directory, pattern, "")
-            if failed:
-                sys.exit(f"mutants: the test {failed} fails without any mutant")
-        lines = ["| room | mutant | what it means | killed by |", "|---|---|---|---|"]
-        print("\n".join(lines), flush=True)
-        survivors = []
-        for mutant in chosen:
-            begin = time.monotonic()
-            killer = kill(directory, mutant, options.all)
-            lines.append(f"| {mutant['room']} | {mutant['name']} | {mutant['meaning']} | {killer or '**nothing**'} |")
-            print(lines[-1], flush=True)
-            print(f"    {time.monotonic() - begin:.0f} s", file=sys.stderr, flush=True)
-            if killer is None:
-                survivors.append(mutant["name"])
+        chosen = [m for m in mutants if re.search(options.only, m["name"]) and (is_script(m) or not options.python)]
+        if options.random:
+            chosen = [m for m in chosen if not m["file"].endswith(".h")]
+            chosen = random.Random(options.seed).sample(chosen, min(options.random, len(chosen)))
+            print(f"{len(chosen)} mutants by the seed {options.seed or '(none)'}: {', '.join(m['name'] for m in chosen)}\n", flush=True)
+        prepare(chosen, options, directory, overlay)
+        lines, survivors = judge(chosen, options, directory, overlay)
     except Misfit as misfit:
         print(f"mutants: {misfit}", file=sys.stderr)
         return 2

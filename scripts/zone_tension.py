@@ -37,7 +37,7 @@ def zone_means(directory):
     weights = np.array([[(1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b] for a in at for b in at])
     inside = np.einsum("pk,qkc->qpc", weights, x[corners])  # quad, part, column
     diagonals = x[corners[:, 2], :3] - x[corners[:, 0], :3], x[corners[:, 3], :3] - x[corners[:, 1], :3]
-    area = np.repeat(np.linalg.norm(np.cross(*diagonals), axis=1) / 2, parts * parts).reshape(len(quads), -1)
+    area = np.repeat(np.linalg.norm(np.cross(*diagonals), axis=1) / (2 * parts**2), parts * parts).reshape(len(quads), -1)
     base = outline(x, corners)
     foot = FOOT * (x[:, 2].max() - x[:, 2].min())
     means, areas = [], []
