@@ -27,7 +27,7 @@ install(FILES ${CMAKE_BINARY_DIR}/cmake/VoussoirConfig.cmake ${CMAKE_BINARY_DIR}
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 install(TARGETS voussoir RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY scripts/ DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts USE_SOURCE_PERMISSIONS FILES_MATCHING PATTERN "*.py"
-  PATTERN "*.css" PATTERN __pycache__ EXCLUDE PATTERN mutants.py EXCLUDE PATTERN function_lengths.py EXCLUDE PATTERN site.py EXCLUDE)
+  PATTERN "*.css" PATTERN __pycache__ EXCLUDE PATTERN mutants.py EXCLUDE PATTERN coverage.py EXCLUDE PATTERN function_lengths.py EXCLUDE PATTERN site.py EXCLUDE)
 install(DIRECTORY prm meshes studies DESTINATION ${VOUSSOIR_SHARE_DIR} PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY python/voussoir DESTINATION ${VOUSSOIR_PYTHON_DIR} PATTERN __pycache__ EXCLUDE)
 if(VOUSSOIR_PYTHON_DIR STREQUAL "${VOUSSOIR_SHARE_DIR}/python") # for pip; Python's own directory wants no such file

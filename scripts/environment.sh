@@ -5,6 +5,8 @@
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-$(nproc)}
+# What was compiled once is taken from ccache in another directory, too, such as that of the mutants.
+export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
 # Containers usually run as root, which Open MPI refuses unless told otherwise.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 

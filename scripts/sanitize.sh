@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The quick tests with AddressSanitizer and UndefinedBehaviorSanitizer, in build-sanitize. Not part of continuous integration.
+# The quick tests with AddressSanitizer and UndefinedBehaviorSanitizer, in build-sanitize. A part of .ci/run --full.
 # Usage: scripts/sanitize.sh [arguments for ctest instead of -L quick]
 set -euo pipefail
 # shellcheck source=environment.sh

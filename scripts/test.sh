@@ -50,6 +50,6 @@ if (($#)); then
   exit 0
 fi
 run_tests "$root/build"
-"$root/scripts/build.sh" --directory "$root/build-debug" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_COMPILE_WARNING_AS_ERROR=ON
+"$root/scripts/build.sh" --directory "$root/build-debug" --target quick -DCMAKE_BUILD_TYPE=Debug -DVOUSSOIR_DEBUG_INFO=OFF -DCMAKE_COMPILE_WARNING_AS_ERROR=ON
 run_tests "$root/build-debug" -L quick
 skipped "$root/build" "$root/build-debug"

@@ -86,7 +86,7 @@ def page():
     found, counts = summary("sound"), {"shown": 0, "refused": 0}
     shutil.copytree("sound", "field")
     for path in places(found):
-        for change in ("value", "list", "dictionary", "name", "number"):
+        for change in ("value", "dictionary", "name", "number"):
             changed = copy.deepcopy(found)
             inner = changed
             for key in path[:-1]:
@@ -96,7 +96,7 @@ def page():
                     continue
                 inner[path[-1] + text] = inner.pop(path[-1])
             else:
-                inner[path[-1]] = {"value": text, "list": [text], "dictionary": {text: text}, "number": 10**400}[change]
+                inner[path[-1]] = {"value": text, "dictionary": {text: text}, "number": 10**400}[change]
             Path("field/summary.json").write_text(json.dumps(changed))
             counts["shown" if page_of_field(report, "field", f"{change} of {path}") else "refused"] += 1
     print(f"    one field changed: {counts}")
@@ -112,8 +112,8 @@ def no_figure(skip):
 
 
 def places(value, path=()):
-    """Paths to all entries of nested dictionaries and lists; of lists the first two."""
-    entries = value.items() if isinstance(value, dict) else list(enumerate(value))[:2] if isinstance(value, list) else ()
+    """Paths to all entries of nested dictionaries, and to the first of lists."""
+    entries = value.items() if isinstance(value, dict) else list(enumerate(value))[:1] if isinstance(value, list) else ()
     for key, inner in entries:
         yield (*path, key)
         yield from places(inner, (*path, key))

@@ -99,8 +99,10 @@ def joints(run):
 def shapes():
     """Outer faces of two cubes that stay together or part; places between corners; the picture with the widest opening; a film's picture."""
     import numpy as np
+    from command import InputError
     from film import Picture
-    from picture import FACES, View, below, bilinear, creases, normals, outer, outer_faces, widest
+    from picture import FACES, View, below, bilinear, creases, normals, outer, outer_faces, read_solution, widest
+    from vtu import read_vtu, write_vtu
     corners = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], dtype=float)
     points, cells = np.concatenate([corners, corners + [1, 0, 0]]), np.arange(16).reshape(2, 8)
     moved = np.zeros((16, 3))
@@ -116,12 +118,21 @@ def shapes():
     place, depth = camera(np.array([[5., 1., 2.]]))
     expect(np.allclose(place, [[2., 4.]]) and np.allclose(depth, 5.), f"a point half-way to the camera is seen at {place}, {depth}")
     equal(len(below(np.array([[0., 0., 0.], [0., 1., 0.], [0., 1., 2.], [0., 0., 2.]]), -1.)), 0, "corners below the water of a dry face")
+    write_vtu("two.vtu", points, cells, 12, {"displacement": moved})
+    equal(list(read_vtu("two.vtu")["offsets"]), [8, 16], "offsets of two hexahedra")
+    equal(read_solution("two.vtu", displacement=3)["connectivity"].tolist(), cells.tolist(), "cells of two hexahedra")
+    for what, last in (("below", -1), ("above", 16)):
+        write_vtu("bad.vtu", points, np.concatenate([cells.ravel()[:-1], [last]]).reshape(2, 8), 12, {"displacement": moved})
+        try:
+            read_solution("bad.vtu", displacement=3)
+            raise AssertionError(f"a cell with a point {what} the last one is taken")
+        except InputError as error:
+            expect("bad.vtu is damaged" in str(error), f"{error}")
     write_scene()
     runs("scene.prm", "--output", "run", *settings("Output/Solution interval=1", "Joints/Friction=0.3"))
     rows = table("run/joint_history.csv")
     openings = [max(float(value) for name, value in row.items() if name.startswith("opening")) for row in rows]
     equal(widest(Path("run")).name, f"solution-{openings.index(max(openings)):05d}.vtu", "the solution with the widest opening")
-    from vtu import read_vtu
     path = widest(Path("run"))
     data, picture, large = read_vtu(path), Picture(path, 0.), Picture(path, 100.)
     close(picture.opening, 1e3 * max(value for value in data["opening"] if value == value), 1e-6, "opening of a film's picture [mm]")
