@@ -6,9 +6,11 @@
 """
 
 import csv
+import math
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 from program_physics import close, settings
 from run_program import VOUSSOIR, expect, run_cases, runs, summary, write_scene
@@ -92,7 +94,9 @@ def joints(run):
     rows = table("run/joints.csv")
     largest = {int(row["joint"]): max(float(row[f"opening_{face}"]) for face in FACES) for row in rows}
     equal(worst_joints(run, 2), sorted(largest, key=lambda joint: -largest[joint]), "the worst joints")
-    equal(common_top([run], "opening"), 1e3 * max(largest.values()), "the highest bar")
+    half = SimpleNamespace(joints={name: .5 * column for name, column in run.joints.items()})
+    for several in ([run, half], [half, run]):
+        equal(common_top(several, "opening"), 1e3 * max(largest.values()), "the highest bar")
     equal(list(crest_values(run, "slip")["upstream"]), [1e3 * float(row["slip_upstream"]) for row in rows], "slips at the crest")
 
 
@@ -177,6 +181,35 @@ def arcs():
     places = graded(1., 15., 4)  # 1 + 2 + 4 + 8
     expect(np.allclose(places, [0., 1., 3., 7., 15.]), f"{places}")
     expect(np.allclose(graded(5., 12., 4), [0., 3., 6., 9., 12.]), "equal steps")
+    columns_and_rock(np)
+
+
+def columns_and_rock(np):
+    """Radii that shrink downwards: columns stay in vertical planes normal to the crest, abutments are where the table has them; the
+    artificial boundary of the rock is its outer box but for the top, the free surface is inside of it."""
+    from arch_from_table import Dam, build, read_table
+    from arch_rock import add_rock
+    Path("radii.csv").write_text("elevation,upstream_x,upstream_radius,thickness,downstream_radius,right_angle,left_angle\n"
+                                 "285,-2,74,22,50,22,20\n345,-8,112,15,95,43,40\n405,0,150,6,144,51,48\n")
+    dam = Dam(read_table("radii.csv"))
+    for crest in (-.8, -.3, .2, .7):
+        foot = dam.foot(crest, 5.)
+        for z in (foot, .5 * (foot + 405), 405):
+            x, y, _ = dam.place(crest, z, 0.)
+            expect(abs((x - 150.) * math.sin(crest) + y * math.cos(crest)) < 1e-9, f"the column {crest} leans at {z} m: {x} {y}")
+        bound = math.radians(float(dam.at["left_angle" if crest > 0 else "right_angle"](foot)))
+        expect(foot == 285. or abs(abs(dam.on_arc(crest, foot)) - bound) < 2e-9, f"the foot of {crest} at {foot} m")
+    nodes, cells, sides = add_rock(*build(dam, 1, 8, 2, 1, 5.), (-1, 3, 2), 120.)
+    low, high = nodes.min(axis=0), nodes.max(axis=0)
+    count = {5: 0, 6: 0}
+    for group, quad in sides:
+        if group in count:
+            corners = nodes[quad]
+            outer = np.ptp(corners[:, :2], axis=0).min() < 1e-6 and (abs(corners - low) < 1e-6).all(axis=0)[:2].any() or \
+                (abs(corners - high) < 1e-6).all(axis=0)[:2].any() or (abs(corners[:, 2] - low[2]) < 1e-6).all()
+            equal(outer, group == 6, f"a face of group {group} at {corners.mean(axis=0)} is on the outer box")
+            count[group] += 1
+    expect(min(count.values()) > 100 and len(cells) > 1000, f"{count}")
 
 
 def studies():
