@@ -230,7 +230,19 @@ def studies():
     equal(combined([[1, 2], [3, 4, 5]], "all"), [(1, 3), (1, 4), (1, 5), (2, 3), (2, 4), (2, 5)], "all combinations")
     equal(combined([[1, 2], [3, 4, 5]], "one by one"), [(1, 3), (2, 3), (1, 4), (1, 5)], "one by one")
     equal([edit_distance(*pair) for pair in (("kitten", "sitting"), ("", "abc"), ("abc", "abc"))], [3, 3, 0], "edit distances")
+    motion_of_study()
     equal(nearest("Joints/Friktion", ["Joints/Friction", "Motion/Factor", "Keys/Friction"]), "Joints/Friction", "the nearest name")
+
+
+def motion_of_study():
+    """The crest's way from its static place, and the largest acceleration of the base in any direction."""
+    from study_results import motion_of
+    Path("run").mkdir(exist_ok=True)
+    Path("run/history.csv").write_text("time,crest_x,base_acceleration_x,base_acceleration_y,base_acceleration_z\n"
+                                       "0,0.5,0,0,0\n0.1,0.4,1,-3,2\n0.2,0.75,-2,1,0\n")
+    found = motion_of(Path("run"))
+    for name, value in (("peak_acceleration", 3.), ("crest_upstream", .1), ("crest_downstream", .25)):
+        close(found[name], value, 1e-12, name)
 
 
 def zones():
