@@ -204,11 +204,13 @@ namespace Voussoir
     result.force_over_load = load_size > 0. ? force_size / load_size : 0.;
     result.residual = scale > 0. ? error / scale : 0.;
     result.residual_over_load = load_size > 0. ? error / load_size : result.residual;
-    if (!std::isfinite(f + scale) || force_size > 1e8 * (load_size + round_off))
+    if (!std::isfinite(f + scale) || force_size > 1e7 * (load_size + round_off))
       return std::numeric_limits<double>::infinity();
     // Forces without bound (a problem without a solution, a singular step) make any error small against the
-    // forces. The error must be small against the load, too, as far as the round-off of W force allows.
-    const double allowance = 4. * std::numeric_limits<double>::epsilon() * norm_of_W * mean_rho * force_size;
+    // forces. The error must be small against the load, too, as far as the round-off of W force allows, for
+    // forces up to 1e4 loads: beyond, a squeeze of 1e-10 of the load would be taken for round-off.
+    const double allowance = 4. * std::numeric_limits<double>::epsilon() * norm_of_W * mean_rho *
+                             std::min(force_size, 1e4 * load_size);
     scale = std::min(scale, std::max(load_size, (allowance + round_off) / parameters.tolerance));
     return scale > 0. ? error / scale : 0.;
   }

@@ -56,7 +56,7 @@ namespace Voussoir
     double       boost = 1., halved = now; // halved: the last residual that was half of the one before
     double       lower = best.residual;    // the residual that counts as progress
     unsigned int n_sweeps = 20, failures = 0, halved_at = result.iterations;
-    while (now > tolerance && steps_left() > 0 && !out_of_time())
+    while (now > tolerance && std::isfinite(now) && steps_left() > 0 && !out_of_time())
     {
       if (best.residual < .5 * halved)
       {
