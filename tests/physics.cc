@@ -331,6 +331,48 @@ namespace
     expect(near.distance(dealii::Point<3>(10., 4., 15.)) < 1e-12, "the nearest node");
   }
 
+  /** The same mesh with its nodes and cells numbered in reverse, or with nodes moved by some 1e-9 m. */
+  HexMesh disturbed(HexMesh mesh, const bool reversed, const unsigned int seed)
+  {
+    std::mt19937 engine(seed);
+    if (seed > 0)
+      for (auto &node : mesh.nodes)
+        for (double &x : node)
+          x += 1e-9 * (engine() / 2147483647.5 - 1.);
+    if (!reversed)
+      return mesh;
+    const unsigned int last = mesh.nodes.size() - 1;
+    std::reverse(mesh.nodes.begin(), mesh.nodes.end());
+    std::reverse(mesh.cells.begin(), mesh.cells.end());
+    for (HexMesh::Cell &cell : mesh.cells)
+      for (unsigned int &node : cell.nodes)
+        node = last - node;
+    for (HexMesh::Face &face : mesh.faces)
+      for (unsigned int &node : face.nodes)
+        node = last - node;
+    return mesh;
+  }
+
+  /** Where a joint ends at the crown, the crown belongs to the monolith towards the right bank; of two nodes
+   * at equal distances from the middle it is the one towards the right bank. */
+  void crown_without_round_off()
+  {
+    for (const bool reversed : {false, true})
+      for (unsigned int seed = 0; seed < 8; ++seed)
+      {
+        const std::string what = ", seed " + std::to_string(seed) + (reversed ? ", numbered in reverse" : "");
+        SolidModel        model(disturbed(open_joints(wall(2, 4, 3, 2)), reversed, seed), 1);
+        const DamGeometry joint(model, {}, 1);
+        expect(model.body_numbers[model.body[joint.crown]] == 1,
+               "the crown is on the right bank's side" + what);
+        expect(model.body_numbers[model.body[joint.crown_left]] == 2, "the other side is its own" + what);
+        SolidModel        odd(disturbed(wall(2, 5, 3, 5), reversed, seed), 1);
+        const DamGeometry between(odd, {}, 0);
+        expect_close(odd.points[between.crown][1], 8., 1e-8, "of the nodes at 8 m and 12 m" + what);
+        expect(between.crown_left == between.crown, "no joint ends at the crown" + what);
+      }
+  }
+
   void feet()
   {
     write_gmsh(wall(1, 2, 2, 1), "physics_feet.msh");
@@ -510,6 +552,7 @@ int main(int argc, char **argv)
                 {"principal stresses", principal},
                 {"friction of flanks", flanks},
                 {"places", places},
+                {"crown", crown_without_round_off},
                 {"feet", feet},
                 {"reports of motions", motion_reports}});
   if (part == "newmark")

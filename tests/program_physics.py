@@ -147,7 +147,10 @@ def recorders():
 
     # Probes on both sides of a joint are of two monoliths: what is between them is the opening.
     runs("scene.prm", "--output", "sides", *settings("Mesh/Arch210/Joints=1", "Output/Probes=left: 0 0.5 210; right: 0 -0.5 210"))
-    apart = [row["left_y"] - row["right_y"] for row in rows_by_name("sides/history.csv")]
+    sides = rows_by_name("sides/history.csv")
+    apart = [row["left_y"] - row["right_y"] for row in sides]
+    for c in "xyz":  # the crest is the side to the right bank; the other side has columns of its own
+        expect(all(row[f"crest_{c}"] == row[f"right_{c}"] and row[f"crest_left_{c}"] == row[f"left_{c}"] for row in sides), f"crest_{c} of both sides")
     opening = [row["opening_upstream_1"] for row in rows_by_name("sides/joint_history.csv")]
     expect(len(apart) == len(opening) and max(opening) > 1e-4, f"the joint at the crown opens by {max(opening)} m")
     expect(max(abs(a - b) for a, b in zip(apart, opening)) < 1e-6 * max(opening), "the probes' distance is not the opening")

@@ -22,6 +22,9 @@ namespace Voussoir
   {
     table.add("time", [this] { return newmark->state().time; });
     table.add_vector("crest", [this] { return relative_to_base(dam->geometry->crown); });
+    const DamGeometry &geometry = *dam->geometry;
+    if (dam->model->equation[geometry.crown_left] != dam->model->equation[geometry.crown])
+      table.add_vector("crest_left", [this] { return relative_to_base(dam->geometry->crown_left); });
     table.add_vector("base_acceleration", [this] { return motion.acceleration[step]; });
     if (!dam->base_is_held())
       table.add_vector("base", [this] { return dam->base_motion(newmark->state().u); });

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 
 namespace Voussoir
@@ -36,10 +37,7 @@ namespace Voussoir
     const double middle = .5 * at.back();
     for (double &s : at)
       s -= middle;
-    crown = *std::min_element(
-        nodes.begin(), nodes.end(),
-        [&](const unsigned int i, const unsigned int j)
-        { return std::abs(arc_length(model.points[i])) < std::abs(arc_length(model.points[j])) - 1e-6; });
+    find_crown(model, nodes);
 
     for (unsigned int p = 0; p < pairs.size(); ++p)
     {
@@ -60,6 +58,33 @@ namespace Voussoir
         const Vector3 &x = pairs[crest.upstream].place;
         crest.arc_length = arc_length(Point<3>(x[0], x[1], x[2]));
       }
+  }
+
+  void DamGeometry::find_crown(const SolidModel &model, const std::vector<unsigned int> &nodes)
+  {
+    const double same = 1e-6 * (at.back() - at.front()); // places that round-off may exchange [m]
+    double       nearest = std::numeric_limits<double>::infinity(), place = nearest;
+    for (const unsigned int i : nodes)
+      nearest = std::min(nearest, std::abs(arc_length(model.points[i])));
+    for (const unsigned int i : nodes)
+      if (const double s = arc_length(model.points[i]); std::abs(s) <= nearest + same)
+        place = std::min(place, s);
+    std::map<unsigned int, double> side; // of each node there: where its first element is
+    for (const unsigned int i : nodes)
+      if (std::abs(arc_length(model.points[i]) - place) <= same)
+        side[i] = std::numeric_limits<double>::infinity();
+    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      for (const auto i : dofs)
+        if (const auto found = side.find(i); found != side.end())
+          found->second = std::min(found->second, arc_length(cell->center()));
+    }
+    const auto [right, left] = std::minmax_element(
+        side.begin(), side.end(), [](const auto &a, const auto &b) { return a.second < b.second; });
+    crown = right->first;
+    crown_left = left->first;
   }
 
   double DamGeometry::arc_length(const Point<3> &p) const

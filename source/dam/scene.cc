@@ -208,8 +208,8 @@ namespace Voussoir
     std::map<std::string, Vector3> places;
     for (const auto &probe : probes)
     {
-      const bool taken =
-          probe.first == "crest" || probe.first == "base" || probe.first == "base_acceleration";
+      const bool taken = probe.first == "crest" || probe.first == "crest_left" || probe.first == "base" ||
+                         probe.first == "base_acceleration";
       if (probe.first.empty() || taken || probe.first.find_first_of(",\"") != std::string::npos)
         throw InputError(
             "Entry \"Output/Probes\": \"" + probe.first +

@@ -17,7 +17,10 @@ namespace Voussoir
      * point of that edge that is nearest in plan [m]. */
     double arc_length(const dealii::Point<3> &p) const;
 
-    unsigned int crown; ///< node of the crest's upstream edge nearest to its middle
+    /** Node of the crest's upstream edge that is nearest to its middle. At equal distances: the node towards
+     * the right bank. Where a joint ends there: the node of the monolith towards the right bank. */
+    unsigned int crown;
+    unsigned int crown_left; ///< node on the other side of a joint that ends at the crown, else crown
 
     struct CrestPairs
     {
@@ -28,6 +31,8 @@ namespace Voussoir
     std::vector<CrestPairs> joints;
 
   private:
+    void find_crown(const SolidModel &model, const std::vector<unsigned int> &nodes);
+
     std::vector<dealii::Point<3>> edge; ///< upstream edge of the crest from the right bank to the left
     std::vector<double>           at;   ///< its arc length
   };
