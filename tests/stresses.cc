@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stresses where tractions are known: on faces, edges and corners, and at joints.
 
+#include <voussoir/dam/dam_loads.h>
 #include <voussoir/dam/face_pressure.h>
 #include <voussoir/dam/tractions.h>
 #include <voussoir/joints/joint_system.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/solid/face_quads.h>
+#include <voussoir/solid/initial_strain.h>
 #include <voussoir/solid/stress.h>
 #include <voussoir/solid/traction_condition.h>
 
@@ -68,7 +70,7 @@ namespace
       std::vector<Vector3> tractions;
       for (const NodeFace &face : faces)
         tractions.push_back(traction(plain[face.node], face.normal));
-      StressRecovery(model, {m}, true, faces).apply(u, tractions, known);
+      StressRecovery(model, {m}, true, faces, true).apply(u, tractions, known);
       double change = 0.;
       for (std::size_t i = 0; i < known.size(); ++i)
         for (unsigned int c = 0; c < 6; ++c)
@@ -258,6 +260,109 @@ namespace
     expect(push == 5 * 5, "the nodes under water but those of the base");
   }
 
+  /** A wall under its own weight on a base that neither bends nor holds it back (no Poisson's ratio): the
+   * stress is linear, and so it is on the base. */
+  void weight_on_base()
+  {
+    Material m;
+    m.young = 25e9;
+    m.poisson = 0.;
+    const double foot = m.density * 9.81 * tall;
+    for (const bool modes : {true, false})
+      for (const unsigned int degree : {1, 2})
+      {
+        const auto graded = [](const Vector3 &x)
+        {
+          return Vector3{{x[0], x[1], x[2] * (.4 + .6 * x[2] / tall)}}; // lower elements are flatter
+        };
+        SolidModel      model(Grids::wall({{thick, wide, tall}}, {{2, 4, 4}}, 4, graded), degree);
+        const Structure structure = assemble_structure(model, {m}, modes);
+        Unknowns        load(3 * structure.n_nodes(), 0.), u;
+        add_weight(structure, 9.81, load);
+        JointSystem(structure, JointLaws(), ContactParameters(), 0., 1., 0.).solve_free(load, u);
+        std::vector<Stress> plain, known;
+        StressRecovery(model, {m}, modes).apply(u, {}, plain);
+        StressRecovery(model, {m}, modes, {}, true).apply(u, {}, known);
+        double error = 0., without = 0.;
+        for (unsigned int i = 0; i < model.n_nodes(); ++i)
+          if (model.on_surface(i, PhysicalId::base))
+          {
+            error = std::max(error, std::abs(known[i][2] / foot + 1.));
+            without = std::max(without, std::abs(plain[i][2] / foot + 1.));
+          }
+          else
+            expect(known[i] == plain[i], "other nodes are as before");
+        below("weight: stress on the base, degree " + std::to_string(degree), error, 1e-5);
+        if (degree == 1)
+          above("  from the lowest elements alone", without, .06);
+      }
+  }
+
+  /** A linear stress on a sheared mesh with Poisson's ratio, from its exact displacement: all components on
+   * the base. */
+  void linear_on_base()
+  {
+    Material m;
+    m.young = 25e9;
+    m.poisson = .2;
+    const double slope = -2400. * 9.81; // of the vertical stress [Pa/m]; sheared along x, planes stay level
+    SolidModel   model(Grids::wall({{thick, wide, tall}}, {{2, 4, 5}}, 4,
+                                   [](const Vector3 &x) {
+                                   return Vector3{{x[0] + .3 * x[2], x[1], x[2] * (.5 + .5 * x[2] / tall)}};
+                                 }),
+                       1);
+    model.free_base();
+    const Unknowns      u = field(model,
+                                  [&](const dealii::Point<3> &x)
+                                  {
+                               const double k = slope / m.young, z = x[2] - tall;
+                               return Vector3{{-m.poisson * k * z * x[0], -m.poisson * k * z * x[1],
+                                               .5 * k * (z * z + m.poisson * (x[0] * x[0] + x[1] * x[1]))}};
+                             });
+    std::vector<Stress> plain, known;
+    StressRecovery(model, {m}, true).apply(u, {}, plain);
+    StressRecovery(model, {m}, true, {}, true).apply(u, {}, known);
+    double error[2] = {0., 0.};
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      if (model.on_surface(i, PhysicalId::base))
+        for (unsigned int c = 0; c < 6; ++c)
+          for (const bool with : {false, true})
+            error[with] = std::max<double>(error[with],
+                                           std::abs((with ? known : plain)[i][c] + (c == 2) * slope * tall) /
+                                               std::abs(slope * tall));
+    below("linear stress with Poisson's ratio on the base", error[true], .02);
+    above("  from the lowest elements alone", error[false], .05);
+  }
+
+  /** Concrete that expands, linear in the height, on a base that is free: no stress, on the base neither. */
+  void expansion_on_base()
+  {
+    Material m;
+    m.young = 25e9;
+    m.poisson = .2;
+    SolidModel model(Grids::wall({{thick, wide, tall}}, {{2, 4, 5}}, 4), 1);
+    model.free_base();
+    std::vector<double> strain;
+    for (const auto &x : model.points)
+      strain.push_back(1e-5 * (3. + x[2]));
+    const InitialStrain free = initial_strain(model, {m}, true, strain, true);
+    const Unknowns      u =
+        field(model,
+              [](const dealii::Point<3> &x)
+              {
+                const double e = 1e-5 * (3. + x[2]);
+                return Vector3{{e * x[0], e * x[1],
+                                1e-5 * (3. * x[2] + .5 * (x[2] * x[2] - x[0] * x[0] - x[1] * x[1]))}};
+              });
+    std::vector<Stress> stress;
+    StressRecovery(model, {m}, true, {}, true).apply(u, {}, stress);
+    double worst = 0.;
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      for (unsigned int c = 0; c < 6; ++c)
+        worst = std::max<double>(worst, std::abs(stress[i][c] + free.stress[i][c]));
+    below("free expansion, of E times the strain", worst / (m.young * 1e-5 * 30.), 1e-5);
+  }
+
   /** Water that moves with a leaning wall: its pressure opposes the acceleration into it, and on the whole
    * face it is the force of the added mass in the equations of motion. */
   void moving_water()
@@ -327,6 +432,9 @@ int main()
               {"joint of degree 1", [] { joint(1); }},
               {"joint of degree 2", [] { joint(2); }},
               {"dam", dam},
+              {"weight on the base", weight_on_base},
+              {"linear stress on the base", linear_on_base},
+              {"expansion on the base", expansion_on_base},
               {"moving water", moving_water},
               {"mean acceleration", mean_accelerations}});
 }

@@ -266,9 +266,10 @@ namespace Voussoir
     tractions = std::make_unique<Tractions>(
         *dam->model, structure, known_traction(scene), dam->initial_stress, statics.joint_water,
         dam->added_mass > 0. ? added_mass_per_area(*dam->model, scene.reservoir) : std::vector<double>());
-    stress = std::make_unique<StressRecovery>(
-        *dam->model, dam->materials, scene.elements.incompatible_modes,
-        scene.output.stress_recovery == "tractions" ? tractions->faces : std::vector<NodeFace>());
+    stress = std::make_unique<StressRecovery>(*dam->model, dam->materials, scene.elements.incompatible_modes,
+                                              scene.output.knows_tractions() ? tractions->faces
+                                                                             : std::vector<NodeFace>(),
+                                              scene.output.knows_tractions());
     tension = std::make_unique<FaceTension>(*dam->model);
     envelope = std::make_unique<EnvelopeRecorder>(*stress, dam->initial_stress);
     envelope->overstress = Overstress(scene.limits.tensile_strength, dam->model->n_nodes());
@@ -281,8 +282,7 @@ namespace Voussoir
       // The companion has every second time of the run: sampled less often, the run would miss peaks that the
       // companion has.
       if (scene.output.envelope_interval == 1 || scene.output.envelope_interval == 2)
-        companion->record_stresses(*stress,
-                                   scene.output.stress_recovery == "tractions" ? tractions.get() : nullptr);
+        companion->record_stresses(*stress, scene.output.knows_tractions() ? tractions.get() : nullptr);
     }
     declare_tables();
     count.seconds_static += watch.seconds();

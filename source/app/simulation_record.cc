@@ -74,8 +74,8 @@ namespace Voussoir
   /** Those that the recovery takes. */
   std::vector<Vector3> Simulation::known_tractions()
   {
-    return scene.output.stress_recovery == "tractions" ? tractions->at(newmark->state().force, acceleration)
-                                                       : std::vector<Vector3>();
+    return scene.output.knows_tractions() ? tractions->at(newmark->state().force, acceleration)
+                                          : std::vector<Vector3>();
   }
 
   void Simulation::record()

@@ -263,8 +263,8 @@ namespace Voussoir
     JointSystem system(structure, JointLaws(), ContactParameters(), 0., 1., 0.);
     system.solve_free(load, u);
     StressRecovery(*model, materials, scene.elements.incompatible_modes,
-                   scene.output.stress_recovery == "tractions" ? faces_at_nodes(*model)
-                                                               : std::vector<NodeFace>())
+                   scene.output.knows_tractions() ? faces_at_nodes(*model) : std::vector<NodeFace>(),
+                   scene.output.knows_tractions())
         .apply(u, {}, initial_stress);
     if (const unsigned int e = model->equation[geometry->crown]; e != rigid_ground)
       self_weight_crown = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};

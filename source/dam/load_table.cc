@@ -19,8 +19,9 @@ namespace Voussoir
 
     void add_temperature(const Scene &scene, const LoadSite &site, StaticLoad &load)
     {
-      InitialStrain thermal = temperature_load(site.model, site.materials, scene.elements.incompatible_modes,
-                                               scene.loads.temperature, scene.directory);
+      InitialStrain thermal =
+          temperature_load(site.model, site.materials, scene.elements.incompatible_modes,
+                           scene.loads.temperature, scene.directory, scene.output.knows_tractions());
       load.force = std::move(thermal.load);
       load.stress = std::move(thermal.stress);
     }

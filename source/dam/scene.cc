@@ -188,7 +188,8 @@ namespace Voussoir
     prm.add_parameter(
         "Stress recovery", stress_recovery,
         "Stresses at the nodes: tractions (from the elements, with the known tractions on faces and "
-        "joints) or elements (from these alone).",
+        "joints, and with the tractions on the base extrapolated to its nodes) or elements (from these "
+        "alone).",
         Patterns::Selection("tractions|elements"));
     prm.add_parameter("Tensile strength", tensile_strength,
                       "summary.json says how much of each face has tension above it; 0: above Limits/Tensile "

@@ -82,7 +82,7 @@ namespace Voussoir
 
   InitialStrain temperature_load(const SolidModel &model, const std::vector<Material> &materials,
                                  const bool incompatible_modes, const TemperatureParameters &temperature,
-                                 const std::string &directory)
+                                 const std::string &directory, const bool to_base)
   {
     const auto          faces = face_temperatures(temperature, directory);
     std::vector<double> strain(model.n_nodes(), 0.);
@@ -90,6 +90,6 @@ namespace Voussoir
       strain = places_in_thickness(model, "Loads/Temperature");
     for (double &s : strain)
       s = temperature.expansion * (faces[0] + s * (faces[1] - faces[0]) - temperature.grouting);
-    return initial_strain(model, materials, incompatible_modes, strain);
+    return initial_strain(model, materials, incompatible_modes, strain, to_base);
   }
 } // namespace Voussoir

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/solid/cell_elasticity.h>
 #include <voussoir/solid/initial_strain.h>
+#include <voussoir/solid/nodal_mean.h>
 #include <voussoir/solid/solid_model.h>
 
 #include <cmath>
@@ -79,16 +80,17 @@ namespace Voussoir
   }
 
   InitialStrain initial_strain(const SolidModel &model, const std::vector<Material> &materials,
-                               const bool incompatible_modes, const std::vector<double> &strain)
+                               const bool incompatible_modes, const std::vector<double> &strain,
+                               const bool to_base)
   {
     InitialStrain                        result{Unknowns(3 * std::size_t(model.first_equation.back()), 0.),
                          std::vector<Stress>(model.n_nodes(), Stress{})};
-    std::vector<double>                  stiffest(model.n_nodes(), 0.);
-    std::vector<unsigned int>            n_cells(model.n_nodes(), 0); // of the stiffest material
+    const NodalMean                      mean(model, materials, to_base);
     std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-    std::vector<std::array<double, 6>>   sum(model.n_nodes()), stress;
+    std::vector<std::array<double, 6>>   sum(model.n_nodes()), of_base(model.n_nodes()), stress;
     std::vector<double>                  of_cell(dofs.size()), load;
     CellElasticity                       elasticity(model.fe, incompatible_modes);
+    auto                                 share = mean.shares.begin();
     for (const auto &cell : model.dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
@@ -102,20 +104,16 @@ namespace Voussoir
         const unsigned int node = dofs[i], e = model.equation[node];
         for (unsigned int c = 0; e != rigid_ground && c < 3; ++c)
           result.load[3 * std::size_t(e) + c] += load[3 * i + c];
-        if (material.young > stiffest[node])
-        {
-          stiffest[node] = material.young;
-          n_cells[node] = 0;
-          sum[node] = {};
-        }
-        n_cells[node] += material.young == stiffest[node];
-        for (unsigned int k = 0; material.young == stiffest[node] && k < 6; ++k)
+        for (unsigned int k = 0; material.young == mean.material[node].young && k < 6; ++k)
           sum[node][k] += stress[i][k];
       }
+      for (; share != mean.shares.end() && share->cell == cell->active_cell_index(); ++share)
+        for (unsigned int k = 0; k < 36; ++k)
+          of_base[share->node][k / 6] += share->weight[k] * stress[share->local][k % 6];
     }
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
       for (unsigned int k = 0; k < 6; ++k)
-        result.stress[i][k] = static_cast<float>(sum[i][k] / n_cells[i]);
+        result.stress[i][k] = static_cast<float>(sum[i][k] / mean.n_cells[i] + of_base[i][k]);
     return result;
   }
 } // namespace Voussoir

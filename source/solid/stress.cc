@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/solid/cell_elasticity.h>
+#include <voussoir/solid/nodal_mean.h>
 #include <voussoir/solid/solid_model.h>
 #include <voussoir/solid/stress.h>
 #include <voussoir/solid/traction_condition.h>
@@ -27,25 +28,33 @@ namespace Voussoir
   }
 
   StressRecovery::StressRecovery(const SolidModel &model, const std::vector<Material> &materials,
-                                 const bool incompatible_modes, const std::vector<NodeFace> &faces)
-      : material(model.n_nodes(), Material{0.})
+                                 const bool incompatible_modes, const std::vector<NodeFace> &faces,
+                                 const bool to_base)
   {
-    find_columns(model);
-    add_cells(model, materials, incompatible_modes);
-    condition(faces);
+    const NodalMean mean(model, materials, to_base);
+    find_columns(model, mean);
+    add_cells(model, materials, incompatible_modes, mean);
+    condition(faces, mean);
   }
 
-  void StressRecovery::find_columns(const SolidModel &model)
+  void StressRecovery::find_columns(const SolidModel &model, const NodalMean &mean)
   {
     std::vector<std::vector<unsigned int>> columns(model.n_nodes());
     std::vector<types::global_dof_index>   dofs(model.fe.n_dofs_per_cell());
+    auto                                   share = mean.shares.begin();
     for (const auto &cell : model.dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
-      for (const auto i : dofs)
+      const auto add = [&](const unsigned int node)
+      {
         for (const auto j : dofs)
           if (model.equation[j] != rigid_ground)
-            columns[i].push_back(model.equation[j]);
+            columns[node].push_back(model.equation[j]);
+      };
+      for (const auto i : dofs)
+        add(i);
+      for (; share != mean.shares.end() && share->cell == cell->active_cell_index(); ++share)
+        add(share->node);
     }
     start.push_back(0);
     for (auto &row : columns)
@@ -58,28 +67,20 @@ namespace Voussoir
     blocks.assign(column.size(), std::array<float, 18>{});
   }
 
-  /** The mean of the cells of the stiffest material around each node. */
-  void StressRecovery::add_cells(const SolidModel &model, const std::vector<Material> &materials,
-                                 const bool incompatible_modes)
+  std::array<float, 18> &StressRecovery::block(const unsigned int node, const unsigned int free_node)
   {
-    std::vector<unsigned int>            n_cells(model.n_nodes(), 0); // of the stiffest material
+    const auto begin = column.begin() + start[node], end = column.begin() + start[node + 1];
+    return blocks[std::lower_bound(begin, end, free_node) - column.begin()];
+  }
+
+  /** The mean of the cells around each node. */
+  void StressRecovery::add_cells(const SolidModel &model, const std::vector<Material> &materials,
+                                 const bool incompatible_modes, const NodalMean &mean)
+  {
     std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
-    {
-      cell->get_dof_indices(dofs);
-      const Material &of_cell = model.material_of(cell, materials);
-      for (const auto i : dofs)
-      {
-        if (of_cell.young > material[i].young)
-        {
-          material[i] = of_cell;
-          n_cells[i] = 0;
-        }
-        n_cells[i] += of_cell.young == material[i].young;
-      }
-    }
-    CellElasticity                      elasticity(model.fe, incompatible_modes);
-    std::vector<std::array<double, 18>> cell_blocks;
+    CellElasticity                       elasticity(model.fe, incompatible_modes);
+    std::vector<std::array<double, 18>>  cell_blocks;
+    auto                                 share = mean.shares.begin();
     for (const auto &cell : model.dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
@@ -88,18 +89,27 @@ namespace Voussoir
       elasticity.stress_operator(cell_blocks);
       for (unsigned int i = 0; i < dofs.size(); ++i)
         for (unsigned int j = 0; j < dofs.size(); ++j)
-          if (model.equation[dofs[j]] != rigid_ground && of_cell.young == material[dofs[i]].young)
+          if (model.equation[dofs[j]] != rigid_ground && of_cell.young == mean.material[dofs[i]].young)
           {
-            const auto begin = column.begin() + start[dofs[i]], end = column.begin() + start[dofs[i] + 1];
-            auto      &entry = blocks[std::lower_bound(begin, end, model.equation[dofs[j]]) - column.begin()];
+            auto &entry = block(dofs[i], model.equation[dofs[j]]);
             for (unsigned int k = 0; k < 18; ++k)
-              entry[k] += static_cast<float>(cell_blocks[i * dofs.size() + j][k] / n_cells[dofs[i]]);
+              entry[k] += static_cast<float>(cell_blocks[i * dofs.size() + j][k] / mean.n_cells[dofs[i]]);
+          }
+      for (; share != mean.shares.end() && share->cell == cell->active_cell_index(); ++share)
+        for (unsigned int j = 0; j < dofs.size(); ++j)
+          if (model.equation[dofs[j]] != rigid_ground)
+          {
+            auto       &entry = block(share->node, model.equation[dofs[j]]);
+            const auto &of_cell_block = cell_blocks[share->local * dofs.size() + j];
+            for (unsigned int k = 0; k < 18; ++k)
+              for (unsigned int c = 0; c < 6; ++c)
+                entry[k] += static_cast<float>(share->weight[6 * (k / 3) + c] * of_cell_block[3 * c + k % 3]);
           }
     }
   }
 
   /** Replaces the rows of nodes with known tractions by those of TractionCondition. */
-  void StressRecovery::condition(const std::vector<NodeFace> &faces)
+  void StressRecovery::condition(const std::vector<NodeFace> &faces, const NodalMean &mean)
   {
     for (std::size_t f = 0; f < faces.size(); f = node_of_face.size())
     {
@@ -107,7 +117,7 @@ namespace Voussoir
       std::vector<Vector3> normals;
       for (std::size_t k = f; k < faces.size() && faces[k].node == node; ++k)
         normals.push_back(faces[k].normal);
-      const TractionCondition known(material[node].poisson, normals);
+      const TractionCondition known(mean.material[node].poisson, normals);
       for (std::size_t k = start[node]; k < start[node + 1]; ++k)
       {
         const std::array<float, 18> given = blocks[k];

@@ -75,7 +75,8 @@ namespace Voussoir
     double                             tensile_strength = 0.;         ///< [Pa], 0: none
     void                               add_parameters(dealii::ParameterHandler &prm);
     void                               check() const;
-    std::map<std::string, Vector3>     probe_places() const; ///< throws InputError for a malformed one
+    bool knows_tractions() const { return stress_recovery == "tractions"; } ///< do stresses take them?
+    std::map<std::string, Vector3> probe_places() const; ///< throws InputError for a malformed one
   };
 
   /** All entries of a scene file. */

@@ -14,10 +14,10 @@ namespace Voussoir
                                           const std::string           &directory);
 
   /** Load and stress of the temperature less that of the grouting, linear between the faces by
-   * places_in_thickness(). */
+   * places_in_thickness(). @p to_base: see initial_strain(). */
   InitialStrain temperature_load(const SolidModel &model, const std::vector<Material> &materials,
                                  bool incompatible_modes, const TemperatureParameters &temperature,
-                                 const std::string &directory);
+                                 const std::string &directory, bool to_base = false);
 } // namespace Voussoir
 
 #endif

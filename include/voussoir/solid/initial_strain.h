@@ -15,9 +15,10 @@ namespace Voussoir
 
   /** sigma = D (eps - strain), with @p strain at the nodes [-], between them as the displacements. The
    * incompatible modes follow the strain, too, so that it bends a free element without stress. Stresses are
-   * taken and averaged as in StressRecovery. */
+   * taken, averaged and, with @p to_base, extrapolated to the base as in StressRecovery. */
   InitialStrain initial_strain(const SolidModel &model, const std::vector<Material> &materials,
-                               bool incompatible_modes, const std::vector<double> &strain);
+                               bool incompatible_modes, const std::vector<double> &strain,
+                               bool to_base = false);
 } // namespace Voussoir
 
 #endif

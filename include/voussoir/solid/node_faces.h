@@ -22,6 +22,9 @@ namespace Voussoir
    * faces of one surface whose normals are within 30 degrees at a node count as one, with their mean normal
    * by area. */
   std::vector<NodeFace> faces_at_nodes(const SolidModel &model);
+
+  /** The same of the surface "base", at its nodes. */
+  std::vector<NodeFace> faces_of_base(const SolidModel &model);
 } // namespace Voussoir
 
 #endif
