@@ -6,6 +6,7 @@
 #include "blocks.h"
 
 #include <voussoir/contact/law_table.h>
+#include <voussoir/dam/scene.h>
 #include <voussoir/mesh/mesh_joints.h>
 
 using namespace Columns;
@@ -128,7 +129,7 @@ namespace
     ContactResult                result;
     unsigned int                 unconverged = 0, iterations = 0;
     double                       worst = 0., missed_force = 0.;
-    const double                 stiffness = 2.4e10 * 4. / 8.; ///< of the blocks along y, about [N/m]
+    const double stiffness = Material().young * 4. / 8.; ///< of the blocks along y, about [N/m]
   };
 
   KeyParameters keys_of(const double angle, const double friction, const double seat)
@@ -140,6 +141,14 @@ namespace
     keys.friction = friction;
     keys.seat_compliance = seat;
     return keys;
+  }
+
+  /** Seat compliance of a scene without that entry [m/Pa]. */
+  double default_seat()
+  {
+    JointParameters joints;
+    joints.keys.height = height;
+    return joints.law(Material().young).keys.seat_compliance;
   }
 
   struct Curve
@@ -196,7 +205,7 @@ namespace
     const Curve meshed = measure(what + ", meshed", keyed_blocks(angle, height, refine), "FJA", angle, mu),
                 law = measure(what + ", law", keyed_blocks(angle, 0., refine), "KSM", angle, mu),
                 seats = measure(what + ", law, elastic seats", keyed_blocks(angle, 0., refine), "KSM", angle,
-                                mu, 20. * height / 2.4e10); // the default
+                                mu, default_seat());
     const bool rides = mu < s / c;
     if (rides)
       note("  capacity, rigid blocks: T/N", (c + mu * s) / (s - mu * c));
@@ -235,6 +244,8 @@ int main(const int argc, char **argv)
   const unsigned int finest = argc > 1 ? std::atoi(argv[1]) : 1;
   return run_all({[&]
                   {
+                    below("default seats against 20 Height/E - 1",
+                          default_seat() * 21e9 / (20. * height) - 1., 1e-12);
                     for (unsigned int refine = 1; refine <= finest; ++refine)
                     {
                       compare(45., 0., refine);
