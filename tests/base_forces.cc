@@ -88,6 +88,7 @@ namespace
     /** What each monolith's foundation must give it in this step, by number, about the origin. */
     std::map<int, Wrench> balance(const Dam &as_run, const StepOfDam &step, const bool staged) const
     {
+      const double                                 factor = as_run.scene.loads.factor("weight");
       std::map<int, Wrench>                        result;
       const SolidModel                            &model = *dam.model;
       std::vector<bool>                            seen(model.n_nodes(), false);
@@ -109,7 +110,7 @@ namespace
                          ((step.after[3 * e + c] - step.before[3 * e + c]) / step.dt - step.base_velocity[c]);
           Vector3 force = structure.mass[all] * a - get(load, all);
           if (staged)
-            force[2] += weight[all];
+            force[2] += factor * weight[all];
           add_at(result[cell->material_id()], {{model.points[i][0], model.points[i][1], model.points[i][2]}},
                  force);
         }
@@ -218,18 +219,18 @@ namespace
     return worst;
   }
 
-  /** Two monoliths, the first of which stands a layer higher: at the foot of their joint one of a pair is
-   * held. */
-  void write_step(const std::string &file)
+  /** Two monoliths. The base of one is a layer higher: at the lower end of their joint one node of each pair
+   * is fixed. @p first: the base of the first monolith is the higher one. */
+  void write_step(const std::string &file, const bool first)
   {
     const std::array<unsigned int, 3> n = {{2, 4, 6}};
     const unsigned int                split = 2;
     const Grids::Brick                brick{n};
     HexMesh                           mesh = Grids::wall({{10., 20., 30.}}, n, split), step = mesh;
-    const auto                        is_gone = [&](const auto &nodes) // below z = 5 and y = 10
+    const auto                        is_gone = [&](const auto &nodes) // below z = 5, on its side of y = 10
     {
       const auto x = centre(mesh, nodes);
-      return x[1] < 10. && x[2] < 5. - 1e-9;
+      return (x[1] < 10.) == first && x[2] < 5. - 1e-9;
     };
     step.cells.clear();
     step.faces.clear();
@@ -239,7 +240,7 @@ namespace
     for (const HexMesh::Face &face : mesh.faces)
       if (!is_gone(face.nodes))
         step.faces.push_back(face);
-    for (unsigned int j = 0; j < split; ++j)
+    for (unsigned int j = first ? 0 : split; j < (first ? split : n[1]); ++j)
       for (unsigned int i = 0; i < n[0]; ++i)
         step.faces.push_back({{brick.node(i, j, 1), brick.node(i + 1, j, 1), brick.node(i + 1, j + 1, 1),
                                brick.node(i, j + 1, 1)},
@@ -256,8 +257,27 @@ namespace
     stepped.directory = ".";
     stepped.joints.model = "FJA";
     stepped.reservoir.level = 28.;
-    write_step(stepped.mesh.file);
-    below("a base with a step", momentum(stepped, true), 1e-11);
+    for (const bool first : {false, true})
+    {
+      const std::string which = first ? "first" : "second";
+      write_step(stepped.mesh.file, first);
+      below("a base with a step under the " + which + " monolith", momentum(stepped, true), 1e-11);
+      // Water of 1 MPa in the joint: its force on the fixed nodes of the joint, whose part is 10 m x 2.5 m.
+      Dam              dam(stepped);
+      const BaseForces dry(dam), wet(dam, std::vector<double>(dam.structure.pairs.size(), 1e6));
+      const Unknowns   zero(3 * dam.structure.n_nodes(), 0.), none(3 * dam.structure.pairs.size(), 0.);
+      const StepOfDam  still{zero, zero, zero, none};
+      const auto       without = dry.of(still), with = wet.of(still);
+      for (unsigned int b = 0; b < 2; ++b)
+      {
+        const double push = with[b][1] - without[b][1], expected = (b == 0) == first ? 2.5e7 : 0.;
+        expect_within(push, first ? expected : -expected, 1e-3, "water on the fixed nodes of the joint");
+      }
+    }
+    stepped.loads.combinations["heavy"] = "weight 1.5, water";
+    stepped.loads.combination = "heavy";
+    below("staged weight with a factor", momentum(stepped, true), 1e-11);
+    stepped.loads.combination = "";
     below("joints that open and slide, each monolith", momentum(arch(), true), 1e-11);
     stepped.elements.degree = 2;
     stepped.statics.self_weight = "monolithic";
@@ -292,9 +312,33 @@ namespace
     below("rock with sub-steps, partition", momentum(scene, true, .004, 40), 1e-11);
   }
 
+  /** A base with its lowest line at x = 2: it rises by .75 per m upstream and by 1/3 per m downstream. Area
+   * of its projection on the mean plane, and centroid of its surface. */
+  void notch()
+  {
+    const auto place = [](const Vector3 &x)
+    {
+      const double foot = x[0] < 2. ? .75 * (2. - x[0]) : (x[0] - 2.) / 3.;
+      return Vector3{{x[0], x[1], foot + x[2] / 30. * (30. - foot)}};
+    };
+    write_gmsh(Grids::wall({{10., 20., 30.}}, {{5, 4, 6}}, 4, place), "notch.msh");
+    Scene scene;
+    scene.mesh.source = "file";
+    scene.mesh.file = "notch.msh";
+    scene.directory = ".";
+    scene.reservoir.level = 28.;
+    Dam             dam(scene);
+    const BlockBase base = BaseForces(dam).bases().at(0);
+    const double    rise = 8. / 3. - 1.5, length = 2. * 1.25 + 8. * std::sqrt(10.) / 3.;
+    expect_close(base.area, 20. * std::hypot(10., rise), 1e-12, "area of the projection");
+    expect_close(base.centroid[0], (2.5 * 1. + (length - 2.5) * 6.) / length, 1e-12, "centroid, x");
+    expect_close(base.centroid[2], (2.5 * .75 + (length - 2.5) * 4. / 3.) / length, 1e-12, "centroid, z");
+  }
+
   /** A wall of two monoliths, 10 m x (10 + 10) m, 30 m high, in one axis with the river: closed forms. */
   void wall()
   {
+    notch();
     write_gmsh(Grids::wall({{10., 20., 30.}}, {{2, 4, 6}}, 2), "wall_of_blocks.msh");
     Scene scene;
     scene.mesh.source = "file";

@@ -299,6 +299,31 @@ namespace
     }
   }
 
+  /** A pair that slides keeps its faces together, or parts, and its friction opposes the velocity. */
+  void test_accelerations()
+  {
+    const double mu = .4;
+    const auto   law = make_joint_law("FJA", LawParameters(mu));
+    double       overlap = 0., friction = 0.;
+    unsigned int n_closed = 0, n_parted = 0;
+    for (unsigned int trial = 0; trial < 3000; ++trial)
+    {
+      const Matrix3 H = random_flexibility();
+      const Vector3 b = random_vector(1.), w = random_vector(1.),
+                    f = law->solve_acceleration(H, b, w, 1e-12, 1), a = plus(b, H * f);
+      const double speed = std::hypot(w[1], w[2]);
+      if (H[0] <= mu * (H[1] * w[1] + H[2] * w[2]) / speed) // Painleve's paradox: has no such solution
+        continue;
+      overlap = std::max(overlap, std::abs(std::min(f[0], a[0])));
+      for (const unsigned int c : {1, 2})
+        friction = std::max(friction, std::abs(f[c] + mu * f[0] * w[c] / speed));
+      (f[0] > 0. ? n_closed : n_parted) += 1;
+    }
+    below("acceleration of sliding pairs: normal force or normal acceleration", overlap, 1e-10);
+    below("  friction against the velocity", friction, 1e-12);
+    expect(n_closed > 500 && n_parted > 500, "both occur");
+  }
+
   /** Lengths and forces in other units: the same equations, times the unit of force. */
   void test_units()
   {
@@ -819,7 +844,7 @@ namespace
 
 int main()
 {
-  return run_all({test_derivatives, test_solve, test_impulses, test_units, test_error, test_no_keys,
-                  test_rectangular, test_variational, test_kinematics, test_structures, test_start_on_flank,
-                  test_default_friction, test_seats, test_out_over_and_back});
+  return run_all({test_derivatives, test_solve, test_impulses, test_accelerations, test_units, test_error,
+                  test_no_keys, test_rectangular, test_variational, test_kinematics, test_structures,
+                  test_start_on_flank, test_default_friction, test_seats, test_out_over_and_back});
 }

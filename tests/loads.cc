@@ -6,10 +6,14 @@
 #include <voussoir/dam/face_distance.h>
 #include <voussoir/dam/face_pressure.h>
 #include <voussoir/dam/joint_water.h>
+#include <voussoir/dam/load_table.h>
 #include <voussoir/dam/nodal_forces.h>
+#include <voussoir/dam/static_path.h>
 #include <voussoir/dam/temperature.h>
 #include <voussoir/joints/joint_system.h>
 #include <voussoir/joints/pairs.h>
+#include <voussoir/mesh/gmsh_io.h>
+#include <voussoir/mesh/mesh_groups.h>
 #include <voussoir/mesh/mesh_joints.h>
 
 #include "grids.h"
@@ -213,6 +217,48 @@ namespace
     below("ring: hoop stress at all nodes [of E alpha T]", error, .01);
   }
 
+  /** A uniform temperature with the factor of a combination. Without displacements the stress is -E alpha
+   * dT/(1 - 2 nu) in all directions. The force on the fixed base is this stress times its area. */
+  void factor_of_combination()
+  {
+    const SolidModel            model(wall(), 1);
+    const std::vector<Material> materials(1);
+    const Structure             structure = assemble_structure(model, materials, true);
+    Scene                       scene;
+    scene.reservoir.density = 0.;
+    scene.loads.temperature = heat(30., 30.);
+    scene.loads.combinations["cold"] = "temperature -0.5";
+    scene.loads.combination = "cold";
+    const auto loads = static_loads(scene, {model, structure, materials});
+    expect(loads.size() == 1 && loads[0].factor == -.5, "loads of the combination");
+    const double exact = .5 * materials[0].young * 1e-5 * 20. / (1. - 2. * materials[0].poisson);
+    for (const Stress &s : loads[0].stress)
+      for (unsigned int c = 0; c < 6; ++c)
+        expect_within(s[c], c < 3 ? exact : 0., 1e-6 * exact, "stress of the temperature");
+    expect_close(loads[0].resultant()[2], -exact * thick * wide, 1e-12, "force of the temperature");
+  }
+
+  /** Nodes between two materials have the stress of the stiffer one, above or below. */
+  void interface()
+  {
+    for (const bool stiff_above : {false, true})
+    {
+      HexMesh mesh = wall(); // 7.5 m high layers
+      for (HexMesh::Cell &cell : mesh.cells)
+        cell.zone = zone_index(mesh, centre(mesh, cell.nodes)[2] > 15. ? "above" : "");
+      std::vector<Material> materials(2);
+      materials[stiff_above].young *= 2.;
+      const SolidModel model(mesh, 1);
+      const auto       stress = temperature_load(model, materials, true, heat(30., 30.), ".").stress;
+      for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      {
+        const double z = model.points[i][2], young = materials[stiff_above ? z > 14. : z > 16.].young,
+                     exact = -young * 1e-5 * 20. / (1. - 2. * materials[0].poisson);
+        expect_close(stress[i][2], exact, 1e-6, "stress of the temperature at z = " + text(z));
+      }
+    }
+  }
+
   void tables()
   {
     write_text("temperatures.csv", "day, upstream, downstream\n0, 4, 2\n100, 8, 22 # summer\n\n200; 6; 2\n");
@@ -248,6 +294,8 @@ namespace
       clamped_bar(degree);
     }
     free_ring();
+    factor_of_combination();
+    interface();
     tables();
     HexMesh bare = wall();
     bare.faces.clear();
@@ -381,6 +429,11 @@ namespace
         Unknowns load(3 * model.first_equation.back(), 0.);
         add_tail_water(model, tail, 9.81, load);
         expect_close(sum(load)[0], -9810. * level * level / 2. * wide, 1e-3, "push of the tail water");
+        TailWaterParameters salty = tail;
+        salty.density = 1030.;
+        Unknowns heavy(load.size(), 0.);
+        add_tail_water(model, salty, 9.81, heavy);
+        expect_close(sum(heavy)[0], 1.03 * sum(load)[0], 1e-12, "push of tail water of 1030 kg/m3");
         Unknowns of_silt(load.size(), 0.);
         add_silt(model, silt, 9.81, of_silt);
         expect_close(sum(of_silt)[0], 900. * 9.81 / 3. * level * level / 2. * wide, 1e-3,
@@ -412,6 +465,29 @@ namespace
     }
   }
 
+  /** A wall that is turned about the vertical by 30 degrees is pushed along its own axis. */
+  void turned()
+  {
+    const double c = std::cos(pi / 6.), s = std::sin(pi / 6.);
+    SolidModel   model(wall({{2, 4, 6}},
+                            [=](const Vector3 &x) {
+                            return Vector3{{c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]}};
+                          }),
+                       1);
+    model.free_base();
+    SiltParameters      silt;
+    TailWaterParameters tail;
+    silt.level = tail.level = tall;
+    Unknowns of_silt(3 * model.first_equation.back(), 0.), of_tail(of_silt);
+    add_silt(model, silt, 9.81, of_silt);
+    add_tail_water(model, tail, 9.81, of_tail);
+    const double push = 900. * 9.81 / 3. * tall * tall / 2. * wide, back = 9810. * tall * tall / 2. * wide;
+    expect_close(sum(of_silt)[0], push * c, 1e-9, "push of the silt on a turned wall, x");
+    expect_close(sum(of_silt)[1], push * s, 1e-9, "push of the silt on a turned wall, y");
+    expect_close(sum(of_tail)[0], -back * c, 1e-9, "push of the tail water on a turned wall, x");
+    expect_close(sum(of_tail)[1], -back * s, 1e-9, "push of the tail water on a turned wall, y");
+  }
+
   void uplift()
   {
     Scene scene;
@@ -432,11 +508,27 @@ namespace
     const auto of_monolith = base_uplift(scene, model).of_monolith;
     expect(of_monolith.size() == 1, "monoliths");
     expect_close(of_monolith.at(1)[2], unit * (.25 * 15. + .75 * 6.), 1e-12, "uplift of the monolith");
+    // A base at z = 100 m; factors of water, tail water and uplift.
+    const SolidModel high(wall({{4, 3, 2}},
+                               [](const Vector3 &x) {
+                                 return Vector3{{x[0], x[1], x[2] + 100.}};
+                               }),
+                          1);
+    scene.reservoir.level = 124.;
+    scene.loads.tail_water.level = 106.;
+    scene.loads.uplift = UpliftParameters();
+    expect_close(sum(base_uplift(scene, high).force)[2], unit * (24. + 6.) / 2., 1e-12,
+                 "uplift of a high base");
+    scene.loads.combinations["flood"] = "uplift 0.8, water 1.25, tail water 0.5";
+    scene.loads.combination = "flood";
+    expect_close(sum(base_uplift(scene, high).force)[2], .8 * unit * (1.25 * 24. + .5 * 6.) / 2., 1e-12,
+                 "uplift with the factors of a combination");
   }
 
   void faces_and_base()
   {
     faces();
+    turned();
     uplift();
   }
 
@@ -480,8 +572,44 @@ namespace
     }
   }
 
+  /** A reservoir that is filled to 10 m, to 24 m and to 30 m, each in two steps, with factors of weight and
+   * water. Checks the water pressure after each step, and the crest under the staged weight: -rho g h^2/(2 E)
+   * for nu = 0.
+   */
+  void stages()
+  {
+    write_gmsh(wall({{2, 4, 6}}), "stages_wall.msh");
+    Scene scene;
+    scene.mesh.source = "file";
+    scene.mesh.file = "stages_wall.msh";
+    scene.directory = ".";
+    scene.joints.model = "tied";
+    scene.concrete.poisson = 0.;
+    scene.statics.gravity = 10.;
+    scene.statics.stages = "fill 10, fill 24";
+    scene.statics.water_increments = 2;
+    scene.reservoir.level = 30.;
+    scene.loads.combinations["flood"] = "weight 2, water 1.5";
+    scene.loads.combination = "flood";
+    const Dam dam(scene);
+    expect_close(dam.self_weight_crown[2], -2. * 2400. * 10. * tall * tall / (2. * scene.concrete.young),
+                 1e-9, "crest under twice its weight");
+    const StaticPath path(dam);
+    expect(path.n_steps() == 6, "steps");
+    const double levels[] = {0., 10., 24., 30.};
+    for (unsigned int step = 0; step < 6; ++step)
+      for (const double z : {4., 12.})
+      {
+        const double share = step % 2 == 0 ? .5 : 1., before = std::max(0., levels[step / 2] - z),
+                     after = std::max(0., levels[step / 2 + 1] - z);
+        expect_within(path.water_pressure(step, z), 1.5e4 * (share * after + (1. - share) * before), 1e-6,
+                      "pressure at z = " + text(z) + " in step " + std::to_string(step));
+      }
+  }
+
   void combinations()
   {
+    stages();
     LoadParameters loads;
     expect(loads.factor("water") == 1. && loads.factor("earthquake") == 1., "without a combination");
     loads.combination = "usual";

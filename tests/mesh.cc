@@ -72,6 +72,48 @@ namespace
     }
   }
 
+  /** The crown section, by the table of the reference (rounded to centimetres): upstream and downstream face.
+   */
+  void test_arch210_crown()
+  {
+    const double table[][3] = {{210, 0.00, 10.00},   {195, -4.24, 11.57},  {160, -12.57, 14.46},
+                               {130, -17.76, 16.64}, {100, -20.91, 19.19}, {70, -21.82, 22.70},
+                               {40, -20.27, 27.77},  {10, -16.04, 35.00},  {0, -14.00, 38.00}};
+    const auto   mesh = arch210(0, 58, 42);
+    for (const auto &row : table)
+      for (const unsigned int face : {0, 1})
+      {
+        const auto &node = mesh.nodes[(29 * 43 + std::lround(row[0] / 5)) * 3 + 2 * face];
+        expect(std::abs(node[1]) < 1e-9 && std::abs(node[2] - row[0]) < 1e-9, "a node of the crown");
+        expect_within(node[0], row[1 + face], .0051, "face of the crown at z = " + std::to_string(row[0]));
+      }
+  }
+
+  /** A parallelepiped of known volume and edges; the least height is its volume over its largest face. */
+  void test_quality()
+  {
+    const Vector3 a = {4, 0, 0}, b = {1, 3, 0}, c = {.5, .5, 2};
+    HexMesh       mesh;
+    for (const auto &[i, j, k] : {std::array<int, 3>{0, 0, 0},
+                                  {1, 0, 0},
+                                  {1, 1, 0},
+                                  {0, 1, 0},
+                                  {0, 0, 1},
+                                  {1, 0, 1},
+                                  {1, 1, 1},
+                                  {0, 1, 1}})
+      mesh.nodes.push_back(
+          {i * a[0] + j * b[0] + k * c[0], i * a[1] + j * b[1] + k * c[1], i * a[2] + j * b[2] + k * c[2]});
+    mesh.cells.push_back({{0, 1, 2, 3, 4, 5, 6, 7}, 1});
+    const MeshQuality quality = mesh_quality(mesh, false);
+    // The face of a and b has 12 m2, that of a and c 8.25 m2, that of b and c 6.40 m2.
+    expect_close(quality.smallest_height, 24. / 12., 1e-12, "least height");
+    expect_close(quality.smallest_scaled_jacobian, 24. / (4. * std::sqrt(10.) * std::sqrt(4.5)), 1e-12,
+                 "scaled Jacobian");
+    expect_close(quality.shortest_edge, std::sqrt(4.5), 1e-12, "shortest edge");
+    expect_close(quality.longest_edge, 4., 1e-12, "longest edge");
+  }
+
   void test_arch210_joints()
   {
     // From the formulas, by the quadratic equation for y on the centre line. The tables of the reference have
@@ -249,8 +291,10 @@ int main(int argc, char **argv)
 {
   if (argc == 1)
     return run({{"arch210", test_arch210},
+                {"arch210 crown", test_arch210_crown},
                 {"arch210 joints", test_arch210_joints},
                 {"arch210 banks", test_arch210_banks},
+                {"quality", test_quality},
                 {"open and close", test_open_and_close},
                 {"files", test_files},
                 {"mixed mesh", test_mixed},

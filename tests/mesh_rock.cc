@@ -6,6 +6,7 @@
 
 #include <voussoir/mesh/boundary_lines.h>
 #include <voussoir/mesh/gmsh_io.h>
+#include <voussoir/mesh/grading.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/mesh/mesh_source.h>
 
@@ -217,6 +218,29 @@ namespace
       expect(dispersion(depth) < 1.6 * usual, "waves disperse more in deeper rock");
   }
 
+  /** The cubic that fades from 1 to 0, level at both ends; sizes between two neighbours, each at most 1.35
+   * times the one beside it. */
+  void test_grading()
+  {
+    for (const auto &[x, exact] :
+         {std::make_pair(0., 1.), {.25, 27. / 32.}, {.5, .5}, {.75, 5. / 32.}, {1., 0.}})
+      expect(std::abs(fade(x) - exact) < 1e-12, "fade(" + std::to_string(x) + ")");
+    for (const double last : {2., 10., 16.})
+    {
+      const double length = 100., first = 2.;
+      const auto   ends = graded(n_graded(length, first, last, 16.), length, first, last);
+      expect(ends[0] == 0. && ends.back() == length, "ends");
+      double before = first;
+      for (std::size_t i = 1; i <= ends.size(); ++i)
+      {
+        const double size = i < ends.size() ? ends[i] - ends[i - 1] : last;
+        expect(size < 1.351 * before && before < 1.351 * size,
+               std::to_string(before) + " m beside " + std::to_string(size) + " m");
+        before = size;
+      }
+    }
+  }
+
   void test_section()
   {
     // The grids of the up- and the downstream face are the same.
@@ -399,6 +423,7 @@ int main()
               {"conformity", test_conformity},
               {"volume", test_volume},
               {"depth", test_depth},
+              {"grading", test_grading},
               {"section", test_section},
               {"files", test_files},
               {"bad lines", test_bad_lines},

@@ -35,6 +35,12 @@ namespace
       expect_within(design_beta(dl, row[0]), row[1], 5e-5, "DL 5073-2000");
       expect_within(design_beta(nb, row[0]), row[2], 5e-5, "NB 35047-2015");
     }
+    // Beyond the codes' 3 s it falls with the square of the period.
+    const MotionParameters parameters;
+    const double           longest = .5 * .5575 * standard_gravity;
+    expect_close(parameters.target(0, 3.), longest, 1e-6, "target at 3 s");
+    expect_close(parameters.target(0, 6.), longest / 4., 1e-6, "target at 6 s");
+    expect_close(parameters.target(2, 9.), .666667 * longest / 9., 1e-6, "vertical target at 9 s");
     // A worked example of the code's users: site II at long period, T_g = 0.35 s.
     expect_within(design_beta({"DL5073-2000", 0.35, 2.5}, 1.5), 0.675, 5e-4, "worked example");
     expect_error([] { design_beta({"GB50011", 0.2, 2.5}, 1.); }, {"GB50011", "DL5073-2000"});
@@ -51,6 +57,15 @@ namespace
     expect_within(pseudo_acceleration_spectrum(step, 0.0005, {0.2}, zeta)[0], exact, 1e-4 * exact,
                   "step, fine");
 
+    // With 20 steps of a period a peak of what oscillates, exp(..) a, is missed by 1 - cos(pi/20) at most.
+    const std::vector<double> many = logarithmic_periods(0.04, 3., 40),
+                              seen =
+                                  pseudo_acceleration_spectrum(std::vector<double>(501, a), 0.01, many, zeta);
+    for (std::size_t i = 0; i < many.size(); ++i)
+      expect(seen[i] < exact * (1. + 1e-9) &&
+                 seen[i] > exact - 1.03 * (1. - std::cos(M_PI / 20.)) * (exact - a),
+             "steps of a period of " + text(many[i]) + " s");
+
     // A ramp of acceleration q t without damping: w^2 u = -q (t - sin(w t) / w), exact at every sample.
     const double        q = 2., period = 0.7, w = 2. * M_PI / period;
     std::vector<double> ramp;
@@ -59,6 +74,17 @@ namespace
     const Oscillator oscillator(period, 0., 0.01);
     const auto       peak = oscillator.peak(ramp);
     expect_within(peak.value, -q * (1. - std::sin(w) / w), 1e-12, "response to a ramp");
+
+    // With damping: w^2 u = -q (t - 2 zeta/w + exp(-zeta w t) (2 zeta/w cos(wd t) - (1 - 2 zeta^2)/wd sin(wd
+    // t))).
+    for (const double damping : {0.05, 0.4})
+    {
+      const double wd = w * std::sqrt(1. - damping * damping),
+                   free = 2. * damping / w * std::cos(wd) - (1. - 2. * damping * damping) / wd * std::sin(wd);
+      expect_within(Oscillator(period, damping, 0.01).peak(ramp).value,
+                    -q * (1. - 2. * damping / w + std::exp(-damping * w) * free), 1e-12,
+                    "response to a ramp with damping");
+    }
 
     // The sensitivity reproduces the response.
     const std::vector<double> derivative = oscillator.sensitivity(peak.substep, ramp.size());
@@ -69,6 +95,18 @@ namespace
 
     const auto hundred = logarithmic_periods(0.04, 3., 100);
     expect(hundred.size() == 189 && std::abs(hundred.back() - 3.) < 1e-12, "periods");
+  }
+
+  /** Mean square of all components from @p begin to @p end [m^2/s^4]. */
+  double mean_square(const GroundMotion &motion, const double begin, const double end)
+  {
+    double       sum = 0.;
+    unsigned int n = 0;
+    for (std::size_t k = 0; k < motion.acceleration.size(); ++k)
+      if (const double t = k * motion.dt; t >= begin && t <= end)
+        for (const double x : motion.acceleration[k])
+          sum += x * x, ++n;
+    return sum / n;
   }
 
   void artificial_motions()
@@ -87,6 +125,16 @@ namespace
           const GroundMotion motion = make_motion(parameters, "");
           expect(motion.acceleration.size() == parameters.n_steps() + 1, "wrong number of samples");
           expect_within(motion.duration(), 20.48, 1e-9, "duration");
+
+          // Mean squares over that of the plateau. It rises as t^2: an envelope that rises as t would have
+          // the limit by itself. It decays as exp(-(t - 11)/4); half of the exponent would make it five times
+          // larger.
+          const double plateau = mean_square(motion, 2.5, 11.);
+          expect(mean_square(motion, 0., .15) < .15 * .15 / (3. * 2.5 * 2.5) * plateau,
+                 "rise of the envelope");
+          const double decay =
+              mean_square(motion, 16., 19.) / plateau * 1.5 / (std::exp(-2.5) - std::exp(-4.));
+          expect(decay > .4 && decay < 2.5, "decay of the envelope, measured over exact: " + text(decay));
 
           const MotionReport report = report_motion(motion, parameters);
           for (unsigned int d = 0; d < 3; ++d)

@@ -5,6 +5,7 @@
 #include <voussoir/dam/dam_geometry.h>
 #include <voussoir/dam/dam_loads.h>
 #include <voussoir/dam/reservoir.h>
+#include <voussoir/dynamics/modes.h>
 #include <voussoir/dynamics/newmark.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/gmsh_io.h>
@@ -400,9 +401,21 @@ namespace
     MotionReport report = report_motion(motion, parameters);
     expect_close(report.correlations[0], .5, 1e-9, "correlation");
     expect_close(report.components[2].arias_intensity, pi / (2. * 9.80665) * 4. * 3.999, 1e-9, "Arias");
+    // Of the constant one the energy grows linearly: 5 to 95 % of it in 90 % of the time.
+    expect_within(report.components[2].significant_duration, .9 * 3.999, motion.dt, "duration of a constant");
     for (std::size_t k = 0; k < motion.acceleration.size(); ++k)
-      motion.acceleration[k] = {{k * motion.dt, 0., 0.}};
+      motion.acceleration[k] = {{k * motion.dt, -1. * k * motion.dt, 0.}};
     report = report_motion(motion, parameters);
+    expect_within(report.components[0].significant_duration, 3.999 * (std::cbrt(.95) - std::cbrt(.05)),
+                  motion.dt, "duration of a ramp");
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      const auto &c = report.components[d];
+      expect_close(c.arias_intensity, pi / (2. * 9.80665) * std::pow(3.999, 3) / 3., 1e-9, "Arias, ramp");
+      expect_close(c.peak_acceleration, 3.999, 1e-12, "peak acceleration of a ramp");
+      expect_close(c.peak_velocity, std::pow(3.999, 2) / 2., 1e-12, "peak velocity of a ramp");
+      expect_close(c.peak_displacement, std::pow(3.999, 3) / 6., 1e-12, "peak displacement of a ramp");
+    }
     expect_close(report.components[0].end_velocity, std::pow(3.999, 2) / 2., 1e-12, "velocity");
     expect_close(report.components[0].end_displacement, std::pow(3.999, 3) / 6., 1e-12, "displacement");
   }
@@ -443,6 +456,20 @@ namespace
       expect_close(e.kinetic, .5 * (3. * now.v[0] * now.v[0] + 4. * now.v[2] * now.v[2]), 1e-12,
                    "kinetic energy of the dam");
       expect(k < 40 || newmark.energy_error() < 1e-10, "balance of the energy");
+    }
+  }
+
+  /** Participation factors phi^T M r, where the mass couples the directions as that of the water does. */
+  void participation()
+  {
+    Structure structure = oscillator(1., 0., 0.);
+    structure.mass[0] = {{4., 1., 0., 1., 5., 2., 0., 2., 6.}};
+    const Vector3 factor = NaturalMode{1., {.1, .2, .3}}.participation(structure);
+    const double  exact[] = {.4 + .2, .1 + 1. + .6, .4 + 1.8}, mass[] = {4., 5., 6.};
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      expect_close(factor[d], exact[d], 1e-12, "participation factor");
+      expect_close(free_mass(structure)[d], mass[d], 1e-12, "mass along an axis");
     }
   }
 
@@ -534,6 +561,19 @@ namespace
     for (const Dashpot &dashpot : viscous_dashpots(model, {{0., 0., 100.}}, 1., 0.))
       for (unsigned int k = 0; k < 9; ++k)
         damping[k] += dashpot.damping[k];
+    // Springs of the face at z = 0: 1.5 G/r and .5 G/r by the parts of its nodes, 2 m x 3 m but at its edges.
+    double exact = 0.;
+    for (unsigned int i = 0; i <= 2; ++i)
+      for (unsigned int j = 0; j <= 3; ++j)
+        exact +=
+            (i == 1 ? 2. : 1.) * (j == 0 || j == 3 ? 1.5 : 3.) / std::sqrt(4. * i * i + 9. * j * j + 64.);
+    Matrix3 springs{};
+    for (const Dashpot &dashpot : viscous_dashpots(model, {{0., 0., 8.}}, 1.5, .5))
+      for (unsigned int k = 0; k < 9; ++k)
+        springs[k] += dashpot.stiffness[k];
+    const double shear = 3. * s_wave_speed(m) * s_wave_speed(m);
+    expect_close(springs[8], 1.5 * shear * exact, 1e-12, "normal springs");
+    expect_close(springs[0], .5 * shear * exact, 1e-12, "tangential springs");
     const double area = 4. * 9.;
     expect_close(damping[8], 3. * p_wave_speed(m) * area, 1e-12, "normal dashpots");
     expect_close(damping[0], 3. * s_wave_speed(m) * area, 1e-12, "tangential dashpots");
@@ -557,6 +597,7 @@ int main(int argc, char **argv)
                 {"reports of motions", motion_reports}});
   if (part == "newmark")
     return run({{"damped oscillator", damped_oscillator},
+                {"participation factors", participation},
                 {"moving base", moving_base},
                 {"sliding", sliding_energy}});
   if (part == "rock")

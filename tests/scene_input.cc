@@ -55,6 +55,44 @@ namespace
                                                            {"2,4", "m", "2,4"}};
     for (const auto &c : cases)
       expect(converted(c[0], c[1]) == c[2], c[0] + " in " + c[1] + " is " + converted(c[0], c[1]));
+    // Every unit, in the SI unit of its dimension: NIST SP 811 (2008), appendix B.
+    const std::vector<std::pair<std::string, std::vector<std::pair<std::string, double>>>> all = {
+        {"m", {{"m", 1.}, {"km", 1e3}, {"dm", .1}, {"cm", .01}, {"mm", 1e-3}, {"ft", .3048}, {"in", .0254}}},
+        {"s", {{"s", 1.}, {"ms", 1e-3}, {"min", 60.}}},
+        {"Pa",
+         {{"Pa", 1.},
+          {"N/m2", 1.},
+          {"kPa", 1e3},
+          {"kN/m2", 1e3},
+          {"MPa", 1e6},
+          {"N/mm2", 1e6},
+          {"MN/m2", 1e6},
+          {"GPa", 1e9},
+          {"kN/mm2", 1e9},
+          {"bar", 1e5},
+          {"psi", 6894.757293168361},
+          {"ksi", 6894757.293168361}}},
+        {"kg/m^3",
+         {{"kg/m3", 1.},
+          {"t/m3", 1e3},
+          {"g/cm3", 1e3},
+          {"kg/dm3", 1e3},
+          {"kN/m3", 101.9716212977928},
+          {"lb/ft3", 16.01846337396014}}},
+        {"m/s^2",
+         {{"m/s2", 1.}, {"cm/s2", .01}, {"mm/s2", 1e-3}, {"gal", .01}, {"g", 9.80665}, {"ft/s2", .3048}}},
+        {"m/s", {{"m/s", 1.}, {"km/s", 1e3}, {"cm/s", .01}, {"mm/s", 1e-3}, {"ft/s", .3048}}},
+        {"degrees",
+         {{"degrees", 1.}, {"degree", 1.}, {"deg", 1.}, {"\u00b0", 1.}, {"rad", 57.29577951308232}}},
+        {"N/m", {{"N/m", 1.}, {"J/m2", 1.}, {"N/mm", 1e3}, {"kN/m", 1e3}}},
+        {"Hz", {{"Hz", 1.}, {"kHz", 1e3}}},
+        {"1/s", {{"1/s", 1.}}},
+        {"degC", {{"degC", 1.}, {"\u00b0C", 1.}}},
+        {"1/K", {{"1/K", 1.}, {"1/degC", 1.}, {"1e-6/K", 1e-6}}},
+        {"-", {{"%", .01}, {"-", 1.}}}};
+    for (const auto &[si, units] : all)
+      for (const auto &[unit, factor] : units)
+        expect_close(std::stod(converted("3 " + unit, si)), 3. * factor, 1e-13, "3 " + unit + " in " + si);
     expect_error([&] { converted("21 mm", "Pa"); }, {"Entry \"A/B\"", "Pa", "a unit of length", "GPa"});
     expect_error([&] { converted("21 gpa", "Pa"); }, {"\"gpa\"", "not a unit", "GPa"});
     expect_error([&] { converted("5 m", "-"); }, {"has no unit", "5 m"});

@@ -27,6 +27,18 @@ namespace
     between("sum of |a| dt / exact", b.oscillator / (5. * a * 2. / pi), .9999, 1.0001);
   }
 
+  /** A constant acceleration: the sum of |a| dt with the decay of half of the damping. */
+  void constant()
+  {
+    const double a = 5., alpha = .6, dt = 1e-3;
+    GroundMotion motion;
+    motion.dt = dt;
+    motion.acceleration.assign(4001, {{3., 0., 4.}});
+    const double exact = a * dt * (1. - std::exp(-.5 * alpha * 4.)) / (1. - std::exp(-.5 * alpha * dt));
+    below("decaying sum of |a| dt of a constant / exact - 1",
+          bounds_of(motion, alpha).oscillator / exact - 1., 1e-12);
+  }
+
   /** Undamped and damped oscillators of all frequencies stay within the bound; one comes near. */
   void oscillators()
   {
@@ -157,5 +169,5 @@ namespace
 
 int main()
 {
-  return run_all({sine, oscillators, excess, balances, rock});
+  return run_all({sine, constant, oscillators, excess, balances, rock});
 }

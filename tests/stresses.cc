@@ -228,6 +228,42 @@ namespace
              "no pressure where it is open");
   }
 
+  /** A joint that is not normal to the upstream face, with the pressures p on the face and q in the joint.
+   * Shear stresses are equal on the edge: t = -q n + (q - p) c/(1 - c^2) (m - c n) in the joint, with c =
+   * m.n. */
+  void skew_joint()
+  {
+    const double p = 1e6, q = 2e6;
+    const auto   skew = [](const Vector3 &x) { return Vector3{{x[0] + .6 * x[1], x[1], x[2]}}; };
+    SolidModel   model(open_joints(Grids::wall({{thick, wide, tall}}, {{2, 4, 6}}, 2, skew)), 1);
+    Structure    structure = assemble_structure(model, {Material()}, true);
+    structure.pairs = find_pairs(model, 1);
+    Unknowns force(3 * structure.pairs.size(), 0.);
+    for (std::size_t i = 0; i < structure.pairs.size(); ++i)
+      force[3 * i] = q * structure.pairs[i].area;
+    Tractions                  tractions(model, structure,
+                                         [&](const int surface, double, const Vector3 &n)
+                                         { return scaled(surface == PhysicalId::upstream ? -p : 0., n); });
+    const std::vector<Vector3> at = tractions.at(force);
+    const Vector3              m = {{-1. / std::hypot(1., .6), .6 / std::hypot(1., .6), 0.}};
+    double                     worst = 0.;
+    unsigned int               n_edge = 0;
+    for (std::size_t f = 0; f < at.size(); ++f)
+      if (const NodeFace &face = tractions.faces[f]; is_joint_side(face.surface) &&
+                                                     model.on_surface(face.node, PhysicalId::upstream) &&
+                                                     model.points[face.node][2] < tall - 1.)
+      {
+        const Vector3 &n = face.normal;
+        const double   c = dot(m, n);
+        Vector3        exact = scaled(-q, n);
+        add(exact, scaled((q - p) * c / (1. - c * c), m - scaled(c, n)));
+        worst = std::max(worst, norm(at[f] - exact));
+        ++n_edge;
+      }
+    expect(n_edge == 2 * 5, "nodes of both sides on the edge");
+    below("joint that is not normal to the face: its traction on the edge, of q", worst / q, 1e-12);
+  }
+
   /** A wall under water that stands on its base: the tractions on all its faces are those that are known. */
   void dam()
   {
@@ -431,6 +467,7 @@ int main()
               {"ring", ring},
               {"joint of degree 1", [] { joint(1); }},
               {"joint of degree 2", [] { joint(2); }},
+              {"joint that is not normal to the face", skew_joint},
               {"dam", dam},
               {"weight on the base", weight_on_base},
               {"linear stress on the base", linear_on_base},
