@@ -97,7 +97,7 @@ namespace
     structure.n_joints = 2;
     for (const auto &[joint, area] : {std::make_pair(0u, 50.), {0u, 50.}, {1u, 4.}, {1u, 6.}})
     {
-      Pair pair;
+      Pair pair{};
       pair.joint = joint;
       pair.area = area;
       structure.pairs.push_back(pair);
@@ -175,7 +175,7 @@ namespace
       reach.record(3, pair, {{.3 / degree, 1.2 / degree, 1.6 / degree}});
       const std::vector<std::string> warnings = reach.warnings();
       expect(warnings.size() == 1, "a slip of more than half of the width");
-      for (const std::string part :
+      for (const std::string &part :
            {std::string("joint 1 has slipped by ") + text(2. / degree), std::string("0.8 times")})
         expect(warnings[0].find(part) != std::string::npos, "'" + part + "' is missing in: " + warnings[0]);
     }
