@@ -123,7 +123,7 @@ def ratios(program, directory, case):
                                                                 "Dynamics/Error estimate": "true"})
     fine, truth = result(program, directory / f"{label}_truth", dam, {**settings, "Dynamics/Steps per sample": TRUTH})
     off = [np.linalg.norm(openings - truth) / max(np.linalg.norm(truth), 1e-30)]
-    for key in ("max_opening", "max_tension_upstream_above_foot", "max_tension_downstream_above_foot"):
+    for key in ("max_opening", "max_tension_upstream_away_from_base", "max_tension_downstream_away_from_base"):
         off.append(abs(coarse["extremes"][key]["value"] - fine["extremes"][key]["value"]))
     estimates = [coarse["error_estimate"][key] for key in NUMBERS]
     return [e / o if o > 0 else math.inf for e, o in zip(estimates, off)], off[0], estimates[0]

@@ -105,6 +105,9 @@ def results(page, runs):
     page.add(extremes(runs))
     page.add('<p class="sub">Opening and slip are counted from the grouted state, with the dam under its own weight. Tension is '
              'positive. Places are x (downstream), y (to the left bank), z (up) in metres.</p>')
+    if any("value_with_base" in limit for run in runs for limit in run.summary.get("limits", {}).values()):
+        page.add('<p class="sub">Limits of stresses are compared with the values away from the base: farther from it than a tenth of the '
+                 'dam’s height. Closer to the base the stress of an elastic dam grows with refinement of the mesh.</p>')
 
 
 def dam_and_scene(page, runs):

@@ -190,7 +190,8 @@ def overstress(run):
     def made(_, axes):
         axes = axes[0]
         for name, colour in (("upstream", UPSTREAM), ("downstream", DOWNSTREAM)):
-            axes.plot(found["levels"], found[name]["duration"], color=colour, marker="o", markersize=3, label=name)
+            duration = found[name].get("duration_away_from_base", found[name]["duration"])  # the latter of earlier versions
+            axes.plot(found["levels"], duration, color=colour, marker="o", markersize=3, label=name)
         if allowed > 0.:
             axes.plot([1., 2.], [allowed, 0.], **LIMIT, label="allowed")
         axes.set(xlabel="principal stress over tensile strength [-]", ylabel="cumulative duration [s]", xlim=(0.98, 2.02))

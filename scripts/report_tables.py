@@ -6,16 +6,19 @@ from html import escape
 
 from runs import Skip
 
-# Key of summary.json's extremes -> title, unit, limit's name
+AWAY, WITH_BASE = "away_from_base", "with the base"
+# Key of summary.json's extremes -> title, unit
 EXTREMES = {
-    "max_opening": ("Opening of a joint", "mm", "opening"),
-    "max_slip": ("Slip of a joint", "mm", "slip"),
-    "max_tension_upstream_above_foot": ("Tension upstream, above the foot", "MPa", None),
-    "max_tension_downstream_above_foot": ("Tension downstream, above the foot", "MPa", None),
-    "max_tension_upstream": ("Tension upstream, with the foot", "MPa", "tension_upstream"),
-    "max_tension_downstream": ("Tension downstream, with the foot", "MPa", "tension_downstream"),
-    "max_compression": ("Compression", "MPa", "compression")}
-ERRORS = {"max_opening": "largest_opening", "max_tension_upstream_above_foot": "tension_upstream", "max_tension_downstream_above_foot": "tension_downstream"}
+    "max_opening": ("Opening of a joint", "mm"),
+    "max_slip": ("Slip of a joint", "mm"),
+    "max_tension_upstream_away_from_base": ("Tension upstream, away from the base", "MPa"),
+    "max_tension_downstream_away_from_base": ("Tension downstream, away from the base", "MPa"),
+    "max_compression_away_from_base": ("Compression, away from the base", "MPa"),
+    "max_tension_upstream": ("Tension upstream, with the base", "MPa"),
+    "max_tension_downstream": ("Tension downstream, with the base", "MPa"),
+    "max_compression": ("Compression, with the base", "MPa")}
+ERRORS = {"max_opening": "largest_opening", "max_tension_upstream_away_from_base": "tension_upstream",
+          "max_tension_downstream_away_from_base": "tension_downstream"}
 SCALES = {"mm": 1e3, "MPa": 1e-6, "%": 100., "s": 1., "": 1., "MN": 1e-6}
 MINUS = "\N{MINUS SIGN}"
 
@@ -62,7 +65,7 @@ class Item:
 
     @property
     def state(self):
-        return "" if self.limit is None else "kept" if self.limit["kept"] else "exceeded"
+        return "" if self.limit is None else "satisfied" if self.limit["satisfied"] else "exceeded"
 
     def where(self):
         """Place and time in words."""
@@ -90,8 +93,12 @@ def items(run):
         value = extremes_of_run[key]
         if not isinstance(value, dict) or not isinstance(value.get("value"), (int, float)) or (run.tied and key in ("max_opening", "max_slip")):
             continue
-        title, unit, limit = EXTREMES.get(key, (key.removeprefix("max_").replace("_", " ").capitalize(), unit_of(key), key))
-        found[key] = Item(title, unit, value, limits.get(limit), errors.get(ERRORS.get(key)))
+        title, unit = EXTREMES.get(key, (key.removeprefix("max_").replace("_", " ").capitalize(), unit_of(key)))
+        name = key.removeprefix("max_").removesuffix(f"_{AWAY}")
+        limit = limits.get(name)
+        if limit and f"max_{name}_{AWAY}" in extremes_of_run and key.endswith(AWAY) != ("value_with_base" in limit):
+            limit = None  # it is compared with the other one; in earlier versions with that of the whole face
+        found[key] = Item(title, unit, value, limit, errors.get(ERRORS.get(key)))
     for key, of in (("waterstop", "at the waterstop"), ("residual", "that remains")):
         for name in ("opening", "slip"):
             if f"max_{name}" in run.summary.get(key, {}):
@@ -145,52 +152,63 @@ def demands(run, limits):
     faces = [overstress[name] for name in ("upstream", "downstream") if name in (overstress or {})]
     if not faces:
         return found
-    found["demand_capacity"] = Item("Demand-capacity ratio", "", max(face["demand_capacity"] for face in faces), limits.get("demand_capacity"))
+    away = f"_{AWAY}" if f"share_{AWAY}" in faces[0] else ""  # earlier versions have the whole face only
+    words = ", away from the base" if away else ""
+    found["demand_capacity"] = Item(f"Demand-capacity ratio{words}", "", max(face[f"demand_capacity{away}"] for face in faces), limits.get("demand_capacity"))
+    if away:
+        found["demand_capacity_with_base"] = Item(f"Demand-capacity ratio, {WITH_BASE}", "", max(face["demand_capacity"] for face in faces))
     if not run.moves:  # the stresses are of one time
-        overstress_of_faces(found, overstress, limits)
+        overstress_of_faces(found, overstress, limits, away)
         return found
-    title, longest, limit = "Duration of overstress at a point", max(face["duration"][0] for face in faces), limits.get("overstress_duration")
+    title, longest, limit = f"Duration of overstress at a point{words}", max(face[f"duration{away}"][0] for face in faces), limits.get("overstress_duration")
     if limit:  # of the level that decides: what is allowed there falls to none at twice the strength
         longest = limit["value"]
         level = 2. - limit["limit"] / run.limit("Overstress duration") if run.limit("Overstress duration") > 0. else 1.
         title += f", above {level:.2g} times the strength"
     found["overstress_duration"] = Item(title, "s", longest, limit)
-    overstress_of_faces(found, overstress, limits)
+    if away:
+        longest = limit["value_with_base"] if limit else max(face["duration"][0] for face in faces)
+        found["overstress_duration_with_base"] = Item(title.replace(words, f", {WITH_BASE}"), "s", longest)
+    overstress_of_faces(found, overstress, limits, away)
     return found
 
 
-def overstress_of_faces(found, overstress, limits):
+def overstress_of_faces(found, overstress, limits, away):
     """Adds the share of either face."""
     for name in ("upstream", "downstream"):
         if name in overstress:
-            share, limit = overstress[name]["share"][0], limits.get("overstressed_share")  # which is that of the worse face
-            found[f"share_{name}"] = Item(f"Share of the {name} face above the tensile strength", "%", share,
-                                          limit and {**limit, "value": share, "kept": share <= limit["limit"]})
+            share, limit = overstress[name][f"share{away}"][0], limits.get("overstressed_share")  # which is that of the worse face
+            title = f"Share of the {name} face above the tensile strength"
+            found[f"share_{name}"] = Item(title + (", away from the base" if away else ""), "%", share,
+                                          limit and {**limit, "value": share, "satisfied": share <= limit["limit"]})
+            if away:
+                found[f"share_{name}_with_base"] = Item(f"{title}, {WITH_BASE}", "%", overstress[name]["share"][0])
 
 
 def verdict(run):
-    """kept, exceeded or nothing; and a sentence."""
-    limits, unjudged = limits_of(run), run.summary.get("limits_not_judged", {})
-    rest = " Not judged: " + "; ".join(f"{WORDS.get(name, name.replace('_', ' '))} ({why})" for name, why in unjudged.items()) + "." if unjudged else ""
+    """satisfied, exceeded or nothing; and a sentence."""
+    limits, unjudged = limits_of(run), run.summary.get("limits_not_evaluated", {})
+    rest = " Not evaluated: " + "; ".join(f"{WORDS.get(name, name.replace('_', ' '))} ({why})" for name, why in unjudged.items()) + "." if unjudged else ""
     if not limits:
-        return "", rest.strip() or "The scene gives no limits (section Limits), so nothing is judged here."
+        return "", rest.strip() or "The scene gives no limits (section Limits), so nothing is evaluated here."
     texts = []
     for name, limit in limits.items():
-        if not limit["kept"]:
+        if not limit["satisfied"]:
             unit = {"Pa": "MPa", "m": "mm"}.get(limit.get("unit", ""), limit.get("unit", "")) or ("%" if "share" in name else "")
             texts.append(f"{WORDS.get(name, name.replace('_', ' '))} {number(limit['value'], unit)} "
                          f"{'instead of' if limit.get('is_least') else 'of'} {with_unit(limit['limit'], unit)}")
     if not texts:
-        return ("", f"{len(limits)} of {len(limits) + len(unjudged)} limits are kept.{rest}") if unjudged else ("kept", "All limits of the scene are kept.")
+        return ("", f"{len(limits)} of {len(limits) + len(unjudged)} limits are satisfied.{rest}") if unjudged else ("satisfied", "All limits of the scene are satisfied.")
     return "exceeded", f"{len(texts)} of {len(limits)} limits {'is' if len(texts) == 1 else 'are'} exceeded: {'; '.join(texts)}.{rest}"
 
 
 def tiles(run):
     """The numbers that are looked for first."""
     found, cells = items(run), []
-    # At the foot the stress is singular; it comes first only where the scene limits it.
-    tensions = [key if key in found and found[key].limit else f"{key}_above_foot" for key in ("max_tension_upstream", "max_tension_downstream")]
-    for key in ("max_opening", "max_slip", *tensions, "max_compression", "demand_capacity"):
+    # At the base the stress is singular; it comes first only where it is compared with a limit, as in earlier versions.
+    stresses = [key if key in found and found[key].limit or f"{key}_{AWAY}" not in found else f"{key}_{AWAY}"
+                for key in ("max_tension_upstream", "max_tension_downstream", "max_compression")]
+    for key in ("max_opening", "max_slip", *stresses, "demand_capacity"):
         if key in found:
             item = found[key]
             limit = (f'<span class="limit">{"exceeds the limit" if item.state == "exceeded" else "limit"} '

@@ -84,6 +84,15 @@ def scene_of(entries):
     return "\n".join(lines) + "\n"
 
 
+def with_new_names(summary):
+    """The summary of an earlier version under the names of this one."""
+    renamed = {"max_tension_upstream_above_foot": "max_tension_upstream_away_from_base", "kept": "satisfied",
+               "max_tension_downstream_above_foot": "max_tension_downstream_away_from_base", "limits_not_judged": "limits_not_evaluated"}
+    if not isinstance(summary, dict):
+        return summary
+    return {renamed.get(name, name): with_new_names(value) for name, value in summary.items() if renamed.get(name) not in summary}
+
+
 class Run:
     """One finished run. Throws InputError for a directory that is none; tables that are not there are Skip."""
 
@@ -99,6 +108,7 @@ class Run:
             raise InputError(f"{file} is not valid JSON: {error}. Repeat the run.") from error
         if not isinstance(self.summary, dict):
             raise InputError(f"{file} does not hold an object. Repeat the run.")
+        self.summary = with_new_names(self.summary)
         scene = str(self.summary.get("scene", self.directory.name))
         self.scene = Path(scene).stem if scene.endswith(".prm") else scene
         self.law = str(self.summary.get("law", ""))

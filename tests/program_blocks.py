@@ -88,7 +88,7 @@ def hand():
                 close(base["max_shear"]["value"], push, 1e-7, "largest shear")
                 close(base["min_sliding_safety"]["value"], safety, 1e-7, "least safety")
             verdict = summary(name + joints)["limits"]["sliding_safety"]
-            expect(verdict["kept"] == (safety >= .9) and verdict["limit"] == .9, f"{verdict}")
+            expect(verdict["satisfied"] == (safety >= .9) and verdict["limit"] == .9, f"{verdict}")
             expect(("sliding safety" in shown) == (safety < .9), shown)
     wedge()
 
@@ -196,9 +196,9 @@ def limits():
     shown = runs("scene.prm", "--output", "none", *settings("Output/Block forces=false", "Limits/Sliding safety=1", "Limits/Base friction=1"))
     expect("Limits/Base friction" in shown and "Output/Block forces is false" in shown, shown)
     expect(not Path("none/blocks.csv").exists() and "blocks" not in summary("none"), "no blocks.csv")
-    expect("Block forces" in summary("none")["limits_not_judged"]["sliding_safety"], "not judged")
+    expect("Block forces" in summary("none")["limits_not_evaluated"]["sliding_safety"], "not evaluated")
     shown = runs("scene.prm", "--output", "plain", *settings("Limits/Sliding safety=1"))
-    expect("Base friction" in summary("plain")["limits_not_judged"]["sliding_safety"], "not judged")
+    expect("Base friction" in summary("plain")["limits_not_evaluated"]["sliding_safety"], "not evaluated")
     expect("sliding safety (there is neither Limits/Base friction" in shown, shown)
     expect(len(table("plain/blocks.csv")[0]) == 1 + 3 * 6, "no safety without friction")
     runs("scene.prm", "--output", "judged", *settings("Limits/Sliding safety=40", "Limits/Base friction=1", "Limits/Base cohesion=1 MPa"))
@@ -218,7 +218,7 @@ def limits():
             expect(abs(row[0] / base[name]["value"] - 1) < 1e-7 and row[1] == base[name]["time"], f"{name}: {row}")
     verdict = found["limits"]["sliding_safety"]
     least = min(found["blocks"][f"monolith {m}"]["min_sliding_safety"]["value"] for m in (1, 2, 3))
-    expect(not verdict["kept"] and verdict["is_least"] and verdict["value"] == least, f"{verdict}")
+    expect(not verdict["satisfied"] and verdict["is_least"] and verdict["value"] == least, f"{verdict}")
     runs("report", "judged")
     page = Path("judged/report.html").read_text()
     for words in ("Monoliths on their bases", "against sliding", f"{least:.2f}", "instead of 40", "exceeded"):

@@ -313,7 +313,7 @@ def tutorial_7_report():
     page = Path("report.html").read_text()
     expect(all(f"record_{n}" in page for n in (1, 2, 3)), "a run is not in the report")
     static = summary("output/static")["extremes"]
-    tension = max(static[f"max_tension_{face}_above_foot"]["value"] for face in ("upstream", "downstream"))
+    tension = max(static[f"max_tension_{face}_away_from_base"]["value"] for face in ("upstream", "downstream"))
     print(f"    static tension {1e-6 * tension:.2f} MPa")
     expect(tension < 1e6, f"the dam of the tutorial stands with {tension} Pa of tension")
 

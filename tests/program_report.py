@@ -8,9 +8,11 @@ The browser is a headless Chromium; where there is none its case is skipped (sta
 """
 
 import csv
+import json
 import math
 import shutil
 import sys
+from collections import Counter
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -82,7 +84,7 @@ def page():
     for words in (f"{1e3 * found['extremes']['max_slip']['value']:.2f}"[:4], "Limits/Tensile strength", "exceeded", found["revision"],
                   "set Opening = 1e-06" if "set Opening = 1e-06" in read.text else "set Opening = 1e-6"):
         expect(words in read.text, f"'{words}' is not on the page")
-    n_exceeded = sum(not limit["kept"] for limit in found["limits"].values())
+    n_exceeded = sum(not limit["satisfied"] for limit in found["limits"].values())
     expect(f"{n_exceeded} of {len(found['limits'])} limits" in read.text, "the verdict does not count as the summary does")
     runs("report", "limited", "plain", "tied", "--output", "three.html")
     three = Reader("three.html")
@@ -95,7 +97,7 @@ def page():
 
 def beside_static():
     """A static state beside an earthquake: what moves keeps its figures over time, the static state has no duration of overstress,
-    and the error of the tension above the foot stands beside that, not beside the singular value of the foot."""
+    and the error of the tension away from the base stands beside that, not beside the singular value with the base."""
     write_scene("limited.prm", LIMITS)
     runs("limited.prm", "--output", "moving", "--overwrite", "--set", "Dynamics/Error estimate=true")
     runs("limited.prm", "--output", "resting", "--overwrite", "--set", "Motion/Source=none")
@@ -105,11 +107,11 @@ def beside_static():
         expect(words in read.text, f"'{words}' is not on the page of a static state and an earthquake")
     expect("single time" not in read.text and "resting: its response over time" in read.text, read.text[-1500:])
     text = Path("pair.html").read_text(encoding="utf-8")
-    row = {name: text[text.index(name):].partition("</tr>")[0] for name in ("Duration of overstress", "above the foot", "with the foot")}
+    row = {name: text[text.index(name):].partition("</tr>")[0] for name in ("Duration of overstress", "stream, away from the base", "stream, with the base")}
     expect(row["Duration of overstress"].count("<td") == 3 and ">–<" in row["Duration of overstress"], row["Duration of overstress"])
-    expect("±" in row["above the foot"] and "±" not in row["with the foot"], f"{row}")
+    expect("±" in row["stream, away from the base"] and "±" not in row["stream, with the base"], f"{row}")
     found = summary("moving")["error_estimate"]["tension_upstream"] * 1e-6
-    expect(f"± {found:.2g}"[:5] in row["above the foot"], f"{found}: {row['above the foot']}")
+    expect(f"± {found:.2g}"[:5] in row["stream, away from the base"], f"{found}: {row}")
     facts = text[text.index("Dam and scene"):text.index("What differs")]
     expect("<td>Tension</td>" not in facts and "largest opening" not in facts, "results stand among what the program understood")
     for strength in ("0.4 MPa", "0.3 MPa"):  # other levels may decide: no title may name that of one run for all
@@ -183,32 +185,41 @@ def numbers():
     times = [float(row["time"]) for row in table("run/history.csv")]
     solutions = [Solution(f"run/solution-{k:05d}.vtu") for k in range(len(times))]
     strength, overstress = 0.4e6, found["overstress"]
-    levels, shares, durations = overstress["levels"], [], [0.] * len(overstress["levels"])
+    levels, shares, ratios = overstress["levels"], [0., 0.], [0., 0.]
+    durations, with_base = ([0.] * len(levels) for _ in range(2))
+    base = base_of(faces, table("run/faces_cells.csv"))
+    near_base = lambda place: min(math.dist(place, b) for b in base) < 21.
     expect(all(abs(level - 1. - k / 10.) < 1e-12 for k, level in enumerate(levels)) and len(levels) == 11, f"levels {levels}")
     for face in ("upstream", "downstream"):
         nodes = [row for row in faces if row["face"] == face]
         index = {id(row): i for i, row in enumerate(faces)}
         most = [float(row["max_principal"]) / strength for row in faces]
-        close(overstress[face]["demand_capacity"], max(most[index[id(row)]] for row in nodes), 1e-5, f"{face}: demand over capacity")
+        for every, end in enumerate(("_away_from_base", "")):
+            ratio = max(most[index[id(row)]] for row in nodes if every or not near_base(place_of(row)))
+            close(overstress[face][f"demand_capacity{end}"], ratio, 1e-5, f"{face}: demand over capacity{end}")
+            ratios[every] = max(ratios[every], ratio)
         quads = [[int(row[f"n{k}"]) for k in range(4)] for row in table("run/faces_cells.csv") if row["face"] == face]
         for k, level in enumerate(overstress["levels"]):
-            whole = above = 0.
-            for quad in quads:
-                part = area([[float(faces[n][c]) for c in "xyz"] for n in quad]) / 4.
-                whole += 4 * part
-                above += part * sum(most[n] > level for n in quad)
-            close(overstress[face]["share"][k], above / whole, 1e-4, f"{face}: share above {level}")
-            shares += [above / whole] if k == 0 else []
+            for every, end in enumerate(("_away_from_base", "")):
+                whole = above = 0.
+                for quad in quads:
+                    part = area([place_of(faces[n]) for n in quad]) / 4.
+                    counts = [n for n in quad if every or not near_base(place_of(faces[n]))]
+                    whole += part * len(counts)
+                    above += part * sum(most[n] > level for n in counts)
+                close(overstress[face][f"share{end}"][k], above / whole, 1e-4, f"{face}: share above {level}{end}")
+                shares[every] = max(shares[every], above / whole if k == 0 else 0.)
         for k in range(len(levels)):
-            longest = 0.
+            longest = away = 0.
             for row in nodes:
                 at = solutions[0].near([float(row[c]) for c in "xyz"])
                 own = [i for i in at if close_enough(max(s.data["max_principal"][i] for s in solutions), float(row["max_principal"]))]
                 limit = overstress["levels"][k] * strength
-                longest = max([longest] + [.01 * sum(s.data["max_principal"][i] > limit for s in solutions[1:]) for i in own])
-            expect(abs(overstress[face]["duration"][k] - longest) < 1e-5,
-                   f"{face}, level {overstress['levels'][k]}: {overstress[face]['duration'][k]} s, by the fields {longest} s")
-            durations[k] = max(durations[k], longest)
+                longest = max([longest] + (mine := [.01 * sum(s.data["max_principal"][i] > limit for s in solutions[1:]) for i in own]))
+                away = max([away] + ([] if near_base(place_of(row)) else mine))
+            expect(abs(overstress[face]["duration"][k] - longest) < 1e-5 and abs(overstress[face]["duration_away_from_base"][k] - away) < 1e-5,
+                   f"{face}, level {overstress['levels'][k]}: {overstress[face]}, by the fields {away} and {longest} s")
+            durations[k], with_base[k] = max(durations[k], away), max(with_base[k], longest)
     expect(overstress["upstream"]["duration"][0] > 0, "nothing is overstressed: this scene tells nothing")
     last = solutions[-1].data
     for quantity in ("opening", "slip"):
@@ -219,12 +230,17 @@ def numbers():
         expect(found["waterstop"][f"max_{quantity}"]["value"] <= found["extremes"][f"max_{quantity}"]["value"], "more at the waterstop")
     waterstop(found, points, solutions)
     for name, limit in found["limits"].items():
-        expect(limit["kept"] == (limit["value"] <= limit["limit"]), f"{name}: {limit}")
-    expect(not found["limits"]["opening"]["kept"] and found["limits"]["slip"]["kept"] and found["limits"]["compression"]["kept"], "limits")
-    close(found["limits"]["tension_upstream"]["value"], found["extremes"]["max_tension_upstream"]["value"], 1e-9, "tension")
-    close(found["limits"]["compression"]["value"], -min(min(s.data["min_principal"]) for s in solutions), 1e-5, "compression")
-    close(found["limits"]["overstressed_share"]["value"], max(shares), 1e-4, "share of the worse face")
-    close(found["limits"]["demand_capacity"]["value"], max(most), 1e-5, "demand over capacity of the worse face")
+        expect(limit["satisfied"] == limit["kept"] == (limit["value"] <= limit["limit"]), f"{name}: {limit}")
+    satisfied = {name: limit["satisfied"] for name, limit in found["limits"].items()}
+    expect(not satisfied["opening"] and satisfied["slip"] and satisfied["compression"], f"limits: {satisfied}")
+    compressions = [-min(s.data["min_principal"][i] for s in solutions for i in range(len(solutions[0].points)) if every or not near_base(solutions[0].points[i]))
+                    for every in (False, True)]
+    for name, expected, accuracy in (("compression", compressions, 1e-5), ("overstressed_share", shares, 1e-4), ("demand_capacity", ratios, 1e-5)):
+        close(found["limits"][name]["value"], expected[0], accuracy, f"{name}, away from the base, of the worse face")
+        close(found["limits"][name]["value_with_base"], expected[1], accuracy, f"{name}, with the base, of the worse face")
+    expect(shares[0] != shares[1] and ratios[0] < ratios[1], "the base changes nothing: this scene tells nothing")
+    for key, name in (("value", "max_tension_upstream_away_from_base"), ("value_with_base", "max_tension_upstream")):
+        close(found["limits"]["tension_upstream"][key], found["extremes"][name]["value"], 1e-9, "tension")
     for allowed in (0.4, 0.05, 2.):  # at the strength itself; falls to none at twice the strength
         runs("scene.prm", "--output", "run", *settings("Output/Solution interval=0", "Joints/Friction=0.3", f"Limits/Overstress duration={allowed}"))
         limit = summary("run")["limits"]["overstress_duration"]
@@ -232,7 +248,9 @@ def numbers():
         k = excess.index(max(excess)) if max(excess) > 0. else 0
         print(f"    allowed {allowed} s: longest {[round(x, 2) for x in durations]} s, told {limit}")
         expect(abs(limit["value"] - durations[k]) < 1e-5 and abs(limit["limit"] - allowed * (2. - levels[k])) < 1e-9 and
-               limit["kept"] == (max(excess) <= 1e-9), f"duration of overstress: {limit}, expected level {levels[k]}, {excess}")
+               limit["satisfied"] == (max(excess) <= 1e-9), f"duration of overstress: {limit}, expected level {levels[k]}, {excess}")
+        expect(abs(limit["value_with_base"] - with_base[k]) < 1e-5, f"duration of overstress with the base: {limit}, {with_base[k]}")
+    expect(with_base != durations, "the base changes no duration: this scene tells nothing")
     expect("Limits    exceeded: " in Path("run/log.txt").read_text(), "the log does not say which limits are exceeded")
     write_scene()
     runs("scene.prm", "--output", "free", *settings("Joints/Friction=0.3"))
@@ -241,26 +259,28 @@ def numbers():
 
 
 def one_face():
-    """A mesh without a surface "downstream": tension there is none, and what it would be held against is not judged."""
+    """A mesh without a surface "downstream": tension there is none, and what it would be held against is not evaluated."""
     mesh = arch_mesh()
     mesh["elements"] = [element for element in mesh["elements"] if element[:2] != (3, 3)]
     write_mesh("one.msh", mesh)
     write_scene("scene.prm", LIMITS)
     log = runs("scene.prm", "--output", "one", *from_file("one.msh"), *settings("Motion/Duration=0.1"))
-    told, found = summary("one")["limits_not_judged"], summary("one")["limits"]
+    told, found = summary("one")["limits_not_evaluated"], summary("one")["limits"]
     expect(set(told) == {"tension_downstream", "demand_capacity", "overstressed_share", "overstress_duration"}
            and all("no surface 'downstream'" in why for why in told.values()) and "tension_upstream" in found, f"{told}, {found}")
     expect("nan" not in log and "none downstream" in log, log)
 
 
 def unjudged():
-    """Limits for which there is no result: they are named with the reason, and not told as kept."""
+    """Limits for which there is no result: they are named with the reason, and not told as satisfied."""
     write_scene("scene.prm", LIMITS)
     stresses = {"tension", "compression", "demand_capacity", "overstressed_share", "overstress_duration"}
     joints = {"opening", "slip", "waterstop_opening"}
     for name, reason, missing, *entries in (
             ("nothing", "", set()),
             ("no_stress", "Output/Envelope interval", stresses, "Output/Envelope interval=0"),
+            ("skipped", "Output/Envelope interval is 2", stresses, "Output/Envelope interval=2"),
+            ("rest_of_one", "one time only", {"overstress_duration"}, "Output/Envelope interval=2", "Motion/Source=none"),
             ("no_strength", "Limits/Tensile strength", stresses - {"tension", "compression"}, "Limits/Tensile strength=0"),
             ("no_motion", "one time only", {"overstress_duration"}, "Motion/Source=none"),
             ("no_joint", "no joint", joints, "Joints/Model=tied"),
@@ -268,17 +288,51 @@ def unjudged():
             ("no_keys", "KSM", {"key_shear_stress"}, "Limits/Key shear stress=1 MPa")):
         runs("scene.prm", "--output", name, *settings(*entries, "Motion/Duration=0.1"))
         found, log = summary(name), Path(name, "log.txt").read_text()
-        told = found.get("limits_not_judged", {})
+        told = found.get("limits_not_evaluated", {})
+        expect(told == found.get("limits_not_judged", {}), "the name of earlier versions")
         expect(set(told) == missing and all(reason in why for why in told.values()), f"{name}: {told}")
         limits = {limit.replace("_upstream", "").replace("_downstream", "") for limit in found["limits"]}
         expect(limits == (stresses | joints) - missing, f"{name}: {limits}")
-        expect(("not judged" in log) == bool(missing) and "all are kept" not in log, f"{name}: {log[-600:]}")
+        all_good = not missing and all(limit["satisfied"] for limit in found["limits"].values())
+        expect(("not evaluated" in log) == bool(missing) and ("all are satisfied" in log) == all_good, f"{name}: {log[-600:]}")
     one_face()
     deep = runs("scene.prm", "--output", "deep", *settings("Limits/Waterstop depth=18", "Motion/Duration=0.1"))
     expect("is thinner than Limits/Waterstop depth, 18 m, over the highest" in deep, f"waterstops that end below the crest: {deep}")
     runs("report", "no_motion")
     text = Reader("no_motion/report.html").text
-    expect("Not judged: duration of overstress (the stresses are of one time only)" in text, "the page does not say what is not judged")
+    expect("Not evaluated: duration of overstress (the stresses are of one time only)" in text, "the page does not say what is not evaluated")
+
+
+def earlier():
+    """Which stress is compared with a limit is on the page; a run of version 0.3, whose limits were compared with the base, is read."""
+    write_scene("scene.prm", LIMITS)
+    runs("scene.prm", "--output", "now", *settings("Joints/Model=KSM", "Motion/Duration=0.1"))
+    runs("report", "now")
+    text = Path("now/report.html").read_text(encoding="utf-8")
+    row = lambda text, title: text[text.index(f"<td>{title}"):].partition("</tr>")[0]
+    states = ("satisfied", "exceeded")
+    for title in ("Tension upstream", "Compression", "Demand-capacity ratio", "Share of the upstream face above the tensile strength"):
+        away, base = row(text, f"{title}, away from the base"), row(text, f"{title}, with the base")
+        expect(any(state in away for state in states) and not any(state in base for state in states), f"{away}, {base}")
+    expect("compared with the values away from the base" in text, "the page does not say what is compared")
+    found = summary("now")
+    for face in ("upstream", "downstream"):
+        found["extremes"].pop(f"max_tension_{face}_away_from_base")
+        found["overstress"][face] = {name: value for name, value in found["overstress"][face].items() if "away" not in name}
+    found["extremes"].pop("max_compression_away_from_base")
+    for limit in found["limits"].values():
+        limit.pop("satisfied")
+        if limit.pop("value_with_base", None) and limit["unit"] == "Pa":
+            limit["kept"] = False
+    shutil.copytree("now", "then")
+    Path("then/summary.json").write_text(json.dumps(found))
+    energy = Path("then/energy.csv").read_text().replace("joint_stored", "unknown")
+    Path("then/energy.csv").write_text(energy)
+    runs("report", "then")
+    text = Path("then/report.html").read_text(encoding="utf-8")
+    expect("exceeded" in row(text, "Tension upstream, with the base") and "exceeded" not in row(text, "Tension upstream, away from the base"), "limits of 0.3")
+    expect("exceeded" in row(text, "Compression, with the base") and "Not shown" not in text, "compression of 0.3")
+    expect("Demand-capacity ratio " in row(text, "Demand-capacity ratio") and "compared with the values away" not in text, "demand of 0.3")
 
 
 def keys():
@@ -308,7 +362,7 @@ def keys():
     expect(abs(found["keys"]["max_shear_stress"]["time"] - times[forces.index(largest)]) < 1e-6, "the time of the keys' force")
     limit = found["limits"]["key_shear_stress"]
     close(limit["value"], largest / whole, 1e-4, "what is held against the limit")
-    expect(limit["kept"] == (largest / whole <= 2e5) and limit["limit"] == 2e5, f"{limit}")
+    expect(limit["satisfied"] == (largest / whole <= 2e5) and limit["limit"] == 2e5, f"{limit}")
     runs("report", "run")
     expect("Shear stress of the keys, joint 1" in Reader("run/report.html").text, "the page leaves out the keys")
 
@@ -332,6 +386,17 @@ def ended():
             expect(Path("late", name).read_bytes() == Path("whole", name).read_bytes(), f"{name} after {in_the_way} is not that of the whole run")
         for name in ("solution-00025.vtu", "solution-00050.vtu", "envelope.vtu"):  # which have the time at which they were written
             expect(read_vtu(f"late/{name}") == read_vtu(f"whole/{name}"), f"{name} after {in_the_way} is not that of the whole run")
+
+
+def place_of(row):
+    return [float(row[c]) for c in "xyz"]
+
+
+def base_of(faces, quads):
+    """The places of the base: the ends of the faces but for the crest."""
+    at = [tuple(round(x, 2) for x in place_of(row)) for row in faces]
+    edges = Counter((quad["face"], *sorted((at[int(quad[f"n{a}"])], at[int(quad[f"n{(a + 1) % 4}"])]))) for quad in quads for a in range(4))
+    return {place for (_, *places), n in edges.items() if n == 1 and min(place[2] for place in places) < 209.9 for place in places}
 
 
 def waterstop(found, points, solutions):
@@ -389,4 +454,4 @@ def area(corners):
 
 
 if __name__ == "__main__":
-    run_cases(page, beside_static, browser, refusals, numbers, unjudged, keys, ended, spectrum)
+    run_cases(page, beside_static, browser, refusals, numbers, unjudged, earlier, keys, ended, spectrum)

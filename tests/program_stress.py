@@ -41,9 +41,10 @@ def faces():
     for face in ("upstream", "downstream"):
         mine = [n for n in nodes if n["face"] == face]
         away = [float(n["max_principal"]) for n in mine if min(math.dist(place(n)[1:], b) for b in base) > 21.]
-        above, whole = (result["extremes"][f"max_tension_{face}{end}"] for end in ("_above_foot", ""))
-        print(f"    {face}: {above['value']:.6g} Pa above the foot, expected {max(away):.6g}; {whole['value']:.6g} Pa in all")
-        expect(abs(above["value"] - max(away)) < 1e-5 * max(away), f"tension above the foot, {face}")
+        above, whole = (result["extremes"][f"max_tension_{face}{end}"] for end in ("_away_from_base", ""))
+        print(f"    {face}: {above['value']:.6g} Pa away from the base, expected {max(away):.6g}; {whole['value']:.6g} Pa in all")
+        expect(abs(above["value"] - max(away)) < 1e-5 * max(away), f"tension away from the base, {face}")
+        expect(result["extremes"][f"max_tension_{face}_above_foot"] == above, "the name of earlier versions")
         expect(above["value"] < whole["value"] or whole["place"] == above["place"], "the foot has more")
         expect(min(math.dist(above["place"], b) for b in base) > 21., "its place is not at the foot")
         part = result["tension_above_strength"][face]
@@ -52,6 +53,12 @@ def faces():
         expect(0 < part["share"] < 1 and abs(part["area"] / part["share"] / (210 * 500) - 1) < .5, f"{part}")
         expect(abs(part["share"] - len(cracked) / len(mine)) < .25, f"share {part['share']}, nodes {len(cracked)}/{len(mine)}")
     expect(result["tension_above_strength"]["strength"] == strength, "the strength")
+    points = read_vtu("run/envelope.vtu")
+    least = min(s for i, s in enumerate(points["min_principal"])
+                if min(math.dist(points["Points"][3 * i:3 * i + 3], b) for b in base) > 21.)
+    found = result["extremes"]["max_compression_away_from_base"]
+    print(f"    compression {found['value']:.6g} Pa away from the base, expected {least:.6g}; {result['extremes']['max_compression']['value']:.6g} Pa in all")
+    expect(abs(found["value"] - least) < 1e-5 * abs(least), "compression away from the base")
     expect("Tension   largest" in shown and "above the strength of 0.50 MPa" in shown, shown)
     data = read_vtu("run/solution-00025.vtu")
     crest = [i for i in range(len(data["stress_zz"])) if data["Points"][3 * i + 2] > 209.99]

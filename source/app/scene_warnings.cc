@@ -291,9 +291,10 @@ namespace Voussoir
     const LimitParameters &limits = scene.limits;
     if (scene.output.envelope_interval > 1 &&
         (limits.tensile_strength > 0. || limits.tension > 0. || limits.compression > 0.))
-      warnings.push_back("Output/Envelope interval is " + std::to_string(scene.output.envelope_interval) +
-                         ": peaks of the stresses between are missed, and durations are multiples of it, so "
-                         "that a limit may be told as kept that is not. Set it to 1 for Limits.");
+      warnings.push_back(
+          "Output/Envelope interval is " + std::to_string(scene.output.envelope_interval) +
+          ": peaks of the stresses between are missed, so the limits of stresses are not evaluated. Set it "
+          "to 1 for Limits.");
     if (any_joint(scene, {"cohesive"}) && scene.joints.strength == 0.)
       warnings.push_back("Joints/Strength is 0: the model cohesive is then FJA. Set the tensile strength of "
                          "the bond, such as 1 MPa.");

@@ -185,22 +185,22 @@ namespace Voussoir
     log.line("Results   %s", directory.c_str());
   }
 
-  /** The largest tensions that are not those of the singular foot, and these apart. */
+  /** The largest tensions that are not those of the singular base, and these apart. */
   void Simulation::report_tension()
   {
     if (scene.output.envelope_interval == 0)
       return;
-    const auto in_words = [&](const int surface, const bool foot) -> std::string
+    const auto in_words = [&](const int surface, const bool base) -> std::string
     {
-      const Extreme largest = foot ? envelope->extreme(*dam->model, surface, true)
-                                   : tension->largest_above_foot(*envelope, *dam->model, surface);
+      const Extreme largest = base ? envelope->extreme(*dam->model, surface, true)
+                                   : tension->largest_away_from_base(*envelope, *dam->model, surface);
       char          text[40];
       std::snprintf(text, sizeof(text), "%.2f MPa", 1e-6 * largest.value);
       return std::isfinite(largest.value) ? text : "none";
     };
     log.line(
         "Tension   largest %s upstream, %s downstream, farther than a tenth of the height from the base; "
-        "with the foot, where it grows with refinement, %s and %s",
+        "with the base, where it grows with refinement, %s and %s",
         in_words(PhysicalId::upstream, false).c_str(), in_words(PhysicalId::downstream, false).c_str(),
         in_words(PhysicalId::upstream, true).c_str(), in_words(PhysicalId::downstream, true).c_str());
     if (const double f = scene.strength_of_area(); f > 0.)

@@ -109,11 +109,17 @@ namespace Voussoir
       json.add("max_tension_upstream", json_of(envelope->extreme(*dam->model, PhysicalId::upstream, true)))
           .add("max_tension_downstream",
                json_of(envelope->extreme(*dam->model, PhysicalId::downstream, true)))
-          .add("max_tension_upstream_above_foot",
-               json_of(tension->largest_above_foot(*envelope, *dam->model, PhysicalId::upstream)))
-          .add("max_tension_downstream_above_foot",
-               json_of(tension->largest_above_foot(*envelope, *dam->model, PhysicalId::downstream)))
-          .add("max_compression", json_of(envelope->extreme(*dam->model, 0, false)));
+          .add("max_compression", json_of(envelope->extreme(*dam->model, 0, false)))
+          .add("max_compression_away_from_base",
+               json_of(tension->smallest_away_from_base(*envelope, *dam->model)));
+    for (const auto &[name, surface] :
+         {std::make_pair(std::string("max_tension_upstream"), PhysicalId::upstream),
+          {"max_tension_downstream", PhysicalId::downstream}})
+      if (scene.output.envelope_interval > 0)
+      {
+        const Json largest = json_of(tension->largest_away_from_base(*envelope, *dam->model, surface));
+        json.add(name + "_away_from_base", largest).add(name + "_above_foot", largest); // for one release
+      }
     return json;
   }
 
@@ -175,8 +181,9 @@ namespace Voussoir
         .add("static", json_of_statics())
         .add("loads", json_of_loads())
         .add("extremes", json_of_extremes());
-    const Assessment assessment(scene.limits, *dam->model,
-                                scene.output.envelope_interval > 0 ? envelope.get() : nullptr,
+    const StressesOfRun stresses{*envelope, *tension, n_steps > 0 ? scene.output.envelope_interval : 1};
+    const Assessment    assessment(scene.limits, *dam->model,
+                                scene.output.envelope_interval > 0 ? &stresses : nullptr,
                                 dam->structure.pairs.empty() ? nullptr : joints.get(), blocks.get());
     assessment.add_to(summary);
     if (blocks)

@@ -9,10 +9,12 @@ namespace Voussoir
   {
     const dealii::Patterns::Double not_negative(0.);
     prm.enter_subsection("Limits");
-    prm.add_parameter("Tensile strength", tensile_strength,
-                      "Dynamic tensile strength of the concrete [Pa], to which demand-capacity ratios, the "
-                      "cumulative duration of overstress and its share of the faces refer; 0: none.",
-                      not_negative);
+    prm.add_parameter(
+        "Tensile strength", tensile_strength,
+        "Dynamic tensile strength of the concrete [Pa], to which demand-capacity ratios, the "
+        "cumulative duration of overstress and its share of the faces refer; 0: none. Limits of stresses "
+        "are compared farther from the base than a tenth of the dam's height.",
+        not_negative);
     prm.add_parameter(
         "Demand-capacity ratio", demand_capacity,
         "Limit of the largest principal stress on the faces over the tensile strength [-]; USACE EM "
@@ -28,11 +30,10 @@ namespace Voussoir
                       "Limit of the share of either face where the stress is ever above the tensile strength "
                       "[-]; USACE EM 1110-2-6053 has 0.2; 0: none.",
                       dealii::Patterns::Double(0., 1.));
-    prm.add_parameter("Tension", tension, "Limit of the largest principal stress on the faces [Pa]; 0: none.",
-                      not_negative);
+    prm.add_parameter("Tension", tension,
+                      "Limit of the tension on the faces, away from the base [Pa]; 0: none.", not_negative);
     prm.add_parameter("Compression", compression,
-                      "Limit of the magnitude of the smallest principal stress, anywhere [Pa]; 0: none.",
-                      not_negative);
+                      "Limit of the compression, away from the base [Pa]; 0: none.", not_negative);
     prm.add_parameter("Opening", opening, "Limit of the openings of the joints, anywhere [m]; 0: none.",
                       not_negative);
     prm.add_parameter("Slip", slip, "Limit of the slips of the joints, anywhere [m]; 0: none.", not_negative);

@@ -3,6 +3,7 @@
 #include <voussoir/solid/face_quads.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace Voussoir
@@ -20,20 +21,24 @@ namespace Voussoir
       double ratio = 0.; ///< the largest
       Levels duration{}; ///< the longest at a node above each level [s]
       Levels share{};    ///< of the face ever above each level
+      double area = 0.;  ///< of the nodes' shares of the face [m^2]
     };
 
-    Demand demand_on(const SolidModel &model, const int surface, const EnvelopeRecorder &envelope,
-                     const double strength)
+    /** @p near_base: whether nodes near the base count, too. */
+    Demand demand_on(const SolidModel &model, const int surface, const StressesOfRun &stresses,
+                     const double strength, const bool near_base)
     {
-      Demand demand;
-      double whole = 0.;
+      Demand                  demand;
+      const EnvelopeRecorder &envelope = stresses.envelope;
       for (const FaceQuad &quad : face_quads(model, surface))
       {
         const double part = area(model, quad) / 4.;
         for (const unsigned int node : quad.nodes)
         {
+          if (!near_base && stresses.tension.is_near_base(node))
+            continue;
           const double ratio = envelope.maximum[node] / strength;
-          whole += part;
+          demand.area += part;
           demand.ratio = std::max(demand.ratio, ratio);
           for (unsigned int k = 0; k < Overstress::n_levels; ++k)
           {
@@ -43,8 +48,24 @@ namespace Voussoir
         }
       }
       for (double &share : demand.share)
-        share /= std::max(whole, 1e-300);
+        share /= std::max(demand.area, 1e-300);
       return demand;
+    }
+
+    /** The worse face of two. */
+    void take_worst(Demand &worst, const Demand &demand)
+    {
+      worst.ratio = std::max(worst.ratio, demand.ratio);
+      for (unsigned int k = 0; k < Overstress::n_levels; ++k)
+      {
+        worst.duration[k] = std::max(worst.duration[k], demand.duration[k]);
+        worst.share[k] = std::max(worst.share[k], demand.share[k]);
+      }
+    }
+
+    std::string nothing_away(const std::string &name)
+    {
+      return "no node of the surface '" + name + "' is farther from the base than a tenth of the height";
     }
 
     std::string no_face(const std::string &name)
@@ -61,25 +82,22 @@ namespace Voussoir
   }
 
   Assessment::Assessment(const LimitParameters &limits, const SolidModel &model,
-                         const EnvelopeRecorder *envelope, const JointRecorder *joints,
+                         const StressesOfRun *stresses, const JointRecorder *joints,
                          const BlockRecorder *blocks)
       : limits(limits)
   {
     const std::string no_stress = "Output/Envelope interval is 0", no_joint = "no joint can move";
-    if (envelope != nullptr)
-      add_stresses(model, *envelope);
+    if (stresses == nullptr)
+      leave_stresses(no_stress);
+    else if (stresses->interval > 1)
+      leave_stresses("Output/Envelope interval is " + std::to_string(stresses->interval) +
+                     ", so that peaks between are missed");
     else
-    {
-      leave("tension", limits.tension, no_stress);
-      leave("compression", limits.compression, no_stress);
-    }
-    if (envelope != nullptr && envelope->overstress.watches())
-      add_demand(model, *envelope);
+      add_stresses(model, *stresses);
+    if (stresses != nullptr && stresses->envelope.overstress.watches())
+      add_demand(model, *stresses);
     else
-      for (const auto &[name, limit] : {std::make_pair("demand_capacity", limits.demand_capacity),
-                                        {"overstressed_share", limits.overstress_share},
-                                        {"overstress_duration", limits.overstress_seconds}})
-        leave(name, limit, envelope == nullptr ? no_stress : "there is no Limits/Tensile strength");
+      leave_demand(stresses == nullptr ? no_stress : "there is no Limits/Tensile strength");
     if (joints != nullptr)
       add_joints(*joints);
     else
@@ -92,33 +110,57 @@ namespace Voussoir
     add_blocks(blocks);
   }
 
+  void Assessment::leave_stresses(const std::string &reason)
+  {
+    leave("tension", limits.tension, reason);
+    leave("compression", limits.compression, reason);
+  }
+
+  void Assessment::leave_demand(const std::string &reason)
+  {
+    leave("demand_capacity", limits.demand_capacity, reason);
+    leave("overstressed_share", limits.overstress_share, reason);
+    leave("overstress_duration", limits.overstress_seconds, reason);
+  }
+
   void Assessment::leave(const std::string &name, const double limit, const std::string &reason)
   {
     if (limit > 0.)
-      unjudged.emplace_back(name, reason);
+      unevaluated.emplace_back(name, reason);
   }
 
   void Assessment::hold(const std::string &name, const std::string &unit, const double value,
-                        const double limit)
+                        const double limit, const std::optional<double> with_base)
   {
     if (limit > 0.)
-      verdicts.push_back({name, unit, value, limit});
+      verdicts.push_back({name, unit, value, limit, false, with_base});
   }
 
-  void Assessment::add_stresses(const SolidModel &model, const EnvelopeRecorder &envelope)
+  void Assessment::add_stresses(const SolidModel &model, const StressesOfRun &stresses)
   {
-    for (const auto &[surface, name] : faces)
+    const EnvelopeRecorder &envelope = stresses.envelope;
+    for (const auto &[surface, face] : faces)
+    {
+      const std::string name = std::string("tension_") + face;
+      const double      away = stresses.tension.largest_away_from_base(envelope, model, surface).value;
       if (face_quads(model, surface).empty())
-        leave(std::string("tension_") + name, limits.tension, no_face(name));
+        leave(name, limits.tension, no_face(face));
+      else if (!std::isfinite(away))
+        leave(name, limits.tension, nothing_away(face));
       else
-        hold(std::string("tension_") + name, "Pa", envelope.extreme(model, surface, true).value,
-             limits.tension);
-    hold("compression", "Pa", -envelope.extreme(model, 0, false).value, limits.compression);
+        hold(name, "Pa", away, limits.tension, envelope.extreme(model, surface, true).value);
+    }
+    const double away = stresses.tension.smallest_away_from_base(envelope, model).value;
+    if (std::isfinite(away))
+      hold("compression", "Pa", -away, limits.compression, -envelope.extreme(model, 0, false).value);
+    else
+      leave("compression", limits.compression,
+            "no node of the dam is farther from the base than a tenth of the height");
   }
 
-  void Assessment::add_demand(const SolidModel &model, const EnvelopeRecorder &envelope)
+  void Assessment::add_demand(const SolidModel &model, const StressesOfRun &stresses)
   {
-    Demand worst;
+    Demand worst, with_base;
     Levels levels;
     for (unsigned int k = 0; k < Overstress::n_levels; ++k)
       levels[k] = Overstress::level(k);
@@ -127,49 +169,47 @@ namespace Voussoir
     std::string without;
     for (const auto &[surface, name] : faces)
     {
-      if (face_quads(model, surface).empty())
-      {
-        without = no_face(name);
+      const Demand all = demand_on(model, surface, stresses, limits.tensile_strength, true),
+                   away = demand_on(model, surface, stresses, limits.tensile_strength, false);
+      if (all.area == 0. || away.area == 0.) // the other one may be the worse
+        without = all.area == 0. ? no_face(name) : nothing_away(name);
+      if (all.area == 0.)
         continue;
-      }
-      const Demand demand = demand_on(model, surface, envelope, limits.tensile_strength);
-      Json         of_face;
-      of_face.add("demand_capacity", demand.ratio)
-          .add_list("duration", demand.duration)
-          .add_list("share", demand.share);
+      Json of_face;
+      of_face.add("demand_capacity_away_from_base", away.ratio)
+          .add_list("duration_away_from_base", away.duration)
+          .add_list("share_away_from_base", away.share)
+          .add("demand_capacity", all.ratio)
+          .add_list("duration", all.duration)
+          .add_list("share", all.share);
       overstress->add(name, of_face);
-      worst.ratio = std::max(worst.ratio, demand.ratio);
-      for (unsigned int k = 0; k < Overstress::n_levels; ++k)
-      {
-        worst.duration[k] = std::max(worst.duration[k], demand.duration[k]);
-        worst.share[k] = std::max(worst.share[k], demand.share[k]);
-      }
+      take_worst(worst, away);
+      take_worst(with_base, all);
     }
-    if (!without.empty()) // the other one may be the worse
-    {
-      leave("demand_capacity", limits.demand_capacity, without);
-      leave("overstressed_share", limits.overstress_share, without);
-      return leave("overstress_duration", limits.overstress_seconds, without);
-    }
-    hold("demand_capacity", "", worst.ratio, limits.demand_capacity);
-    hold("overstressed_share", "", worst.share[0], limits.overstress_share);
-    if (!envelope.overstress.has_lasted())
+    if (stresses.interval > 1)
+      without = "Output/Envelope interval is " + std::to_string(stresses.interval) +
+                ", so that peaks between are missed";
+    if (!without.empty())
+      return leave_demand(without);
+    hold("demand_capacity", "", worst.ratio, limits.demand_capacity, with_base.ratio);
+    hold("overstressed_share", "", worst.share[0], limits.overstress_share, with_base.share[0]);
+    if (!stresses.envelope.overstress.has_lasted())
       leave("overstress_duration", limits.overstress_seconds, "the stresses are of one time only");
     else
-      add_duration(worst.duration);
+      add_duration(worst.duration, with_base.duration);
   }
 
-  void Assessment::add_duration(const Overstress::Levels &worst)
+  void Assessment::add_duration(const Levels &worst, const Levels &with_base)
   {
     if (!(limits.overstress_seconds > 0.))
       return;
     // The level at which the duration is farthest above what is allowed there.
-    Verdict verdict{"overstress_duration", "s", worst[0], limits.overstress_seconds};
+    Verdict verdict{"overstress_duration", "s", worst[0], limits.overstress_seconds, false, with_base[0]};
     for (unsigned int k = 1; k < Overstress::n_levels; ++k)
     {
       const double allowed = std::max(0., limits.overstress_seconds * (2. - Overstress::level(k)));
       if (worst[k] - allowed > std::max(0., verdict.value - verdict.limit))
-        verdict.value = worst[k], verdict.limit = allowed;
+        verdict.value = worst[k], verdict.limit = allowed, verdict.with_base = with_base[k];
     }
     verdicts.push_back(verdict);
   }
@@ -238,10 +278,10 @@ namespace Voussoir
     if (keys)
       summary.add("keys", *keys);
     Json open;
-    for (const auto &[name, reason] : unjudged)
+    for (const auto &[name, reason] : unevaluated)
       open.add(name, reason);
-    if (!unjudged.empty())
-      summary.add("limits_not_judged", open);
+    if (!unevaluated.empty())
+      summary.add("limits_not_evaluated", open).add("limits_not_judged", open); // the latter for one release
     if (verdicts.empty())
       return;
     Json all;
@@ -251,7 +291,10 @@ namespace Voussoir
       one.add("value", verdict.value)
           .add("limit", verdict.limit)
           .add("unit", verdict.unit)
-          .add_flag("kept", verdict.kept());
+          .add_flag("satisfied", verdict.satisfied())
+          .add_flag("kept", verdict.satisfied()); // for one release
+      if (verdict.with_base)
+        one.add("value_with_base", *verdict.with_base);
       if (verdict.is_least)
         one.add_flag("is_least", true);
       all.add(verdict.name, one);
@@ -259,32 +302,39 @@ namespace Voussoir
     summary.add("limits", all);
   }
 
-  std::string Assessment::in_words() const
+  namespace
   {
-    std::string exceeded;
-    for (const Verdict &verdict : verdicts)
+    /** "tension upstream 3.1 of 2 MPa (4.5 with the base)". */
+    std::string sentence(const Verdict &verdict)
     {
       std::string name = verdict.name;
       std::replace(name.begin(), name.end(), '_', ' ');
       const bool   stress = verdict.unit == "Pa", length = verdict.unit == "m";
       const double scale = stress ? 1e-6 : length ? 1e3 : 1.;
-      char         text[120];
-      std::snprintf(text, sizeof(text), "%s %.3g %s %.3g%s%s", name.c_str(), scale * verdict.value,
-                    verdict.is_least ? "instead of" : "of", scale * verdict.limit,
-                    verdict.unit.empty() ? "" : " ",
-                    stress   ? "MPa"
-                    : length ? "mm"
-                             : verdict.unit.c_str());
-      if (!verdict.kept())
-        exceeded += (exceeded.empty() ? "exceeded: " : ", ") + std::string(text);
+      const char  *unit = stress ? "MPa" : length ? "mm" : verdict.unit.c_str();
+      char         text[160], more[60] = "";
+      if (verdict.with_base)
+        std::snprintf(more, sizeof(more), " (%.3g with the base)", scale * *verdict.with_base);
+      std::snprintf(text, sizeof(text), "%s %.3g %s %.3g%s%s%s", name.c_str(), scale * verdict.value,
+                    verdict.is_least ? "instead of" : "of", scale * verdict.limit, *unit ? " " : "", unit,
+                    more);
+      return text;
     }
-    std::string text = verdicts.empty()    ? ""
-                       : !exceeded.empty() ? exceeded
-                       : unjudged.empty()  ? "all are kept"
-                                           : "the others are kept";
-    for (const auto &[name, reason] : unjudged)
+  } // namespace
+
+  std::string Assessment::in_words() const
+  {
+    std::string exceeded;
+    for (const Verdict &verdict : verdicts)
+      if (!verdict.satisfied())
+        exceeded += (exceeded.empty() ? "exceeded: " : ", ") + sentence(verdict);
+    std::string text = verdicts.empty()      ? ""
+                       : !exceeded.empty()   ? exceeded
+                       : unevaluated.empty() ? "all are satisfied"
+                                             : "the others are satisfied";
+    for (const auto &[name, reason] : unevaluated)
     {
-      text += (text.empty() ? "not judged: " : "; not judged: ") + name + " (" + reason + ")";
+      text += (text.empty() ? "not evaluated: " : "; not evaluated: ") + name + " (" + reason + ")";
       std::replace(text.end() - name.size() - reason.size() - 3, text.end() - reason.size() - 3, '_', ' ');
     }
     return text;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/mesh/coincident.h>
 #include <voussoir/output/face_tension.h>
 #include <voussoir/solid/face_quads.h>
 
@@ -23,41 +24,58 @@ namespace Voussoir
     }
   } // namespace
 
-  FaceTension::FaceTension(const SolidModel &model)
+  FaceTension::FaceTension(const SolidModel &model) : near_base(model.n_nodes(), false)
   {
-    std::vector<Point<3>> base;
-    double                top = -1e300, bottom = 1e300;
+    std::vector<std::array<double, 3>> base;
+    const auto                         place = [&](const unsigned int i) -> std::array<double, 3> {
+      return {{model.points[i][0], model.points[i][1], model.points[i][2]}};
+    };
+    double top = -1e300, bottom = 1e300;
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
     {
       top = std::max(top, model.points[i][2]);
       bottom = std::min(bottom, model.points[i][2]);
-      if (model.on_surface(i, PhysicalId::base) &&
-          (model.on_surface(i, PhysicalId::upstream) || model.on_surface(i, PhysicalId::downstream)))
-        base.push_back(model.points[i]);
+      if (model.on_surface(i, PhysicalId::base))
+        base.push_back(place(i));
     }
-    const double reach = .1 * (top - bottom);
+    const double      reach = .1 * (top - bottom);
+    const PointFinder finder(base);
+    for (unsigned int i = 0; i < model.n_nodes() && !base.empty(); ++i)
+      near_base[i] = finder.nearest(place(i)).distance < reach;
     for (const int surface : {PhysicalId::upstream, PhysicalId::downstream})
       for (const auto &node : areas(model, surface))
-      {
-        const Point<3> &x = model.points[node.first];
-        const bool      is_foot =
-            std::any_of(base.begin(), base.end(), [&](const Point<3> &p) { return p.distance(x) < reach; });
-        faces[surface].push_back({node.first, node.second, is_foot});
-      }
+        faces[surface].push_back({node.first, node.second});
   }
 
-  Extreme FaceTension::largest_above_foot(const EnvelopeRecorder &envelope, const SolidModel &model,
-                                          const int surface) const
+  namespace
+  {
+    Extreme extreme_at(const SolidModel &model, const unsigned int node, const double value,
+                       const double time)
+    {
+      const Point<3> &p = model.points[node];
+      return {value, time, {{p[0], p[1], p[2]}}};
+    }
+  } // namespace
+
+  Extreme FaceTension::largest_away_from_base(const EnvelopeRecorder &envelope, const SolidModel &model,
+                                              const int surface) const
   {
     Extreme largest{std::numeric_limits<double>::quiet_NaN()};
     if (const auto face = faces.find(surface); face != faces.end())
       for (const FaceNode &n : face->second)
-        if (const double x = envelope.maximum[n.node]; !n.is_foot && !(x <= largest.value))
-        {
-          const Point<3> &p = model.points[n.node];
-          largest = {x, envelope.time_of_maximum[n.node], {{p[0], p[1], p[2]}}};
-        }
+        if (const double x = envelope.maximum[n.node]; !near_base[n.node] && !(x <= largest.value))
+          largest = extreme_at(model, n.node, x, envelope.time_of_maximum[n.node]);
     return largest;
+  }
+
+  Extreme FaceTension::smallest_away_from_base(const EnvelopeRecorder &envelope,
+                                               const SolidModel       &model) const
+  {
+    Extreme smallest{std::numeric_limits<double>::quiet_NaN()};
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      if (const double x = envelope.minimum[i]; !near_base[i] && !(x >= smallest.value))
+        smallest = extreme_at(model, i, x, envelope.time_of_minimum[i]);
+    return smallest;
   }
 
   double FaceTension::difference(const EnvelopeRecorder &a, const EnvelopeRecorder &b,
@@ -68,9 +86,9 @@ namespace Voussoir
     if (face == faces.end())
       return std::numeric_limits<double>::quiet_NaN();
     for (const FaceNode &n : face->second)
-      largest = n.is_foot ? largest : std::max<double>(largest, a.maximum[n.node]);
+      largest = near_base[n.node] ? largest : std::max<double>(largest, a.maximum[n.node]);
     for (const FaceNode &n : face->second)
-      if (!n.is_foot && a.maximum[n.node] >= .5 * largest)
+      if (!near_base[n.node] && a.maximum[n.node] >= .5 * largest)
       {
         const double apart = double(a.maximum[n.node]) - b.maximum[n.node];
         sum += n.area * apart * apart;
@@ -84,7 +102,7 @@ namespace Voussoir
     double largest = 0.;
     for (const auto &face : faces)
       for (const FaceNode &n : face.second)
-        if (!n.is_foot)
+        if (!near_base[n.node])
           largest = std::max<double>(largest, envelope.maximum[n.node]);
     return largest;
   }

@@ -8,18 +8,25 @@
 
 namespace Voussoir
 {
-  /** Tension of the envelope on the upstream and downstream faces: its largest value away from the foot,
-   * where the stress of an elastic dam is singular, and the area where it is above a strength. The foot: what
-   * is nearer to a node of the base than a tenth of the dam's height. */
+  /** Stresses of the envelope away from the base, where the stress of an elastic dam is singular, and the
+   * area of the upstream and downstream faces where the tension is above a strength. Near the base: nearer to
+   * a node of it than a tenth of the dam's height. */
   class FaceTension
   {
   public:
     explicit FaceTension(const SolidModel &model);
 
-    /** Not a number where the face has no node away from the foot. */
-    Extreme largest_above_foot(const EnvelopeRecorder &envelope, const SolidModel &model, int surface) const;
+    bool is_near_base(const unsigned int node) const { return near_base[node]; }
 
-    /** Root of the mean square, by area, of the differences of two envelopes away from the foot, where @p a
+    /** The largest maximum on a face; its value is not a number where no node of the face is away from the
+     * base. */
+    Extreme largest_away_from_base(const EnvelopeRecorder &envelope, const SolidModel &model,
+                                   int surface) const;
+
+    /** The smallest minimum of all nodes of the dam that are away from the base, not a number without any. */
+    Extreme smallest_away_from_base(const EnvelopeRecorder &envelope, const SolidModel &model) const;
+
+    /** Root of the mean square, by area, of the differences of two envelopes away from the base, where @p a
      * has at least half of its largest tension there; 0 without tension, not a number without the face [Pa].
      */
     double difference(const EnvelopeRecorder &a, const EnvelopeRecorder &b, int surface) const;
@@ -40,9 +47,9 @@ namespace Voussoir
     {
       unsigned int node;
       double       area; ///< [m^2]
-      bool         is_foot;
     };
     std::map<int, std::vector<FaceNode>> faces;
+    std::vector<bool>                    near_base; ///< per node of the model
   };
 } // namespace Voussoir
 

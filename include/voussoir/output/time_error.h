@@ -18,8 +18,8 @@ namespace Voussoir
      * the joints, over that of the openings [-]. */
     double opening = 0.;
     double largest_opening = 0.; ///< of the largest anywhere [m]
-    /** Of principal stresses above the foot near the largest ones, as FaceTension::difference() [Pa]; not a
-     * number: not recorded. */
+    /** Of principal stresses away from the base near the largest ones, as FaceTension::difference() [Pa]; not
+     * a number: not recorded. */
     double tension_upstream = std::numeric_limits<double>::quiet_NaN(), tension_downstream = tension_upstream;
   };
 
