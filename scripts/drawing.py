@@ -18,7 +18,7 @@ FACES = {"upstream": UPSTREAM, "downstream": DOWNSTREAM}
 COLOURS = ["#0b5394", "#cc4125", "#38761d", "#b45f06", "#674ea7", "#45818e", "#7f6000"]
 DIRECTIONS = {"x": "stream", "y": "cross", "z": "vertical"}
 LIMIT = {"color": "#111111", "linewidth": 1., "linestyle": (0, (5, 2))}
-ENERGIES = ("input", "strain", "kinetic", "added_mass", "damping", "friction", "impact", "bond", "transmitted")
+ENERGIES = ("input", "strain", "kinetic", "added_mass", "damping", "friction", "impact", "joint_stored", "joint_fracture", "bond", "transmitted")
 
 plt.rcParams.update({
     "font.size": 11, "axes.titlesize": 12, "axes.labelsize": 11, "legend.fontsize": 10, "legend.frameon": False,

@@ -649,6 +649,13 @@ namespace
     law->commit(f, gap, past, memory);
     below("  energy of the seat", law->bond_energy(gap, area, memory) / (.5 * (gap[1] - .001) * -f[1]) - 1.,
           1e-12);
+    const auto friction = [&](const Vector3 &force, const Vector3 &end)
+    {
+      const Vector3 moved = end - past.start;
+      return law->surfaces_law()->friction_correction(force, end, past) - force[1] * moved[1] -
+             force[2] * moved[2];
+    };
+    below("  the normal work of the flank is no friction", friction(f, gap) / (f[1] * gap[1]), 1e-14);
     // Along the flank: elastic until friction is spent, and back by as much.
     past.start = gap;
     const double limit = -.5 * f[1], give = limit * k.seat_compliance / area;
@@ -657,8 +664,15 @@ namespace
     Vector3 g = law->solve(H, b, past), there = plus(H * g, b);
     below("  friction of the seat before it slips", (-g[0]) / (.4 * limit) - 1., 1e-9);
     below("  its deformation", (there[0] - gap[0]) / (.4 * give) - 1., 1e-9);
+    // The force at the end of the step has twice the work that the seat stores.
+    below("  what friction takes", friction(g, there) / (.5 * .4 * .4 * limit * give) - 1., 1e-8);
     law->commit(g, there, past, memory);
     past.start = there;
+    below("  what it takes where it slips by twice the deformation, less what the seat stores",
+          friction({{-limit, f[1], 0.}}, {{there[0] + 2. * give, there[1], 0.}}) /
+                  ((2. - .5 * (1. - .4 * .4)) * limit * give) -
+              1.,
+          1e-8);
     const Vector3 held = law->solve({{1e-30, 0., 0., 0., 1e-30, 0., 0., 0., 1e-30}}, there, past);
     below("  it stays while nothing moves", norm(held - g) / norm(g), 1e-9);
     // Out of the seat, beside it, and back: the flank is found again where it was.

@@ -31,9 +31,37 @@ def tight():
             expect(result["newton_iterations"]["max"] <= 20, "at most 20 Newton steps")
             expect(result["energy_balance_error"] < 1e-9, "energy balance")
     names, rows = table("x/energy.csv")
-    seats = [row[names.index("bond")] for row in rows]
+    seats = [row[names.index("joint_stored")] for row in rows]
     # Counted from the static state, in which they hold a little already.
     expect(max(seats) > 0. and min(seats) > -.01 * max(seats), f"the seats hold energy: {min(seats)} to {max(seats)} J")
+
+
+def energies():
+    """Each energy in its column: friction is that of faces and flanks alone, the seats' is apart from that of bonds."""
+    write_scene()
+    smooth = ["--set", "Joints/Friction=0", *keys(45, "Friction=0")]
+    for name, *others in (("smooth", *smooth), ("rough", "--set", "Joints/Friction=0.3", *keys(30, "Friction=0.2")),
+                          ("rigid_smooth", *smooth, *keys(45, "Seat compliance=0"))):
+        runs("scene.prm", "--output", name, *SHORT, *others)
+        names, rows = table(f"{name}/energy.csv")
+        energy, size = {column: [row[names.index(column)] for row in rows] for column in names}, summary(name)["largest_energy"]
+        friction, has_seats = energy["friction"], "rigid" not in name
+        steps = [b - a for a, b in zip(friction, friction[1:])]
+        print(f"    {name}: friction {friction[-1]:.4g} J, in a step at least {min(steps):.2g} J; impact {energy['impact'][-1]:.4g} J of {size:.4g} J")
+        if "smooth" in name:
+            expect(max(map(abs, friction)) < 1e-9 * size, f"friction without friction: {max(map(abs, friction))} J")
+        else:
+            expect(friction[-1] > 1e-3 * size and min(steps) > -1e-9 * size, f"friction never gives energy: {min(steps)} J in a step")
+        expect("joint_fracture" not in names and ("joint_stored" in names or not has_seats), f"columns {names}")
+        expect(not has_seats or energy["joint_stored"] == energy["bond"] and max(energy["bond"]) > 1e-6 * size, "the name of earlier versions")
+        expect(summary(name)["energy_balance_error"] < 1e-9, "energy balance")
+    runs("scene.prm", "--output", "both", *SHORT, "--set", "Joints/Overrides=2: cohesive", "--set", "Joints/Strength=5e5", "--set",
+         "Joints/Fracture energy=200")
+    names, rows = table("both/energy.csv")
+    seats, bonds, both = ([row[names.index(column)] for row in rows] for column in ("joint_stored", "joint_fracture", "bond"))
+    print(f"    at most {max(seats):.4g} J in seats, {max(bonds):.4g} J in bonds")
+    expect(max(seats) > 0. < max(bonds) and all(abs(a + b - c) <= 1e-6 * (abs(a) + abs(b)) for a, b, c in zip(seats, bonds, both)), "seats and bonds")
+    expect(min(bonds) >= 0., "bonds only take energy")
 
 
 def rigid():
@@ -76,4 +104,4 @@ def branches():
 
 
 if __name__ == "__main__":
-    run_cases(tight, rigid, problems, branches)
+    run_cases(tight, energies, rigid, problems, branches)

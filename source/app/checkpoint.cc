@@ -20,7 +20,8 @@ namespace Voussoir
 {
   template <class Archive> void serialize(Archive &archive, Energy &e, unsigned int)
   {
-    archive &e.kinetic &e.added_mass &e.strain &e.damping &e.friction &e.impact &e.input &e.bond;
+    archive &e.kinetic &e.added_mass &e.strain &e.damping &e.friction &e.impact &e.input;
+    archive &e.joint_stored &e.joint_fracture;
   }
 
   template <class Archive> void serialize(Archive &archive, DynamicState &s, unsigned int)

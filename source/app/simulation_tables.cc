@@ -49,8 +49,15 @@ namespace Voussoir
     table.add("impact", [=] { return now().impact; });
     table.add("input", [=] { return now().input; });
     table.add("balance", [=] { return now().balance(first()); });
+    const auto stored = [=] { return now().joint_stored - first().joint_stored; };
+    const auto fracture = [=] { return now().joint_fracture - first().joint_fracture; };
+    if (dam->laws.have_seats())
+      table.add("joint_stored", stored);
+    if (dam->laws.have_bonds())
+      table.add("joint_fracture", fracture);
     if (dam->laws.have_memory())
-      table.add("bond", [=] { return now().bond - first().bond; });
+      table.add("bond",
+                [=] { return stored() + fracture(); }); // the name of earlier versions, for one release
     table.add_named([this] { return dam->foundation->energies(); });
   }
 

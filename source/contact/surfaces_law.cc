@@ -3,6 +3,9 @@
 
 #include <voussoir/contact/fja_law.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace Voussoir
 {
   SurfacesLaw::SurfacesLaw(std::vector<ContactSurface> list)
@@ -64,6 +67,62 @@ namespace Voussoir
   Vector3 SurfacesLaw::solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const
   {
     return solve_surfaces(present(past), H, b);
+  }
+
+  std::vector<double> SurfacesLaw::forces_beside(const PresentSurfaces &now, const Vector3 &force,
+                                                 const Vector3 &gap)
+  {
+    std::vector<double> beside(3 * (now.surfaces.size() - 1), 0.);
+    double              size = norm(gap) + norm(now.start);
+    bool                is_rigid = false, is_near = false;
+    for (std::size_t k = 1; k < now.surfaces.size(); ++k)
+    {
+      const ContactSurface &s = now.surfaces[k];
+      size = std::max(size, std::abs(s.clearance));
+      is_rigid = is_rigid || s.compliance == 0.;
+    }
+    for (std::size_t k = 1; k < now.surfaces.size(); ++k)
+    {
+      const ContactSurface &s = now.surfaces[k];
+      is_near = is_near || s.distance(gap) <= 1e-6 * size;
+      if (s.compliance > 0.)
+      {
+        const Vector3 r = s.seat_force(gap, now.start);
+        std::copy(r.begin(), r.end(), beside.begin() + 3 * (k - 1));
+      }
+    }
+    if (is_rigid && is_near && norm(force) > 0.)
+    {
+      // The pair alone, with a flexibility for which this force and gap are a solution.
+      const double  h = size / norm(force);
+      const Matrix3 H = {{h, 0., 0., 0., h, 0., 0., 0., h}};
+      solve_surfaces(now, H, gap - H * force, &beside);
+    }
+    return beside;
+  }
+
+  double SurfacesLaw::friction_correction(const Vector3 &force, const Vector3 &gap,
+                                          const PairPast &past) const
+  {
+    const PresentSurfaces     now = present(past);
+    const std::vector<double> beside = forces_beside(now, force, gap);
+    const Vector3             change = gap - past.start;
+    const auto along = [](const Vector3 &f, const Vector3 &d) { return f[1] * d[1] + f[2] * d[2]; };
+    Vector3    on_face = force;
+    double     taken = 0.;
+    bool       is_flat = true; // nothing but the face carries or stores anything
+    for (std::size_t k = 1; k < now.surfaces.size(); ++k)
+    {
+      const ContactSurface &s = now.surfaces[k];
+      const Vector3         r = {{beside[3 * k - 3], beside[3 * k - 2], beside[3 * k - 1]}};
+      is_flat = is_flat && r == Vector3{} && s.rest == Vector3{};
+      taken -= along(r, s.axes * change) + .5 * s.compliance * (along(r, r) - along(s.rest, s.rest));
+      on_face = on_face - transpose_times(s.axes, r);
+    }
+    const Matrix3 &axes = now.surfaces[0].axes;
+    if (is_flat && axes == Matrix3{{1., 0., 0., 0., 1., 0., 0., 0., 1.}})
+      return 0.;
+    return taken - along(axes * on_face, axes * change) + along(force, change);
   }
 
   PresentSurfaces SurfacesLaw::touching_surfaces(const unsigned char touching, const bool frictionless) const

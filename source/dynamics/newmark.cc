@@ -13,7 +13,8 @@ namespace Voussoir
   double Energy::balance(const Energy &start) const
   {
     return (kinetic - start.kinetic) + (added_mass - start.added_mass) + (strain - start.strain) + damping +
-           friction + impact + (bond - start.bond) - input;
+           friction + impact + (joint_stored - start.joint_stored) + (joint_fracture - start.joint_fracture) -
+           input;
   }
 
   Newmark::Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters,
@@ -56,19 +57,21 @@ namespace Voussoir
     now.carried.moved = now.carried.resisted = now.carried.left;
     structure.multiply_stiffness(now.u, now.Ku);
     account_states();
-    now.energy.bond = bond_energy();
+    const JointEnergy joints = joint_energy();
+    now.energy.joint_stored = joints.stored;
+    now.energy.joint_fracture = joints.fracture;
     first = now.energy;
     largest = 0.;
   }
 
-  double Newmark::bond_energy() const
+  JointEnergy Newmark::joint_energy() const
   {
     if (!laws.have_memory())
-      return 0.;
+      return {};
     Unknowns jumps(reference.size());
     for (std::size_t p = 0; p < structure.pairs.size(); ++p)
       set(jumps, p, opening_and_slip(p));
-    return laws.bond_energy(jumps, now.memory);
+    return laws.joint_energy(jumps, now.memory);
   }
 
   void Newmark::resume(const DynamicState &state, const Energy &first_energy, const double largest_so_far,
@@ -258,6 +261,7 @@ namespace Voussoir
                   : level.system.solve(left, offset, start, memory, force, gap, u_new, &feet);
     if (result.converged)
     {
+      of_friction = level.system.friction_correction(start, force, gap, memory);
       level.system.commit(start, force, gap, memory);
       now.memory.swap(memory);
     }
@@ -280,6 +284,8 @@ namespace Voussoir
         (c == 0 ? opening : friction) -= impulse[3 * p + c] / dt * change[3 * p + c];
       }
     }
+    friction += of_friction;
+    opening -= of_friction;
   }
 
   /** The state at the end of the step, but for joint forces and impacts; the work of loads and damping;
@@ -346,9 +352,11 @@ namespace Voussoir
     now.energy.input += work.input;
     now.energy.damping += work.damping;
     now.energy.friction += work.friction;
-    const double bond = bond_energy();
-    now.energy.impact += work.opening - (bond - now.energy.bond) + kinetic_before - kinetic_energy_of_pairs();
-    now.energy.bond = bond;
+    const JointEnergy joints = joint_energy();
+    const double held = joints.stored - now.energy.joint_stored + joints.fracture - now.energy.joint_fracture;
+    now.energy.impact += work.opening - held + kinetic_before - kinetic_energy_of_pairs();
+    now.energy.joint_stored = joints.stored;
+    now.energy.joint_fracture = joints.fracture;
     account_states();
     largest = std::max({largest, std::abs(now.energy.input), now.energy.kinetic + now.energy.added_mass,
                         first.kinetic, std::abs(now.energy.strain - first.strain), now.energy.damping});

@@ -91,16 +91,39 @@ namespace Voussoir
       of_pair[p]->commit(get(force, p), get(gap, p), past[p], memory.data() + memory_begin(p));
   }
 
-  double PairLaws::bond_energy(const Unknowns &gap, const Unknowns &memory) const
+  JointEnergy PairLaws::joint_energy(const Unknowns &gap, const Unknowns &memory) const
   {
-    double sum = 0.;
+    JointEnergy sum;
     if (have_memory())
     {
       AssertDimension(gap.size(), 3 * of_pair.size());
       AssertDimension(memory.size(), n_memory());
       for (std::size_t p = 0; p < of_pair.size(); ++p)
-        sum += of_pair[p]->bond_energy(get(gap, p), area[p], memory.data() + memory_begin(p));
+        (of_pair[p]->surfaces_law() ? sum.stored : sum.fracture) +=
+            of_pair[p]->bond_energy(get(gap, p), area[p], memory.data() + memory_begin(p));
     }
     return sum;
+  }
+
+  bool PairLaws::have_memory_with(const bool surfaces) const
+  {
+    return std::any_of(of_pair.begin(), of_pair.end(),
+                       [&](const JointLaw *law)
+                       { return law->n_memory() > 0 && (law->surfaces_law() != nullptr) == surfaces; });
+  }
+
+  double PairLaws::friction_correction(const Unknowns &start, const ForceMeaning &meaning,
+                                       const Unknowns &force, const Unknowns &gap,
+                                       const Unknowns &memory) const
+  {
+    if (!meaning.is_mean || std::none_of(of_pair.begin(), of_pair.end(),
+                                         [](const JointLaw *law) { return law->surfaces_law() != nullptr; }))
+      return 0.;
+    const std::vector<PairPast> past = pasts(start, meaning, memory);
+    double                      sum = 0.;
+    for (std::size_t p = 0; p < of_pair.size(); ++p)
+      if (const SurfacesLaw *law = of_pair[p]->surfaces_law())
+        sum += law->friction_correction(get(force, p), get(gap, p), past[p]);
+    return sum / meaning.factor;
   }
 } // namespace Voussoir

@@ -28,6 +28,12 @@ namespace Voussoir
 
     const SurfacesLaw *surfaces_law() const override { return this; }
 
+    /** Difference between the energy that friction takes in a step and the work of the force along the joint
+     * [N m]. Friction takes the work of each surface's force along that surface, less what an elastic seat
+     * stores of it; the rest is work normal to the surfaces.
+     * @p force: of the pair at the end of the step [N]; @p gap: there [m]. */
+    double friction_correction(const Vector3 &force, const Vector3 &gap, const PairPast &past) const;
+
     /** The forces beside the face are those that go with the gap, rigid seats having the compliance 1e-3/rho.
      */
     void    evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, double rho,
@@ -38,6 +44,11 @@ namespace Voussoir
                         unsigned char touching) const override;
     Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity, double still,
                                unsigned char touching) const override;
+
+  private:
+    /** Forces of the surfaces beside the face that go with a solution, 3 per surface [N]. */
+    static std::vector<double> forces_beside(const PresentSurfaces &now, const Vector3 &force,
+                                             const Vector3 &gap);
 
   protected:
     PresentSurfaces touching_surfaces(unsigned char touching, bool frictionless) const;

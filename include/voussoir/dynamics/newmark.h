@@ -12,7 +12,8 @@ namespace Voussoir
   {
     double kinetic = 0., added_mass = 0., strain = 0.;           // of concrete; of water; of concrete
     double damping = 0., friction = 0., impact = 0., input = 0.; // input: work of all loads
-    double bond = 0.;                                            // of law cohesive: held now, and lost so far
+    double joint_stored = 0.;                                    ///< that the seats of keys hold now
+    double joint_fracture = 0.; ///< of bonds (law cohesive): held now, and lost so far
 
     /** What the account misses: zero but for round-off in a correct run. */
     double balance(const Energy &start) const;
@@ -126,7 +127,7 @@ namespace Voussoir
     Unknowns      right_hand_side(double dt, const Unknowns &load, const Vector3 &base_velocity) const;
     Unknowns      force_without_joints() const;
     double        kinetic_energy_of_pairs() const;
-    double        bond_energy() const;
+    JointEnergy   joint_energy() const;
     void          account_states();
 
     const Structure                    &structure;
@@ -140,6 +141,7 @@ namespace Voussoir
     DynamicState                        now;
     Energy                              first; ///< at the start
     double                              largest = 0.;
+    double                              of_friction = 0.; ///< JointSystem::friction_correction()
     std::vector<std::unique_ptr<Level>> levels;         ///< by number of halvings; made when they are needed
     unsigned int                        last_level = 0; ///< of the last step, or its last part
   };

@@ -15,6 +15,13 @@ namespace Voussoir
     bool   is_mean = false;
   };
 
+  /** Energy in joints [J]. */
+  struct JointEnergy
+  {
+    double stored = 0.;   ///< that the seats of keys hold
+    double fracture = 0.; ///< that bonds hold and have lost
+  };
+
   /** The laws of all pairs of a structure, and where their memories lie in one array. */
   struct PairLaws
   {
@@ -38,12 +45,24 @@ namespace Voussoir
     void commit(const Unknowns &start, const ForceMeaning &meaning, const Unknowns &force,
                 const Unknowns &gap, Unknowns &memory) const;
 
-    /** Energy that bonds hold and have lost [J]; @p gap: 3 per pair [m]. */
-    double bond_energy(const Unknowns &gap, const Unknowns &memory) const;
+    /** Returns the energy in the joints; @p gap: 3 per pair [m]. */
+    JointEnergy joint_energy(const Unknowns &gap, const Unknowns &memory) const;
+
+    bool have_seats() const { return have_memory_with(true); } ///< can JointEnergy::stored be other than 0?
+    bool have_bonds() const
+    {
+      return have_memory_with(false);
+    } ///< can JointEnergy::fracture be other than 0?
+
+    /** Returns the sum of SurfacesLaw::friction_correction() over a step of mean forces [J]; 0 where forces
+     * are those at the end of a step. @p memory: before commit(). */
+    double friction_correction(const Unknowns &start, const ForceMeaning &meaning, const Unknowns &force,
+                               const Unknowns &gap, const Unknowns &memory) const;
 
     void add(const JointLaw *law, double tributary_area);
 
   private:
+    bool        have_memory_with(bool surfaces) const;
     std::size_t n_memory() const { return memory_end.empty() ? 0 : memory_end.back(); }
     std::size_t memory_begin(const std::size_t pair) const { return pair == 0 ? 0 : memory_end[pair - 1]; }
 

@@ -59,6 +59,14 @@ namespace Voussoir
       laws.commit(start, meaning, force, gap, memory);
     }
 
+    /** Part of the work of a step's forces that friction takes, less the work along the joints [J]:
+     * PairLaws::friction_correction(). */
+    double friction_correction(const Unknowns &start, const Unknowns &force, const Unknowns &gap,
+                               const Unknowns &memory) const
+    {
+      return laws.friction_correction(start, meaning, force, gap, memory);
+    }
+
     /** The bodies without joint forces: A u = load. */
     void solve_free(const Unknowns &load, Unknowns &u);
 
