@@ -103,12 +103,11 @@ class Run:
             raise InputError(f"{directory} holds no summary.json, so it is not the output directory of a finished run. Give the "
                              "directory that voussoir was told to write to with --output.")
         try:
-            self.summary = json.loads(file.read_text())
+            self.summary = with_new_names(json.loads(file.read_text()))
         except (RecursionError, ValueError) as error:
             raise InputError(f"{file} is not valid JSON: {error}. Repeat the run.") from error
         if not isinstance(self.summary, dict):
             raise InputError(f"{file} does not hold an object. Repeat the run.")
-        self.summary = with_new_names(self.summary)
         scene = str(self.summary.get("scene", self.directory.name))
         self.scene = Path(scene).stem if scene.endswith(".prm") else scene
         self.law = str(self.summary.get("law", ""))

@@ -37,8 +37,8 @@ def hostile_run(target="file:///etc/hostname"):
     found = {key: text + value if isinstance(value, str) else value for key, value in found.items()}
     found["blocks"] = {f"monolith {text}{name}": block for name, block in found["blocks"].items()}
     found["extremes"][f"max_{text}"] = {"value": 1.}
-    found["limits"][text] = {"value": 2., "limit": 1., "kept": False}
-    found["limits_not_judged"] = {text: text}
+    found["limits"][text] = {"value": 2., "limit": 1., "satisfied": False}
+    found["limits_not_evaluated"] = {text: text}
     found["warnings"] = [text, "half a character: \ud800"]
     found[text] = found["mesh"][text] = text
     (directory / "summary.json").write_text(json.dumps(found))
