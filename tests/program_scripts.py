@@ -48,6 +48,23 @@ def numbers():
         equal(energy_unit(value), unit, f"unit of {value} J")
 
 
+def tables():
+    """Tables and scenes of a run as they are read: half a line at the end is none, a damaged row is named, defaults are told."""
+    from command import InputError
+    from runs import read_entries, read_table
+    Path("sound.csv").write_text("time,value\n0,1\n0.1,2\n0.2")
+    equal({name: list(column) for name, column in read_table(Path("sound.csv")).items()}, {"time": [0., .1], "value": [1., 2.]}, "a table without its end")
+    for text, part in (("time,value\n0,1\n0.1\n0.2,3\n", "row 2 has 1 values, and 2 columns"), ("time,value\n0,one\n0.1,2\n", "one")):
+        Path("bad.csv").write_text(text)
+        try:
+            read_table(Path("bad.csv"))
+            raise AssertionError(f"{text!r} is taken")
+        except InputError as error:
+            expect("bad.csv is damaged" in str(error) and part in str(error), f"{error}")
+    equal(read_entries("subsection A\n  subsection B\n    set c d = 1 # default: 2\n  end\n  set e = f\nend\nset g = # default: h\n"),
+          {"A/B/c d": ("1", "2"), "A/e": ("f", None), "g": ("", "h")}, "entries")
+
+
 def results():
     """The report's results and words are those of the files of the run."""
     write_scene()
@@ -274,4 +291,4 @@ def zones():
 
 
 if __name__ == "__main__":
-    run_cases(numbers, results, shapes, films, arcs, studies, zones)
+    run_cases(numbers, tables, results, shapes, films, arcs, studies, zones)
