@@ -151,6 +151,23 @@ namespace
     return joints.law(Material().young).keys.seat_compliance;
   }
 
+  /** The areas of all pairs of meshed keys, with those on edges, are that of faces, flanks and crest. */
+  void areas(const double angle)
+  {
+    const double     a = angle * pi / 180., foot = half_crest + height * std::tan(a);
+    const SolidModel model(keyed_blocks(angle, height, 1), 1);
+    double           sum = 0.;
+    unsigned int     n_edge = 0;
+    for (const Pair &pair : find_pairs(model, 1))
+    {
+      sum += pair.area;
+      n_edge += pair.planes.size() == 2;
+    }
+    expect(n_edge == 4 * 3, "pairs on the four edges");
+    below("area of the meshed joint, " + text(angle) + " deg / exact - 1",
+          sum / (4. * (half_width - foot + height / std::cos(a) + half_crest)) - 1., 1e-12);
+  }
+
   struct Curve
   {
     double       T_first = 0., T_last = 0.; ///< at 0.2 mm and at 4 mm [N]
@@ -246,6 +263,8 @@ int main(const int argc, char **argv)
                   {
                     below("default seats against 20 Height/E - 1",
                           default_seat() * 21e9 / (20. * height) - 1., 1e-12);
+                    for (const double angle : {30., 45., 60.})
+                      areas(angle);
                     for (unsigned int refine = 1; refine <= finest; ++refine)
                     {
                       compare(45., 0., refine);

@@ -63,6 +63,16 @@ def estimate():
     print(f"    long steps: largest openings {largest:.4f} apart, histories {histories:.4f}")
     estimated = summary("long2")["error_estimate"]["openings"]
     expect(abs(estimated - max(0.4 * largest, 0.1 * histories)) < 1e-5 * estimated, f"{estimated}, {largest}, {histories}")
+    # That of the largest opening is 0.4 of what both runs differ by there, and no less than the share of all openings: both cases occur.
+    wide = ["scene.prm", "--set", "Motion/Duration=1", "--set", "Motion/Time step=0.02"]
+    runs(*wide, "--output", "wide2", "--set", "Dynamics/Steps per sample=2", "--set", "Dynamics/Error estimate=true")
+    runs(*wide, "--output", "wide1", "--set", "Dynamics/Steps per sample=1")
+    for fine, coarse in (("steps2", "steps1"), ("wide2", "wide1")):
+        a, b = (summary(d)["extremes"]["max_opening"]["value"] for d in (fine, coarse))
+        of = summary(fine)["error_estimate"]
+        print(f"    {fine}: largest opening {a:.4g} m, coarser {b:.4g} m, {of}")
+        expect((0.4 * abs(a - b) > of["openings"] * a) == (fine == "wide2"), f"{fine} is not the case that it is to be: {of}, {a}, {b}")
+        expect(abs(of["largest_opening"] - max(0.4 * abs(a - b), of["openings"] * a)) < 1e-5 * of["largest_opening"], f"{of}, {a}, {b}")
     runs(*run, "--output", "plain", "--set", "Dynamics/Steps per sample=2")
     same("plain", "steps2", 0., ("history", "joint_history", "energy"))
     settings = [*DURATION, "--set", "Dynamics/Error estimate=true", "--set", "Dynamics/Steps per sample=2"]

@@ -12,7 +12,9 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "golden"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
 import meshes  # noqa: E402
+import vtu  # noqa: E402
 import scenes  # noqa: E402
 from compare import STRESS, Worst, at_places, key, read_vtu, scene  # noqa: E402
 from run_program import (MESH, run_cases, expect, refused, runs, same, summary, table, voussoir, write,  # noqa: E402
@@ -157,6 +159,15 @@ def stages():
     overlaps = [row[names.index("max_overlap")] for row in rows]
     expect(overlaps[0] > 0 == overlaps[-1], f"monoliths alone lean into each other, grouted ones do not: {overlaps}")
     expect(("overlap by" in shown) == (max(overlaps) > 5e-3), f"{overlaps}: {shown}")
+    # The pairs that are open and that slip, by the fields of the static state.
+    result("sliding", *settings(Statics__Stages="fill 100", Joints__Model="FJA", Joints__Friction=.05, Output__Solution_interval=1))
+    names, rows = table("sliding/stages.csv")
+    data = vtu.read_vtu("sliding/solution-00000.vtu")
+    state = {tuple(round(x, 3) for x in data["Points"][3 * i:3 * i + 3]): s for i, s in enumerate(data["joint_state"]) if s >= 0}
+    counts = [sum(s == value for s in state.values()) for value in (0, 2)]
+    print(f"    {counts} of {len(state)} pairs are open, slip")
+    expect(0 < counts[1] != len(state) - sum(counts) and [rows[-1][names.index(f"{n}_pairs")] for n in ("open", "slip")] == counts,
+           f"{counts} of {len(state)}, stages.csv {rows[-1]}")
     # Joints of law tied are not cut by lifts.
     overrides = settings(Statics__Stages="fill 100, grout 210", Joints__Overrides="1: tied")
     result("tied_in_part", *overrides)
@@ -215,6 +226,7 @@ def combinations():
     print(f"    {found}")
     expect(found["silt"]["resultant"][0] > 0 > found["tail water"]["resultant"][0], f"{found}")
     expect(found["concentrated"]["resultant"] == [1e6, 0, -2e6], f"{found}")
+    expect("Loads     concentrated x 1: 1 0 -2 MN" in shown, shown)
     expect(summary("usual")["static"]["crest_displacement"] == summary("all")["static"]["crest_displacement"], "statics")
     # 1.5 x water is water of 1.5 times the density; without the weight it is not there.
     flood = settings(Loads__Combinations="flood: water 1.5, earthquake 2", Loads__Combination="flood", Reservoir__Added_mass="none")
@@ -253,6 +265,20 @@ def uplift():
     crests = [result(f"lifts{joints}", *lifts, *settings(Loads__Uplift__Joints=joints))[0]["static"]["crest_displacement"]
               for joints in ("false", "true")]
     expect(crests[0] == crests[1], f"no water in joints that are grouted later: {crests}")
+    # In a joint that cooling has opened down to its foot, water with the factor 0.5 does half of what it does with 1.
+    meshes.wall("parted.msh", monoliths=(1, 1, 2, 2), width=20.)
+    file, opening = scene("parted", "parted.msh", Reservoir={"Density": 1000, "Water level": 50}, Joints={"Model": "FJA"}), []
+    for factor in (0, .5, 1):
+        runs(file, "--output", f"parted{factor}", *settings(
+            Loads__Temperature__Upstream_face=-20, Loads__Temperature__Downstream_face=-20, Loads__Uplift__Joints="true",
+            Loads__Combinations=f"all: weight, water, temperature, uplift {factor}", Loads__Combination="all"))
+        found = summary(f"parted{factor}")
+        expect(found["static"]["open_pairs"] == found["mesh"]["pairs"], f"{found['static']}: not all are open")
+        names, rows = table(f"parted{factor}/joint_points.csv")
+        opening.append([row[names.index("max_opening")] for row in rows])
+    missed, size = max(abs(b - .5 * (a + c)) for a, b, c in zip(*opening)), max(opening[2])
+    print(f"    largest openings with factors 0, 0.5, 1: {[max(x) for x in opening]}; not linear by {missed} m")
+    expect(size > 2 * max(opening[0]) and missed < 1e-6 * size, f"{opening}")
     for entry in ("Tail water", "Silt"):
         refused(["static.prm", "--validate", "--set", f"Loads/{entry}/Level=500"], f"Loads/{entry}/Level", "above the dam")
     meshes.wall("wall.msh", monoliths=(1, 1, 2, 2), width=20.)

@@ -27,6 +27,9 @@ def closes(directory):
     made, feet = (max(abs(row[names.index(name)]) for row in rows) for name in ("interface", "rock_feet"))
     print(f"    {directory}: work at the feet {feet:.3g} J, made by the coupling {made:.2g} J")
     expect(feet > 0. and made < 1e-9 * feet, f"the coupling makes {made} of {feet} J in {directory}")
+    parts = [[row[names.index(name)] for name in ("rock_kinetic", "rock_strain", "rock_damping", "transmitted", "rock_feet")] for row in rows]
+    missed, size = max(abs(sum(row[:4]) - row[4]) for row in parts), max(abs(x) for row in parts for x in row)
+    expect(missed < 1e-7 * size, f"the columns of the rock's energies do not add up: {missed} J of {size} J in {directory}")  # of eight digits
 
 
 def laws():

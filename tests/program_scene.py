@@ -142,6 +142,12 @@ def values():
     table = runs("motion", "scene.prm", "--output", "a.csv")
     peaks = re.search("peak acceleration +g +(.*)", table)[1].split()
     expect("PGA " + " ".join(peaks) + " g" in runs(*check()), f"PGA: {peaks}")
+    # Components of unequal size: each peak in the log is that of its own row and column in the table.
+    unequal = [x for scale in ("y=0.5", "z=0.2") for x in ("--set", f"Motion/Scale {scale}")]
+    table, shown = runs("motion", "scene.prm", "--output", "a.csv", *unequal), runs(*check(), *unequal)
+    for name, row, unit in (("PGA", "peak acceleration +g", "g"), ("PGV", "peak velocity +m/s", "m/s"), ("PGD", "peak displacement +m", "m")):
+        peaks = re.search(row + " +(.*)", table)[1].split()
+        expect(len(set(peaks)) == 3 and f"{name} " + " ".join(peaks) + f" {unit}" in shown, f"{name}: {peaks}: {shown}")
 
 
 def groups():

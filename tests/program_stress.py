@@ -133,7 +133,7 @@ def loads():
     block(.1, .05)
     found = stresses("loads", Loads__Combination="all", Loads__Combinations="all: water 1.5, silt 2, tail water 0.5, temperature, uplift 0.8",
                      Reservoir__Density=1000, Reservoir__Water_level=52, Loads__Silt__Level=37, Loads__Silt__Density=900,
-                     Loads__Silt__Coefficient=.4, Loads__Tail_water__Level=28, Loads__Uplift__Joints="true",
+                     Loads__Silt__Coefficient=.4, Loads__Tail_water__Level=28, Loads__Tail_water__Density=1200, Loads__Uplift__Joints="true",
                      Loads__Temperature__Upstream_face=-30, Loads__Temperature__Downstream_face=-30)
     of = lambda density, level, z: density * GRAVITY * max(0, level - z)
     worst, n = dict.fromkeys(("upstream", "downstream", "joint"), 0), dict.fromkeys(("upstream", "downstream", "joint"), 0)
@@ -141,7 +141,7 @@ def loads():
         x, y, z = (c / 100 for c in place)
         if z < 1:  # held
             continue
-        water, silt, tail = of(1500, 52, z), of(1800, 37, z), of(500, 28, z)
+        water, silt, tail = of(1500, 52, z), of(1800, 37, z), of(600, 28, z)
         cases = [("upstream", abs(x - .1 * z) < .02, (-1, 0, .1), (water + .4 * silt, 0, -.1 * (water + silt))),
                  ("downstream", abs(x - 10 + .05 * z) < .02, (1, 0, .05), (-tail, 0, -.05 * tail)),
                  ("joint", y == 0, (0, 1, 0), (0, -.8 * water, 0))]
