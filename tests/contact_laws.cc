@@ -278,7 +278,7 @@ namespace
         const Vector3       v = random_vector(1.);
         const bool          has_keys = l.name.find("KSM") == 0;
         const unsigned char touching = has_keys ? trial % 8 : trial % 2;
-        const Vector3       I = l.law->solve_impulse(H, v, touching), after = plus(v, H * I);
+        const Vector3       I = l.law->solve_impulse(H, v, {}, touching), after = plus(v, H * I);
         const double        size = norm(I) * (norm(v) + norm(after));
         gain = std::max(gain, .5 * dot(I, plus(v, after)) / (1e-300 + size));
         if ((touching & 1) && has_keys && after[0] < -1e-10)
@@ -287,7 +287,7 @@ namespace
           approach = std::max(approach, -after[0]);
         if (l.law->is_tangentially_tied())
           continue;
-        const Vector3 spent = l.law->solve_impulse(H, random_vector(1.), touching);
+        const Vector3 spent = l.law->solve_impulse(H, random_vector(1.), {}, touching);
         const Vector3 f = l.law->stop_normal(H, v, spent, touching) - spent;
         gain_stop = std::max(gain_stop, .5 * dot(f, plus(v, plus(v, H * f))) / (1e-300 + norm(f) * norm(v)));
       }
@@ -416,8 +416,9 @@ namespace
         const Matrix3 H = random_flexibility();
         const Vector3 f = flat->solve(H, gap, start);
         solution = std::max(solution, norm(law->solve(H, gap, start) - f) / (1. + norm(f)));
-        impulse = std::max(impulse, norm(law->solve_impulse(H, gap, 1) - flat->solve_impulse(H, gap, 1)) /
-                                        (1. + norm(f)));
+        impulse =
+            std::max(impulse, norm(law->solve_impulse(H, gap, {}, 1) - flat->solve_impulse(H, gap, {}, 1)) /
+                                  (1. + norm(f)));
       }
     }
     below("keys of no height against FJA: equations and Jacobian", worst, 1e-14);

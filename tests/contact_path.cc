@@ -34,9 +34,10 @@ namespace
     {
       return law->solve(H, b, past);
     }
-    Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const unsigned char touching) const override
+    Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &past,
+                          const unsigned char touching) const override
     {
-      return law->solve_impulse(H, v, touching);
+      return law->solve_impulse(H, v, past, touching);
     }
 
   private:

@@ -11,6 +11,8 @@
 
 #include "column.h"
 
+#include <voussoir/base/error.h>
+
 using namespace Columns;
 
 namespace
@@ -109,9 +111,105 @@ namespace
     below("circle, 50 nm against 50 mm: difference of the velocity", small.velocity - large.velocity, 1e-9);
     report_energy("circle of 50 nm");
   }
+
+  /** Coulomb's law with the friction .8, and .2 once the pair has slid under compression. */
+  class Wearing : public JointLaw
+  {
+  public:
+    static constexpr double fresh = .8, worn = .2;
+
+    void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
+                  PairEquations &e) const override
+    {
+      law(past).evaluate(force, gap, past, rho, e);
+    }
+    Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &past,
+                  const double rho) const override
+    {
+      return law(past).error(force, gap, past, rho);
+    }
+    Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const override
+    {
+      return law(past).solve(H, b, past);
+    }
+    Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &past,
+                          const unsigned char touching) const override
+    {
+      return law(past).solve_impulse(H, v, past, touching);
+    }
+    unsigned int n_memory() const override { return 1; }
+    void commit(const Vector3 &force, const Vector3 &gap, const PairPast &past, double *memory) const override
+    {
+      if (force[0] > 0. && std::hypot(gap[1] - past.start[1], gap[2] - past.start[2]) > 1e-6)
+        memory[0] = 1.;
+    }
+
+  private:
+    const JointLaw &law(const PairPast &past) const { return past.memory[0] == 0. ? *faces[0] : *faces[1]; }
+
+    const std::unique_ptr<JointLaw> faces[2] = {make_joint_law("FJA", fresh), make_joint_law("FJA", worn)};
+  };
+
+  /** A law of one's own that needs the means of a step: the message does not name another law. */
+  void test_law_that_needs_means()
+  {
+    struct Needing : Wearing
+    {
+      bool needs_mean_force() const override { return true; }
+    };
+    Column column = make_column({bar(0., 1., 1, 1e-9, 1.)}, nullptr, true);
+    column.structure.pairs.push_back(wall(column.node[0][0]));
+    column.structure.collect_interfaces();
+    const Needing law;
+    JointLaws     laws;
+    laws.add(&law, 1.);
+    Newmark(column.structure, laws, tight(), .01, ImpactRule::mean_force);
+    std::string message;
+    try
+    {
+      Newmark(column.structure, laws, tight(), .01, ImpactRule::impulse_consistent);
+    }
+    catch (const InputError &error)
+    {
+      message = error.what();
+    }
+    report("a law that needs the rule mean-force: " + message, 0., "-",
+           message.find("mean-force (Dynamics/Impact)") != std::string::npos &&
+               message.find("cohesive") == std::string::npos);
+  }
+
+  /** A block of 1 kg is thrown at a wall with 1 m/s normal to it and 2 m/s along it, and loses the friction
+   *  times 1 m/s: that of its history before the step of the impact. */
+  void test_history_at_impact()
+  {
+    Column column = make_column({bar(0., 1., 1, 1e-9, 1.)}, nullptr, true);
+    column.structure.pairs.push_back(wall(column.node[0][0]));
+    column.structure.collect_interfaces();
+    const Wearing law;
+    JointLaws     laws;
+    laws.add(&law, column.structure.pairs[0].area);
+    for (const ImpactRule rule : {ImpactRule::mean_force, ImpactRule::impulse_consistent})
+    {
+      Unknowns memory = laws.initial_memory();
+      for (const double friction : {Wearing::fresh, Wearing::worn})
+      {
+        Newmark newmark(column.structure, laws, tight(), .01, rule);
+        newmark.start({.0234, 0., 0.}, {-1., 2., 0.}, {0., 0., 0.}, {0., 0., 0.}, {0., 0., 0.}, memory);
+        for (unsigned int i = 0; i < 6; ++i)
+          newmark.advance({0., 0., 0.});
+        const Unknowns &v = newmark.state().v;
+        below("impact with friction " + text(friction) + ": normal velocity", v[0], 1e-12);
+        below("  velocity along the wall - exact", v[1] - (2. - friction), 1e-12);
+        memory = newmark.state().memory;
+        report("  worn after it", memory[0], "1", memory[0] == 1.);
+      }
+    }
+  }
 } // namespace
 
 int main(int argc, char **argv)
 {
-  return run_all({test_circle, test_changing_pressure, test_small_circle}, argc, argv);
+  return run_all({test_circle, test_changing_pressure, test_small_circle, test_history_at_impact,
+                  test_law_that_needs_means},
+                 argc, argv);
 }

@@ -62,7 +62,10 @@ namespace
     {
       throw ComputationError("this pair has no solution");
     }
-    Vector3 solve_impulse(const Matrix3 &, const Vector3 &, unsigned char) const override { return {}; }
+    Vector3 solve_impulse(const Matrix3 &, const Vector3 &, const PairPast &, unsigned char) const override
+    {
+      return {};
+    }
   };
 
   void in_the_joint_solver()

@@ -125,9 +125,10 @@ namespace Voussoir
         return {{-tension(high), 0., 0.}};
       }
 
-      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const unsigned char touching) const override
+      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &past,
+                            const unsigned char touching) const override
       {
-        return touching & bond_bit ? tie->solve_impulse(H, v, touching) : face->solve_impulse(H, v, touching);
+        return (touching & bond_bit ? tie : face)->solve_impulse(H, v, past, touching);
       }
 
       Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
@@ -136,7 +137,7 @@ namespace Voussoir
         if (!(touching & bond_bit))
           return face->stop_normal(H, v, spent, touching);
         Vector3 held = spent;
-        add(held, tie->solve_impulse(H, v, touching));
+        add(held, tie->solve_impulse(H, v, {}, touching));
         return held;
       }
 

@@ -32,17 +32,18 @@ namespace Voussoir
         return solve_coulomb(H, {{b[0], b[1] - past.start[1], b[2] - past.start[2]}}, mu);
       }
 
-      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const unsigned char touching) const override
+      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &,
+                            const unsigned char touching) const override
       {
         return touching ? solve_coulomb(H, v, mu) : Vector3{};
       }
 
       Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &w, const double still,
-                                 const unsigned char touching) const override
+                                 const PairPast &past, const unsigned char touching) const override
       {
         const double speed = length(w[1], w[2]);
         if (speed <= still || !touching)
-          return solve_impulse(H, b, touching);
+          return solve_impulse(H, b, past, touching);
         const double e1 = w[1] / speed, e2 = w[2] / speed, h = H[0] - mu * (H[1] * e1 + H[2] * e2);
         const double normal = h > 0. ? std::max(0., -b[0] / h) : std::max(0., -b[0] / H[0]);
         return {{normal, -mu * normal * e1, -mu * normal * e2}};

@@ -37,9 +37,10 @@ namespace Voussoir
         const Vector3 f = tie_rows(H, b, all);
         return f[0] > 0. ? f : tie_rows(H, b, tangential);
       }
-      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const unsigned char touching) const override
+      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &past,
+                            const unsigned char touching) const override
       {
-        return touching ? solve(H, v, {}) : tie_rows(H, v, tangential);
+        return touching ? solve(H, v, past) : tie_rows(H, v, tangential);
       }
       bool is_tangentially_tied() const override { return true; }
 

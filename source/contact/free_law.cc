@@ -18,7 +18,10 @@ namespace Voussoir
         e.state = PairState::open;
       }
       Vector3 solve(const Matrix3 &, const Vector3 &, const PairPast &) const override { return {}; }
-      Vector3 solve_impulse(const Matrix3 &, const Vector3 &, unsigned char) const override { return {}; }
+      Vector3 solve_impulse(const Matrix3 &, const Vector3 &, const PairPast &, unsigned char) const override
+      {
+        return {};
+      }
     };
   } // namespace
 

@@ -21,8 +21,8 @@ namespace Voussoir
   }
 
   Vector3 JointLaw::solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &, double,
-                                       const unsigned char touching) const
+                                       const PairPast &past, const unsigned char touching) const
   {
-    return solve_impulse(H, b, touching);
+    return solve_impulse(H, b, past, touching);
   }
 } // namespace Voussoir

@@ -138,7 +138,8 @@ namespace Voussoir
     return result;
   }
 
-  Vector3 SurfacesLaw::solve_impulse(const Matrix3 &H, const Vector3 &v, const unsigned char touching) const
+  Vector3 SurfacesLaw::solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &,
+                                     const unsigned char touching) const
   {
     return touching ? solve_surfaces(touching_surfaces(touching, false), H, v) : Vector3{};
   }
@@ -155,9 +156,10 @@ namespace Voussoir
   }
 
   Vector3 SurfacesLaw::solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
-                                          const double still, const unsigned char touching) const
+                                          const double still, const PairPast &past,
+                                          const unsigned char touching) const
   {
-    return touching == 1 ? face->solve_acceleration(H, b, slip_velocity, still, touching)
-                         : solve_impulse(H, b, touching);
+    return touching == 1 ? face->solve_acceleration(H, b, slip_velocity, still, past, touching)
+                         : solve_impulse(H, b, past, touching);
   }
 } // namespace Voussoir

@@ -24,7 +24,8 @@ namespace Voussoir
       {
         return tie_rows(H, b, {{true, true, true}});
       }
-      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, unsigned char) const override
+      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &,
+                            unsigned char) const override
       {
         return tie_rows(H, v, {{true, true, true}});
       }

@@ -80,15 +80,16 @@ namespace Voussoir
       }
   }
 
-  void Impact::correct_velocity(const JointSystem &system, const double dt, const Unknowns &change,
-                                Unknowns &v, Unknowns &impulse) const
+  void Impact::correct_velocity(const JointSystem &system, const std::vector<PairPast> &pasts,
+                                const double dt, const Unknowns &change, Unknowns &v, Unknowns &impulse) const
   {
     for_each_in_chunks(structure.pairs.size(), // no node is in two of them
-                       [&](const std::size_t p) { correct_pair(system, dt, p, change, v, impulse); });
+                       [&](const std::size_t p)
+                       { correct_pair(system, pasts[p], dt, p, change, v, impulse); });
   }
 
-  void Impact::correct_pair(const JointSystem &system, const double dt, const std::size_t p,
-                            const Unknowns &change, Unknowns &v, Unknowns &impulse) const
+  void Impact::correct_pair(const JointSystem &system, const PairPast &past, const double dt,
+                            const std::size_t p, const Unknowns &change, Unknowns &v, Unknowns &impulse) const
   {
     const Pair     &pair = structure.pairs[p];
     const JointLaw &law = *laws.of_pair[p];
@@ -117,7 +118,7 @@ namespace Voussoir
     }
     // The velocity without any joint force of this step, then the impulse that the law allows.
     const Vector3 lost = pair_inverse[p] * spent;
-    Vector3       allowed = law.solve_impulse(pair_inverse[p], jump - lost, system.touching()[p]);
+    Vector3       allowed = law.solve_impulse(pair_inverse[p], jump - lost, past, system.touching()[p]);
     if (rule == ImpactRule::mean_force && !law.is_tangentially_tied())
     {
       // Where loads tear at a pair more than it strikes, returning the friction of the step could give more
@@ -136,8 +137,8 @@ namespace Voussoir
     set(impulse, p, allowed);
   }
 
-  Unknowns Impact::end_force(const JointSystem &system, const Unknowns &force, const Unknowns &v,
-                             const Unknowns &nodal_force) const
+  Unknowns Impact::end_force(const JointSystem &system, const std::vector<PairPast> &pasts,
+                             const Unknowns &force, const Unknowns &v, const Unknowns &nodal_force) const
   {
     Unknowns a(nodal_force.size()), result(force.size(), 0.);
     for (std::size_t i = 0; i < structure.n_nodes(); ++i)
@@ -168,7 +169,7 @@ namespace Voussoir
       else if (closed || law.is_tangentially_tied())
       {
         const Vector3 f = law.solve_acceleration(pair_inverse[p], jump, structure.jump(pair, v), still,
-                                                 system.touching()[p]);
+                                                 pasts[p], system.touching()[p]);
         add_kick(pair, f, a);
         set(result, p, f);
       }

@@ -172,9 +172,10 @@ namespace Voussoir
     move(dt, load, base_velocity, u_new, left, work);
     if (!std::isfinite(work.input))
       throw ComputationError("The displacements are not finite at t = " + std::to_string(now.time) + " s.");
-    const double kinetic_before = kinetic_energy_of_pairs();
+    const double                kinetic_before = kinetic_energy_of_pairs();
+    const std::vector<PairPast> pasts = level.system.pasts(step_start, step_memory);
     if (rule != ImpactRule::none)
-      impact.correct_velocity(level.system, dt, change, now.v, impulse);
+      impact.correct_velocity(level.system, pasts, dt, change, now.v, impulse);
     account(work, kinetic_before);
 
     if (rule == ImpactRule::mean_force)
@@ -183,7 +184,7 @@ namespace Voussoir
     else if (rule == ImpactRule::none || structure.pairs.empty())
       now.force = force;
     else
-      now.force = impact.end_force(level.system, force, now.v, force_without_joints());
+      now.force = impact.end_force(level.system, pasts, force, now.v, force_without_joints());
     return true;
   }
 
@@ -262,8 +263,10 @@ namespace Voussoir
     if (result.converged)
     {
       of_friction = level.system.friction_correction(start, force, gap, memory);
+      step_memory = memory;
       level.system.commit(start, force, gap, memory);
       now.memory.swap(memory);
+      step_start.swap(start);
     }
     return result;
   }

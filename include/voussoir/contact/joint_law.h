@@ -70,8 +70,9 @@ namespace Voussoir
     virtual Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const = 0;
 
     /** The impulse [N s] that the law allows when the velocity without it is @p v [m/s] and the surfaces
-     *  @p touching touch; @p H: inverse mass [1/kg]. */
-    virtual Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, unsigned char touching) const = 0;
+     *  @p touching touch; @p H: inverse mass [1/kg]; @p past: the same as in the equations of the step. */
+    virtual Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &past,
+                                  unsigned char touching) const = 0;
 
     /** As solve_impulse(), but the impulse @p spent stays, and only the velocity @p v normal to the touching
      *  surfaces is removed: never gives energy. */
@@ -81,7 +82,7 @@ namespace Voussoir
     /** The contact force that goes with the acceleration @p b, given the velocity @p slip_velocity of side 2.
      */
     virtual Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
-                                       double still, unsigned char touching) const;
+                                       double still, const PairPast &past, unsigned char touching) const;
 
     /** Are the tangential conditions those of a tie, whether the faces touch or not? */
     virtual bool is_tangentially_tied() const { return false; }

@@ -39,11 +39,12 @@ namespace Voussoir
     void    evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, double rho,
                      PairEquations &equations) const override;
     Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const override;
-    Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, unsigned char touching) const override;
+    Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &past,
+                          unsigned char touching) const override;
     Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
                         unsigned char touching) const override;
     Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity, double still,
-                               unsigned char touching) const override;
+                               const PairPast &past, unsigned char touching) const override;
 
   private:
     /** Forces of the surfaces beside the face that go with a solution, 3 per surface [N]. */

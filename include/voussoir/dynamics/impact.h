@@ -30,20 +30,21 @@ namespace Voussoir
     /** Throws InputError where a node belongs to two pairs. */
     Impact(const Structure &structure, const JointLaws &laws, ImpactRule rule);
 
-    /** @p system has solved the step, in which the jumps have changed by @p change, 3 per pair [m]. Corrects
-     *  the velocity @p v at its end and the impulses of its joint forces, 3 per pair [N s]. */
-    void correct_velocity(const JointSystem &system, double dt, const Unknowns &change, Unknowns &v,
-                          Unknowns &impulse) const;
+    /** @p system has solved the step, in which the jumps have changed by @p change, 3 per pair [m]; @p pasts:
+     *  those of the pairs in its equations. Corrects the velocity @p v at its end and the impulses of its
+     *  joint forces, 3 per pair [N s]. */
+    void correct_velocity(const JointSystem &system, const std::vector<PairPast> &pasts, double dt,
+                          const Unknowns &change, Unknowns &v, Unknowns &impulse) const;
 
     /** The joint forces at the end of the step, 3 per pair [N], from the accelerations there, for the rules
      *  that need them. @p force: those of the displacements, 3 per pair; @p v: the corrected velocity; @p
      *  nodal_force: all forces on the nodes but the joints', 3 per node [N]. */
-    Unknowns end_force(const JointSystem &system, const Unknowns &force, const Unknowns &v,
-                       const Unknowns &nodal_force) const;
+    Unknowns end_force(const JointSystem &system, const std::vector<PairPast> &pasts, const Unknowns &force,
+                       const Unknowns &v, const Unknowns &nodal_force) const;
 
   private:
-    void correct_pair(const JointSystem &system, double dt, std::size_t p, const Unknowns &change,
-                      Unknowns &v, Unknowns &impulse) const;
+    void correct_pair(const JointSystem &system, const PairPast &past, double dt, std::size_t p,
+                      const Unknowns &change, Unknowns &v, Unknowns &impulse) const;
     /** v += M^-1 G^T f of one pair. */
     void add_kick(const Pair &pair, const Vector3 &f, Unknowns &v) const;
 

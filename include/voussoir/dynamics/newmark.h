@@ -130,18 +130,19 @@ namespace Voussoir
     JointEnergy   joint_energy() const;
     void          account_states();
 
-    const Structure                    &structure;
-    const JointLaws                    &laws;
-    const ContactParameters             parameters;
-    const ImpactRule                    rule;
-    Support *const                      support;
-    const bool                          is_single; ///< are the factors in single precision?
-    Impact                              impact;
-    Unknowns                            reference, impulse, gap;
-    DynamicState                        now;
-    Energy                              first; ///< at the start
-    double                              largest = 0.;
-    double                              of_friction = 0.; ///< JointSystem::friction_correction()
+    const Structure        &structure;
+    const JointLaws        &laws;
+    const ContactParameters parameters;
+    const ImpactRule        rule;
+    Support *const          support;
+    const bool              is_single; ///< are the factors in single precision?
+    Impact                  impact;
+    Unknowns                reference, impulse, gap;
+    Unknowns                step_start, step_memory; ///< of the pairs, in the equations of the last step [m]
+    DynamicState            now;
+    Energy                  first; ///< at the start
+    double                  largest = 0.;
+    double                  of_friction = 0.;           ///< JointSystem::friction_correction()
     std::vector<std::unique_ptr<Level>> levels;         ///< by number of halvings; made when they are needed
     unsigned int                        last_level = 0; ///< of the last step, or its last part
   };

@@ -52,6 +52,12 @@ namespace Voussoir
       return solve(load, offset, start, none, force, gap, u);
     }
 
+    /** What the equations of a step from @p start see of the pairs; points into @p memory. */
+    std::vector<PairPast> pasts(const Unknowns &start, const Unknowns &memory) const
+    {
+      return laws.pasts(start, meaning, memory);
+    }
+
     /** The step from @p start with the solution @p force, @p gap is accepted: the laws bring the memory up to
      * date. */
     void commit(const Unknowns &start, const Unknowns &force, const Unknowns &gap, Unknowns &memory) const
