@@ -8,6 +8,7 @@
 #include <voussoir/app/scene_warnings.h>
 #include <voussoir/base/nearest_name.h>
 #include <voussoir/base/units.h>
+#include <voussoir/contact/law_table.h>
 
 #include <fstream>
 
@@ -153,6 +154,36 @@ namespace
     return scene.warnings;
   }
 
+  /** A scene and the parts of each warning that it has, in any order of the warnings. */
+  struct Warned
+  {
+    std::string              scene;
+    std::vector<std::string> first = {}, second = {};
+  };
+
+  void expect_warnings(const std::vector<Warned> &cases)
+  {
+    for (const Warned &c : cases)
+    {
+      const std::vector<std::string> warnings = warnings_of(c.scene);
+      std::string                    all;
+      for (const std::string &warning : warnings)
+        all += warning + "\n";
+      expect(warnings.size() == std::size_t(!c.first.empty()) + !c.second.empty(),
+             std::to_string(warnings.size()) + " warnings of\n" + c.scene + all);
+      for (const auto &parts : {c.first, c.second})
+        expect(parts.empty() ||
+                   std::any_of(warnings.begin(), warnings.end(),
+                               [&](const std::string &warning)
+                               {
+                                 return std::all_of(parts.begin(), parts.end(),
+                                                    [&](const std::string &part)
+                                                    { return warning.find(part) != std::string::npos; });
+                               }),
+               "'" + (parts.empty() ? "" : parts[0]) + "' ... is missing in\n" + all);
+    }
+  }
+
   void test_warnings()
   {
     dealii::ParameterHandler prm;
@@ -171,7 +202,7 @@ namespace
     prm.print_parameters(all, dealii::ParameterHandler::PRM);
     expect(warnings_of(all.str()).empty(), "the defaults are warned of");
 
-    const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
+    const std::vector<Warned> cases = {
         {"subsection Joints\nset Friction = 0.5\nset Model = FJB\nend\n",
          {"Joints/Friction (warnings.prm, line 2) has no effect", "FJB"}},
         {"subsection Joints\nset Friction = 0.5\nset Model = tied\nend\n", {"Joints/Friction", "tied"}},
@@ -214,15 +245,156 @@ namespace
          "odd\nend\n",
          {"Loads/Combination is odd, with water -1:"}},
         {"subsection Reservoir\nset Water level = 150000\nend\n", {"Reservoir/Water level"}}};
-    for (const auto &c : cases)
+    expect_warnings(cases);
+  }
+
+  /** Zones and tables have the usual ranges of the entries, where they are used. */
+  void test_sources()
+  {
+    std::ofstream("kelvin.csv") << "day,upstream,downstream\n0,283,290\n100,288,21\n200,5,6\n";
+    const auto zone = [](const std::string &section, const std::string &text)
+    { return "subsection " + section + "\nset Zones = heel: " + text + "\nend\n"; };
+    const auto rock = [&](const std::string &model, const std::string &text)
+    { return "subsection Foundation\nset Model = " + model + "\nset Zones = fault: " + text + "\nend\n"; };
+    const auto table = [](const std::string &day, const std::string &more)
     {
-      const std::vector<std::string> warnings = warnings_of(c.first);
-      expect(warnings.size() == (c.second.empty() ? 0 : 1), std::to_string(warnings.size()) +
-                                                                " warnings of\n" + c.first +
-                                                                (warnings.empty() ? "" : warnings[0]));
-      for (const std::string &part : c.second)
-        expect(warnings[0].find(part) != std::string::npos, "'" + part + "' is missing in: " + warnings[0]);
-    }
+      return "subsection Loads\nsubsection Temperature\nset Table = kelvin.csv\nset Day = " + day +
+             "\nend\n" + more + "end\n";
+    };
+    expect_warnings({
+        {zone("Concrete", "28 0.2 2400"),
+         {"Concrete/Zones: zone heel, Young's modulus is 28 Pa", "5e+09 to 6e+10 Pa", "21 GPa"}},
+        {zone("Concrete", "280 GPa 0.2 2400"), {"2.8e+11 Pa"}},
+        {zone("Concrete", "28 GPa 0.2 24.5"), {"the density is 24.5 kg/m^3", "1800 to 3000"}},
+        {zone("Concrete", "28 GPa 0.45 2400"), {"Poisson's ratio is 0.45:", "0.1 to 0.3"}},
+        {zone("Concrete", "28 GPa 0.2 2450"), {}},
+        {rock("rock", "2e11 0.2 2700"), {"Foundation/Zones: zone fault, Young's modulus", "2e+11 Pa"}},
+        {rock("rock", "2e10 0.2 27"), {"the density is 27 kg/m^3"}},
+        {rock("massless", "2e10 0.2 27"), {}}, // is not used
+        {table("200", ""), {}},
+        {table("50", "subsection Silt\nend\n"),
+         {"Loads/Temperature/Table (kelvin.csv): Upstream face on day 50 is 285.5 degC", "-40 to 50 degC",
+          "273.15"},
+         {"Downstream face on day 50 is 155.5 degC: usual is -40 to 60 degC."}},
+        {table("200", "end\nsubsection Statics\nset Stages = day 0, day 100, day 200\n"),
+         {"Upstream face on day 100 is 288 degC"},
+         {"Downstream face on day 0 is 290 degC"}},
+        {table("50", "set Combination = cold\nset Combinations = cold: weight\n"), {}}, // is not used
+        {table("900", ""), {}},                                                         // an error later
+    });
+  }
+
+  /** Entries that are plausible one by one. */
+  void test_relations()
+  {
+    const std::string
+        loads = "subsection Loads\n",
+        end = "end\n",
+        named = "set Combination = flood\nset Combinations = flood: weight, water, silt, crest line\n";
+    const auto level = [&](const std::string &load, const std::string &z, const std::string &more = "")
+    { return loads + "subsection " + load + "\nset Level = " + z + "\n" + more + end + end; };
+    const auto keys = [](const std::string &angle)
+    {
+      return "subsection Joints\nset Model = KSM\nset Friction = 0.4\nsubsection Keys\nset Flank angle = " +
+             angle + "\nend\nend\n";
+    };
+    expect_warnings({
+        {level("Tail water", "50"), {}},
+        {level("Tail water", "195"), {}},
+        {level("Tail water", "200"),
+         {"Loads/Tail water/Level is 200 m, above the reservoir (Reservoir/Water level is 195 m)"}},
+        {level("Tail water", "200") + "subsection Reservoir\nset Density = 0\nend\n", {}},
+        {level("Tail water", "50", "set Density = 10\n"),
+         {"Loads/Tail water/Density (warnings.prm, line 4) is 10 kg/m^3"}},
+        {level("Silt", "60"), {}},
+        {level("Silt", "196"), {"Loads/Silt/Level is 196 m, above the reservoir", "under water"}},
+        {loads + named + end,
+         {"flood names loads that the scene does not have: silt, crest line", "Loads/Silt/Level",
+          "Loads/Crest line"}},
+        {loads + "set Crest line = 0 0 -1e4\n" + named + "subsection Silt\nset Level = 60\nend\n" + end, {}},
+        {loads + "set Combination = extreme\n" + end, {}},
+        {keys("0.5"), {"Joints/Keys/Flank angle", "0.5 degrees: usual is 10 to 80 degrees", "0.5 rad"}},
+        {keys("0"), {}},
+        {keys("45"), {}},
+    });
+  }
+
+  /** Of the values in a file the last one holds; an included file may be overridden. */
+  void test_twice()
+  {
+    std::ofstream("included.prm") << "subsection Joints\nset Friction = 0.7\nend\n";
+    const std::string other = "subsection Joints\nset Friction = 0.6\nend\n";
+    expect_warnings({
+        {other + "subsection Joints\nset Friction = 0.5\nend\n",
+         {"Joints/Friction is in the file twice, warnings.prm, line 2 and warnings.prm, line 5", "0.5"}},
+        {"include included.prm\n" + other, {}},
+        {"include included.prm\ninclude included.prm\n", {}},
+    });
+    std::ofstream("double.prm") << "include included.prm\n" << other << other;
+    expect_warnings(
+        {{"include double.prm\n" + other, {"Joints/Friction is in the file twice, double.prm, line 3"}}});
+    dealii::ParameterHandler prm;
+    Scene                    scene;
+    read_scene("included.prm", {"Joints/Friction=0.5", "Joints/Friction=0.4"}, scene, prm);
+    expect(scene.warnings.empty() && scene.joints.friction == .4, "twice by --set");
+  }
+
+  /** A law that is in no table may use any entry of the joints. */
+  void test_own_law()
+  {
+    dealii::ParameterHandler prm;
+    Scene                    scene;
+    scene.add_parameters(prm);
+    std::vector<WrittenEntry> entries;
+    for (const DeclaredEntry &declared : declared_entries(prm))
+      if (declared.name() == "Joints/Friction" || declared.name() == "Joints/Keys/Height")
+        entries.push_back({declared, "0.5", "a.prm, line 1"});
+    scene.joints.model = "grooved";
+    expect(scene_warnings(scene, entries).empty(),
+           "an entry of a law of one's own is said to have no effect");
+    scene.joints.model = "FJB";
+    expect(scene_warnings(scene, entries).size() == 2, "two entries without effect, of different laws");
+    scene.joints.overrides[2] = "grooved";
+    expect(scene_warnings(scene, entries).empty(), "a law of one's own in one joint");
+  }
+
+  /** What the table of laws says that they read is what they read. */
+  void test_entries_of_laws()
+  {
+    const std::vector<std::pair<std::string, std::function<void(LawParameters &)>>> changes = {
+        {"Joints/Friction", [](LawParameters &p) { p.friction = .3; }},
+        {"Joints/Strength", [](LawParameters &p) { p.strength = 9e5; }},
+        {"Joints/Fracture energy", [](LawParameters &p) { p.fracture_energy = 9.; }},
+        {"Joints/Keys/Height", [](LawParameters &p) { p.keys.height = .05; }}};
+    LawParameters standard(.8);
+    standard.strength = 1e6;
+    standard.fracture_energy = 100.;
+    const auto forces = [](const std::string &name, const LawParameters &p)
+    {
+      const auto          law = make_joint_law(name, p);
+      const double        cracked[2] = {1., 2e-5};
+      std::vector<double> all;
+      for (const bool opens : {false, true})
+      {
+        PairPast past(Vector3{{opens ? .1 : 0., 0., 0.}});
+        past.memory = cracked;
+        const Matrix3 H = {{1e-9, 0., 0., 0., 1e-9, 0., 0., 0., 1e-9}};
+        for (const double normal : {-1e-4, 1e-4, .1})
+          for (const double f : law->solve(H, {{normal, 3e-4, 1e-4}}, past))
+            all.push_back(f);
+      }
+      return all;
+    };
+    for (const std::string name : {"tied", "FJA", "FJB", "KSM", "cohesive"})
+      for (const auto &[entry, change] : changes)
+      {
+        LawParameters other = standard;
+        change(other);
+        const bool differs = forces(name, other) != forces(name, standard);
+        expect(differs == joint_law_reads(name, entry), "the law " + name + " reads " + entry);
+        expect(differs == (joint_laws_with(entry).find(name) != std::string::npos),
+               "the law " + name + " is among those with " + entry);
+      }
   }
 } // namespace
 
@@ -231,5 +403,10 @@ int main()
   return run({{"units", test_units},
               {"patterns", test_patterns},
               {"nearest names", test_nearest},
-              {"warnings", test_warnings}});
+              {"warnings", test_warnings},
+              {"zones and tables", test_sources},
+              {"relations", test_relations},
+              {"entries twice", test_twice},
+              {"a law of one's own", test_own_law},
+              {"entries of laws", test_entries_of_laws}});
 }

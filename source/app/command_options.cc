@@ -34,7 +34,7 @@ namespace Voussoir
           {"--resume", "", "go on from the last checkpoint in the directory"},
           {"--overwrite", "", "replace what is in the directory"},
           {"--validate", "", "check scene, mesh and motion, print what would be run, and stop"},
-          {"--quiet", "", "print nothing but errors"}}},
+          {"--quiet", "", "print nothing but errors; with --validate: and warnings"}}},
         {"scene",
          "SCENE.prm",
          "The scene as it would be run, with what it includes and every default.",

@@ -22,9 +22,11 @@ namespace Voussoir
     /** A line "set a = b" with the subsections around it. */
     struct Entry
     {
-      std::vector<std::string> path; ///< subsections, then the entry
-      std::string              value;
-      std::string              place; ///< for messages
+      std::vector<std::string>     path; ///< subsections, then the entry
+      std::string                  value;
+      std::string                  place;            ///< for messages
+      std::size_t                  text = no_number; ///< number of the file that it is listed in; none: --set
+      static constexpr std::size_t no_number = -1;
     };
 
     std::string trimmed(const std::string &s)
@@ -42,11 +44,17 @@ namespace Voussoir
       return true;
     }
 
-    /** Not a directory, nor a pipe or a device, which may never end. */
-    bool is_text_file(const std::string &file)
+    /** Throws InputError with @p message for a file that cannot be read, and for a directory, a pipe or a
+     * device, which is not even opened: that may never end. */
+    std::ifstream opened(const std::string &file, const std::string &message)
     {
       std::error_code error;
-      return std::filesystem::is_regular_file(file, error);
+      std::ifstream   in;
+      if (std::filesystem::is_regular_file(file, error))
+        in.open(file);
+      if (!in.is_open())
+        throw InputError(message);
+      return in;
     }
 
     /** All entries of a .prm text. @p directory: of the file, for its includes. */
@@ -56,9 +64,9 @@ namespace Voussoir
     {
       if (files.size() > 1000)
         throw InputError(file + ": files include each other in a circle.");
+      const std::size_t text = files.size(), outer = section.size();
       files.push_back(file);
-      const std::size_t outer = section.size();
-      std::string       line, more, rest;
+      std::string line, more, rest;
       for (unsigned int number = 1; std::getline(in, line); ++number)
       {
         const std::string place = file + ", line " + std::to_string(number);
@@ -85,23 +93,22 @@ namespace Voussoir
         else if (starts_with(line, "include", rest))
         {
           const std::string included = (std::filesystem::path(directory) / rest).string();
-          std::ifstream     stream(included);
-          if (!stream || !is_text_file(included))
-            throw InputError(place + ": the included file " + included +
-                             " cannot be read. Paths of includes are relative to the including file.");
+          std::ifstream     stream =
+              opened(included, place + ": the included file " + included +
+                                   " cannot be read. Paths of includes are relative to the including file.");
           parse(stream, included, std::filesystem::path(included).parent_path().string(), entries, section,
                 files);
         }
         else if (starts_with(line, "set", rest) && rest.find('=') != std::string::npos)
         {
-          Entry entry{section, trimmed(rest.substr(rest.find('=') + 1)), place};
+          Entry entry{section, trimmed(rest.substr(rest.find('=') + 1)), place, text};
           entry.path.push_back(trimmed(rest.substr(0, rest.find('='))));
           entries.push_back(entry);
         }
         else
           throw InputError(
-              place + ": \"" + line +
-              "\" is none of: subsection NAME, end, set ENTRY = VALUE, include FILE, # comment.");
+              place + (text == 0 ? ": \"" + line + "\"" : ", an included file: the line") + // may be any file
+              " is none of: subsection NAME, end, set ENTRY = VALUE, include FILE, # comment.");
       }
       if (section.size() != outer)
         throw InputError(file + ": subsection \"" + section.back() + "\" is not closed. Add an \"end\".");
@@ -173,9 +180,8 @@ namespace Voussoir
     std::vector<Entry>               entries;
     std::vector<std::string>         section;
 
-    std::ifstream in(file);
-    if (!in || !is_text_file(file))
-      throw InputError("The scene file " + file + " cannot be read. Give the path of a .prm file.");
+    std::ifstream in =
+        opened(file, "The scene file " + file + " cannot be read. Give the path of a .prm file.");
     const std::filesystem::path path(file);
     scene.name = path.stem().string();
     scene.directory = path.parent_path().string();
@@ -193,12 +199,19 @@ namespace Voussoir
         entry.path.push_back(trimmed(part));
       entries.push_back(entry);
     }
-    std::map<std::string, WrittenEntry> written; // the last value holds
+    std::map<std::string, WrittenEntry>                        written; // the last value holds
+    std::map<std::pair<std::string, std::size_t>, std::string> places;  // of entry and text
+    std::vector<std::string>                                   twice;
     for (Entry &entry : entries)
     {
       const DeclaredEntry &declared = declaration(known, entry);
       apply(prm, declared, entry);
       written[declared.name()] = {declared, entry.value, entry.place};
+      std::string &before = places[{declared.name(), entry.text}];
+      if (!before.empty() && entry.text != Entry::no_number)
+        twice.push_back(declared.name() + " is in the file twice, " + before + " and " + entry.place +
+                        ": the last value holds, " + entry.value + ". Delete the other one.");
+      before = entry.place;
     }
     scene.check();
     std::vector<WrittenEntry> in_order;
@@ -206,5 +219,6 @@ namespace Voussoir
       if (const auto found = written.find(declared.name()); found != written.end())
         in_order.push_back(found->second);
     scene.warnings = scene_warnings(scene, in_order);
+    scene.warnings.insert(scene.warnings.end(), twice.begin(), twice.end());
   }
 } // namespace Voussoir

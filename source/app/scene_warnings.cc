@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/app/scene_relations.h>
 #include <voussoir/app/scene_warnings.h>
+#include <voussoir/contact/law_table.h>
 #include <voussoir/dam/dam.h>
-#include <voussoir/motion/motion_files.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +14,6 @@ namespace Voussoir
 {
   namespace
   {
-    bool any_joint(const Scene &scene, const std::vector<std::string> &models)
-    {
-      const auto is_one = [&](const std::string &model)
-      { return std::find(models.begin(), models.end(), model) != models.end(); };
-      const JointParameters &joints = scene.joints;
-      return is_one(joints.model) || std::any_of(joints.overrides.begin(), joints.overrides.end(),
-                                                 [&](const auto &joint) { return is_one(joint.second); });
-    }
-
     bool is_arch210(const Scene &scene)
     {
       return scene.mesh.source == "arch210";
@@ -126,20 +118,6 @@ namespace Voussoir
          all_tied,
          {"Joints/", "Loads/Uplift/Joints", "Contact/", "Dynamics/Impact"},
          {"Joints/Model", "Joints/Overrides"}},
-        {"no joint slides with friction: Joints/Model is FJB",
-         [](const Scene &s) {
-           return !any_joint(s, {"FJA", "KSM", "cohesive"});
-         },
-         {"Joints/Friction"},
-         {}},
-        {"no joint has the model KSM (Joints/Model, Joints/Overrides)",
-         [](const Scene &s) { return !any_joint(s, {"KSM"}); },
-         {"Joints/Keys/"},
-         {}},
-        {"no joint has the model cohesive (Joints/Model, Joints/Overrides)",
-         [](const Scene &s) { return !any_joint(s, {"cohesive"}); },
-         {"Joints/Strength", "Joints/Fracture energy"},
-         {}},
         {"Contact/Write problems is false",
          [](const Scene &s) { return !s.contact.write_problems; },
          {"Contact/Write interval"},
@@ -206,7 +184,7 @@ namespace Voussoir
       return numbers ? a == b : value == standard;
     }
 
-    std::string without_effect(const std::vector<const WrittenEntry *> &entries, const char *reason)
+    std::string without_effect(const std::vector<const WrittenEntry *> &entries, const std::string &reason)
     {
       std::string text;
       for (const WrittenEntry *entry : entries)
@@ -214,103 +192,47 @@ namespace Voussoir
       return text + (entries.size() == 1 ? " has" : " have") + " no effect: " + reason + ".";
     }
 
-    /** Keys for which Coulomb's law itself has two branches (reference: contact, 12). */
-    std::string two_branches(const Scene &scene)
+    /** Why the entry has no effect; empty if it has one. */
+    std::string why_idle(const Scene &scene, const std::string &name)
     {
-      const KeyParameters &keys = scene.joints.keys;
-      const double         face = scene.joints.friction, flank = keys.friction < 0. ? face : keys.friction,
-                   degree = std::acos(-1.) / 180.,
-                   needed = 90. - keys.flank_angle + std::atan(flank) / degree;
-      if (!any_joint(scene, {"KSM"}) || keys.height == 0. || needed >= 90. ||
-          face <= std::tan(needed * degree))
-        return "";
-      std::ostringstream text;
-      text << "Joints/Friction " << face << " beside flanks of " << keys.flank_angle
-           << " degrees with friction " << flank << " (Joints/Keys): above " << std::tan(needed * degree)
-           << " Coulomb's law has two solutions, a key that stays before its flank and one that rides on it, "
-              "and which is found is not determined. Give the flanks the friction of the faces "
-              "(Joints/Keys/Friction = -1), or a smaller angle.";
-      return text.str();
-    }
-    /** The last stage has the temperatures of Loads/Temperature/Day, whatever day the stages end with. */
-    std::string other_day(const Scene &scene)
-    {
-      const TemperatureParameters   &temperature = scene.loads.temperature;
-      const std::vector<StaticStage> stages = static_stages(scene.statics.stages);
-      const auto                     last = std::find_if(stages.rbegin(), stages.rend(),
-                                                         [](const StaticStage &s) { return s.kind == StaticStage::Kind::day; });
-      if (last == stages.rend() || temperature.table.empty() || last->value == temperature.day)
-        return "";
-      std::ostringstream text;
-      text << "Statics/Stages ends with day " << last->value
-           << ", but its last stage always goes to the temperatures of Loads/Temperature/Day, which is "
-           << temperature.day << ". Set that to " << last->value << ", if it is the day of the earthquake.";
-      return text.str();
-    }
-
-    std::string odd_factors(const LoadParameters &loads)
-    {
-      std::ostringstream text;
-      for (const char *load : {"weight", "water", "tail water", "silt", "uplift"}) // others may be reversed
-        if (const double factor = loads.factor(load); factor < 0. || factor > 5.)
-          text << (text.tellp() > 0 ? ", " : "") << load << ' ' << factor;
-      if (text.tellp() == 0)
-        return "";
-      return "Loads/Combination is " + loads.combination + ", with " + text.str() +
-             ": usual are factors of 0 to 5.";
-    }
-
-    bool is_written(const std::vector<WrittenEntry> &entries, const std::string &name)
-    {
-      return std::any_of(entries.begin(), entries.end(),
-                         [&](const WrittenEntry &entry) { return entry.declared.name() == name; });
+      for (const Rule &rule : rules)
+        if (names(rule.entries, name) && !names(rule.exceptions, name) && rule.holds(scene))
+          return rule.reason;
+      const std::string laws = joint_laws_with(name);
+      return laws.empty() || scene.joints.any_reads(name)
+                 ? ""
+                 : "only joints with the model " + laws + " use it, and Joints/Model is " +
+                       scene.joints.model;
     }
   } // namespace
 
   std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<WrittenEntry> &entries)
   {
-    std::vector<std::string>                       warnings;
-    std::vector<std::vector<const WrittenEntry *>> idle(rules.size());
+    std::vector<std::string>                                               warnings;
+    std::vector<std::pair<std::string, std::vector<const WrittenEntry *>>> idle; // by reason
+    std::vector<UsedValue>                                                 values = values_of_sources(scene);
     for (const WrittenEntry &entry : entries)
     {
       if (is_default(entry))
         continue;
-      const std::string name = entry.declared.name();
-      const auto        rule =
-          std::find_if(rules.begin(), rules.end(),
-                       [&](const Rule &r)
-                       { return names(r.entries, name) && !names(r.exceptions, name) && r.holds(scene); });
-      if (rule != rules.end())
-        idle[rule - rules.begin()].push_back(&entry);
-      else if (const std::string warning = implausible(entry); !warning.empty())
-        warnings.push_back(warning);
+      const std::string reason = why_idle(scene, entry.declared.name());
+      if (reason.empty())
+      {
+        values.push_back(used_value(entry));
+        continue;
+      }
+      auto same = std::find_if(idle.begin(), idle.end(), [&](const auto &i) { return i.first == reason; });
+      if (same == idle.end())
+        same = idle.insert(idle.end(), {reason, {}});
+      same->second.push_back(&entry);
     }
-    for (std::size_t r = 0; r < rules.size(); ++r)
-      if (!idle[r].empty())
-        warnings.push_back(without_effect(idle[r], rules[r].reason));
-    const LimitParameters &limits = scene.limits;
-    if (scene.output.envelope_interval > 1 &&
-        (limits.tensile_strength > 0. || limits.tension > 0. || limits.compression > 0.))
-      warnings.push_back(
-          "Output/Envelope interval is " + std::to_string(scene.output.envelope_interval) +
-          ": peaks of the stresses between are missed, so the limits of stresses are not evaluated. Set it "
-          "to 1 for Limits.");
-    if (any_joint(scene, {"cohesive"}) && scene.joints.strength == 0.)
-      warnings.push_back("Joints/Strength is 0: the model cohesive is then FJA. Set the tensile strength of "
-                         "the bond, such as 1 MPa.");
-    if (scene.mesh.source == "file" && !no_water(scene) && !is_written(entries, "Reservoir/Water level"))
-    {
-      std::ostringstream text;
-      text << "the mesh is from a file, and there is no Reservoir/Water level: it is "
-           << scene.reservoir.level
-           << " m, that of arch210. Give the level of this dam, or set Reservoir/Density to 0.";
-      warnings.push_back(text.str());
-    }
-    for (const std::string &warning :
-         {two_branches(scene), other_day(scene), odd_factors(scene.loads),
-          is_written(entries, "Motion/Unit") ? "" : unit_warning(scene.motion, scene.directory)})
-      if (!warning.empty())
+    for (const UsedValue &value : values)
+      if (const std::string warning = implausible(value); !warning.empty())
         warnings.push_back(warning);
+    for (const auto &[reason, without] : idle)
+      warnings.push_back(without_effect(without, reason));
+    for (const std::string &warning : odd_relations(scene, entries))
+      warnings.push_back(warning);
     return warnings;
   }
 

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <ctime>
 #include <filesystem>
+#include <iostream>
 #include <numeric>
 
 namespace Voussoir
@@ -82,7 +83,12 @@ namespace Voussoir
       throw InputError("A file that the scene names has changed while it was read. Run again.");
     report_setup();
     if (options.validate)
+    {
+      if (options.quiet && Ranks::is_first())
+        for (const std::string &warning : log.warnings())
+          std::cerr << "voussoir: warning: " << warning << '\n';
       return;
+    }
     find_static_state();
     start_shaking();
     if (options.resume)

@@ -40,9 +40,14 @@ namespace Voussoir
       std::string laws = scene.joints.model;
       for (const auto &entry : scene.joints.overrides)
         laws += ", joint " + std::to_string(entry.first) + ": " + entry.second;
-      log.line("Joints    %u joint%s, %zu pairs, law %s (friction %g)", dam->n_joints,
-               dam->n_joints == 1 ? "" : "s", dam->structure.pairs.size(), laws.c_str(),
-               scene.joints.friction);
+      if (scene.joints.any_reads("Joints/Friction"))
+      {
+        std::ostringstream friction;
+        friction << " (friction " << scene.joints.friction << ")";
+        laws += friction.str();
+      }
+      log.line("Joints    %u joint%s, %zu pairs, law %s", dam->n_joints, dam->n_joints == 1 ? "" : "s",
+               dam->structure.pairs.size(), laws.c_str());
     }
     dam->foundation->report(log, grid());
     report_zones(log, dam->rock_zones, "Foundation/Zones");

@@ -113,6 +113,13 @@ namespace Voussoir
     return result;
   }
 
+  bool JointParameters::any_reads(const std::string &entry) const
+  {
+    return joint_law_reads(model, entry) ||
+           std::any_of(overrides.begin(), overrides.end(),
+                       [&](const auto &joint) { return joint_law_reads(joint.second, entry); });
+  }
+
   void JointParameters::check() const
   {
     // KSM takes a key for seated on a flank within 1e-9 of its height. Steps begin where the one before was

@@ -3,6 +3,7 @@
 #define voussoir_scene_ranges_h
 
 #include <voussoir/app/declared_entries.h>
+#include <voussoir/dam/scene.h>
 
 namespace Voussoir
 {
@@ -14,9 +15,24 @@ namespace Voussoir
     std::string   place; ///< "scene.prm, line 7"
   };
 
-  /** What is said of a value that no dam, rock, water or earthquake has; empty if it is plausible, or nothing
-   * is known about it. */
-  std::string implausible(const WrittenEntry &entry);
+  /** A number that the computation uses, from an entry, a table or the material of a zone. */
+  struct UsedValue
+  {
+    std::string what;  ///< for messages: "Concrete/Density (scene.prm, line 7)"
+    std::string range; ///< entry whose usual range holds for it
+    std::string unit;
+    double      value; ///< in that unit
+  };
+
+  UsedValue used_value(const WrittenEntry &entry);
+
+  /** The numbers that do not come from entries of one number each: materials of zones, temperatures of a
+   * table. Reads the table. */
+  std::vector<UsedValue> values_of_sources(const Scene &scene);
+
+  /** A sentence about a value that no dam, rock, water or earthquake has; empty if it is plausible, or no
+   * range is known. */
+  std::string implausible(const UsedValue &value);
 
   std::vector<std::string> entries_with_ranges(); ///< by their names in scene files
 } // namespace Voussoir

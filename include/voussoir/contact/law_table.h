@@ -22,6 +22,13 @@ namespace Voussoir
     return make_joint_law(name, LawParameters(friction, equations, keys));
   }
 
+  /** Does the law use the entry ("Joints/Friction")? Also true of laws that are not in the table, or list no
+   * entries there. */
+  bool joint_law_reads(const std::string &name, const std::string &entry);
+
+  /** The names of the laws that list the entry, "FJA, KSM"; empty if none does. */
+  std::string joint_laws_with(const std::string &entry);
+
   /** The names of the laws as a ParameterHandler selection: "tied|FJA|FJB|KSM|cohesive". */
   std::string joint_law_names();
 

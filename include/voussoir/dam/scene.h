@@ -45,7 +45,9 @@ namespace Voussoir
     void                                add_parameters(dealii::ParameterHandler &prm);
     void                                check() const;
     /** @p young: modulus of the concrete [Pa]. */
-    LawParameters      law(double young) const;
+    LawParameters law(double young) const;
+    /** Does the law of any joint use the entry ("Joints/Friction")? */
+    bool               any_reads(const std::string &entry) const;
     const std::string &model_of(const unsigned int joint) const
     {
       const auto found = overrides.find(joint);

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_scene_relations_h
+#define voussoir_scene_relations_h
+
+#include <voussoir/app/scene_ranges.h>
+#include <voussoir/dam/scene.h>
+
+namespace Voussoir
+{
+  /** Sentences about entries that are plausible one by one, but not together. @p entries: those that the user
+   * wrote. */
+  std::vector<std::string> odd_relations(const Scene &scene, const std::vector<WrittenEntry> &entries);
+} // namespace Voussoir
+
+#endif
