@@ -10,6 +10,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <random>
 #include <set>
 
 using namespace MeshTesting;
@@ -285,6 +286,80 @@ namespace
       expect(results[0] == results[1] && results[0] == results[2], "the three files of " + size + " differ");
     }
   }
+
+  /** Parallelepipeds have a ratio of Jacobians of 1. Of the hexahedra of a split tetrahedron with the edges
+   * u, v, w the Jacobian at its corner is det(u/2, v/2, w/2) = D/8; at the centroid the edges to the centres
+   * of three faces are (u - 3w + v)/12 and so on, and their determinant is 16/1728 D: the ratio is 2/27. */
+  void test_split_tetrahedra()
+  {
+    using Corner = std::array<double, 3>;
+    const auto ratio_of =
+        [](const std::vector<Corner> &points, const std::vector<std::array<unsigned int, 8>> &cells)
+    {
+      HexMesh mesh;
+      mesh.nodes = points;
+      for (const auto &nodes : cells)
+      {
+        mesh.cells.emplace_back();
+        mesh.cells.back().nodes = nodes;
+        mesh.cells.back().volume = 1;
+      }
+      return mesh_quality(mesh, false).mean_jacobian_ratio;
+    };
+    std::mt19937                           engine(5);
+    std::uniform_real_distribution<double> number(-1., 1.);
+    for (unsigned int trial = 0; trial < 20; ++trial)
+    {
+      Corner a, u[3];
+      for (Corner *p : {&a, &u[0], &u[1], &u[2]})
+        for (double &x : *p)
+          x = 100. * number(engine);
+      double det = 0.;
+      for (unsigned int c = 0; c < 3; ++c)
+        det += u[0][c] * (u[1][(c + 1) % 3] * u[2][(c + 2) % 3] - u[1][(c + 2) % 3] * u[2][(c + 1) % 3]);
+      if (det < 0.)
+        std::swap(u[0], u[1]);
+      // Points a + x u + y v + z w, with coordinates in twelfths.
+      std::vector<Corner> points;
+      const auto          point = [&](const std::array<int, 3> &x)
+      {
+        Corner p = a;
+        for (unsigned int k = 0; k < 3; ++k)
+          for (unsigned int c = 0; c < 3; ++c)
+            p[c] += x[k] / 12. * u[k][c];
+        points.push_back(p);
+        return static_cast<unsigned int>(points.size() - 1);
+      };
+      const std::array<std::array<int, 3>, 4> corners = {
+          {{{0, 0, 0}}, {{12, 0, 0}}, {{0, 12, 0}}, {{0, 0, 12}}}};
+      const auto mean = [&](const std::vector<unsigned int> &of)
+      {
+        std::array<int, 3> x = {{0, 0, 0}};
+        for (const unsigned int i : of)
+          for (unsigned int c = 0; c < 3; ++c)
+            x[c] += corners[i][c] / static_cast<int>(of.size());
+        return point(x);
+      };
+      std::vector<std::array<unsigned int, 8>> cells;
+      for (const auto &[i, j, k, l] :
+           std::vector<std::array<unsigned int, 4>>{{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}})
+        cells.push_back({{mean({i}), mean({i, j}), mean({i, j, k}), mean({i, k}), mean({i, l}),
+                          mean({i, j, l}), mean({i, j, k, l}), mean({i, k, l})}});
+      expect_close(ratio_of(points, cells), 2. / 27., 1e-10, "split tetrahedron");
+      points.clear();
+      const std::array<std::array<int, 3>, 8> box = {{{{0, 0, 0}},
+                                                      {{12, 0, 0}},
+                                                      {{12, 12, 0}},
+                                                      {{0, 12, 0}},
+                                                      {{0, 0, 12}},
+                                                      {{12, 0, 12}},
+                                                      {{12, 12, 12}},
+                                                      {{0, 12, 12}}}};
+      for (const auto &x : box)
+        point(x);
+      expect_close(ratio_of(points, {{{0, 1, 2, 3, 4, 5, 6, 7}}}), 1., 1e-10, "parallelepiped");
+    }
+  }
 } // namespace
 
 int main(int argc, char **argv)
@@ -299,7 +374,8 @@ int main(int argc, char **argv)
                 {"files", test_files},
                 {"mixed mesh", test_mixed},
                 {"contacts out of order", test_contacts_out_of_order},
-                {"rock", test_rock}});
+                {"rock", test_rock},
+                {"split tetrahedra", test_split_tetrahedra}});
   const std::string samples = argv[1];
   if (std::filesystem::exists(samples + "/s1k.v41.msh"))
     return run({{"sample meshes", [&] { test_samples(samples); }}});

@@ -5,13 +5,15 @@
     program_cohesive.py VOUSSOIR CASE...     cases: see the functions with that name below
 """
 
+import math
 import signal
 import subprocess
 import time
 from pathlib import Path
 
 import run_program
-from run_program import run_cases, expect, refused, runs, same, same_to_the_bit, summary, table, write_scene
+from run_program import (run_cases, arch_mesh, double, expect, refused, runs, same, same_to_the_bit, summary, table,
+                         write_scene)
 
 SHORT = [x for e in ("Motion/Duration=1", "Output/Envelope interval=0") for x in ("--set", e)]
 
@@ -78,6 +80,26 @@ def entries():
            "a strength without effect is warned of")
     expect("Joints/Strength is 0" in run_program.voussoir("scene.prm", "--validate", "--set", "Joints/Model=cohesive").stdout,
            "a bond without strength is warned of")
+    # Joints whose nodes are further apart than E G_f / f_t^2, here with 24 GPa. The longest edge on a joint:
+    mesh = double(arch_mesh())
+    length = max(math.dist(*(mesh["nodes"][nodes[i - k]] for k in (0, 1))) for _, tag, nodes in mesh["elements"] if 100 < tag < 200 for i in range(4))
+    energy = length * 1e12 / 24e9  # with 1 MPa
+
+    def warned(*settings):
+        lines = runs("scene.prm", "--validate", "--set", "Concrete/Young's modulus=24 GPa", *settings).splitlines()
+        return [line for line in lines if line.startswith("warning: nodes of cohesive joints")]
+
+    lines = warned(*cohesive("2 MPa", "150 N/m"))
+    print("   ", lines)
+    expect(len(lines) == 1 and f"up to {length:.2g} m apart" in lines[0] and "= 0.9 m" in lines[0] and "to 0.9 m" in lines[0], f"{lines}")
+    expect("Set Joints/Fracture energy" in warned(*cohesive("2 MPa", "0"))[0], "no fracture energy")
+    finer = ["--set", "Elements/Degree=2"]
+    for share, n in ((.999, 1), (1.001, 0)):
+        expect(len(warned(*cohesive("1 MPa", share * energy))) == n, f"degree 1, {share} of the energy")
+        expect(len(warned(*finer, *cohesive("1 MPa", share * energy / 2))) == n, f"degree 2, {share} of the energy")
+        soft = ["--set", "Concrete/Young's modulus=12 GPa"]
+        expect(len(warned(*cohesive("1 MPa", 2 * share * energy), *soft)) == n, f"12 GPa, {share} of the energy")
+    expect(warned(*cohesive("2 MPa", "150 N/m"), "--set", "Joints/Overrides=1: FJA, 2: FJA") == [], "no cohesive joint")
 
 
 if __name__ == "__main__":

@@ -6,10 +6,12 @@
 """
 
 import json
+import os
 import re
 from pathlib import Path
 
-from run_program import run_cases, arch_mesh, expect, from_file, refused, runs, voussoir, write, write_mesh, write_scene
+from run_program import (run_cases, arch_mesh, expect, from_file, refused, runs, split_tetrahedra, voussoir, write, write_mesh,
+                         write_scene)
 
 SOURCE = Path(__file__).resolve().parent.parent
 
@@ -131,6 +133,15 @@ def values():
             warned(check(setting), *parts)
         else:
             expect(warnings(*check(setting)) == [], setting)
+    # Quiet or not, --validate shows the warnings.
+    for settings, n in ((["Concrete/Density=2.4", "Reservoir/Water level=-20"], 2), ([], 0)):
+        loud, quiet = (warnings(*check(*settings), *more) for more in ([], ["--quiet"]))
+        expect(loud == quiet and len(loud) == n, f"{loud}, quiet: {quiet}")
+    expect(voussoir("scene.prm", "--validate", "--quiet").stdout == "", "--quiet prints more than warnings")
+    # Friction belongs to the laws that have it.
+    for settings, law in ((["Joints/Model=FJB"], "FJB"), (["Joints/Model=FJA"], "FJA (friction 0.6)"),
+                          (["Joints/Model=FJB", "Joints/Overrides=2: FJA"], "FJB, joint 2: FJA (friction 0.6)")):
+        expect(f", law {law}\n" in runs(*check(*settings)), f"law {law}")
     # The other commands warn on standard error, and a run in its log.
     for command in (["modes", "scene.prm", "--count", "1"], ["motion", "scene.prm", "--output", "a.csv"],
                     ["mesh", "scene.prm", "--output", "a.msh"]):
@@ -206,6 +217,38 @@ def axes():
             "Exchange the names", "the names are wrong")
 
 
+def files():
+    """A pipe is no scene, nor is it waited for; what is in an included file that is no scene is not shown."""
+    write_scene()
+    os.mkfifo("pipe")
+    refused(["pipe", "--validate"], "The scene file pipe cannot be read")
+    write("with_pipe.prm", "include pipe\n")
+    refused(["with_pipe.prm", "--validate"], "with_pipe.prm, line 1", "pipe cannot be read")
+    write("private.txt", "\n# comment\nhunter2:x:0\n")
+    write("wrong.prm", "include scene.prm\ninclude private.txt\n")
+    refused(["wrong.prm", "--validate"], "private.txt, line 3", "an included file", "set ENTRY = VALUE")
+    expect("hunter2" not in voussoir("wrong.prm", "--validate").stderr, "the line of an included file is shown")
+    refused(["private.txt", "--validate"], 'private.txt, line 3: "hunter2:x:0"')
+
+
+def tetrahedra():
+    """Tetrahedra that were split into hexahedra: with degree 1 much too stiff, which is told."""
+    write_mesh("split.msh", split_tetrahedra(arch_mesh()))
+    scene = [write("split.prm", "subsection Mesh\n set Source = file\n set File = split.msh\nend\nsubsection Reservoir\n set Water level = 195\nend\n"
+                                "subsection Motion\n set Source = none\nend\n")]
+    degree = ["--set", "Elements/Degree=2"]
+    warned([*scene, "--validate"], "split tetrahedra", "Jacobian", "0.074", "frequencies", "Set Elements/Degree = 2")
+    expect(warnings(*scene, *degree, "--validate") == [], "degree 2")
+    frequency = {}
+    for name, arguments, n_warnings in (("hexahedra", ["scene.prm", *degree], 0), ("split, degree 1", scene, 1), ("split, degree 2", [*scene, *degree], 0)):
+        result = voussoir("modes", *arguments, "--count", "1")
+        expect(result.returncode == 0 and result.stderr.count("split tetrahedra") == n_warnings, f"{name}: {result.stderr}")
+        frequency[name] = float(result.stdout.split()[-1])
+    print("   ", frequency)
+    expect(1.05 < frequency["split, degree 1"] / frequency["split, degree 2"] < 1.15, "the error that the warning states")
+    expect(abs(frequency["split, degree 2"] / frequency["hexahedra"] - 1) < .01, "the remedy that it proposes")
+
+
 def scenes():
     """The scenes that come with the program are not warned of."""
     for scene in sorted([*(SOURCE / "prm").glob("*.prm"), *(SOURCE / "benchmarks").glob("*.prm")]):
@@ -223,4 +266,4 @@ def scenes():
 
 
 if __name__ == "__main__":
-    run_cases(options, values, groups, axes, scenes)
+    run_cases(options, values, groups, axes, files, tetrahedra, scenes)

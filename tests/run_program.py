@@ -189,6 +189,44 @@ def double(mesh):
     return {"head": head.strip().split("\n"), "nodes": nodes, "elements": elements}
 
 
+def split_tetrahedra(mesh):
+    """Each hexahedron as six tetrahedra, each of these as four hexahedra, as meshers do that know tetrahedra only."""
+    nodes, number, elements = [], {}, []
+
+    def centre(*corners):
+        key = tuple(sorted(corners))
+        if key not in number:
+            number[key] = len(nodes)
+            nodes.append([sum(mesh["nodes"][n][c] for n in key) / len(key) for c in range(3)])
+        return number[key]
+
+    def triangles(quad):
+        i = quad.index(min(quad))
+        a, b, c, d = quad[i:] + quad[:i]
+        return (a, b, c), (a, c, d)
+
+    for kind, tag, corners in mesh["elements"]:
+        if kind == 3:
+            for triangle in triangles(corners):
+                for i in range(3):
+                    a, b, c = triangle[i:] + triangle[:i]
+                    elements.append((3, tag, [centre(a), centre(a, b), centre(a, b, c), centre(a, c)]))
+            continue
+        apex = min(corners)
+        for face in FACES:
+            quad = [corners[i] for i in face]
+            for triangle in triangles(quad) if apex not in quad else ():
+                a, b, c, d = (mesh["nodes"][n] for n in (apex, *triangle))
+                u, v, w = ([q - p for p, q in zip(a, x)] for x in (b, c, d))
+                turns = sum(u[i] * (v[i - 2] * w[i - 1] - v[i - 1] * w[i - 2]) for i in range(3)) > 0
+                tetrahedron = (apex, *(triangle if turns else triangle[::-1]))
+                for a, b, c, d in ((0, 1, 2, 3), (1, 0, 3, 2), (2, 3, 0, 1), (3, 2, 1, 0)):  # of one orientation
+                    a, b, c, d = (tetrahedron[i] for i in (a, b, c, d))
+                    elements.append((5, tag, [centre(a), centre(a, b), centre(a, b, c), centre(a, c),
+                                              centre(a, d), centre(a, b, d), centre(a, b, c, d), centre(a, c, d)]))
+    return {"head": mesh["head"], "nodes": nodes, "elements": elements}
+
+
 def arch_mesh():
     write_scene()
     runs("mesh", "scene.prm", "--output", "arch.msh", "--format", "2.2")

@@ -60,10 +60,10 @@ namespace Voussoir
           continue;
         const MeshQuality quality = mesh_quality(mesh, of_rock);
         std::printf("%s: %td hexahedra, edges %.3g to %.3g m, smallest height %.3g m at %s, smallest scaled "
-                    "Jacobian %.2f\n",
+                    "Jacobian %.2f, mean ratio of Jacobians %.2f\n",
                     of_rock ? "rock" : "dam ", n_cells, quality.shortest_edge, quality.longest_edge,
                     quality.smallest_height, place(quality.smallest_height_at).c_str(),
-                    quality.smallest_scaled_jacobian);
+                    quality.smallest_scaled_jacobian, quality.mean_jacobian_ratio);
       }
     }
   } // namespace

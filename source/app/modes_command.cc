@@ -107,7 +107,9 @@ namespace Voussoir
           "mass radiates. Give --set Foundation/Model=massless or rigid.");
     if (!directory.empty())
       Ranks::on_first([&] { make_directory(directory); });
-    const Dam                      dam(scene, true);
+    const Dam dam(scene, true);
+    for (const std::string &warning : dam.mesh_warnings)
+      std::cerr << "voussoir: warning: " << warning << "\n";
     const std::vector<NaturalMode> modes = natural_modes(dam.structure, count);
     std::printf("mode  frequency [Hz]\n");
     for (std::size_t i = 0; i < modes.size(); ++i)

@@ -117,6 +117,8 @@ namespace Voussoir
           "Joints/Overrides and of all results; usual is from the right bank.");
     if (scene.mesh.source == "file" && !dam->ungrouped.empty())
       log.line("warning: %s", dam->ungrouped.c_str());
+    for (const std::string &warning : dam->mesh_warnings)
+      log.line("warning: %s", warning.c_str());
     for (const std::string &warning : scene.warnings)
       log.line("warning: %s", warning.c_str());
   }

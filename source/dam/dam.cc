@@ -3,6 +3,7 @@
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/dam.h>
 #include <voussoir/dam/dam_loads.h>
+#include <voussoir/dam/mesh_warnings.h>
 #include <voussoir/foundation/foundation_table.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh_axes.h>
@@ -79,6 +80,7 @@ namespace Voussoir
     if (foundation->uses_rock())
       rock_zones =
           zones_of(mesh, true, scene.foundation.rock, scene.foundation.zone_materials(), "Foundation/Zones");
+    mesh_warnings = Voussoir::mesh_warnings(opened, scene, concrete_zones);
     assemble(opened);
     tie_feet();
     add_loads();

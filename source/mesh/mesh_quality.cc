@@ -29,11 +29,13 @@ namespace Voussoir
 
   MeshQuality mesh_quality(const HexMesh &mesh, const bool of_rock)
   {
-    MeshQuality quality{1e300, 0, 1e300, {}, 1};
+    MeshQuality quality{1e300, 0, 1e300, {}, 1, 0.};
+    std::size_t n_cells = 0;
     for (const auto &cell : mesh.cells)
     {
       if (is_monolith(cell.volume) == of_rock)
         continue;
+      double smallest = 1e300, largest = 0.;
       for (unsigned int v = 0; v < 8; ++v)
       {
         std::array<Vector, 3> edge;
@@ -49,6 +51,8 @@ namespace Voussoir
         }
         const Vector area = cross(edge[0], edge[1]);
         const double volume = area[0] * edge[2][0] + area[1] * edge[2][1] + area[2] * edge[2][2];
+        smallest = std::min(smallest, volume);
+        largest = std::max(largest, volume);
         quality.smallest_scaled_jacobian = std::min(quality.smallest_scaled_jacobian, volume / product);
         for (unsigned int a = 0; a < 3; ++a)
         {
@@ -60,7 +64,10 @@ namespace Voussoir
           }
         }
       }
+      quality.mean_jacobian_ratio += smallest / largest;
+      ++n_cells;
     }
+    quality.mean_jacobian_ratio /= n_cells;
     return quality;
   }
 } // namespace Voussoir

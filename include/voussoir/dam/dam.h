@@ -37,8 +37,10 @@ namespace Voussoir
     std::vector<Zone>     concrete_zones, rock_zones; ///< those that the mesh has
     std::string           groups;                     ///< table of the mesh's groups: group_table()
     std::string           ungrouped;                  ///< faces_without_group()
-    std::size_t           n_cells = 0;
-    unsigned int          n_monoliths = 0, n_joints = 0;
+
+    std::vector<std::string> mesh_warnings; ///< a sentence for each limit of the mesh that the scene exceeds
+    std::size_t              n_cells = 0;
+    unsigned int             n_monoliths = 0, n_joints = 0;
     double volume = 0., crest_length = 0., size = 0.; ///< [m^3], [m], diagonal of the bounding box [m]
     std::unique_ptr<SolidModel>  model;
     Structure                    structure;

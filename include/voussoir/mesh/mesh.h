@@ -140,6 +140,10 @@ namespace Voussoir
     double                smallest_height;             ///< [m], between opposite faces
     std::array<double, 3> smallest_height_at;          ///< centre of that cell
     double                smallest_scaled_jacobian;    ///< 1 for right angles, 0 for flat cells
+
+    /** Mean over the cells of the smallest over the largest Jacobian: 1 for parallelepipeds, 2/27 where a
+     * tetrahedron, of whatever shape, was split into four hexahedra [-]. */
+    double mean_jacobian_ratio;
   };
 
   /** Of the rock or of the dam, which must have cells. */

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/contact/law_table.h>
+#include <voussoir/dam/mesh_warnings.h>
+#include <voussoir/mesh/mesh_joints.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Voussoir
+{
+  namespace
+  {
+    /** Elements of degree 1 that come from tetrahedra. */
+    std::string split_tetrahedra(const HexMesh &opened, const Scene &scene)
+    {
+      constexpr double usual = .2; // split tetrahedra: 2/27
+      if (scene.elements.degree != 1)
+        return "";
+      const double ratio = mesh_quality(opened, false).mean_jacobian_ratio;
+      if (ratio >= usual)
+        return "";
+      std::ostringstream text;
+      text.precision(2);
+      text << "the hexahedra are as distorted as those of split tetrahedra (the smallest Jacobian of an "
+              "element is "
+           << ratio
+           << " of its largest one, on average). With Elements/Degree = 1 they make the dam too stiff: "
+              "frequencies "
+              "are about 10 to 20 % too high where one tetrahedron reaches through the dam, and 1 to 7 % "
+              "where two "
+              "do. Set Elements/Degree = 2.";
+      return text.str();
+    }
+
+    /** Distance of neighbouring nodes on the joints whose law has a fracture energy, the largest [m]. */
+    double distance_of_pairs(const HexMesh &opened, const Scene &scene)
+    {
+      double longest = 0.;
+      for (const HexMesh::Face &face : opened.faces)
+        if (face.surface > PhysicalId::joint_side_1 && face.surface < PhysicalId::joint_side_2 &&
+            joint_law_reads(scene.joints.model_of(face.surface - PhysicalId::joint_side_1),
+                            "Joints/Fracture energy"))
+          for (unsigned int v = 0; v < 4; ++v)
+          {
+            const auto &a = opened.nodes[face.nodes[v]], &b = opened.nodes[face.nodes[(v + 1) % 4]];
+            longest = std::max(longest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+          }
+      return longest / scene.elements.degree;
+    }
+
+    /** Joints with a bond whose crack takes less energy than the adjacent elements hold. @p young: of the
+     * concrete [Pa]. */
+    std::string long_elements_on_bonds(const HexMesh &opened, const Scene &scene, const double young)
+    {
+      const double strength = scene.joints.strength, energy = scene.joints.fracture_energy,
+                   required = young * energy / (strength * strength),
+                   distance = strength > 0. ? distance_of_pairs(opened, scene) : 0.;
+      if (distance == 0. || distance <= required)
+        return "";
+      std::ostringstream text;
+      text.precision(2);
+      text << "nodes of cohesive joints are up to " << distance
+           << " m apart, more than E G_f/f_t^2 = " << required
+           << " m (with Joints/Fracture energy and Joints/Strength): which pairs crack depends on the number "
+              "of "
+              "increments and on the time step. ";
+      if (required > 0.)
+        text << "Refine the mesh along these joints to " << required << " m, or compare several "
+             << "Statics/Water increments.";
+      else
+        text << "Set Joints/Fracture energy, such as 150 N/m.";
+      return text.str();
+    }
+  } // namespace
+
+  std::vector<std::string> mesh_warnings(const HexMesh &opened, const Scene &scene,
+                                         const std::vector<Zone> &zones)
+  {
+    double young = zones.front().material.young; // of the softest zone
+    for (const Zone &zone : zones)
+      young = std::min(young, zone.material.young);
+    std::vector<std::string> warnings;
+    for (const std::string &warning :
+         {split_tetrahedra(opened, scene), long_elements_on_bonds(opened, scene, young)})
+      if (!warning.empty())
+        warnings.push_back(warning);
+    return warnings;
+  }
+} // namespace Voussoir
