@@ -372,12 +372,14 @@ namespace
     const auto forces = [](const std::string &name, const LawParameters &p)
     {
       const auto          law = make_joint_law(name, p);
-      const double        cracked[2] = {1., 2e-5};
+      std::vector<double> memory(law->n_memory());
+      if (name == "cohesive")
+        memory = {1., 2e-5}; // cracked, and open once
       std::vector<double> all;
       for (const bool opens : {false, true})
       {
         PairPast past(Vector3{{opens ? .1 : 0., 0., 0.}});
-        past.memory = cracked;
+        past.memory = memory.data();
         const Matrix3 H = {{1e-9, 0., 0., 0., 1e-9, 0., 0., 0., 1e-9}};
         for (const double normal : {-1e-4, 1e-4, .1})
           for (const double f : law->solve(H, {{normal, 3e-4, 1e-4}}, past))
