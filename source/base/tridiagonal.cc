@@ -3,6 +3,8 @@
 
 #include <voussoir/base/tridiagonal.h>
 
+#include <cmath>
+
 namespace Voussoir
 {
   double Tridiagonal::largest_eigenvalue() const
@@ -17,5 +19,21 @@ namespace Voussoir
     }
     T.compute_eigenvalues();
     return T.eigenvalue(n - 1);
+  }
+
+  double Tridiagonal::residual(const double eigenvalue) const
+  {
+    const std::size_t n = diagonal.size();
+    // The eigenvector, from its last component to the first: that way it grows.
+    double after = 0., now = 1., square = 1.;
+    for (std::size_t i = n - 1; i > 0; --i)
+    {
+      const double before =
+          ((eigenvalue - diagonal[i]) * now - (i + 1 < n ? beside[i] * after : 0.)) / beside[i - 1];
+      after = now;
+      now = before;
+      square += now * now;
+    }
+    return beside[n - 1] / std::sqrt(square);
   }
 } // namespace Voussoir

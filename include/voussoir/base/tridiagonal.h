@@ -14,6 +14,10 @@ namespace Voussoir
 
     /** Of at least one row. */
     double largest_eigenvalue() const;
+
+    /** Returns the residual that an @p eigenvalue of this matrix has in the large one: the large matrix has
+     * an eigenvalue within that distance. Needs as many values in #beside as in #diagonal. */
+    double residual(double eigenvalue) const;
   };
 } // namespace Voussoir
 
