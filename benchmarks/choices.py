@@ -61,7 +61,7 @@ def groups():
     many = mesh(58, 21, 2)
     linear, quadratic = [(30, 8, 1), (60, 16, 2), (90, 24, 3)], [(18, 6, 1), (30, 8, 1), (48, 12, 1)]
     modes, degree = "Elements/Incompatible modes", "Elements/Degree"
-    rock = {**mesh(30, 10, 1), STEPS: 6, "Mesh/Arch210/Rock/Boundary layers": 8}
+    rock = {**mesh(30, 10, 1), STEPS: 6, "Mesh/Arch210/Rock/Boundary layers": 9}
     layers = "Foundation/Layers at the dam"
     at_dam = [(name(m), f"{n} layers", {**mesh(*m), layers: n}) for m, some in (((30, 10, 1), (0, 1, 2, 3, 4, 8)), ((60, 20, 2), (0, 3, 4)), ((90, 30, 3), (0, 3)))
               for n in some]

@@ -18,7 +18,7 @@ MACHINE = ("second", "memory", "gib", "time_", "directory", "command", "threads"
 BOUNDARIES = ("mtf3", "viscous-spring", "mtf2", "viscous", "fixed", "mtf1", "mtf4", "mtf2-plain")
 # Scene, seconds of shaking (None: the scene's own), settings.
 CASES = [("quickstart", 4., []), ("rigid28", 2., [])]
-NEEDS = {"mtf4": ["Mesh/Arch210/Rock/Boundary layers=8"]}
+NEEDS = {"mtf4": ["Mesh/Arch210/Rock/Boundary layers=9"]}
 CASES += [("rock_fja", 4., [f"Foundation/Boundary={name}", *NEEDS.get(name, [])]) for name in BOUNDARIES]  # 2000 steps
 CASES += [("keys_law", 1., []), ("massless_fja", 2., [])]
 

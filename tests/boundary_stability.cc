@@ -6,6 +6,8 @@
 #include "column.h"
 #include "quarter_box.h"
 
+#include "../benchmarks/boundary_canyon.h"
+
 #include <voussoir/foundation/explicit_rock.h>
 
 namespace
@@ -141,6 +143,101 @@ namespace
     below("mtf3 in plane strain, lines normal to the side: max |u| / peak", side.end / side.peak, 1e-6);
   }
 
+  /** A time step of @p courant times the critical one, which a stiffness damping of @p share time steps
+   * lowers. */
+  void set_step(const RockModel &model, const double share, const double courant, RockRegionParameters &p)
+  {
+    const double w = largest_frequency(model.stiffness, model.mass);
+    p.dt = 0.;
+    for (unsigned int i = 0; i < 30; ++i)
+    {
+      p.damping.stiffness = share * p.dt;
+      p.dt = courant * critical_time_step(w, p.damping);
+    }
+  }
+
+  bool is_refused(const RockRegionParameters &p, const RockModel &model)
+  {
+    const double w = largest_frequency(model.stiffness, model.mass);
+    try
+    {
+      make_boundary(p)->check(p, critical_time_step(w, p.damping));
+    }
+    catch (const InputError &)
+    {
+      return true;
+    }
+    return false;
+  }
+
+  /** Rock of high Poisson's ratio near the critical step with the dam's elements at the dam, or with free
+   * vertical faces, grows with a damping that is enough without these or farther from the critical step. */
+  void poisson_near_critical()
+  {
+    struct Case
+    {
+      std::string  boundary;
+      double       poisson, share, courant;
+      unsigned int layers; // at the dam
+      bool         is_symmetric, is_refused;
+    };
+    for (const Case &c : std::vector<Case>{{"mtf3", .4, .005, .99, 3, true, true},
+                                           {"mtf3", .4, .005, .975, 3, true, true},
+                                           {"mtf3", .4, .005, .9, 3, true, false},
+                                           {"mtf3", .4, .02, .99, 3, true, false},
+                                           {"mtf3", .4, .005, .99, 0, false, true},
+                                           {"mtf3", .38, .01, .9999, 0, false, true},
+                                           {"mtf3", .4, .02, .99, 0, false, false},
+                                           {"mtf2", .36, .005, .9999, 3, true, true},
+                                           {"mtf2", .36, .02, .9999, 3, true, false},
+                                           {"mtf3", .329, 0., .99, 3, true, true},
+                                           {"mtf3", .29, 0., .99, 0, true, false}})
+    {
+      auto p = parameters(c.boundary);
+      p.rock.materials[rock] = unit_rock(c.poisson);
+      p.rock.layers_at_dam = c.layers;
+      const RockModel model = quarter(p);
+      set_step(model, c.share, c.courant, p);
+      const auto        fixed = c.is_symmetric ? symmetry(model) : std::vector<unsigned int>();
+      const double      growth = noise_growth(model, p, 6000, fixed);
+      const std::string what = c.boundary + ", Poisson's ratio " + Columns::text(c.poisson) + ", damping " +
+                               Columns::text(c.share) + " dt, " + Columns::text(c.courant) +
+                               " of the critical step, " + std::to_string(c.layers) + " layers at the dam" +
+                               (c.is_symmetric ? "" : ", free vertical faces") + ": growth of noise";
+      if (c.is_refused)
+        above(what, growth, 10.);
+      else
+        below(what, growth, 1e-2);
+      const bool refused = is_refused(p, model);
+      Columns::report("  is refused", refused, c.is_refused ? "yes" : "no", refused == c.is_refused);
+    }
+  }
+
+  /** Order 4 needs a layer of equal elements more than its lines have where the elements behind them are
+   * bent. */
+  void layers_of_order_4()
+  {
+    constexpr double h = .1;
+    for (const unsigned int layers : {8, 9})
+    {
+      auto p = parameters("mtf4");
+      p.rock.centre = {{0., 0., 0.}};
+      const HexMesh   mesh = Benchmarks::CanyonMesh(h, 1.6 + layers * h, true).mesh;
+      const RockModel model = make_rock_model(mesh, p.rock, tie_layer(mesh, 1));
+      set_step(model, 0., .9, p);
+      const double      growth = noise_growth(model, p, 8000);
+      const std::string what =
+          "mtf4 at a canyon, " + std::to_string(layers) + " equal layers: growth of noise";
+      if (layers == make_boundary(p)->n_layers())
+        below(what, growth, 1e-2);
+      else
+        above(what, growth, 1e2);
+    }
+    for (const std::string name : {"mtf1", "mtf2", "mtf3"})
+      Columns::report("layers that " + name + " needs", make_boundary(parameters(name))->n_layers(), "= 6",
+                      make_boundary(parameters(name))->n_layers() == 6);
+  }
+
   /** Rock of high Poisson's ratio near the critical step: without damping it grows. Foundation::check() asks
    * for a stiffness damping of 0.005 dt, above 0.4 for 0.01 dt. */
   void poisson()
@@ -152,13 +249,7 @@ namespace
         auto              p = parameters(name);
         p.rock.materials[rock] = unit_rock(nu);
         const RockModel model = quarter(p);
-        const double    w = largest_frequency(model.stiffness, model.mass);
-        p.dt = 0.;
-        for (unsigned int i = 0; i < 30; ++i) // the damping lowers the critical step
-        {
-          p.damping.stiffness = share * p.dt;
-          p.dt = .99 * critical_time_step(w, p.damping);
-        }
+        set_step(model, share, .99, p);
         const Result      r = run(p, model, 6000);
         const std::string what = name + ", Poisson's ratio " + Columns::text(nu) +
                                  ", 0.99 of the critical step, damping " + Columns::text(share) +
@@ -186,13 +277,8 @@ namespace
                                 return {{i, j, k}};
                               }),
                           p.rock);
-      const auto                region = make_region(model, p);
-      std::vector<unsigned int> fixed;
-      for (unsigned int i = 0; i < model.points.size(); ++i)
-        for (unsigned int c = 0; c < 2; ++c)
-          if (model.points[i][c] == 0.)
-            fixed.push_back(3 * i + c);
-      region->fix(fixed);
+      const auto region = make_region(model, p);
+      region->fix(symmetry(model));
       const unsigned int source = size * (size + 1) * (size + 1);
       region->force.assign(3 * model.points.size(), 0.);
       double least = 10., most = 0.;
@@ -237,5 +323,6 @@ int main(const int argc, char **argv)
 {
   if (argc > 1)
     n_long = std::stoi(argv[1]);
-  return Columns::run_all({layers_at_dam, gauss, settlement, poisson, drift, diagonal, large, stable});
+  return Columns::run_all({layers_at_dam, gauss, settlement, poisson, poisson_near_critical,
+                           layers_of_order_4, drift, diagonal, large, stable});
 }

@@ -81,23 +81,30 @@ namespace QuarterBoxes
     return {{std::lround(2. * p[0]), std::lround(2. * p[1]), std::lround(2. * p[2])}};
   }
 
+  /** Components across the planes of symmetry x = 0 and y = 0. */
+  inline std::vector<unsigned int> symmetry(const RockModel &model)
+  {
+    std::vector<unsigned int> fixed;
+    for (unsigned int i = 0; i < model.points.size(); ++i)
+      for (unsigned int c = 0; c < 2; ++c)
+        if (model.points[i][c] == 0.)
+          fixed.push_back(3 * i + c);
+    return fixed;
+  }
+
   /** @p see: called after each step with the region and its largest |u|. */
   inline Result run(const RockRegionParameters &p, const RockModel &model, const unsigned int n_steps,
                     const std::function<void(const ExplicitRegion &, double)> &see = nullptr)
   {
-    auto                      region = make_region(model, p);
-    std::vector<unsigned int> fixed;
-    unsigned int              source = 0;
+    auto         region = make_region(model, p);
+    unsigned int source = 0;
     for (unsigned int i = 0; i < model.points.size(); ++i)
     {
       const auto &x = model.points[i];
-      for (unsigned int c = 0; c < 2; ++c)
-        if (x[c] == 0.)
-          fixed.push_back(3 * i + c);
       if (x[0] == 0. && x[1] == 0. && x[2] >= model.points[source][2])
         source = i; // on the ground
     }
-    region->fix(fixed);
+    region->fix(symmetry(model));
     region->keep_energy();
     region->force.assign(3 * model.points.size(), 0.);
     Result result;

@@ -33,9 +33,10 @@ namespace Voussoir
   }
 
   double noise_growth(const RockModel &model, const RockRegionParameters &parameters,
-                      const unsigned int n_steps)
+                      const unsigned int n_steps, const std::vector<unsigned int> &fixed)
   {
-    const auto   region = make_region(model, parameters);
+    const auto region = make_region(model, parameters);
+    region->fix(fixed);
     std::mt19937 engine(7);
     Unknowns     u(3 * std::size_t(region->n_nodes()), 0.), v = u;
     for (double &x : v)

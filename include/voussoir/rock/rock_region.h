@@ -15,9 +15,10 @@ namespace Voussoir
                                               RockSplit split = RockSplit());
 
   /** A check of stability: kinetic energy of the region after @p n_steps from random motion, relative to that
-   * after a tenth of them. Stable regions lose energy: below 1. */
+   * after a tenth of them. Stable regions lose energy: below 1. @p fixed: components that do not move, 3 node
+   * + component. */
   double noise_growth(const RockModel &model, const RockRegionParameters &parameters,
-                      unsigned int n_steps = 2000);
+                      unsigned int n_steps = 2000, const std::vector<unsigned int> &fixed = {});
 
   /** Those of the sections of the free field: as the region's, but what a boundary that does not absorb would
    * throw back must leave them; they have the default boundary then. */

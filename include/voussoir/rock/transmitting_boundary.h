@@ -14,7 +14,7 @@ namespace Voussoir
   public:
     explicit TransmittingBoundary(TransmittingFormula formula);
 
-    /** 2 N for order N, since each line has 2 N + 1 nodes, and at least 6, of nodal quadrature. */
+    /** Returns 6 for orders up to 3, and 2 N + 1 for a higher order N: one more than each line has. */
     unsigned int n_layers() const override;
 
     /** InputError for Gauss points near the boundary, which explode, and for a high Poisson's ratio without
