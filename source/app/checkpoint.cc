@@ -32,12 +32,13 @@ namespace Voussoir
 
   namespace
   {
-    /** The first @p n samples in a row. */
+    /** The first @p n samples in a row, zero after the end of the motion. */
     std::vector<double> beginning(const GroundMotion &motion, const std::size_t n)
     {
       std::vector<double> samples;
-      for (std::size_t k = 0; k < std::min(n, motion.acceleration.size()); ++k)
-        samples.insert(samples.end(), motion.acceleration[k].begin(), motion.acceleration[k].end());
+      for (std::size_t k = 0; k < n; ++k)
+        for (const double a : motion.sample(k))
+          samples.push_back(a);
       return samples;
     }
   } // namespace
@@ -56,9 +57,9 @@ namespace Voussoir
       std::vector<int>          pairs;
       for (const PairState state : step == start_step ? pairs_at_start : newmark->pair_states())
         pairs.push_back(static_cast<int>(state));
-      archive << provenance << step << pairs << n_steps << motion.dt << samples << wall << cpu << state
-              << first << largest << count << history << energy << *joints << *envelope << solutions
-              << acceleration;
+      archive << provenance << step << pairs << n_steps << motion.acceleration.size() << motion.dt << samples
+              << wall << cpu << state << first << largest << count << history << energy << *joints
+              << *envelope << solutions << acceleration;
       if (blocks)
         archive << *blocks;
       const bool is_estimating = companion != nullptr;
@@ -162,8 +163,9 @@ namespace Voussoir
     }
   }
 
-  /** Does the checkpoint's rock, whose motion had @p n_steps_then, allow for that of now? */
-  void Simulation::check_longer_motion(const unsigned int n_steps_then) const
+  /** InputError where the rock of the checkpoint, whose run had @p n_steps_then and whose motion had
+   * @p samples_then, does not allow for the run and the motion of now. */
+  void Simulation::check_longer_motion(const unsigned int n_steps_then, const std::size_t samples_then) const
   {
     if (!dam->foundation->resumes_longer_only())
       return;
@@ -173,11 +175,12 @@ namespace Voussoir
           " is of a longer motion: on rock, whose free field is made for its length, a run can be "
           "resumed with a longer one only. Raise \"Motion/Duration\", or run without --resume.");
     constexpr unsigned int ahead = 1; // steps by which the rock knows the motion before the dam
-    if (n_steps > n_steps_then && step + ahead >= n_steps_then)
+    if (motion.acceleration.size() > samples_then && step + ahead + 1 >= samples_then)
       throw InputError(
           "The checkpoint " + checkpoint_name() +
-          " was written at the end of its motion, or a step before it, which the rock, ahead of the "
-          "dam, has felt already: it cannot be run on with a longer one. Set \"Motion/Duration\" as it "
+          " was written at the end of its motion, after it, or a step before it: the rock, ahead of the "
+          "dam, has felt that end already. It cannot be run on with a longer one. Set \"Motion/Duration\" as "
+          "it "
           "was, or run without --resume.");
   }
 
@@ -187,17 +190,18 @@ namespace Voussoir
     boost::archive::binary_iarchive archive(in);
     Provenance                      then;
     unsigned int                    n_steps_then = 0;
+    std::size_t                     samples_then = 0;
     double                          dt = 0., largest = 0.;
     std::vector<double>             samples;
     DynamicState                    state;
     Energy                          first;
     std::vector<int>                pairs;
-    archive >> then >> step >> pairs >> n_steps_then >> dt >> samples;
+    archive >> then >> step >> pairs >> n_steps_then >> samples_then >> dt >> samples;
     if (step > n_steps)
       throw InputError("The checkpoint " + checkpoint_name() + " was written after step " +
                        std::to_string(step) + ", but the motion now ends after " + std::to_string(n_steps) +
                        ". Raise \"Motion/Duration\", or run without --resume.");
-    check_longer_motion(n_steps_then);
+    check_longer_motion(n_steps_then, samples_then);
     if (dt != motion.dt || samples != beginning(motion, step + 1))
       throw InputError(
           "The motion differs from that of the checkpoint " + checkpoint_name() +

@@ -126,7 +126,10 @@ namespace Voussoir
     n_steps = scene.motion.source == "none" || factor == 0. ? 0 : motion.acceleration.size() - 1;
     dam = std::make_unique<Dam>(scene);
     if (!scene.statics.stages.empty())
-      StaticPath{*dam}; // can all of them be?
+      StaticPath{*dam};                                      // can all of them be?
+    if (n_steps > 0 && scene.motion.duration_is_automatic()) // by whole samples
+      n_steps += scene.steps_per_sample *
+                 std::ceil(dam->foundation->delay() / (scene.steps_per_sample * motion.dt) - 1e-9);
     if (n_steps > 0)
       dam->foundation->check(grid(), scene.steps_per_sample);
     count.seconds_setup = clock.seconds();
@@ -307,7 +310,7 @@ namespace Voussoir
     const Stopwatch watch;
     const double    rock_before = dam->foundation->seconds();
     Unknowns        load = statics.load;
-    const auto     &a = motion.acceleration[step + 1];
+    const Vector3   a = motion.sample(step + 1);
     for (std::size_t k = 0; dam->foundation->moves_base() && k < load.size(); ++k)
       load[k] += a[0] * dam->inertia[0][k] + a[1] * dam->inertia[1][k] + a[2] * dam->inertia[2][k];
     dam->foundation->advance(load);

@@ -101,6 +101,13 @@ namespace Voussoir
                c[0].peak_acceleration / g, c[1].peak_acceleration / g, c[2].peak_acceleration / g,
                c[0].peak_velocity, c[1].peak_velocity, c[2].peak_velocity, c[0].peak_displacement,
                c[1].peak_displacement, c[2].peak_displacement);
+      if (const double delay = dam->foundation->delay(); scene.motion.duration_is_automatic() && delay > 0.)
+        log.line("          the run goes on for %.2f s after the motion: its end is at the dam's base then",
+                 grid().duration() - motion.duration());
+      else if (delay > 0.)
+        log.line("          the last %.3f s of the motion do not reach the dam: the run ends with "
+                 "\"Motion/Duration\"; -1 adds the travel time",
+                 delay);
       if (const std::string warning = size_warning(report); !warning.empty())
         log.line("warning: %s", warning.c_str());
     }

@@ -25,7 +25,7 @@ namespace Voussoir
     const DamGeometry &geometry = *dam->geometry;
     if (dam->model->equation[geometry.crown_left] != dam->model->equation[geometry.crown])
       table.add_vector("crest_left", [this] { return relative_to_base(dam->geometry->crown_left); });
-    table.add_vector("base_acceleration", [this] { return motion.acceleration[step]; });
+    table.add_vector("base_acceleration", [this] { return motion.sample(step); });
     if (!dam->base_is_held())
       table.add_vector("base", [this] { return dam->base_motion(newmark->state().u); });
     for (const auto &probe : scene.output.probe_places())

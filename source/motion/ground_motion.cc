@@ -12,6 +12,11 @@ namespace Voussoir
     return acceleration.empty() ? 0. : dt * (acceleration.size() - 1);
   }
 
+  std::array<double, 3> GroundMotion::sample(const std::size_t k) const
+  {
+    return k < acceleration.size() ? acceleration[k] : std::array<double, 3>{};
+  }
+
   std::array<double, 3> GroundMotion::at(double t) const
   {
     std::array<double, 3> a = {{0., 0., 0.}};

@@ -28,8 +28,10 @@ namespace Voussoir
         Patterns::Selection("artificial|file|none"));
     prm.add_parameter(
         "Duration", duration,
-        "Length of the shaking [s]. Longer records are cut, shorter ones refused. -1: that of the "
-        "shortest record; 20.48 s of an artificial motion.");
+        "Length of the ground motion and of the run [s]. Longer records are cut, shorter ones refused. -1: "
+        "that "
+        "of the shortest record; 20.48 s of an artificial motion. On rock, -1 adds to the run the time that "
+        "the waves travel to the dam's base, in whole time steps of the motion.");
     prm.add_parameter(
         "Time step", time_step,
         "Sampling interval of the motion [s]; Duration is a multiple of it. Records with a longer "

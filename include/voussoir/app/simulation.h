@@ -98,7 +98,7 @@ namespace Voussoir
     void                 save_checkpoint();
     Provenance           provenance_now() const;
     void                 open_checkpoint();
-    void                 check_longer_motion(unsigned int n_steps_then) const;
+    void                 check_longer_motion(unsigned int n_steps_then, std::size_t samples_then) const;
     void                 load_checkpoint();
     void                 report_loads();
     Json                 json_of_loads() const;

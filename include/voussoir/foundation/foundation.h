@@ -66,8 +66,9 @@ namespace Voussoir
     virtual void add_stiffness(const SolidModel &, Structure &) {}
     virtual void add_mass(Structure &) const {} ///< the rock's at the base; after the inertia loads
 
-    virtual void        report(Log &, const TimeGrid &) const {} ///< what it is, and warnings
-    virtual std::string about_steps() const; ///< what follows "Steps N of DT s" in the log
+    virtual void   report(Log &, const TimeGrid &) const {} ///< what it is, and warnings
+    virtual double delay() const { return 0.; } ///< with which the ground motion is at the dam's base [s]
+    virtual std::string about_steps() const;    ///< what follows "Steps N of DT s" in the log
     virtual void        add_to_summary(Json &, const TimeGrid &) const {}
 
     /** InputError for what would become unstable with these steps, of which there are that many of the dam in

@@ -16,8 +16,9 @@ namespace Voussoir
     std::vector<std::array<double, 3>> acceleration; ///< a_x, a_y, a_z [m/s^2] at t = k dt
     std::vector<std::string>           notes;        ///< what was done to records, for the user
 
-    double                duration() const;   ///< time of the last sample [s]
-    std::array<double, 3> at(double t) const; ///< linear interpolation; zero outside the record
+    double                duration() const;            ///< time of the last sample [s]
+    std::array<double, 3> sample(std::size_t k) const; ///< at t = k dt [m/s^2]; zero after the end
+    std::array<double, 3> at(double t) const;          ///< linear interpolation; zero outside the record
     std::vector<double>   component(unsigned int direction) const; ///< 0, 1, 2 for x, y, z
   };
 
