@@ -50,7 +50,8 @@ namespace Voussoir
   } // namespace
 
   ExplicitRock::ExplicitRock(const FoundationSite &site)
-      : parameters(site.parameters), mesh(site.parameters.volumes_by_material(site.mesh)), source(site.source)
+      : parameters(site.parameters), mesh(site.parameters.volumes_by_material(site.mesh)),
+        source(site.source), incompatible_modes(site.incompatible_modes)
   {
     if (site.degree != 1)
       throw InputError("Foundation/Model = rock needs Elements/Degree = 1: dam and rock share their nodes.");
@@ -74,7 +75,9 @@ namespace Voussoir
       foot = find_feet(dam, points, source);
       return feet_of_rock();
     };
-    model = make_rock_part(mesh, region_parameters(parameters, centre, 0.).rock, find, parameters.substeps);
+    RockParameters rock = region_parameters(parameters, centre, 0.).rock;
+    rock.incompatible_modes = incompatible_modes;
+    model = make_rock_part(mesh, rock, find, parameters.substeps);
     mesh = HexMesh(); // the model has all of it
     give_back_memory();
     RayleighDamping damping;

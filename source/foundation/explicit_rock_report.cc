@@ -20,11 +20,15 @@ namespace Voussoir
         make_boundary(parameters.boundary)->warning(region_parameters(parameters, {}, steps.substep()));
     if (!warning.empty())
       log.line("warning: %s", warning.c_str());
-    report_layers(log);
+    report_layers(log, region_parameters(parameters, {}, 0.).rock.nodal_layers);
   }
 
-  void ExplicitRock::report_layers(Log &log) const
+  void ExplicitRock::report_layers(Log &log, const unsigned int nodal_layers) const
   {
+    if (nodal_layers != parameters.nodal_layers)
+      log.line("          %u layers of nodal quadrature at the artificial boundary, not the %u of "
+               "\"Foundation/Nodal layers\": the boundary %s needs as many",
+               nodal_layers, parameters.nodal_layers, parameters.boundary.c_str());
     if (parameters.layers_at_dam == 0)
       return;
     const unsigned int n = model.n_cells_at_dam, n_nodal = model.n_nodal_at_dam;
@@ -58,6 +62,7 @@ namespace Voussoir
     json.add("nodes", n_nodes())
         .add("dofs", 3. * n_nodes())
         .add("boundary", parameters.boundary)
+        .add("nodal_layers", region_parameters(parameters, {}, 0.).rock.nodal_layers)
         .add("elements_at_dam", model.n_cells_at_dam - model.n_nodal_at_dam)
         .add("arrival", arrival()[0])
         .add("time_step", steps.substep())

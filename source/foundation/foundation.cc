@@ -41,13 +41,13 @@ namespace Voussoir
         "field by sections needs to be exact; else only the layers at the boundary.");
     prm.add_parameter(
         "Nodal layers", nodal_layers,
-        "Layers of nodal quadrature at the artificial boundary; but for Nodal quadrature everywhere at least "
-        "as many as the boundary's formula sees.",
+        "Layers of nodal quadrature at the artificial boundary. With Nodal quadrature everywhere at least as "
+        "many as the boundary needs; log and summary have the number.",
         Integer(0));
     prm.add_parameter("Layers at the dam", layers_at_dam,
                       "Layers of rock elements about the dam's base whose stiffness is that of the dam's "
-                      "elements (Gauss points, incompatible modes), but for the layers at the artificial "
-                      "boundary: nodal quadrature makes the rock there too stiff.",
+                      "elements (Gauss points, and modes with Elements/Incompatible modes), except in the "
+                      "layers at the artificial boundary: nodal quadrature makes the rock there too stiff.",
                       Integer(0, 1000));
     prm.add_parameter("Substeps", substeps, "Explicit steps of the rock in each step of the dam.",
                       Integer(1, 100));

@@ -20,7 +20,7 @@ namespace Voussoir
       for (std::size_t k = 0; k < kind.size(); ++k)
       {
         if (at_dam[k])
-          kind[k] = Integration::with_modes;
+          kind[k] = parameters.incompatible_modes ? Integration::with_modes : Integration::gauss;
         if (at_boundary[k])
           kind[k] = Integration::nodal;
         model.n_cells_at_dam += at_dam[k];

@@ -51,6 +51,7 @@ namespace Voussoir
     /** When the rising waves, S, S, P, are at the lowest foot, if they enter at t = 0 [s]. The P waves enter
      * later by the difference. */
     Vector3 arrival() const;
+    double  delay() const override { return arrival()[0]; }
 
     unsigned int n_nodes() const { return static_cast<unsigned int>(model.points.size()); }
     double       critical_time_step() const { return dt_critical; } ///< of the rock [s]
@@ -95,7 +96,7 @@ namespace Voussoir
     /** @p near_feet: nodes that the rank which looks @p ahead asks for, besides the feet, which all do. */
     void                      make_rock(const GroundMotion &outcrop, const TimeGrid &steps, double delay,
                                         const std::vector<unsigned int> &near_feet = {});
-    void                      report_layers(Log &log) const;
+    void                      report_layers(Log &log, unsigned int nodal_layers) const;
     void                      keep_account(double time);
     std::vector<unsigned int> feet_of_rock() const; ///< nodes of the region
 
@@ -110,6 +111,7 @@ namespace Voussoir
     const FoundationParameters      parameters;
     HexMesh                         mesh;
     const std::string               source;
+    const bool                      incompatible_modes; ///< of the dam's elements
     std::array<double, 3>           centre{}; ///< of the dam's base: scattered waves come from there [m]
     RockModel                       model;
     std::vector<Foot>               foot;

@@ -26,9 +26,10 @@ namespace Voussoir
     unsigned int nodal_layers = 6;
 
     /** Of that many layers of cells about the base of a dam the stiffness is that of the dam's elements:
-     * Gauss points, incompatible modes. Nodal quadrature is too stiff where stresses change from cell to
-     * cell. Not in the layers at the artificial boundary. */
+     * Gauss points and, if they have them, incompatible modes. Nodal quadrature is too stiff where stresses
+     * change from cell to cell. Not in the layers at the artificial boundary. */
     unsigned int layers_at_dam = 0;
+    bool         incompatible_modes = true; ///< those of the dam's elements, so of these layers, too
 
     std::array<double, 3> centre = {
         {0., 0., 0.}}; ///< where the scattered waves come from: base of the dam [m]
