@@ -197,12 +197,12 @@ namespace Columns
 
   /** What the joints take from the energy in each step by friction and impact: never negative if they create
    * none. */
-  struct JointEnergy
+  struct JointAccount
   {
     double friction = 0., impact = 0., total = 0.; ///< the largest that was created in a step [J]
     Energy before;
 
-    explicit JointEnergy(const Newmark &newmark) : before(newmark.state().energy) {}
+    explicit JointAccount(const Newmark &newmark) : before(newmark.state().energy) {}
     void see(const Newmark &newmark)
     {
       const Energy &now = newmark.state().energy;
@@ -216,7 +216,7 @@ namespace Columns
   /** Of all runs with the tested rule since it was last reported, over the largest energy of each run. */
   inline double worst_energy_error = 0., worst_friction = 0., worst_impact = 0., worst_gain = 0.;
 
-  inline void see_energy(const Newmark &newmark, const JointEnergy &joints)
+  inline void see_energy(const Newmark &newmark, const JointAccount &joints)
   {
     const double scale = std::max(newmark.largest_energy(), 1e-300);
     worst_energy_error = std::max(worst_energy_error, newmark.energy_error());
@@ -259,8 +259,8 @@ namespace Columns
                      const std::function<void(double, Unknowns &)> &load, const Unknowns &zero,
                      const std::function<void()> &see = nullptr, const bool is_mean = mean_force())
   {
-    History     h;
-    JointEnergy joints(newmark);
+    History      h;
+    JointAccount joints(newmark);
     for (unsigned int i = 0; i <= n; ++i)
     {
       if (i > 0)

@@ -310,7 +310,7 @@ namespace
     {
       const Matrix3 H = random_flexibility();
       const Vector3 b = random_vector(1.), w = random_vector(1.),
-                    f = law->solve_acceleration(H, b, w, 1e-12, 1), a = plus(b, H * f);
+                    f = law->solve_acceleration(H, b, w, 1e-12, PairPast(), 1), a = plus(b, H * f);
       const double speed = std::hypot(w[1], w[2]);
       if (H[0] <= mu * (H[1] * w[1] + H[2] * w[2]) / speed) // Painleve's paradox: has no such solution
         continue;

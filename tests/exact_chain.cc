@@ -127,7 +127,7 @@ namespace
     double penetration = 0., cone = 0., impulse_cone = 0., approach = 0., tension = 0., most_impulse = 0.,
            most_gap = 0., most_force = 0., drift = 0.;
     unsigned int iterations = 0;
-    JointEnergy  joints(newmark);
+    JointAccount joints(newmark);
     DynamicState saved;
     for (unsigned int i = 0; i < 300; ++i)
     {

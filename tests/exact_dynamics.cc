@@ -331,7 +331,7 @@ namespace
           {
             const Unknowns f = {normal / dt, tangential / dt, 0.};
             newmark.start({0., 0., 0.}, {-1., vt, 0.}, {0., 0., 0.}, f, {-share * dt, 0., 0.});
-            JointEnergy joint(newmark);
+            JointAccount joint(newmark);
             newmark.advance(f);
             joint.see(newmark);
             created = std::max(created, joint.total);

@@ -178,8 +178,8 @@ namespace
         Newmark         newmark(s, laws, tight(), dt, tested_rule);
         Unknowns        none(3 * s.pairs.size(), 0.), load;
         newmark.start(column.zero(), column.zero(), none, column.zero(), none);
-        double      slip = 0.;
-        JointEnergy joints(newmark);
+        double       slip = 0.;
+        JointAccount joints(newmark);
         for (unsigned int i = 1; i <= 500; ++i)
         {
           load = column.zero();

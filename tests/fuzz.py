@@ -388,7 +388,7 @@ class Fclib(Kind):
     def prepare(self):
         self.files = sorted((HERE / "fclib").glob("*.hdf5"))
         self.good = next(f for f in self.files if "Example1" in f.name)
-        self.call("contact", *map(str, self.files))
+        self.call("contact", *(str(f) for f in self.files if f.name != "RockPile.hdf5"))  # RockPile takes thousands of steps
 
     def case(self, rng, directory):
         shutil.copy(self.good, directory / "good.hdf5")

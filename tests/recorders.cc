@@ -82,7 +82,7 @@ namespace
     expect_close(part.whole, wide * tall, 1e-12, "area of the face");
     expect_close(part.area, wide * (2.5 + 3 * 5. + 2.5), 1e-12, "area above the strength, with the base");
     expect_close(part.share(), 20. / 30., 1e-12, "its share");
-    expect_close(tension.largest_above_foot(a, wall.model, PhysicalId::upstream).value, 2e6, 1e-6,
+    expect_close(tension.largest_away_from_base(a, wall.model, PhysicalId::upstream).value, 2e6, 1e-6,
                  "largest tension away from the base");
     expect_close(tension.headline(a), 2e6, 1e-6, "the larger one of both faces");
     // Above half of the largest: z = 15, 20, 25 with 5 m each, 30 with 2.5 m.

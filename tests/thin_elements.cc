@@ -55,7 +55,7 @@ namespace
       Unknowns        f = column.zero();
       newmark.start(f, f, none, f, none);
       std::vector<PairState> before;
-      JointEnergy            joints(newmark);
+      JointAccount           joints(newmark);
       try
       {
         for (unsigned int i = 1; i <= 800; ++i)
