@@ -44,12 +44,36 @@ CASES = {"3.2_fja": ("paper_3_2_fja", {}), "3.2_fjb": ("paper_3_2_fjb", {}), "3.
          "3.2_ksm_radial": ("paper_3_2_ksm", {KEYS + "Direction": "radial"}),
          "3.2_ksm_vertical": ("paper_3_2_ksm", {KEYS + "Direction": "vertical"})}
 NAMES = {"3.2_fja": "FJA", "3.2_fjb": "FJB", "3.2_ksm": "KSM", "3.1_fja": "FJA", "3.1_fjb": "FJB"}
+ALONG_Y = ("3.2_fja", "3.2_fjb", "3.2_ksm")  # with the displacements of both sides of the joints
 LIMIT = 1.5  # MPa, the paper's
 FACES = ("upstream", "downstream")
 
 
+def probes_of_joints(options, case):
+    """Output/Probes: a point half a metre to the right and to the left of each joint, at both edges of the crest. The program
+    takes the nearest node of the monolith that the point is in: the node on the joint."""
+    file = options.output / f"probes_{case}.txt"
+    if not file.exists():
+        directory = options.output / f"probes_{case}"
+        program_output(options.voussoir, ROOT / "prm" / f"{CASES[case][0]}.prm", "--output", directory, "--overwrite",
+                       settings={**CASES[case][1], "Motion/Duration": 0.2, "Output/Figures": "false"})
+        points = read_table(directory / "joint_points.csv")
+        probes = []
+        for joint in sorted(set(points["joint"])):
+            crest = (points["joint"] == joint) & (points["z"] > points["z"][points["joint"] == joint].max() - 1e-3)
+            places = np.stack([points[c][crest] for c in "xyz"], axis=1)[np.argsort(points["depth"][crest])]
+            normal = np.array([places[-1, 1] - places[0, 1], places[0, 0] - places[-1, 0], 0.])
+            normal *= np.copysign(0.5, normal[1]) / np.linalg.norm(normal)  # to the left bank
+            probes += [f"{side}_{face}_{joint:.0f}: " + " ".join(f"{x:.4f}" for x in place + sign * normal)
+                       for face, place in zip(FACES, places[[0, -1]]) for side, sign in (("right", -1), ("left", 1))]
+        file.write_text("; ".join(probes))
+    return file.read_text()
+
+
 def settings_of(options, case, seed):
     settings = {**CASES[case][1], "Motion/Seed": seed, "Output/Figures": "false"}
+    if case in ALONG_Y:
+        settings["Output/Probes"] = probes_of_joints(options, case)
     if not case.startswith("3.1"):
         pass
     elif options.rock == "full":
@@ -119,6 +143,15 @@ def write_profile(directory):
         file.unlink(missing_ok=True)
 
 
+def along_y(directory):
+    """Largest growth of the distance along y, the dam's axis, between both sides of each joint (joint, face) [mm], or None. At
+    an inclined joint slip has a component along y."""
+    history = read_table(directory / "history.csv")
+    n = sum(name.startswith("left_upstream_") and name.endswith("_y") for name in history)
+    distance = [[history[f"left_{face}_{j}_y"] - history[f"right_{face}_{j}_y"] for face in FACES] for j in range(1, n + 1)]
+    return np.array([[1e3 * (d - d[0]).max() for d in faces] for faces in distance]) if n else None
+
+
 class Run:
     """What one directory says: openings and slips at the crest (joint, face) [mm], the envelopes, tensions [MPa]."""
 
@@ -129,6 +162,7 @@ class Run:
             joints = read_table(directory / "joints.csv")
             self.openings, self.slips = (1e3 * np.abs(np.column_stack([joints[f"{what}_{face}"] for face in FACES]))
                                          for what in ("opening", "slip"))
+        self.along_y = along_y(directory)
         nodes = read_table(directory / "faces.csv", ["face"])
         cells = read_table(directory / "faces_cells.csv", ["face"])
         self.nodes, self.face = nodes, nodes["face"]
@@ -235,6 +269,18 @@ def print_pairs(runs):
               scatter([rms(a.tension, b.tension, a.area * (a.face == "upstream")) for a, b in pairs], 2) + " |")
 
 
+def print_along_y(runs):
+    """Openings of each law over FJA's, motion by motion: normal to the joint, and along the dam's axis y."""
+    print("\n| openings over FJA's, mean of the joints | direction | " + " | ".join(f"motion {seed}" for seed in runs.get("3.2_fja", {})) +
+          " | below 1 in |\n" + "|---" * (3 + len(runs.get("3.2_fja", {}))) + "|")
+    for case in ALONG_Y[1:]:
+        for name, values in (("normal", lambda run: run.openings), ("along y", lambda run: run.along_y)):
+            pairs = [[values(runs[c][seed]) for c in (case, "3.2_fja")] for seed in both(runs, case, "3.2_fja")]
+            if pairs and all(value is not None for pair in pairs for value in pair):
+                ratio = np.array([a.max(axis=1).mean() / b.max(axis=1).mean() for a, b in pairs])
+                print(f"| {NAMES[case]} | {name} | " + " | ".join(f"{r:.2f}" for r in ratio) + f" | {(ratio < 1).sum()} of {len(ratio)} |")
+
+
 def print_joints(runs):
     """Largest opening (of both faces) of each joint and law, mean and standard deviation over the motions."""
     for section in ("3.1", "rigid17", "3.2"):
@@ -323,6 +369,7 @@ def main():
         return 2
     print_cases(runs)
     print_pairs(runs)
+    print_along_y(runs)
     print_joints(runs)
     print_cut(options.output)
     write_csv(runs, options.csv)

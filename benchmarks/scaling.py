@@ -36,7 +36,7 @@ def measure(arguments):
                            "messages": max(two["per_rank"]["messages_per_step"]),
                            "krylov": one["newton_iterations"]["linear_iterations_mean"], "pairs": one["mesh"]["pairs"],
                            **{stage if stage != "rock" else "rock_seconds": one["seconds"][stage] / one["steps"]
-                              for stage in ("sweeps", "joints", "stepping", "rock", "stresses", "output")}}
+                              for stage in ("substitutions", "joints", "stepping", "rock", "stresses", "output")}}
     environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     text = subprocess.run(["mpirun", "-np", "2", arguments.messages], check=True, capture_output=True, text=True,
                           env=environment).stdout
@@ -55,9 +55,9 @@ def seconds_per_second(costs, size, ranks):
     rock_costs = costs["rock28"]
     dam_costs = costs["rigid28"] if dam > 2. * rock_costs["dam"] else rock_costs
     ratio = dam / dam_costs["dam"]
-    # The joints' and the sweeps' time grows with N^1.31 as measured to 135 thousand unknowns, then as scale.md tells.
+    # The time of the joints and of the substitutions grows with N^1.31 as measured to 135 thousand unknowns.
     growth = ratio**1.31 if dam < 135e3 else (135e3 / dam_costs["dam"])**1.31 * (dam / 135e3)**1.55
-    shared = (dam_costs["sweeps"] + dam_costs["joints"]) * growth + dam_costs["stresses"] * ratio
+    shared = (dam_costs["substitutions"] + dam_costs["joints"]) * growth + dam_costs["stresses"] * ratio
     on_dam = min(ranks, MONOLITHS)
     alike = (dam_costs["stepping"] + dam_costs["output"]) * ratio
     of_rock = rock_costs["rock_seconds"] * rock / rock_costs["rock_dofs"] * substeps / 4. / ranks

@@ -22,10 +22,12 @@ def run(voussoir, scene, settings):
         subprocess.run([voussoir, scene, "--output", directory, "--quiet", "--set", "Output/Figures=false"]
                        + [word for setting in settings for word in ("--set", setting)], check=True)
         with open(os.path.join(directory, "summary.json"), encoding="utf-8") as file:
-            return json.load(file)
+            summary = json.load(file)
+    summary["seconds"].setdefault("substitutions", summary["seconds"]["sweeps"])  # the name until version 0.3
+    return summary
 
 
-STAGES = ("sweeps", "joints", "rock", "stepping", "stresses", "output")
+STAGES = ("substitutions", "joints", "rock", "stepping", "stresses", "output")
 
 
 def compare(programs, scene, settings, now, repeat):
@@ -69,14 +71,14 @@ def main():
     if not cases:
         dam = os.path.join(ROOT, "prm", "rigid28.prm")
         cases = [(dam, ["Joints/Model=" + law]) for law in ("FJA", "FJB", "tied")]
-    print("| scene | law | unknowns | pairs | s per s | ms per step: sweeps | joints | stepping | stresses | output "
+    print("| scene | law | unknowns | pairs | s per s | ms per step: substitutions | joints | stepping | stresses | output "
           "| Newton mean (max) | GMRES per step | memory [GiB] |")
     print("|" + "---|" * 13)
     for scene, settings in cases:
         s = run(arguments.voussoir, scene, settings)
         seconds, newton = s["seconds"], s["newton_iterations"]
         step = [f"{1e3 * seconds[stage] / s['steps']:.1f}"
-                for stage in ("sweeps", "joints", "stepping", "stresses", "output")]
+                for stage in ("substitutions", "joints", "stepping", "stresses", "output")]
         print("|", " | ".join(
             [s["scene"], s["law"], str(s["mesh"]["dofs"]), str(s["mesh"]["pairs"]),
              f"{seconds['per_second_of_earthquake']:.2f}", *step, f"{newton['mean']:.2f} ({newton['max']:.0f})",

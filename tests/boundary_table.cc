@@ -68,7 +68,7 @@ namespace
     check("the message names all", message.find("\"mtf7\"") != std::string::npos &&
                                        message.find(boundary_names(", ")) != std::string::npos);
     check("what they need of the mesh", make_boundary("mtf1")->n_layers() == 6 &&
-                                            make_boundary("mtf4")->n_layers() == 8 &&
+                                            make_boundary("mtf4")->n_layers() == 9 &&
                                             make_boundary("viscous")->n_layers() == 0);
   }
 

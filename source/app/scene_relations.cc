@@ -17,7 +17,7 @@ namespace Voussoir
                                                   [&](const auto &joint) { return joint.second == model; });
     }
 
-    /** Keys for which Coulomb's law itself has two branches (reference: contact, 12). */
+    /** Keys for which Coulomb's law itself has two branches (doc/keys.md). */
     std::string two_branches(const Scene &scene)
     {
       const KeyParameters &keys = scene.joints.keys;

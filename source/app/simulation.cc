@@ -335,15 +335,15 @@ namespace Voussoir
     const double rock_seconds = dam->foundation->seconds() - rock_before;
     count.seconds_rock += rock_seconds;
     const SystemTimes &after = newmark->joint_system().times;
-    count.seconds_sweeps += after.sweeps - before.sweeps;
+    count.seconds_substitutions += after.substitutions - before.substitutions;
     count.seconds_joints += after.joints - before.joints;
-    count.seconds_stepping +=
-        watch.seconds() - (after.sweeps - before.sweeps) - (after.joints - before.joints) - rock_seconds;
+    count.seconds_stepping += watch.seconds() - (after.substitutions - before.substitutions) -
+                              (after.joints - before.joints) - rock_seconds;
     count.newton += result.iterations;
     count.newton_max = std::max<double>(count.newton_max, result.iterations);
     count.krylov += result.krylov;
     count.factorisations += result.factorisations;
-    count.sweeps += result.sweeps;
+    count.gauss_seidel += result.sweeps;
     count.residual = std::max(count.residual, result.residual);
     count.imbalance =
         std::max(count.imbalance, std::abs(newmark->state().energy.balance(newmark->initial_energy())));

@@ -167,11 +167,10 @@ namespace Voussoir
     }
     report_tension();
     if (n_steps > 0)
-      log.line("Speed     %.2f s of wall time per second of shaking; per step %.1f ms: sweeps %.1f, joints "
-               "%.1f, stepping "
-               "%.1f, stresses %.1f, output %.1f",
+      log.line("Speed     %.2f s of wall time per second of shaking; per step %.1f ms: substitutions %.1f, "
+               "joints %.1f, stepping %.1f, stresses %.1f, output %.1f",
                count.seconds_shaking / grid().duration(), 1e3 * count.seconds_shaking / n_steps,
-               1e3 * count.seconds_sweeps / n_steps, 1e3 * count.seconds_joints / n_steps,
+               1e3 * count.seconds_substitutions / n_steps, 1e3 * count.seconds_joints / n_steps,
                1e3 * count.seconds_stepping / n_steps, 1e3 * count.seconds_stresses / n_steps,
                1e3 * count.seconds_output / n_steps);
     log.line("Energy    balance closes to %.1e of the largest energy", balance_error());

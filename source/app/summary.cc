@@ -55,7 +55,8 @@ namespace Voussoir
         .add("static", count.seconds_static)
         .add("shaking", count.seconds_shaking)
         .add("shaking_cpu", count.cpu_shaking)
-        .add("sweeps", count.seconds_sweeps)
+        .add("substitutions", count.seconds_substitutions)
+        .add("sweeps", count.seconds_substitutions) // the name until 0.3
         .add("joints", count.seconds_joints)
         .add("stepping", count.seconds_stepping)
         .add("rock", count.seconds_rock)
@@ -83,7 +84,8 @@ namespace Voussoir
         .add("max", count.newton_max)
         .add("linear_iterations_mean", count.krylov / n)
         .add("joint_factorisations_mean", count.factorisations / n)
-        .add("sweeps", count.sweeps);
+        .add("gauss_seidel_iterations", count.gauss_seidel)
+        .add("sweeps", count.gauss_seidel); // the name until 0.3
     return json;
   }
 

@@ -13,7 +13,7 @@ namespace Voussoir
     constexpr double pi = 3.141592653589793;
 
     /** The flanks of a trapezoidal key that restrains slip in direction @p d (1 or 2): phi = g sin a -/+ d
-     *  cos a + c >= 0 (reference: dams, 8.2). */
+     *  cos a + c >= 0 (doc/method.md, Joint laws). */
     void add_flanks(const unsigned int d, const KeyParameters &keys, const double friction,
                     std::vector<ContactSurface> &surfaces)
     {

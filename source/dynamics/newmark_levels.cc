@@ -59,10 +59,11 @@ namespace Voussoir
     if (part.halvings == most || (support && part.n_substeps == 1))
     {
       std::ostringstream message;
-      message << "The joint conditions did not converge at t = " << now.time + dt
-              << " s, not with time steps of " << dt << " s either: relative residual " << failed.residual
-              << " after " << failed.iterations << " Newton steps and " << failed.sweeps
-              << " sweeps. See entries \"Motion/Time step\" and \"Contact/Maximum iterations\".";
+      message
+          << "The joint conditions did not converge at t = " << now.time + dt << " s, not with time steps of "
+          << dt << " s either: relative residual " << failed.residual << " after " << failed.iterations
+          << " Newton steps and " << failed.sweeps
+          << " Gauss-Seidel iterations. See entries \"Motion/Time step\" and \"Contact/Maximum iterations\".";
       throw ComputationError(message.str());
     }
     const unsigned int n = part.n_substeps, n_first = n / 2;

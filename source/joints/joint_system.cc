@@ -291,7 +291,7 @@ namespace Voussoir
                                         u.data() + 3 * std::size_t(structure.bodies[b].first_node));
         });
     structure.gather(u);
-    times.sweeps += middle - begin + now() - after;
+    times.substitutions += middle - begin + now() - after;
     times.joints += after - middle;
     return result;
   }

@@ -142,9 +142,9 @@ namespace Voussoir
     {
       double                      seconds_rock = 0.;
       std::array<unsigned int, 4> path{}; ///< steps by ContactPath
-      double newton = 0., newton_max = 0., krylov = 0., factorisations = 0., sweeps = 0., residual = 0.,
+      double newton = 0., newton_max = 0., krylov = 0., factorisations = 0., gauss_seidel = 0., residual = 0.,
              imbalance = 0.; // largest |balance| of the energies of the dam [J]
-      double seconds_setup = 0., seconds_static = 0., seconds_sweeps = 0., seconds_joints = 0.,
+      double seconds_setup = 0., seconds_static = 0., seconds_substitutions = 0., seconds_joints = 0.,
              seconds_stepping = 0., seconds_stresses = 0., seconds_output = 0., seconds_shaking = 0.,
              cpu_shaking = 0.; // of all threads
       template <class Archive> void serialize(Archive &archive, unsigned int)
@@ -152,8 +152,8 @@ namespace Voussoir
         archive &seconds_rock;
         for (unsigned int &n : path)
           archive &n;
-        archive &newton &newton_max &krylov &factorisations &sweeps &residual &imbalance;
-        archive &seconds_setup &seconds_static &seconds_sweeps &seconds_joints &seconds_stepping
+        archive &newton &newton_max &krylov &factorisations &gauss_seidel &residual &imbalance;
+        archive &seconds_setup &seconds_static &seconds_substitutions &seconds_joints &seconds_stepping
             &seconds_stresses &seconds_output &seconds_shaking &cpu_shaking;
       }
     } count;

@@ -15,7 +15,8 @@ namespace Voussoir
    *  systems solved to the accuracy that Newton can use (Eisenstat and Walker 1996). A few Gauss-Seidel
    *  sweeps with the exact solution of each pair settle the states before the first Newton step. When Newton
    *  stalls, more sweeps follow; when it stalls again, the proximal point method, whose regularised problems
-   *  W + alpha D, alpha falling with the residual, Newton solves (reference: contact, 6).
+   *  W + alpha D, alpha falling with the residual, Newton solves (Rockafellar 1976; for friction: Acary,
+   * Bremond and Huber 2018).
    *
    *  Pairs that touch on several surfaces (SurfacesLaw) bring the forces of these as further unknowns, which
    *  are eliminated pair by pair (PairSurfaces). Where their seats are rigid the problem is solved with a
@@ -50,7 +51,7 @@ namespace Voussoir
     const std::vector<PairState>     &states() const { return state; }   ///< of the last solution
     const std::vector<unsigned char> &touching() const { return touch; } ///< surfaces, as in PairEquations
 
-    /** Smallest W_nn/|W_nt| of a pair: friction beyond it may jam (reference: contact, 5.2). */
+    /** Smallest W_nn/|W_nt| of a pair: friction beyond it may jam (Klarbring 1990). */
     double critical_friction() const;
 
   private:

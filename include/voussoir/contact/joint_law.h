@@ -63,7 +63,7 @@ namespace Voussoir
                           PairEquations &equations) const = 0;
 
     /** What the pair misses, in forces: the measure of convergence, the same for all formulations of a law.
-     *  For Coulomb's law the natural map of De Saxce (reference: contact, 3.1). */
+     *  For Coulomb's law the natural map (De Saxce and Feng 1998). */
     virtual Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &past, double rho) const;
 
     /** Exact solution for one pair alone: the force with gap = H force + b. */

@@ -22,8 +22,8 @@ namespace Voussoir
   std::string impact_rule_names();                  ///< as a ParameterHandler selection
 
   /** Impact and release: velocity and acceleration that fit the displacements of a step, pair by pair;
-   *  without, a closed pair rings for ever (reference: dynamics, 1.2 to 1.4). Lumped mass, one 3x3 block per
-   *  node; a node may belong to one pair only. */
+   *  without it, the force of a closed pair oscillates in every step (doc/failures.md, Plain Newmark). Lumped
+   * mass, one 3x3 block per node; a node may belong to one pair only. */
   class Impact
   {
   public:

@@ -12,7 +12,7 @@ namespace Voussoir
   /** Wall seconds spent in the stages of a linear solution with joints. */
   struct SystemTimes
   {
-    double sweeps = 0., joints = 0.;
+    double substitutions = 0., joints = 0.;
   };
 
   /** What a support says of a step, see FootElimination: three values per foot. */
