@@ -528,7 +528,8 @@ def run_siconos(problems, options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", type=Path, default=ROOT / "build" / "voussoir", help="Voussoir")
-    parser.add_argument("--samples", type=Path, default=ROOT / "../shared/reference/data/fclib", help="FCLib files")
+    collection = ROOT / "../shared/reference/data/fclib"  # all of them; tests/fclib, with RockPile, is a choice
+    parser.add_argument("--samples", type=Path, default=collection if collection.exists() else ROOT / "tests" / "fclib", help="FCLib files")
     parser.add_argument("--problems", type=Path, action="append", default=[], help="further dam-type problems")
     parser.add_argument("--output", type=Path, default=ROOT / "build" / "benchmarks" / "contact")
     parser.add_argument("--cap", type=float, default=10, help="CPU seconds per solve")
