@@ -9,6 +9,7 @@
 #include <voussoir/dam/load_table.h>
 #include <voussoir/dam/nodal_forces.h>
 #include <voussoir/dam/static_path.h>
+#include <voussoir/dam/static_state.h>
 #include <voussoir/dam/temperature.h>
 #include <voussoir/joints/joint_system.h>
 #include <voussoir/joints/pairs.h>
@@ -572,6 +573,47 @@ namespace
     }
   }
 
+  /** The static state of a linear dam is that of one step without stages; a stop ends it before its end. */
+  void static_state_of(Dam &dam, const double *levels)
+  {
+    Log               log(true);
+    unsigned int      n_asked = 0;
+    const StaticState state = static_state(dam, dam.scene.contact, log, [&] { ++n_asked; });
+    expect(state.steps.size() == 6 && n_asked >= 6, "steps of the static state");
+    for (unsigned int i = 0; i < 6; ++i)
+      expect(state.steps[i].level == levels[i / 2 + 1] && state.steps[i].stage == i / 2 + 1 &&
+                 state.steps[i].share == (i % 2 == 0 ? .5 : 1.),
+             "row of step " + std::to_string(i));
+    expect(state.steps[1].crown[0] > 0. && state.steps[5].crown[0] > 5. * state.steps[1].crown[0],
+           "the crest moves downstream with the water");
+    Scene at_once = dam.scene;
+    at_once.statics.stages = "";
+    at_once.statics.water_increments = 1;
+    Dam               other(at_once);
+    const StaticState whole = static_state(other, at_once.contact, log, [] {});
+    expect(whole.steps.size() == 1, "one step without stages");
+    double largest = 0., difference = 0.;
+    for (std::size_t k = 0; k < state.u.size(); ++k)
+    {
+      largest = std::max(largest, std::abs(whole.u[k]));
+      difference = std::max(difference, std::abs(whole.u[k] - state.u[k]));
+    }
+    below("static state in stages and at once, difference / largest displacement", difference / largest,
+          1e-12);
+    expect_error(
+        [&]
+        {
+          n_asked = 0;
+          static_state(other, at_once.contact, log,
+                       [&]
+                       {
+                         if (++n_asked == 2)
+                           throw InputError("stopped");
+                       });
+        },
+        {"stopped"});
+  }
+
   /** A reservoir that is filled to 10 m, to 24 m and to 30 m, each in two steps, with factors of weight and
    * water. Checks the water pressure after each step, and the crest under the staged weight: -rho g h^2/(2 E)
    * for nu = 0.
@@ -591,7 +633,7 @@ namespace
     scene.reservoir.level = 30.;
     scene.loads.combinations["flood"] = "weight 2, water 1.5";
     scene.loads.combination = "flood";
-    const Dam dam(scene);
+    Dam dam(scene);
     expect_close(dam.self_weight_crown[2], -2. * 2400. * 10. * tall * tall / (2. * scene.concrete.young),
                  1e-9, "crest under twice its weight");
     const StaticPath path(dam);
@@ -605,6 +647,7 @@ namespace
         expect_within(path.water_pressure(step, z), 1.5e4 * (share * after + (1. - share) * before), 1e-6,
                       "pressure at z = " + text(z) + " in step " + std::to_string(step));
       }
+    static_state_of(dam, levels);
   }
 
   void combinations()

@@ -240,6 +240,14 @@ namespace Voussoir
     }
   } // namespace
 
+  void Simulation::find_static_state()
+  {
+    const Stopwatch watch;
+    statics = static_state(*dam, contact_parameters("static"), log, [this] { stop_if_asked(); });
+    pairs_at_start = statics.pairs;
+    count.seconds_static = watch.seconds();
+  }
+
   void Simulation::start_foundation()
   {
     dam->foundation->start(motion, grid(), statics.u);

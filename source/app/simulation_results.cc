@@ -13,6 +13,17 @@ namespace Voussoir
 {
   namespace
   {
+    Table stages_table(const std::vector<StaticStep> &steps)
+    {
+      Table table;
+      table.columns = {"stage",      "share",      "level",     "crest_x",     "crest_y",    "crest_z",
+                       "open_pairs", "slip_pairs", "wet_pairs", "max_opening", "max_overlap"};
+      for (const StaticStep &s : steps)
+        table.rows.push_back({double(s.stage), s.share, s.level, s.crown[0], s.crown[1], s.crown[2],
+                              double(s.n_open), double(s.n_slip), double(s.n_wet), s.opening, s.overlap});
+      return table;
+    }
+
     std::string joints_beside(const std::string &solution) // solution-NNNNN.vtu
     {
       return "joints" + solution.substr(8);
@@ -106,7 +117,7 @@ namespace Voussoir
       spectrum_table(motion, as_run).write(directory + "/spectrum.csv");
     }
     if (!scene.statics.stages.empty())
-      stages.write(directory + "/stages.csv");
+      stages_table(statics.steps).write(directory + "/stages.csv");
   }
 
   void Simulation::write_tables()

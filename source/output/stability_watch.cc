@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/base/tensor3.h>
+#include <voussoir/dam/static_state.h>
 #include <voussoir/output/stability_watch.h>
 
 #include <algorithm>
@@ -11,9 +12,8 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double amplification = 10.;       ///< of a node, see StabilityWatch
-    constexpr double long_period = 1.;          ///< of dam and rock, longer than any arch dam's [s]
-    constexpr double largest_joint_share = .02; ///< movement of a joint, of the dam's size
+    constexpr double amplification = 10.; ///< of a node, see StabilityWatch
+    constexpr double long_period = 1.;    ///< of dam and rock, longer than any arch dam's [s]
 
     /** Speed that the strain energy of the static state could give to the dam [m/s]. */
     double static_speed(const Structure &structure, const double strain)
@@ -136,36 +136,5 @@ namespace Voussoir
     text << "a smaller time step (\"Dynamics/Steps per sample\"), and check \"Motion/Unit\" and the motion's "
             "size (voussoir motion).";
     return text.str();
-  }
-
-  void check_static_state(const Dam &dam, const Unknowns &u, const Vector3 &crown)
-  {
-    constexpr double largest_share = .01;
-    double           joint = 0.;
-    Vector3          where{};
-    for (const Pair &pair : dam.structure.pairs)
-      if (const double moved = norm(dam.structure.jump(pair, u)); !(moved <= joint))
-      {
-        joint = moved;
-        where = pair.place;
-      }
-    const double       crest = norm(crown), weight = norm(dam.self_weight_crown);
-    std::ostringstream text;
-    text.precision(4);
-    if (!(crest <= largest_share * dam.size))
-      text << "its crest has moved by " << crest << " m against the base";
-    else if (!(weight <= largest_share * dam.size))
-      text << "its crest has moved by " << weight << " m under its own weight";
-    else if (!(joint <= largest_joint_share * dam.size))
-      text << "a joint has moved by " << joint << " m at " << place(where);
-    else
-      return;
-    throw InputError(
-        "The static state of the dam is impossible: " + text.str() +
-        ", before any earthquake. Check \"Concrete/Young's modulus\" [Pa] and \"Concrete/Density\" "
-        "[kg/m3], \"Mesh/Length unit\", \"Reservoir/Water level\" [m] and \"Reservoir/Density\", "
-        "and \"Statics/Gravity\"" +
-        std::string(dam.foundation->uses_rock() ? ", and \"Foundation/Young's modulus\" [Pa]" : "") +
-        "; voussoir SCENE.prm --validate shows what the scene holds.");
   }
 } // namespace Voussoir

@@ -4,7 +4,7 @@
 
 #include <voussoir/base/interrupt.h>
 #include <voussoir/base/log.h>
-#include <voussoir/dam/dam.h>
+#include <voussoir/dam/static_state.h>
 #include <voussoir/dam/tractions.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/output/block_recorder.h>
@@ -20,9 +20,6 @@
 
 namespace Voussoir
 {
-  class JointWater;
-  class StaticPath;
-
   struct RunOptions
   {
     std::string output;            ///< directory; empty: output/NAME
@@ -103,11 +100,6 @@ namespace Voussoir
     void                 report_loads();
     Json                 json_of_loads() const;
 
-    ContactResult static_step(const StaticPath &path, unsigned int i, JointSystem &system, JointWater *water,
-                              const Unknowns &springs, Unknowns &gap);
-    void          record_static_step(const StaticPath &path, unsigned int i, const JointSystem &system,
-                                     const JointWater *water, const Unknowns &gap);
-
     const Scene                   scene;
     const std::string             scene_text;
     const RunOptions              options;
@@ -127,16 +119,7 @@ namespace Voussoir
     unsigned int           start_step = 0;      ///< of this process
     bool                   inside_step = false; ///< the state is not one of any time
 
-    struct StaticState
-    {
-      Unknowns               u, force, load, memory;
-      Unknowns               closed;      ///< jumps at which the joints were grouted, 3 per pair [m]
-      std::vector<double>    joint_water; ///< pressure in each pair [Pa], or empty
-      std::vector<PairState> pairs;
-      ContactResult          contact;
-      unsigned int           n_open = 0;
-      Vector3                crown = {{0., 0., 0.}}; ///< displacement of the crest, against the base [m]
-    } statics;
+    StaticState statics;
 
     struct Counters
     {
@@ -172,9 +155,9 @@ namespace Voussoir
     std::unique_ptr<EnvelopeRecorder>  envelope;
     std::unique_ptr<FaceTension>       tension;
     std::unique_ptr<JointRecorder>     joints;
-    std::unique_ptr<BlockRecorder>     blocks;                  ///< if the scene asks for it
-    std::unique_ptr<TimeErrorEstimate> companion;               ///< if the scene asks for it
-    Table                              history, energy, stages; ///< stages: of the static state
+    std::unique_ptr<BlockRecorder>     blocks;    ///< if the scene asks for it
+    std::unique_ptr<TimeErrorEstimate> companion; ///< if the scene asks for it
+    Table                              history, energy;
     std::unique_ptr<Recorder>          history_columns, energy_columns;
     TableFile                          history_file, energy_file, joint_file, block_file;
     std::vector<std::pair<double, std::string>> solutions; ///< time and file of solution.pvd

@@ -57,11 +57,6 @@ namespace Voussoir
     const Unknowns u_static;
     double         velocity_dam, displacement_dam; ///< bounds
   };
-
-  /** InputError for a static state of metres, from which no sound run can start: the crest has moved by more
-   * than a hundredth of the dam's size (under water and under its own weight), or a joint by a fiftieth of
-   * it. @p u: the static displacement, @p crown: that of the crest, against the base [m]. */
-  void check_static_state(const Dam &dam, const Unknowns &u, const Vector3 &crown);
 } // namespace Voussoir
 
 #endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_static_state_h
+#define voussoir_static_state_h
+
+#include <voussoir/base/log.h>
+#include <voussoir/contact/contact_parameters.h>
+#include <voussoir/contact/contact_result.h>
+#include <voussoir/contact/joint_law.h>
+#include <voussoir/dam/dam.h>
+
+#include <functional>
+
+namespace Voussoir
+{
+  /** End of a step of the static load history: a row of stages.csv. */
+  struct StaticStep
+  {
+    unsigned int stage = 1;                         ///< number of the stage, from 1
+    double       share = 1.;                        ///< of the loads of the stage that are applied, up to 1
+    double       level = 0.;                        ///< of the reservoir [m]
+    Vector3      crown{};                           ///< displacement of the crest against the base [m]
+    unsigned int n_open = 0, n_slip = 0, n_wet = 0; ///< pairs that are open, slip, are open with water
+    double       opening = 0.;                      ///< largest, of joints that are grouted [m]
+    double       overlap = 0.;                      ///< largest, of joints that are not grouted [m]
+  };
+
+  /** Static state: the equilibrium of dam, joints and foundation under the static loads, from which the
+   * dynamic analysis starts. */
+  struct StaticState
+  {
+    Unknowns                u;           ///< displacement, 3 per node [m]
+    Unknowns                force;       ///< of the joints, 3 per pair [N]
+    Unknowns                load;        ///< of all static loads, 3 per node [N]
+    Unknowns                memory;      ///< history variables of the joint laws
+    Unknowns                closed;      ///< jumps at which the joints were grouted, 3 per pair [m]
+    std::vector<double>     joint_water; ///< pressure in each pair [Pa], or empty
+    std::vector<PairState>  pairs;
+    ContactResult           contact; ///< of all steps together
+    unsigned int            n_open = 0;
+    Vector3                 crown{}; ///< displacement of the crest against the base [m]
+    std::vector<StaticStep> steps;
+  };
+
+  /** Computes the static state of a @p dam along StaticPath: in each step the joint equations are solved, in
+   * open joints as often as water spreads in them.
+   * @p parameters of the contact solver; problems are written from full grouting on. @p log: a line per stage
+   * and one of the result. @p stop_if_asked: called before each solution; an exception of it ends the
+   * computation. Throws ComputationError if the joints do not converge, InputError for a state that no dam
+   * can have: the crest has moved by more than a hundredth of the dam's size (under all loads or under its
+   * weight), or a joint by more than largest_joint_share of it. */
+  StaticState static_state(Dam &dam, const ContactParameters &parameters, Log &log,
+                           const std::function<void()> &stop_if_asked);
+
+  /** Largest credible movement of a joint, of the dam's size. */
+  constexpr double largest_joint_share = .02;
+} // namespace Voussoir
+
+#endif

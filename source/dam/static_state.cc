@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
+#include <voussoir/base/tensor3.h>
+#include <voussoir/contact/free_law.h>
+#include <voussoir/dam/joint_water.h>
+#include <voussoir/dam/static_path.h>
+#include <voussoir/dam/static_state.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <sstream>
+
+namespace Voussoir
+{
+  namespace
+  {
+    constexpr double usual_gap = 5e-3; // of joints that are not grouted [m]
+
+    /** The pairs between two heights are grouted where they are: their gap counts from there. */
+    void close_pairs(const Structure &structure, const double from, const double to, const Unknowns &u,
+                     Unknowns &closed, Unknowns &gap)
+    {
+      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+        if (const double z = structure.pairs[p].place[2]; z > from && z <= to)
+        {
+          set(closed, p, structure.jump(structure.pairs[p], u));
+          set(gap, p, {});
+        }
+    }
+
+    /** The steps of the static load history, one after the other. */
+    class StaticHistory
+    {
+    public:
+      StaticHistory(Dam &dam, const ContactParameters &parameters, Log &log,
+                    const std::function<void()> &stop_if_asked)
+          : dam(dam), parameters(parameters), log(log), stop_if_asked(stop_if_asked),
+            springs(dam.foundation->static_springs(dam.structure)),
+            feet(dam.foundation->static_feet(dam.structure)), path(dam), free(make_free_law())
+      {
+        const Scene &scene = dam.scene;
+        state.force.assign(3 * dam.structure.pairs.size(), 0.);
+        state.closed = gap = state.force;
+        state.u.assign(3 * dam.structure.n_nodes(), 0.);
+        state.memory = dam.laws.initial_memory();
+        state.contact.converged = true;
+        if (scene.loads.uplift.joints && scene.loads.factor("uplift") != 0. && scene.reservoir.density > 0.)
+          water = std::make_unique<JointWater>(*dam.model, dam.structure);
+      }
+
+      StaticState solve()
+      {
+        for (unsigned int i = 0; i < path.n_steps(); ++i)
+        {
+          stop_if_asked();
+          const double grouted = path.part(i).grouted, before = i == 0 ? -INFINITY : path.part(i - 1).grouted;
+          if (i == 0 || grouted > before)
+            grout(before, grouted);
+          state.contact += solve_step(i);
+          record(i);
+        }
+        if (water)
+          state.joint_water =
+              water->pressures([&](const double z) { return water_pressure(path.n_steps() - 1, z); });
+        state.pairs = system->states();
+        state.n_open = n_of(PairState::open);
+        return state;
+      }
+
+    private:
+      double water_pressure(const unsigned int i, const double z) const
+      {
+        return dam.scene.loads.factor("uplift") * path.water_pressure(i, z);
+      }
+
+      unsigned int n_of(const PairState wanted) const
+      {
+        return std::count(system->states().begin(), system->states().end(), wanted);
+      }
+
+      void grout(const double before, const double grouted)
+      {
+        close_pairs(dam.structure, before, grouted, state.u, state.closed, gap);
+        ContactParameters of_system = parameters;
+        of_system.write_problems = parameters.write_problems && grouted == INFINITY;
+        system = std::make_unique<JointSystem>(dam.structure, laws_up_to(grouted, dam, *free), of_system, 0.,
+                                               1., 0., ForceMeaning(), springs, feet.get());
+      }
+
+      /** Where open joints are wet, the step is solved again until the water has gone as far as it goes. */
+      ContactResult solve_step(const unsigned int i)
+      {
+        const Unknowns start = gap; // slip is counted from the last step
+        Unknowns       offset = state.closed;
+        for (double &x : offset)
+          x = -x;
+        const Unknowns committed = state.memory;
+        const auto     solve = [&](const Unknowns &load)
+        {
+          stop_if_asked();
+          state.memory = committed; // the events of rounds before the last are none
+          return system->solve(load, offset, start, state.memory, state.force, gap, state.u);
+        };
+        const auto pressure =
+            [&](const double z) // a joint that is not grouted has no faces that it could part
+        { return z > path.part(i).grouted ? 0. : water_pressure(i, z); };
+        ContactResult total;
+        total.converged = true;
+        do
+        {
+          state.load = path.load(i);
+          if (water)
+            water->add_forces(pressure, state.load);
+          const ContactResult result = dam.foundation->settle(solve, springs, state.u, state.load, log);
+          total += result;
+          if (!result.converged)
+          {
+            std::ostringstream message;
+            message << "The static state did not converge in step " << i + 1 << " of " << path.n_steps()
+                    << ": relative residual " << result.residual << " after " << result.iterations
+                    << " Newton steps. More increments may help (entry \"Statics/Water increments\").";
+            throw ComputationError(message.str());
+          }
+        } while (water && water->spread(system->states(), pressure));
+        system->commit(start, state.force, gap, state.memory);
+        return total;
+      }
+
+      /** Adds a row, and a line of the log at the end of each stage. */
+      void record(const unsigned int i)
+      {
+        const StaticPart  &part = path.part(i);
+        const unsigned int crown = dam.model->equation[dam.geometry->crown];
+        if (crown != rigid_ground)
+          state.crown = Vector3{{state.u[3 * crown], state.u[3 * crown + 1], state.u[3 * crown + 2]}} -
+                        dam.base_motion(state.u);
+        StaticStep step{path.number(i),
+                        path.share(i),
+                        part.level,
+                        state.crown,
+                        n_of(PairState::open),
+                        n_of(PairState::slip),
+                        water ? water->n_wet() : 0};
+        for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
+          if (const Pair &pair = dam.structure.pairs[p]; pair.place[2] <= part.grouted)
+            step.opening = std::max(step.opening, gap[3 * p]);
+          else
+            step.overlap = std::max(step.overlap, -dam.structure.jump(pair, state.u)[0]);
+        state.steps.push_back(step);
+        if (path.ends_part(i) && (path.n_parts() > 1 || step.n_wet > 0))
+          log.line("Stage     %s: crest %.1f mm downstream, %u pairs open, %u wet, largest opening %.2f mm",
+                   part.name.c_str(), 1e3 * state.crown[0], step.n_open, step.n_wet, 1e3 * step.opening);
+        if (path.ends_part(i) && step.overlap > usual_gap)
+          log.line(
+              "warning: stage %s: joints above the lift of %g m overlap by %.1f mm, since what is not "
+              "grouted does not touch in this program. Beyond a joint's gap of a few millimetres that is "
+              "no state of a dam: grout higher before (Statics/Stages).",
+              part.name.c_str(), part.grouted, 1e3 * step.overlap);
+      }
+
+      const Dam                   &dam;
+      const ContactParameters      parameters;
+      Log                         &log;
+      const std::function<void()> &stop_if_asked;
+      const Unknowns               springs;
+
+      const std::unique_ptr<FootElimination::Feet> feet;
+
+      const StaticPath                path;
+      const std::unique_ptr<JointLaw> free;
+      std::unique_ptr<JointWater>     water;
+      std::unique_ptr<JointSystem>    system;
+      Unknowns                        gap; ///< of the pairs, 3 each [m]
+      StaticState                     state;
+    };
+
+    /** Throws InputError for a static state of metres, from which no dynamic analysis can start. */
+    void check(const Dam &dam, const Unknowns &u, const Vector3 &crown)
+    {
+      constexpr double largest_share = .01;
+      double           joint = 0.;
+      Vector3          where{};
+      for (const Pair &pair : dam.structure.pairs)
+        if (const double moved = norm(dam.structure.jump(pair, u)); !(moved <= joint))
+        {
+          joint = moved;
+          where = pair.place;
+        }
+      const double       crest = norm(crown), weight = norm(dam.self_weight_crown);
+      std::ostringstream text;
+      text.precision(4);
+      if (!(crest <= largest_share * dam.size))
+        text << "its crest has moved by " << crest << " m against the base";
+      else if (!(weight <= largest_share * dam.size))
+        text << "its crest has moved by " << weight << " m under its own weight";
+      else if (!(joint <= largest_joint_share * dam.size))
+        text << "a joint has moved by " << joint << " m at " << place(where);
+      else
+        return;
+      throw InputError(
+          "The static state of the dam is impossible: " + text.str() +
+          ", before any earthquake. Check \"Concrete/Young's modulus\" [Pa] and \"Concrete/Density\" "
+          "[kg/m3], \"Mesh/Length unit\", \"Reservoir/Water level\" [m] and \"Reservoir/Density\", "
+          "and \"Statics/Gravity\"" +
+          std::string(dam.foundation->uses_rock() ? ", and \"Foundation/Young's modulus\" [Pa]" : "") +
+          "; voussoir SCENE.prm --validate shows what the scene holds.");
+    }
+  } // namespace
+
+  StaticState static_state(Dam &dam, const ContactParameters &parameters, Log &log,
+                           const std::function<void()> &stop_if_asked)
+  {
+    const Stopwatch   watch;
+    const StaticState state = StaticHistory(dam, parameters, log, stop_if_asked).solve();
+    check(dam, state.u, state.crown);
+    log.line(
+        "Static    self-weight %s, then water: %u Newton steps, %u pair%s open, crest %.1f mm downstream%s "
+        "(%.1f s)",
+        dam.scene.statics.self_weight.c_str(), state.contact.iterations, state.n_open,
+        state.n_open == 1 ? "" : "s", 1e3 * state.crown[0], dam.base_is_held() ? "" : " of the base",
+        watch.seconds());
+    return state;
+  }
+} // namespace Voussoir
