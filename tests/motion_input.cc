@@ -205,6 +205,35 @@ namespace
     expect(motion_warnings(report_motion(motion, p)).size() == 1, "a cut motion is not warned of");
   }
 
+  /** a = (3 t - 1, 2, -t): v and u by hand, also with three steps per sample and twice the size. */
+  void arithmetic()
+  {
+    GroundMotion motion;
+    motion.dt = .25;
+    for (unsigned int k = 0; k < 9; ++k)
+      motion.acceleration.push_back({{.75 * k - 1., 2., -.25 * k}});
+    for (const unsigned int n : {1, 3})
+      for (const double factor : {1., 2.})
+      {
+        const GroundMotion other = motion.refined(n).scaled(factor);
+        expect(other.acceleration.size() == 8 * n + 1, "number of samples");
+        expect_within(other.duration(), 2., 1e-14, "duration");
+        const MotionIntegrals integrals = other.integrated();
+        for (std::size_t k = 0; k < other.acceleration.size(); ++k)
+        {
+          const double t = k * other.dt, a[] = {3. * t - 1., 2., -t},
+                       v[] = {1.5 * t * t - t, 2. * t, -.5 * t * t},
+                       u[] = {.5 * t * t * t - .5 * t * t, t * t, -t * t * t / 6.};
+          for (unsigned int c = 0; c < 3; ++c)
+          {
+            expect_within(other.acceleration[k][c], factor * a[c], 1e-13, "acceleration");
+            expect_within(integrals.velocity[k][c], factor * v[c], 1e-13, "velocity");
+            expect_within(integrals.displacement[k][c], factor * u[c], 1e-13, "displacement");
+          }
+        }
+      }
+  }
+
   void wrong_entries()
   {
     const auto wrong = [](const std::function<void(MotionParameters &)> &change, const std::string &entry)
@@ -323,6 +352,7 @@ int main(int argc, char **argv)
               {"factors", factors},
               {"short_motions", short_motions},
               {"ends", ends},
+              {"arithmetic", arithmetic},
               {"wrong_entries", wrong_entries},
               {"wrong_files", wrong_files}},
              argc, argv);

@@ -24,30 +24,6 @@ namespace Voussoir
   {
   }
 
-  namespace
-  {
-    /** The motion with @p n steps in each sampling interval. */
-    GroundMotion refined(const GroundMotion &motion, const unsigned int n)
-    {
-      if (n == 1 || motion.acceleration.empty())
-        return motion;
-      GroundMotion result;
-      result.dt = motion.dt / n;
-      result.notes = motion.notes;
-      for (std::size_t k = 0; k + 1 < motion.acceleration.size(); ++k)
-        for (unsigned int i = 0; i < n; ++i)
-        {
-          std::array<double, 3> a;
-          for (unsigned int c = 0; c < 3; ++c)
-            a[c] = motion.acceleration[k][c] +
-                   double(i) / n * (motion.acceleration[k + 1][c] - motion.acceleration[k][c]);
-          result.acceleration.push_back(a);
-        }
-      result.acceleration.push_back(motion.acceleration.back());
-      return result;
-    }
-  } // namespace
-
   /** One run is started with one command, on machines that see the same files. */
   void Simulation::check_ranks() const
   {
@@ -118,11 +94,8 @@ namespace Voussoir
   /** All files that the scene names; InputError for what cannot be run. */
   void Simulation::read_input()
   {
-    motion = refined(make_motion(scene.motion, scene.directory), scene.steps_per_sample);
     const double factor = scene.loads.factor("earthquake"); // of the combination
-    for (auto &a : motion.acceleration)
-      for (unsigned int c = 0; factor != 1. && c < 3; ++c)
-        a[c] *= factor;
+    motion = make_motion(scene.motion, scene.directory).refined(scene.steps_per_sample).scaled(factor);
     n_steps = scene.motion.source == "none" || factor == 0. ? 0 : motion.acceleration.size() - 1;
     dam = std::make_unique<Dam>(scene);
     if (!scene.statics.stages.empty())

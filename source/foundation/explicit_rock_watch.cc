@@ -21,18 +21,18 @@ namespace Voussoir
      */
     double incident_energy(const RockModel &rock, const GroundMotion &motion)
     {
-      double  energy = 0.;
-      Vector3 v{};
+      double                energy = 0.;
+      const MotionIntegrals integrals = motion.integrated();
       for (std::size_t k = 1; k < motion.acceleration.size(); ++k)
         for (unsigned int c = 0; c < 3; ++c)
         {
-          v[c] += .5 * motion.dt * (motion.acceleration[k - 1][c] + motion.acceleration[k][c]);
-          double impedance = 0.; // times area
+          const double v = integrals.velocity[k][c];
+          double       impedance = 0.; // times area
           for (const BoundaryFace &face : rock.faces)
             if (face.normal[2] < -.5)
               impedance += face.material.density * face.area *
                            (c == 2 ? p_wave_speed(face.material) : s_wave_speed(face.material));
-          energy += impedance * .25 * v[c] * v[c] * motion.dt;
+          energy += impedance * .25 * v * v * motion.dt;
         }
       return energy;
     }

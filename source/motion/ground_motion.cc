@@ -39,6 +39,52 @@ namespace Voussoir
     return a;
   }
 
+  GroundMotion GroundMotion::scaled(const double factor) const
+  {
+    GroundMotion result = *this;
+    for (auto &a : result.acceleration)
+      for (double &component : a)
+        component *= factor;
+    return result;
+  }
+
+  GroundMotion GroundMotion::refined(const unsigned int n) const
+  {
+    if (n == 1 || acceleration.empty())
+      return *this;
+    GroundMotion result;
+    result.dt = dt / n;
+    result.notes = notes;
+    for (std::size_t k = 0; k + 1 < acceleration.size(); ++k)
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        std::array<double, 3> a;
+        for (unsigned int c = 0; c < 3; ++c)
+          a[c] = acceleration[k][c] + double(i) / n * (acceleration[k + 1][c] - acceleration[k][c]);
+        result.acceleration.push_back(a);
+      }
+    result.acceleration.push_back(acceleration.back());
+    return result;
+  }
+
+  MotionIntegrals GroundMotion::integrated() const
+  {
+    MotionIntegrals       result;
+    std::array<double, 3> v{}, u{};
+    for (std::size_t k = 0; k < acceleration.size(); ++k)
+    {
+      for (unsigned int c = 0; k > 0 && c < 3; ++c)
+      {
+        const double a = acceleration[k - 1][c], b = acceleration[k][c];
+        u[c] += dt * v[c] + dt * dt * (a / 3. + b / 6.);
+        v[c] += .5 * dt * (a + b);
+      }
+      result.velocity.push_back(v);
+      result.displacement.push_back(u);
+    }
+    return result;
+  }
+
   void write_motion(const GroundMotion &motion, const std::string &file)
   {
     OutputFile out(file);

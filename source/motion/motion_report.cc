@@ -33,26 +33,23 @@ namespace Voussoir
       return aa * bb > 0. ? ab / std::sqrt(aa * bb) : 0.;
     }
 
-    MotionReport::Component measure(const std::vector<double> &a, double dt)
+    /** Of the component @p d with the accelerations @p a. */
+    MotionReport::Component measure(const std::vector<double> &a, const double dt,
+                                    const MotionIntegrals &integrals, const unsigned int d)
     {
       MotionReport::Component result;
 
-      double              velocity = 0., displacement = 0.;
       std::vector<double> energy(a.size(), 0.); // integral of a^2
       for (std::size_t k = 0; k < a.size(); ++k)
       {
+        result.end_velocity = integrals.velocity[k][d];
+        result.end_displacement = integrals.displacement[k][d];
         if (k > 0)
-        {
-          displacement += dt * velocity + dt * dt * (a[k - 1] / 3. + a[k] / 6.);
-          velocity += dt * (a[k - 1] + a[k]) / 2.;
           energy[k] = energy[k - 1] + dt * (a[k - 1] * a[k - 1] + a[k - 1] * a[k] + a[k] * a[k]) / 3.;
-        }
         result.peak_acceleration = std::max(result.peak_acceleration, std::abs(a[k]));
-        result.peak_velocity = std::max(result.peak_velocity, std::abs(velocity));
-        result.peak_displacement = std::max(result.peak_displacement, std::abs(displacement));
+        result.peak_velocity = std::max(result.peak_velocity, std::abs(result.end_velocity));
+        result.peak_displacement = std::max(result.peak_displacement, std::abs(result.end_displacement));
       }
-      result.end_velocity = velocity;
-      result.end_displacement = displacement;
       if (energy.empty())
         return result;
 
@@ -69,11 +66,12 @@ namespace Voussoir
   {
     MotionReport                       report;
     std::array<std::vector<double>, 3> accelerations;
+    const MotionIntegrals              integrals = motion.integrated();
     report.artificial = parameters.source == "artificial";
     for (unsigned int d = 0; d < 3; ++d)
     {
       accelerations[d] = motion.component(d);
-      report.components[d] = measure(accelerations[d], motion.dt);
+      report.components[d] = measure(accelerations[d], motion.dt, integrals, d);
       const double factor = std::abs(parameters.factor * parameters.scale[d]);
       if (!report.artificial || factor == 0.)
         continue;

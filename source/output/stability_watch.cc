@@ -27,21 +27,15 @@ namespace Voussoir
 
   MotionBounds bounds_of(const GroundMotion &motion, const double mass_damping)
   {
-    MotionBounds result;
-    Vector3      v{}, u{};
-    double       sum = 0.;
-    const double dt = motion.dt, decay = std::exp(-.5 * mass_damping * dt);
+    MotionBounds          result;
+    const MotionIntegrals integrals = motion.integrated();
+    double                sum = 0.;
+    const double          dt = motion.dt, decay = std::exp(-.5 * mass_damping * dt);
     for (std::size_t k = 1; k < motion.acceleration.size(); ++k)
     {
-      const auto &a = motion.acceleration[k - 1], &b = motion.acceleration[k];
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        u[c] += dt * v[c] + dt * dt * (a[c] / 3. + b[c] / 6.);
-        v[c] += .5 * dt * (a[c] + b[c]);
-      }
-      sum = decay * sum + .5 * dt * (norm(a) + norm(b));
-      result.velocity = std::max(result.velocity, norm(v));
-      result.displacement = std::max(result.displacement, norm(u));
+      sum = decay * sum + .5 * dt * (norm(motion.acceleration[k - 1]) + norm(motion.acceleration[k]));
+      result.velocity = std::max(result.velocity, norm(integrals.velocity[k]));
+      result.displacement = std::max(result.displacement, norm(integrals.displacement[k]));
       result.oscillator = std::max(result.oscillator, sum);
     }
     return result;

@@ -9,6 +9,12 @@
 
 namespace Voussoir
 {
+  /** Velocity and displacement of a motion at its samples, from rest: [m/s], [m]. */
+  struct MotionIntegrals
+  {
+    std::vector<std::array<double, 3>> velocity, displacement;
+  };
+
   /** Acceleration of the base in the axes of the scene: x downstream, y across the valley, z up. */
   struct GroundMotion
   {
@@ -20,6 +26,9 @@ namespace Voussoir
     std::array<double, 3> sample(std::size_t k) const; ///< at t = k dt [m/s^2]; zero after the end
     std::array<double, 3> at(double t) const;          ///< linear interpolation; zero outside the record
     std::vector<double>   component(unsigned int direction) const; ///< 0, 1, 2 for x, y, z
+    GroundMotion          scaled(double factor) const;
+    GroundMotion          refined(unsigned int n) const; ///< with @p n steps in each sampling interval
+    MotionIntegrals       integrated() const;            ///< exact for linear acceleration between samples
   };
 
   /** Standard gravity, for accelerations given in g [m/s^2]. */
