@@ -44,12 +44,12 @@ namespace Voussoir
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &memory,
                         Unknowns &force, Unknowns &gap, Unknowns &u, FeetOfStep *feet = nullptr);
 
-    /** The same for laws without memory. */
+    /** The same with the laws' initial memory, which is not kept. */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &force,
                         Unknowns &gap, Unknowns &u)
     {
-      Unknowns none;
-      return solve(load, offset, start, none, force, gap, u);
+      Unknowns memory = laws.initial_memory();
+      return solve(load, offset, start, memory, force, gap, u);
     }
 
     /** What the equations of a step from @p start see of the pairs; points into @p memory. */
