@@ -271,11 +271,12 @@ def print_pairs(runs):
 
 def print_along_y(runs):
     """Openings of each law over FJA's, motion by motion: normal to the joint, and along the dam's axis y."""
-    print("\n| openings over FJA's, mean of the joints | direction | " + " | ".join(f"motion {seed}" for seed in runs.get("3.2_fja", {})) +
-          " | below 1 in |\n" + "|---" * (3 + len(runs.get("3.2_fja", {}))) + "|")
+    seeds = sorted(set.intersection(*(set(runs.get(case, {})) for case in ALONG_Y)))
+    print("\n| openings over FJA's, mean of the joints | direction | " + " | ".join(f"motion {seed}" for seed in seeds) +
+          " | below 1 in |\n" + "|---" * (3 + len(seeds)) + "|")
     for case in ALONG_Y[1:]:
         for name, values in (("normal", lambda run: run.openings), ("along y", lambda run: run.along_y)):
-            pairs = [[values(runs[c][seed]) for c in (case, "3.2_fja")] for seed in both(runs, case, "3.2_fja")]
+            pairs = [[values(runs[c][seed]) for c in (case, "3.2_fja")] for seed in seeds]
             if pairs and all(value is not None for pair in pairs for value in pair):
                 ratio = np.array([a.max(axis=1).mean() / b.max(axis=1).mean() for a, b in pairs])
                 print(f"| {NAMES[case]} | {name} | " + " | ".join(f"{r:.2f}" for r in ratio) + f" | {(ratio < 1).sum()} of {len(ratio)} |")
