@@ -4,7 +4,8 @@
 
     scripts/site.py [--output build/site] [--voussoir build/voussoir]
 
-A link to a page or figure that is not there is an error. `python3 -m http.server -d build/site` shows it.
+A link to a page or figure that is not there is an error, and so is a page without a place in NAVIGATION.
+`python3 -m http.server -d build/site` shows the site.
 """
 
 import argparse
@@ -18,7 +19,15 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 OTHERS = ("CONTRIBUTING.md", "CITATION.cff", "LICENSE")
-METHOD = ("install", "release_0.3.0", "method", "output", "report", "mesh", "loads", "accuracy", "failures", "parallel", "studies", "python", "changes")
+NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.md, parameters: of the program
+    "Start": ("index", "limits", "install", "tutorials/1_first_run", "pages"),
+    "How-to": ("tutorials/2_own_dam", "tutorials/3_own_records", "tutorials/4_rock", "tutorials/6_study", "tutorials/7_report",
+               "read_results", "choose_mesh", "messages", "report", "parallel"),
+    "Reference": ("input_file", "parameters", "output", "mesh", "loads", "studies", "python", "glossary", "changes", "release_0.3.0"),
+    "Theory": ("method", "keys", "rock", "boundary"),
+    "Evidence": ("verification", "accuracy", "convergence", "contact", "performance", "scaling", "paper", "rigid_base", "failures"),
+    "Develop": ("CONTRIBUTING", "tutorials/5_own_law"),
+}
 
 
 def title_of(page):
@@ -67,19 +76,23 @@ def reference(pages, program):
     (pages / "parameters.md").write_text("# All entries of a scene\n" + "\n".join(table(json.loads(result.stdout), [])) + "\n", encoding="utf-8")
 
 
+def check_navigation(pages):
+    """Ends with a message if NAVIGATION and the pages differ."""
+    listed = [name for names in NAVIGATION.values() for name in names]
+    found = {page.relative_to(pages).with_suffix("").as_posix() for page in pages.rglob("*.md")}
+    for names, text in ((found - set(listed), "not in NAVIGATION"), (set(listed) - found, "in NAVIGATION, but not in doc/"),
+                        ({name for name in listed if listed.count(name) > 1}, "more than once in NAVIGATION")):
+        if names:
+            sys.exit(f"site: these pages are {text} (scripts/site.py): {', '.join(sorted(names))}.")
+
+
 def configuration(directory, pages):
-    """mkdocs.yml: tutorials, the program, the entries, what was computed."""
-    tutorials = sorted(path.name for path in (pages / "tutorials").glob("*.md"))
-    rest = sorted(path.stem for path in pages.glob("*.md") if path.stem not in (*METHOD, "index", "pages", "parameters", "CONTRIBUTING"))
-    nav = [{"Voussoir": "index.md"},
-           {"Tutorials": [{title_of(pages / "tutorials" / name): f"tutorials/{name}"} for name in tutorials]},
-           {"The program": [{title_of(pages / f"{name}.md"): f"{name}.md"} for name in METHOD if (pages / f"{name}.md").exists()]},
-           {"All entries": "parameters.md"},
-           {"What was computed": [{title_of(pages / f"{name}.md"): f"{name}.md"} for name in rest]},
-           {"All pages": "pages.md"}, {"Contributing": "CONTRIBUTING.md"}]
+    """mkdocs.yml with the pages of NAVIGATION."""
+    check_navigation(pages)
+    nav = [{part: [{"Voussoir" if name == "index" else title_of(pages / f"{name}.md"): f"{name}.md"} for name in names]} for part, names in NAVIGATION.items()]
     text = {"site_name": "Voussoir", "docs_dir": str(pages), "nav": nav, "theme": {"name": "readthedocs", "highlightjs": False}, "use_directory_urls": False,
             "plugins": ["search"], "extra_css": ["tables.css"]}
-    (pages / "tables.css").write_text("th, td { padding: 3px 8px; vertical-align: top; } table { margin-bottom: 24px; } thead:has(th:empty) { display: none; }\n",
+    (pages / "tables.css").write_text("th, td { padding: 3px 8px; vertical-align: top; } table{ margin-bottom: 24px; } thead:has(th:empty) {display: none; }\n",
                                       encoding="utf-8")
     path = directory / "mkdocs.yml"
     path.write_text(json.dumps(text, indent=1), encoding="utf-8")  # JSON is YAML
