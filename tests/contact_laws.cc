@@ -724,6 +724,39 @@ namespace
     }
   };
 
+  /** A key that is out closes while it moves sideways: its flank stops it, and the compression of an elastic
+   * seat does not count as a way over the end of the flank. */
+  void test_back_onto_elastic_seat()
+  {
+    constexpr double height = .15, side = 1e-3, flexibility = 1e-9;
+    double           compression = 0.;
+    for (const double seat : {1e-12, 20. * height / 21e9})
+    {
+      LawParameters p(0.);
+      p.keys = keys(height, 0., 0., "radial", 0.);
+      p.keys.seat_compliance = seat;
+      const auto          law = make_joint_law("KSM", p);
+      std::vector<double> memory(law->n_memory(), 0.);
+      PairPast            past(Vector3{{.16, 0., 0.}});
+      past.area = 1.;
+      past.memory = memory.data();
+      const Matrix3 H = {{flexibility, 0., 0., 0., flexibility, 0., 0., 0., flexibility}};
+      for (const double sign : {1., -1.})
+      {
+        const Vector3 b = {{.05, sign * side, 0.}};
+        memory[0] = 0.;
+        expect(law->excess({}, b, past) > 1., "past the flank: the next event");
+        memory[0] = 1.;
+        const Vector3 force = law->solve(H, b, past), gap = plus(b, H * force);
+        compression =
+            std::max(compression, std::abs(std::abs(gap[1]) - side * seat / (seat + flexibility)) / side);
+        expect(std::abs(gap[0] - .05) < 1e-12, "the opening is free");
+        expect(law->excess(force, gap, past) == 0., "stopped by its flank, not on its crest");
+      }
+    }
+    below("key on its elastic seat again: compression, relative error", compression, 1e-9);
+  }
+
   /** A key that is pulled out, goes over its flank and comes back: its crest and its flank stop it from
    * below, whatever the steps. */
   void test_out_over_and_back()
@@ -861,5 +894,6 @@ int main()
 {
   return run_all({test_derivatives, test_solve, test_impulses, test_accelerations, test_units, test_error,
                   test_no_keys, test_rectangular, test_variational, test_kinematics, test_structures,
-                  test_start_on_flank, test_default_friction, test_seats, test_out_over_and_back});
+                  test_start_on_flank, test_default_friction, test_seats, test_out_over_and_back,
+                  test_back_onto_elastic_seat});
 }

@@ -89,7 +89,7 @@ namespace Voussoir
           return 0.;
         const Contact contact = contact_of(past);
         return (contact == Contact::face && !is_out(gap) && is_behind(gap)) ||
-                       (contact == Contact::flanks && is_behind({{height, gap[1], gap[2]}}))
+                       (contact == Contact::flanks && is_out(gap) && is_behind({{height, gap[1], gap[2]}}))
                    ? 2.
                    : 0.;
       }
@@ -134,7 +134,8 @@ namespace Voussoir
         crest
       };
 
-      bool is_out(const Vector3 &gap) const { return gap[0] >= height * (1. - round_off); }
+      /** A key on its crest stays there: its opening is the height within the solver's error. */
+      bool is_out(const Vector3 &gap) const { return gap[0] >= height * (1. - 1e-6); }
 
       /** Is the pair on the other side of a flank, by more than round-off? */
       bool is_behind(const Vector3 &gap) const
