@@ -61,8 +61,9 @@ namespace Voussoir
       std::ostringstream message;
       message
           << "The joint conditions did not converge at t = " << now.time + dt << " s, not with time steps of "
-          << dt << " s either: relative residual " << failed.residual << " after " << failed.iterations
-          << " Newton steps and " << failed.sweeps
+          << dt << " s either: residual " << failed.residual << " of the joint forces and "
+          << failed.residual_over_load << " of the load, after " << failed.iterations << " Newton steps and "
+          << failed.sweeps
           << " Gauss-Seidel iterations. See entries \"Motion/Time step\" and \"Contact/Maximum iterations\".";
       throw ComputationError(message.str());
     }
