@@ -25,7 +25,7 @@ NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.
                "read_results", "choose_mesh", "messages", "report", "parallel"),
     "Reference": ("input_file", "parameters", "output", "mesh", "loads", "studies", "python", "glossary", "changes", "release_0.3.0"),
     "Theory": ("method", "keys", "rock", "boundary"),
-    "Evidence": ("verification", "accuracy", "convergence", "contact", "performance", "scaling", "paper", "rigid_base", "failures"),
+    "Evidence": ("verification", "accuracy", "contact", "performance", "paper", "rigid_base", "failures"),
     "Develop": ("CONTRIBUTING", "tutorials/5_own_law"),
 }
 
