@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figures laid out as the paper's, for benchmarks/paper.py; and several single runs in one figure, for doc/rock.md:
+"""Figures laid out as the paper's, for benchmarks/paper.py; and several single runs in one figure, for doc/verification.md:
 
     benchmarks/paper_figures.py rock 'rigid base=DIR' FJA=DIR FJB=DIR [--output output/figures]
 

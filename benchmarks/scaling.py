@@ -5,7 +5,7 @@
 Usage: benchmarks/scaling.py --measure [--voussoir build/voussoir] [--messages build/benchmark_messages]
        benchmarks/scaling.py [--output doc/figures/scaling.png]
 The first writes doc/scaling.json: the stages of rigid28 and rock28 on one rank and one thread, messages and their cost on two ranks.
-The second prints the tables of doc/scaling.md from it, and draws the figure. Only the network and the larger sizes are not measured.
+The second prints the tables of doc/performance.md from it, and draws the figure. Only the network and the larger sizes are not measured.
 """
 import argparse
 import json
