@@ -8,8 +8,8 @@ namespace Voussoir
 {
   /** Parameters of the built-in dam arch210, subsection "Mesh/Arch210".
    *
-   * The dam is a parabolic double-curvature arch dam after the public data of Dagangshan. It is 210 m
-   * high. The crest has a length of 622.4 m. The volume is 3.2 million m^3. */
+   * The dam is a parabolic double-curvature arch dam after the public data of Dagangshan. It is 210 m high.
+   * The crest has a length of 622.4 m. The volume is 3.2 million m^3. */
   struct Arch210Parameters
   {
     unsigned int n_joints = 28;        ///< contraction joints, 0 to 60; the dam has n_joints + 1 monoliths
@@ -37,7 +37,8 @@ namespace Voussoir
    * The joints are vertical planes normal to the centre line of the crest, with equal spacing along it. The
    * other columns of nodes lie in such planes too. The rows of nodes have equal spacing from base to crest.
    * The node in column i along, row k up and layer l through the dam has the number
-   * (i (elements_up + 1) + k) (elements_through + 1) + l. */
+   *
+   *     (i (elements_up + 1) + k) (elements_through + 1) + l. */
   HexMesh make_arch210(const Arch210Parameters &parameters);
 
   /** Returns the cross section of the valley: (y, z) of the lowest point of the dam's centre surface at each

@@ -9,8 +9,8 @@ namespace Voussoir
   /** Returns true if the extension of @p file is .inp or .med: scripts/mesh_to_msh.py can read it. */
   bool is_foreign_mesh(const std::string &file);
 
-  /** Reads a mesh file of another program. The script mesh_to_msh.py converts it to a gmsh file,
-   * which read_gmsh() reads.
+  /** Reads a mesh file of another program. The script mesh_to_msh.py converts it to a gmsh file, which
+   * read_gmsh() reads.
    * @param file path of the .inp or .med file
    * @param subdivided as in read_gmsh()
    *

@@ -10,8 +10,8 @@ namespace Voussoir
   double fade(double x);
 
   /** Returns the n + 1 end points of n elements on [0, length] [m]. Their sizes grade from the neighbour of
-   * size @p first at 0 to the neighbour of size @p last at @p length [m]. The result is a continuous function
-   * of @p length, @p first and @p last. */
+   * size @p first at 0 to the neighbour of size @p last at @p length [m]. The result is a continuous
+   * function of @p length, @p first and @p last. */
   std::vector<double> graded(unsigned int n, double length, double first, double last);
 
   /** Returns the number of elements, at least 2, that graded() requires to fill @p length [m] with sizes of

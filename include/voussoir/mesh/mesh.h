@@ -164,8 +164,8 @@ namespace Voussoir
     double mean_jacobian_ratio;
   };
 
-  /** Returns the quality of the rock cells (@p of_rock) or of the dam cells. The mesh must
-   * have at least one such cell. */
+  /** Returns the quality of the rock cells (@p of_rock) or of the dam cells. The mesh must have at least one
+   * such cell. */
   MeshQuality mesh_quality(const HexMesh &mesh, bool of_rock);
 
   /** Returns the volume of each physical volume [m^3], by its id. It is exact for trilinear cells. */

@@ -19,8 +19,8 @@ namespace Voussoir
   std::string group_table(const HexMesh &mesh);
 
   /** Returns a warning about outer faces of the dam that are in no surface, with their number and the
-   * position of the first. Such faces are free and have no water pressure. The string
-   * is empty if there are no such faces. */
+   * position of the first. Such faces are free and have no water pressure. The string is empty if there are
+   * no such faces. */
   std::string faces_without_group(const HexMesh &mesh);
 
   /** Checks the section $PhysicalNames of a gmsh file. Gmsh ignores names that it cannot parse, so that the

@@ -9,8 +9,8 @@
 namespace Voussoir
 {
   /** Contraction joint of an opened mesh. Side 1 has the faces of monolith_1 and is the surface with the id
-   * PhysicalId::joint_side_1 + number. Side 2 has the faces of monolith_2 and the id PhysicalId::joint_side_2
-   * + number. */
+   * PhysicalId::joint_side_1 + number. Side 2 has the faces of monolith_2 and the id
+   * PhysicalId::joint_side_2 + number. */
   struct Joint
   {
     int number;

@@ -10,8 +10,8 @@ namespace Voussoir
   /** Writes a mesh to a pipe. */
   void send(const HexMesh &mesh, PipeWriter &pipe);
 
-  /** Reads a mesh that send() wrote. Throws PipeReader::End if an element has a node or a zone
-   * that does not exist. */
+  /** Reads a mesh that send() wrote. Throws PipeReader::End if a node or a zone of an element is missing from
+   * the data. */
   void receive(PipeReader &pipe, HexMesh &mesh);
 } // namespace Voussoir
 

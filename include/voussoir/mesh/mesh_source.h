@@ -34,8 +34,8 @@ namespace Voussoir
     double       sign;       ///< 1 or -1
   };
 
-  /** Returns the axes of the file that point downstream, to the left bank and up, from a text such as
-   * "y -x z". Throws InputError if they are not three different axes. */
+  /** Converts a text such as "y -x z" to the axes of the file that point downstream, to the left bank and up.
+   * Throws InputError if the text is not three different axes. */
   std::array<FileAxis, 3> file_axes(const std::string &text);
 
   /** Returns the length of a unit (m, cm, mm, km, ft, in) [m]. */
