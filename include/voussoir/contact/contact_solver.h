@@ -26,9 +26,9 @@ namespace Voussoir
    * Convergence requires two conditions, both independent of units. Norms are 2-norms; w is the mean
    * diagonal of W.
    * 1. |error|/max(|force|, |b|/w, |gap|/w) <= tolerance. For Coulomb's law this is the full relative
-   * natural-map error of Siconos on the problem scaled to mean diagonal 1.
+   *    natural-map error of Siconos on the problem scaled to mean diagonal 1.
    * 2. |error|/(|b|/w) <= tolerance, or |error| <= 4 eps |W| |force|/w, which is the round-off of W force. A
-   * problem without a solution, whose forces grow without bound, therefore does not converge. */
+   *    problem without a solution, whose forces grow without bound, therefore does not converge. */
   class ContactSolver
   {
   public:
@@ -124,15 +124,14 @@ namespace Voussoir
     Unknowns                     multiplied, product; ///< product = W multiplied, of the last refresh
     const Unknowns              *b = nullptr;         ///< load of the present problem
     const std::vector<PairPast> *past = nullptr;
-    double                       scale = 0.;     ///< divisor of the last residual [N]
-    double                       tolerance = 0.; ///< of the present stage
-    double                       beside_merit = 0.,
-           seat_alpha = 0.;   ///< seat_alpha: see rigid_seats()
-    double        drift = 0.; ///< error of gap by single precision, relative like the residual
-    Proximal      proximal;
-    Best          best;
-    ContactResult result;
-    double        deadline = 0.;
+    double                       scale = 0.;                         ///< divisor of the last residual [N]
+    double                       tolerance = 0.;                     ///< of the present stage
+    double                       beside_merit = 0., seat_alpha = 0.; ///< seat_alpha: see rigid_seats()
+    double                       drift = 0.; ///< error of gap by single precision, relative like the residual
+    Proximal                     proximal;
+    Best                         best;
+    ContactResult                result;
+    double                       deadline = 0.;
   };
 } // namespace Voussoir
 

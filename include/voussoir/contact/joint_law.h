@@ -53,7 +53,8 @@ namespace Voussoir
    * - force: force of side 1 on side 2 [N]; force[0] > 0 is compression.
    * - gap: displacement of side 2 relative to side 1 since grouting [m]; gap[0] >= 0 is the opening.
    * - start: gap at the start of the step [m]. The slip of the step is the tangential part of gap - start.
-   * Friction acts against it: force_t = -mu force_n slip/|slip|. (P_tau of the paper has the opposite sign.)
+   *   Friction acts against it: force_t = -mu force_n slip/|slip|. (P_tau of the paper has the opposite
+   * sign.)
    *
    * One constant object serves all pairs of a joint. Values that change are history variables, n_memory() per
    * pair. They are part of the state of the time integration, as for reduced time steps and checkpoints.

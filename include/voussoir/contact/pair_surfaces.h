@@ -153,7 +153,7 @@ namespace Voussoir
     double                      softest = 0.;  ///< smallest scaling factor of a surface [N/m]
     double                      own_size = 0.; ///< face axes = pair axes?
     bool                        regularised = false;
-    bool has_plain_face = false; ///< whether the axes of the face are those of the pair
+    bool                        has_plain_face = false; ///< the axes of the face are those of the pair
   };
 } // namespace Voussoir
 
