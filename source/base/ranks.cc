@@ -249,8 +249,7 @@ namespace Voussoir
   bool Ranks::have_same(const std::string &text)
   {
     const auto digest = static_cast<unsigned int>(std::hash<std::string>()(text));
-    return any(any(digest) == digest ? 0 : 1) ==
-           0; // at least one of two different hashes differs from their or
+    return any(any(digest) == digest ? 0 : 1) == 0; // two different hashes differ from their or
   }
 
   void Ranks::on_first(const std::function<void()> &action)
