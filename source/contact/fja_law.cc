@@ -119,10 +119,7 @@ namespace Voussoir
       return b;
     }
 
-    /** Coulomb's law as a complementarity problem on the second-order cone (De Saxce). The vectors X = rho
-     * (u_n + mu |u_t|, mu u_t) and Y = (mu r_n, r_t) must be orthogonal members of the cone. This holds if
-     * and only if X + Y = (X o X + Y o Y)^(1/2), with the Jordan product o (Fukushima, Luo and Tseng
-     * 2001). */
+    /** Returns the inverse of the arrow matrix of @p x times a 3x3 matrix. */
     Matrix3 arrow_inverse_times(const Vector3 &x, const Matrix3 &a)
     {
       const double det = x[0] * x[0] - x[1] * x[1] - x[2] * x[2];
@@ -136,9 +133,10 @@ namespace Voussoir
       return b;
     }
 
-    /** Coulomb's law as a complementarity problem on the second-order cone (De Saxce). X = rho (u_n + mu
-     * |u_t|, mu u_t) and Y = (mu r_n, r_t) are orthogonal members of the cone if and only if X + Y = (X o X +
-     * Y o Y)^(1/2), where o is the Jordan product (Fukushima, Luo and Tseng 2001). */
+    /** Coulomb's law as a complementarity problem on the second-order cone (De Saxce). The vectors X = rho
+     * (u_n + mu |u_t|, mu u_t) and Y = (mu r_n, r_t) must be orthogonal members of the cone. This holds if
+     * and only if X + Y = (X o X + Y o Y)^(1/2), with the Jordan product o (Fukushima, Luo and Tseng
+     * 2001). */
     class FJASmooth : public FJA
     {
     public:
