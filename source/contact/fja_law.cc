@@ -133,10 +133,10 @@ namespace Voussoir
       return b;
     }
 
-    /** Coulomb's law as a complementarity problem on the second-order cone (De Saxce). The vectors X = rho
-     * (u_n + mu |u_t|, mu u_t) and Y = (mu r_n, r_t) must be orthogonal members of the cone. This holds if
-     * and only if X + Y = (X o X + Y o Y)^(1/2), with the Jordan product o (Fukushima, Luo and Tseng
-     * 2001). */
+    /** Coulomb's law as a complementarity problem on the second-order cone (De Saxce). The vectors X =
+     * rho (u_n + mu |u_t|, mu u_t) and Y = (mu r_n, r_t) must be orthogonal members of the cone. This
+     * holds if and only if X + Y = (X o X + Y o Y)^(1/2), with the Jordan product o (Fukushima, Luo
+     * and Tseng 2001). */
     class FJASmooth : public FJA
     {
     public:

@@ -107,8 +107,8 @@ namespace Voussoir
     return force;
   }
 
-  /** Computes the equations of alart_curnier() without their derivatives. resolve() has these in closed
-   * form. */
+  /** Computes the equations of alart_curnier() without their derivatives. resolve() has these
+   * in closed form. */
   void PairSurfaces::equations_of(const ContactSurface &s, const Vector3 &force, const Vector3 &gap,
                                   Beside &mine)
   {

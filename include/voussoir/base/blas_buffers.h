@@ -5,8 +5,8 @@
 namespace Voussoir
 {
   /** Allocates the OpenBLAS buffers of all OpenMP threads (up to 128 MB of address space each, depending on
-   * the processor). Does nothing without a limit of the address space (RLIMIT_AS) and with another BLAS
-   * library. Under such a limit the buffers must be allocated early: OpenBLAS retries a failed allocation
+   * the processor). The function has an effect with OpenBLAS and a limit of the address space (RLIMIT_AS)
+   * only. Under such a limit the buffers must be allocated early: OpenBLAS retries a failed allocation
    * indefinitely. Throws std::bad_alloc if the buffers do not fit. */
   void take_blas_buffers();
 } // namespace Voussoir

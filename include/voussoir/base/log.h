@@ -28,8 +28,8 @@ namespace Voussoir
     /** Adds a line. The arguments are those of printf, without the newline. */
     void line(const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-    /** Returns the texts of the lines that begin with "warning: ", without this word and without
-     * repetition. */
+    /** Returns the texts of the lines that begin with "warning: ", without this word
+     * and without repetition. */
     const std::vector<std::string> &warnings() const { return warned; }
 
   private:

@@ -9,8 +9,8 @@
 
 namespace Voussoir
 {
-  /** Error of writing a file: the disk is full, a directory has the same name, or the permission is
-   * missing. */
+  /** Error of writing a file: the disk is full, a directory has the same name, or the
+   * permission is missing. */
   class WriteError : public ComputationError
   {
   public:

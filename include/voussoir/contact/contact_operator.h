@@ -58,8 +58,8 @@ namespace Voussoir
      * to begin[p+1] - 1 belong to pair p. */
     virtual void gather_pairs(Unknowns & /*values*/, const std::vector<std::size_t> & /*begin*/) const {}
 
-    /** Returns whether sweep() uses all entries of W. If not, the gap must be computed again after
-     * sweep(). */
+    /** Returns whether sweep() uses all entries of W. If not, the gap must be computed
+     * again after sweep(). */
     virtual bool is_in_blocks() const { return true; }
 
     /** Returns a solver for the linear systems of Newton's method. It holds a reference to this operator. */

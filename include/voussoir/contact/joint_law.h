@@ -33,9 +33,9 @@ namespace Voussoir
 
     Vector3 start; ///< gap at the start of the step [m]
 
-    /** Divisor that converts the force to a stress [m^2]. It is the tributary area, or twice that area if
-     * the force is twice the mean over the step (impact rule mean-force). The quotient is then the mean
-     * stress. */
+    /** Divisor that converts the force to a stress [m^2]. It is the tributary area, or twice that
+     * area if the force is twice the mean over the step (impact rule mean-force). The quotient is
+     * then the mean stress. */
     double area = 1.;
     bool   is_mean =
         false; ///< JointLaw::n_memory() history variables of the pair: those at the start of the step,
@@ -53,8 +53,7 @@ namespace Voussoir
    * - force: force of side 1 on side 2 [N]; force[0] > 0 is compression.
    * - gap: displacement of side 2 relative to side 1 since grouting [m]; gap[0] >= 0 is the opening.
    * - start: gap at the start of the step [m]. The slip of the step is the tangential part of gap - start.
-   *   Friction acts against it: force_t = -mu force_n slip/|slip|. (P_tau of the paper has the opposite
-   * sign.)
+   *   Friction acts against it: force_t = -mu force_n slip/|slip|. (The paper's P_tau has the opposite sign.)
    *
    * One constant object serves all pairs of a joint. Values that change are history variables, n_memory() per
    * pair. They are part of the state of the time integration, as for reduced time steps and checkpoints.

@@ -20,8 +20,8 @@ namespace Voussoir
     /** @param surfaces at most 8; the first is the face of the joint */
     explicit SurfacesLaw(std::vector<ContactSurface> surfaces);
 
-    /** Returns the surfaces that can touch in a step, with the reference forces of their contact
-     * compliances. */
+    /** Returns the surfaces that can touch in a step, with the reference forces of
+     * their contact compliances. */
     virtual PresentSurfaces present(const PairPast &past) const;
 
     /** Returns the largest number of secondary surfaces. */

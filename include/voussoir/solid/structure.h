@@ -18,7 +18,7 @@ namespace Voussoir
     unsigned int n_nodes() const { return stiffness.n_rows(); }
   };
 
-  /** Node number that stands for the rigid ground: displacement zero. */
+  /** Node number of the rigid ground, whose displacement is zero. */
   constexpr unsigned int rigid_ground = static_cast<unsigned int>(-1);
 
   /** Pair of coincident nodes on both sides of a joint. The displacement of side 2 relative to side 1 is
