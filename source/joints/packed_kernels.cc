@@ -55,7 +55,7 @@ namespace Voussoir
           for (std::size_t j = 1; j < n; ++j)
             (j % 2 == 1 ? odd : even) += load<P>(M + j * width + first) * y[j];
           P before = out;
-          if (row == 0) // y has the former values of the rows of the panel
+          if (row == 0) // y has the old values of the rows of the panel
             for (std::size_t i = 0; i < lanes<P>; ++i)
               if (first + i < n)
                 before[i] = 0.;
