@@ -22,7 +22,8 @@ namespace Voussoir
   {
     std::ostringstream text;
     text.precision(4);
-    text << ", in each " << parameters.substeps << " of the rock (mean traction); critical time step "
+    text << ", in each " << parameters.substeps
+         << " of the rock, coupled by mean tractions; critical time step "
          << "of the rock " << dt_critical << " s";
     return text.str();
   }
