@@ -35,8 +35,8 @@ namespace Voussoir
       std::function<std::vector<bool>(const RockGrid &, const Corners &, const std::vector<Integration> &,
                                       const std::vector<ArtificialFace> &)>;
 
-  /** Creates the model as make_rock_model(), with the rows that @p choose returns. All rows if @p choose is
-   * empty. */
+  /** Creates the model as make_rock_model(), with the rows that @p choose returns, or with all rows if
+   * @p choose is empty. */
   RockModel make_model_with_rows(const HexMesh &mesh, const RockParameters &parameters,
                                  const std::vector<unsigned int> &master, const ChooseRows &choose);
 } // namespace Voussoir

@@ -27,7 +27,7 @@ namespace Voussoir
    * displacements, pair by pair. Without it, the force of a closed pair oscillates from step to step
    * (doc/failures.md, Plain Newmark).
    *
-   * The mass matrix is lumped with one 3x3 block per node. A node may belong to one pair only. @p structure
+   * The mass matrix is lumped with one 3x3 block per node. A node may belong to one pair only. The structure
    * and the laws must outlive the object. */
   class Impact
   {

@@ -18,8 +18,9 @@ namespace Voussoir
     const double *of_body(const unsigned int b) const { return value.data() + begin[b]; }
   };
 
-  /** Elimination of the base nodes on a compliant support from the joint problem. The displacement of the
-   * base nodes satisfies L u = place - R f, with the forces f on them and the compliance R of the support.
+  /** Elimination of the base nodes on a compliant support from the joint problem. The displacement L u of the
+   * base nodes is place - R f, with their displacement place without forces, the forces f on them and the
+   * compliance R of the support.
    *
    * With F = L A^-1 L^T, B = G A^-1 L^T and H = F + R,
    *

@@ -49,8 +49,8 @@ namespace Voussoir
     /** Computes y = K x. Both arrays have 3 n_rows() values. */
     void multiply(const double *x, double *y) const;
 
-    /** Begins the product of multiply(). The caller must exchange the appended @p messages before
-     * end_product(). */
+    /** Begins the product of multiply(). The caller must exchange the appended @p messages
+     * before end_product(). */
     void begin_product(const double *x, double *y, std::vector<Ranks::Message> &messages) const;
     /** Completes the product of begin_product(). */
     void end_product(double *y) const;
