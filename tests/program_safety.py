@@ -104,7 +104,7 @@ def checkpoints():
         refused([*resume, "other"], "other/checkpoint.bin", "damaged")
     shutil.copy("kept/checkpoint.bin.before", "other/checkpoint.bin.before")
     shown = runs(*resume, "other")
-    expect("warning: the checkpoint" in shown and "the one before it" in shown, shown)
+    expect("warning: the checkpoint" in shown and "the previous one" in shown, shown)
     same("other", "whole", 2e-7, ("history", "joint_history", "joints"))
 
     refused([*resume, "kept", "--overwrite"], "--resume", "--overwrite")
