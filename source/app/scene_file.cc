@@ -114,8 +114,8 @@ namespace Voussoir
         throw InputError(file + ": subsection \"" + section.back() + "\" is not closed. Add an \"end\".");
     }
 
-    /** Returns the declaration of an entry. Throws InputError, with the most similar one, otherwise.
-     */
+    /** Returns the declaration of an entry. Throws InputError, with the most similar one, for an unknown
+     * entry name. */
     const DeclaredEntry &declaration(const std::vector<DeclaredEntry> &known, const Entry &entry)
     {
       const auto found = std::find_if(known.begin(), known.end(),
