@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The static loads in the log and in summary.json.
+// Static loads in the log and in summary.json.
 
 #include <voussoir/app/run_report.h>
 #include <voussoir/dam/base_uplift.h>
@@ -24,11 +24,12 @@ namespace Voussoir
                  t[0], t[1], scene.loads.temperature.grouting);
       }
       else if (!usual && norm(f) == 0.)
-        log.line("warning: the load %s is nothing: it does not reach the dam. Check its entries in Loads.",
+        log.line("warning: the load %s is zero: it does not reach the dam. Check its entries in Loads.",
                  load.name.c_str());
       else if (!usual || load.factor != 1.)
         log.line("Loads     %s x %g: %.4g %.4g %.4g MN%s", load.name.c_str(), load.factor, 1e-6 * f[0],
-                 1e-6 * f[1], 1e-6 * f[2], dam.base_is_held() ? ", without what acts on the held base" : "");
+                 1e-6 * f[1], 1e-6 * f[2],
+                 dam.base_is_held() ? ", without the forces on the fixed base" : "");
     }
     if (scene.loads.uplift.base && scene.loads.factor("uplift") != 0.)
     {

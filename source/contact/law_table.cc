@@ -21,7 +21,7 @@ namespace Voussoir
       const char *name, *doc;
       std::unique_ptr<JointLaw> (*make)(const LawParameters &);
 
-      /** Entries of section Joints that the law reads; all, if they are not listed. */
+      /** Entries of section Joints that the law reads; all of them if not declared. */
       std::optional<Entries> entries = std::nullopt;
 
       bool lists(const std::string &entry) const
@@ -32,15 +32,14 @@ namespace Voussoir
       }
     };
 
-    /** All laws. The selection of the entry "Joints/Model", its text and the messages follow from these rows.
-     */
+    /** All laws. The selection and the help of the entry "Joints/Model" and the messages follow
+     * from these rows. */
     const LawRow laws[] = {
-        {"tied", "the monolithic dam", make_tied_law, Entries{}},
-        {"FJA", "opens and slides with friction", make_fja_law, Entries{"Friction", "Equations"}},
-        {"FJB", "opens, does not slide", make_fjb_law, Entries{"Equations"}},
-        {"KSM", "shear keys (Joints/Keys) on a face that opens and slides", make_key_law,
-         Entries{"Friction", "Equations", "Keys/"}},
-        {"cohesive", "FJA with a bond of the strength Joints/Strength that breaks", make_cohesive_law,
+        {"tied", "no opening and no slip (monolithic dam)", make_tied_law, Entries{}},
+        {"FJA", "opening, and slip with friction", make_fja_law, Entries{"Friction", "Equations"}},
+        {"FJB", "opening, no slip", make_fjb_law, Entries{"Equations"}},
+        {"KSM", "FJA with shear keys (Joints/Keys)", make_key_law, Entries{"Friction", "Equations", "Keys/"}},
+        {"cohesive", "FJA with a tensile strength (Joints/Strength)", make_cohesive_law,
          Entries{"Friction", "Equations", "Strength", "Fracture energy"}}};
   } // namespace
 

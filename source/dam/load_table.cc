@@ -11,7 +11,7 @@ namespace Voussoir
   {
     struct LoadRow
     {
-      const char *name;      ///< also in combinations
+      const char *name;      ///< name, also in load combinations
       bool        is_raised; ///< see StaticLoad
       bool (*acts)(const Scene &);
       void (*add)(const Scene &, const LoadSite &, StaticLoad &load);
@@ -26,7 +26,7 @@ namespace Voussoir
       load.stress = std::move(thermal.stress);
     }
 
-    /** All static loads. A new one is its own file and a row here. */
+    /** Table of all static loads. */
     const LoadRow loads[] = {
         {"water", true, [](const Scene &scene) { return scene.reservoir.density > 0.; },
          [](const Scene &scene, const LoadSite &site, StaticLoad &load)

@@ -21,12 +21,12 @@ namespace Voussoir
       return std::make_unique<Foundation>();
     }
 
-    /** All foundations. The selection of the entry "Foundation/Model", its text and the messages follow from
-     * these rows. */
+    /** Table of all foundations. It defines the options and the help text of the entry "Foundation/Model". */
     const FoundationRow rows[] = {
-        {"rigid", "the base moves as the ground motion says", make_rigid_ground},
-        {"rock", "the rock of the mesh, explicit, the earthquake from below", make_explicit_rock},
-        {"massless", "its stiffness only, on a rigid ground that moves as the ground motion says",
+        {"rigid", "prescribed ground motion at the base of the dam", make_rigid_ground},
+        {"rock", "elastic rock with mass and explicit time integration, the earthquake enters from below",
+         make_explicit_rock},
+        {"massless", "elastic rock without mass, the ground motion is prescribed at its outer boundary",
          make_massless_rock}};
 
     void check_mesh(const FoundationSite &site, const Foundation &foundation)
@@ -37,11 +37,11 @@ namespace Voussoir
       if (foundation.uses_rock() && !has_rock)
         throw InputError("Foundation/Model is " + site.parameters.model +
                          ", but the mesh has no rock (volumes from id 1000 on). Set "
-                         "Mesh/Arch210/Rock/Enabled = true, or give a mesh with rock.");
+                         "Mesh/Arch210/Rock/Enabled = true, or use a mesh with rock.");
       if (has_rock && !foundation.uses_rock() && site.source != "arch210")
         throw InputError(
-            "The mesh has rock (volumes from id 1000 on), but Foundation/Model is rigid: set it to rock or "
-            "massless, or leave the rock out of the mesh.");
+            "The mesh has rock (volumes from id 1000 on), but Foundation/Model is rigid. Set it to rock or "
+            "massless, or remove the rock from the mesh.");
     }
   } // namespace
 

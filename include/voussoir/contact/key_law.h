@@ -7,7 +7,8 @@
 
 namespace Voussoir
 {
-  /** Law KSM: a flat face with shear keys. Throws InputError for keys that cannot be. */
+  /** Makes the law KSM: a flat face with trapezoidal shear keys. Throws InputError for keys with an
+   * impossible geometry or friction, and for equations other than "alart-curnier". */
   std::unique_ptr<JointLaw> make_key_law(const LawParameters &parameters);
 } // namespace Voussoir
 

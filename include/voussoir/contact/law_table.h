@@ -10,11 +10,11 @@
 
 namespace Voussoir
 {
-  /** The law of that name: tied, FJA, FJB, KSM, cohesive. Throws InputError for an unknown name, and for
-   * equations that the law does not have. */
+  /** Makes the joint law with the given @p name: tied, FJA, FJB, KSM or cohesive. Throws InputError for an
+   * unknown name, for equations that the law does not have, and for invalid parameters. */
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters);
 
-  /** The same, in words. */
+  /** Makes a joint law from single parameters. */
   inline std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const double friction,
                                                   const Equations      equations,
                                                   const KeyParameters &keys = KeyParameters())
@@ -22,17 +22,17 @@ namespace Voussoir
     return make_joint_law(name, LawParameters(friction, equations, keys));
   }
 
-  /** Does the law use the entry ("Joints/Friction")? Also true of laws that are not in the table, or list no
-   * entries there. */
+  /** Returns whether the law uses the entry, such as "Joints/Friction". Also true if the law is not in the
+   * table or its row does not declare entries. */
   bool joint_law_reads(const std::string &name, const std::string &entry);
 
-  /** The names of the laws that list the entry, "FJA, KSM"; empty if none does. */
+  /** Returns the names of the laws that declare the entry, such as "FJA, KSM". Empty if there is none. */
   std::string joint_laws_with(const std::string &entry);
 
-  /** The names of the laws as a ParameterHandler selection: "tied|FJA|FJB|KSM|cohesive". */
+  /** Returns the names of the laws as a ParameterHandler selection: "tied|FJA|FJB|KSM|cohesive". */
   std::string joint_law_names();
 
-  /** What the laws are, a sentence each, for the entry that selects one. */
+  /** Returns names and short descriptions of the laws, for the help of the entry "Joints/Model". */
   std::string joint_law_docs();
 } // namespace Voussoir
 

@@ -8,27 +8,28 @@
 
 namespace Voussoir
 {
-  /** Where static loads act. */
+  /** Model on which static loads act. */
   struct LoadSite
   {
     const SolidModel            &model;
     const Structure             &structure;
-    const std::vector<Material> &materials;
+    const std::vector<Material> &materials; ///< of the concrete, by zone
   };
 
   /** One static load of a dam. */
   struct StaticLoad
   {
     std::string         name;
-    bool                is_raised; ///< in the increments of the water; or there from the first
-    double              factor;    ///< of the combination, in force and stress [-]
-    Unknowns            force;     ///< on the free nodes [N]
-    std::vector<Stress> stress;    ///< that comes to the recovered one, per node of the model [Pa]; or empty
+    bool                is_raised; ///< true: applied in the water increments; false: constant
+    double              factor;    ///< of the load combination, included in force and stress [-]
+    Unknowns            force;     ///< three values per free node [N]
+    std::vector<Stress> stress;    ///< initial stress per node of the model [Pa], or empty
 
-    Vector3 resultant() const; ///< [N]
+    /** Returns the sum of all forces [N]. */
+    Vector3 resultant() const;
   };
 
-  /** The static loads that a scene asks for, a row of the table each, with the factors of its combination. */
+  /** Returns the active static loads of an input file, with the factors of its load combination. */
   std::vector<StaticLoad> static_loads(const Scene &scene, const LoadSite &site);
 } // namespace Voussoir
 

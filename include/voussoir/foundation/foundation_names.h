@@ -6,9 +6,11 @@
 
 namespace Voussoir
 {
-  // From the rows of foundation_table.cc.
-  std::string foundation_names(); ///< as a ParameterHandler selection: "rigid|rock|massless"
-  std::string foundation_docs();  ///< a clause each, for the entry that selects one
+  /** Returns the names of all foundations as a selection of ParameterHandler: "rigid|rock|massless". */
+  std::string foundation_names();
+
+  /** Returns the help texts of all foundations, for the entry "Foundation/Model". */
+  std::string foundation_docs();
 } // namespace Voussoir
 
 #endif
