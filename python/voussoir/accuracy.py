@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Error against cost of a scene, and the cheapest setting that meets a wish.
 
@@ -23,15 +22,18 @@ import json
 import math
 import re
 import shutil
-import sys
 import time
 from pathlib import Path
 
 import numpy as np
 
-from command import ComputationError, InputError, Parser, end_with, entries_of, results_of, settings, voussoir
-from study_file import is_file_entry
-from zone_tension import read, zone_means
+from .command import Parser
+from .errors import ComputationError, InputError
+from .program import call, entries_of, message_of, set_options, start
+from .results import read_summary
+from .study_file import is_file_entry
+from .tables import read_table
+from .zone_tension import zone_means
 
 ALONG, UP, THROUGH = (f"Mesh/Arch210/Elements {way}" for way in ("along", "up", "through"))
 STEPS, SUBSTEPS, DEGREE = "Dynamics/Steps per sample", "Foundation/Substeps", "Elements/Degree"
@@ -133,16 +135,16 @@ class Ladder:
             changes = self.start(name, changes, directory)
             stamp.write_text(json.dumps({"key": key, "changes": changes}))
         self.changes[name] = changes
-        summary = results_of(directory)
-        joints = read(directory / "joints.csv")
-        self.openings[name] = np.array([float(j[f"opening_{face}"]) for j in joints for face in ("upstream", "downstream")])
+        summary = read_summary(directory)
+        joints = read_table(directory / "joints.csv")
+        self.openings[name] = np.stack([joints[f"opening_{face}"] for face in ("upstream", "downstream")], axis=1).ravel()
         self.tensions[name], self.areas[name] = zone_means(directory)
         seconds = summary["seconds"]
         # Processor time, not wall time: what else the machine does should not decide.
         self.cost[name] = seconds["per_second_of_earthquake"] * seconds["shaking_cpu"] / seconds["shaking"] / summary["threads"]
         done = len(self.cost)
         left = (time.monotonic() - self.began) / done * max(0, self.n_expected - done)
-        opening = f"largest opening {1e3 * self.openings[name].max():7.2f} mm" if joints else "no joints"
+        opening = f"largest opening {1e3 * self.openings[name].max():7.2f} mm" if self.openings[name].size else "no joints"
         print(f"  {name:24s} {opening}, largest zone mean {1e-6 * self.tensions[name].max():6.3f} MPa, "
               f"{self.cost[name]:7.3f} s per s;  {done}/{self.n_expected}, about {left:.0f} s left", flush=True)
 
@@ -150,22 +152,21 @@ class Ladder:
         """Runs the scene with the changes and returns them. Smaller elements of rock have a smaller critical time step: then
         with as many steps of the rock in one of the dam as the program asks for or, if it refuses these, steps of both."""
         shutil.rmtree(directory, ignore_errors=True)
-        result = voussoir(self.scene, "--output", directory, "--quiet", *settings({**self.common, **changes}))
+        result = start(self.scene, "--output", directory, "--quiet", *set_options({**self.common, **changes}))
         first, tried = result.stderr, changes
         for entry in (SUBSTEPS, STEPS) if name != FIRST else ():
             if result.returncode == 2 and (needed := re.search(rf'"{entry}" to (\d+)', first)):
                 tried = {**changes, entry: int(needed[1])}
-                result = voussoir(self.scene, "--output", directory, "--quiet", *settings({**self.common, **tried}))
+                result = start(self.scene, "--output", directory, "--quiet", *set_options({**self.common, **tried}))
         if result.returncode != 0:
             error = InputError if result.returncode == 2 else ComputationError
-            said = [line for line in result.stderr.splitlines() if not line.startswith("voussoir: warning: ")] or ["nothing"]
             raise error(f"the run \"{name}\" ({', '.join(f'{k} = {v}' for k, v in tried.items()) or 'the scene as it is'}"
-                        f") says: {said[-1].removeprefix('voussoir: ').removeprefix('error: ').removeprefix('failed: ')}")
+                        f") failed: {message_of(result.stderr, result.returncode)}")
         return tried
 
     def key_of(self, changes):
         """A digest of all that a run reads: every entry of the scene, and the contents of its files."""
-        entries = entries_of(self.scene, settings({**self.common, **changes})[1::2])
+        entries = entries_of(self.scene, {**self.common, **changes})
         digest = hashlib.sha256(RUNS + json.dumps(entries).encode() + self.common["Motion/File"].read_bytes())
         for entry, value in entries.items():
             file = self.scene.parent / value
@@ -272,10 +273,7 @@ def prepare(options, wish):
         directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"The directory {directory} cannot be written to: {error.strerror}. Choose another with --output.") from None
-    result = voussoir("motion", options.scene, "--output", directory / "whole.csv",
-                      *[word for entry in options.set for word in ("--set", entry)])
-    if result.returncode != 0:
-        raise InputError(result.stderr.strip().removeprefix("voussoir: error: "))
+    call("motion", options.scene, "--output", directory / "whole.csv", *set_options(options.set))
     part, start = strongest(np.loadtxt(directory / "whole.csv", delimiter=",", skiprows=1), seconds)
     motion = (directory / "motion.csv").resolve()
     np.savetxt(motion, part, delimiter=",", header="t,a_x,a_y,a_z", comments="# ")
@@ -370,7 +368,3 @@ def main():
         "cost": ladder.cost[FIRST], "finer_than_needed": small, "proposal": proposal}, indent=1) + "\n")
     print(f"Chart     {directory / 'accuracy.png'}\nTable     {directory / 'accuracy.csv'}")
     return 0
-
-
-if __name__ == "__main__":
-    end_with(main)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes an arch dam of circular arcs from a table: 8-node hexahedra, monoliths that share their nodes, gmsh MSH 2.2.
 
@@ -16,18 +15,18 @@ Columns of the table, an arc in each line [m, degrees], in any order of lines; l
 Between the arcs all columns are monotone cubic functions of the elevation (Fritsch and Carlson, SIAM J. Numer. Anal. 17, 1980;
 the weighted harmonic mean of Fritsch and Butland). Joints divide the crest into equal parts. On the upstream face they, and all
 columns of the mesh, run down in vertical planes normal to the crest, so that free-standing monoliths do not lean; through the dam
-they are radial at every elevation. At both ends, where the height goes to zero, an end wall of --end-height remains, and is fixed. With --rock it is free, and the foot stands on a block
-of rock for Foundation/Model = massless.
+they are radial at every elevation. At both ends, where the height goes to zero, an end wall of --end-height remains, and is fixed.
+With --rock it is free, and the foot stands on a block of rock for Foundation/Model = massless.
 """
 
 import csv
-import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-import numpy as np  # noqa: E402
-from arch_rock import NAMES as ROCK_NAMES, ROCK, add_rock  # noqa: E402
-from command import InputError, Parser, end_with  # noqa: E402
+import numpy as np
+
+from .arch_rock import NAMES as ROCK_NAMES, ROCK, add_rock
+from .command import Parser
+from .errors import InputError
 
 COLUMNS = ("elevation", "upstream_x", "upstream_radius", "thickness", "downstream_radius", "right_angle", "left_angle")
 LARGEST = 1e5  # of a table's numbers [m, degrees]
@@ -271,13 +270,11 @@ def main():
         nodes, cells, sides = add_rock(nodes, cells, sides, (-1, options.up + 1, options.through + 1), options.rock)
     worst = smallest_jacobian(nodes, cells)
     if not worst > 0:  # or not a number
-        raise InputError("Elements are folded: the arcs of neighbouring elevations cross, or the end height is too small" + (", or the rock needs another extent." if options.rock else "."))
+        raise InputError("Elements are folded: the arcs of neighbouring elevations cross, or the end height is too small"
+                         + (", or the rock needs another extent." if options.rock else "."))
     write(options.output, nodes, cells, sides)
     edges = np.array([[dam.place(angle, dam.top, side) for angle in crest_angles(dam, n_columns(options.joints, options.along))] for side in (0., 1.)])
-    print(f"{options.output}: {len(nodes)} nodes, {n_dam} hexahedra{f' and {len(cells) - n_dam} of rock' if options.rock else ''}, {options.joints} joints; height {dam.top - dam.low:g} m, crest "
+    print(f"{options.output}: {len(nodes)} nodes, {n_dam} hexahedra{f' and {len(cells) - n_dam} of rock' if options.rock else ''}, "
+          f"{options.joints} joints; height {dam.top - dam.low:g} m, crest "
           f"{np.linalg.norm(np.diff(edges, axis=1), axis=2).sum() / 2:.1f} m, volume {volume:.0f} m3, smallest scaled Jacobian {worst:.2f}")
     return 0
-
-
-if __name__ == "__main__":
-    end_with(main)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes DIR/figures/*.png from the output directory of a run of voussoir, or of several: their scales are then the same.
 
@@ -18,18 +17,12 @@ import argparse
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-try:
-    import numpy as np
-    from drawing import (DIRECTIONS, FACES, aspect, common_levels, common_top, draw_base, draw_crest, draw_crest_bars, draw_energy,
-                         draw_face, draw_joint_history, draw_spectrum, energy_parts, imbalance, plt, stress_bar,
-                         worst_joints)
-except ImportError as error:
-    print(f"{sys.executable}: {error}")
-    sys.exit(3)
-from command import InputError  # noqa: E402
-from drawing import LineCollection, edges, triangles  # noqa: E402,F401 (for the benchmarks)
-from runs import Run, Skip, read_history, read_table  # noqa: E402,F401
+import numpy as np
+
+from .errors import InputError
+from .drawing import (DIRECTIONS, FACES, aspect, common_levels, common_top, draw_base, draw_crest, draw_crest_bars, draw_energy,
+                      draw_face, draw_joint_history, draw_spectrum, energy_parts, imbalance, plt, stress_bar, worst_joints)
+from .runs import Run, Skip
 
 N_WORST_JOINTS = 4
 
@@ -133,7 +126,7 @@ def main():
     options = parser.parse_args()
     modes = Path(options.directories[0])
     if (modes / "modes.csv").exists() and not (modes / "summary.json").exists():
-        from mode_shapes import draw_modes
+        from .mode_shapes import draw_modes
         draw_modes(modes)
         return 0
     try:
@@ -164,7 +157,3 @@ def main():
             status = 1
         plt.close("all")
     return status
-
-
-if __name__ == "__main__":
-    sys.exit(main())

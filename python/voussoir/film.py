@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A film of the opening dam from the solution-*.vtu of a run, as GIF: displacements magnified, coloured by the largest principal stress.
 
@@ -8,16 +7,16 @@
 Each solution is a picture; --slower says how many times longer the film lasts than the earthquake.
 """
 
-import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-import numpy as np  # noqa: E402
-from command import InputError, Parser, end_with  # noqa: E402
-from drawing import plt  # noqa: E402
-from matplotlib.animation import PillowWriter  # noqa: E402
-from matplotlib.collections import PolyCollection  # noqa: E402
-from picture import COLOURS, normals, outer_faces, read_solution, times_of, view_of  # noqa: E402
+import numpy as np
+from matplotlib.animation import PillowWriter
+from matplotlib.collections import PolyCollection
+
+from .command import Parser
+from .errors import InputError
+from .drawing import plt
+from .picture import COLOURS, normals, outer_faces, read_solution, times_of, view_of
 
 
 class Picture:
@@ -91,7 +90,3 @@ def main():
             writer.grab_frame(facecolor="white")
     print(f"{len(pictures)} pictures, {1. / writer.fps * len(pictures):.1f} s -> {options.film}, {options.film.stat().st_size / 1e6:.1f} MB")
     return 0
-
-
-if __name__ == "__main__":
-    end_with(main)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Paints the dam with its joints open from one of the solution-*.vtu of a run, displacements magnified, coloured by the
 largest principal stress or by the opening of the joints.
@@ -14,20 +13,20 @@ With a directory, the solution whose joints are widest open is taken.
 """
 
 import re
-import sys
 from pathlib import Path
 
 import matplotlib
 import numpy as np
 
 matplotlib.use("Agg")
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-import matplotlib.pyplot as plt  # noqa: E402 (after the choice of the backend)
-from matplotlib.collections import PolyCollection  # noqa: E402
-from matplotlib.colors import LinearSegmentedColormap  # noqa: E402
-from command import InputError, Parser, end_with  # noqa: E402
-from runs import Skip, read_table  # noqa: E402
-from vtu import read_vtu  # noqa: E402
+import matplotlib.pyplot as plt  # after the choice of the backend
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import LinearSegmentedColormap
+
+from .command import Parser
+from .errors import InputError
+from .runs import Skip, read_table
+from .vtu import read_vtu
 
 # The corners of the faces of a hexahedron of VTK, seen from outside counter-clockwise.
 FACES = np.array([[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]])
@@ -278,7 +277,3 @@ def main():
         raise InputError(f"The picture {options.picture} cannot be written: {error}. Choose another name, such as dam.png.") from error
     print(f"{options.solution} -> {options.picture}")
     return 0
-
-
-if __name__ == "__main__":
-    end_with(main)

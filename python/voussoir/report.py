@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One self-contained page for a run of voussoir, or for several side by side.
 
@@ -6,7 +5,7 @@
 
 DIR are output directories of finished runs. The page holds its figures and its style, and asks nothing of the network.
 Its texts are those of the directories' files, which may be another person's: all are escaped, and its Content-Security-Policy allows neither
-scripts nor other files. --pdf prints it to FILE.pdf with a Chromium that is installed (on Debian: apt-get install chromium), without scripts, files and network.
+scripts nor other files. --pdf prints it to FILE.pdf with an installed Chromium (on Debian: apt-get install chromium), without scripts, files and network.
 """
 
 import sys
@@ -16,12 +15,13 @@ from hashlib import sha256
 from html import escape
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-import report_figures as figures  # noqa: E402
-from chromium import find_browser, print_page  # noqa: E402
-from command import ComputationError, InputError, Parser, end_with  # noqa: E402
-from report_tables import blocks, blocks_of, differences, extremes, facts, number, tiles, verdict  # noqa: E402
-from runs import Run, Skip, name_apart, scene_of  # noqa: E402
+from . import report_figures as figures
+from .chromium import find_browser, print_page
+from .command import Parser
+from .errors import ComputationError, InputError
+from .prm import prm_text
+from .report_tables import blocks, blocks_of, differences, extremes, facts, number, tiles, verdict
+from .runs import Run, Skip, name_apart
 
 
 class Page:
@@ -241,7 +241,7 @@ def repeat(page, runs):
                  f"<p class=\"sub\">Voussoir {escape(str(summary.get('version', '?')))}, revision {escape(str(summary.get('revision', '?')))}, "
                  f"deal.II {escape(str(summary.get('dealii', '?')))}; it took {summary.get('seconds', {}).get('wall', 0.):.0f} s and "
                  f"{summary.get('memory_bytes', 0.) / 2**30:.2g} GiB.</p>"
-                 f'<details{" open" if len(runs) == 1 else ""}><summary>{escape(scene)}</summary><pre>{escape(scene_of(own))}</pre></details>')
+                 f'<details{" open" if len(runs) == 1 else ""}><summary>{escape(scene)}</summary><pre>{escape(prm_text(own))}</pre></details>')
     page.add(f"<p>This page: <code>voussoir report {escape(' '.join(run.directory.resolve().name for run in runs))}</code></p>")
 
 
@@ -304,7 +304,3 @@ def main():
         print_pdf(output, text, output.with_suffix(".pdf"))
         print(f"          {output.with_suffix('.pdf')}")
     return 0
-
-
-if __name__ == "__main__":
-    end_with(main)

@@ -19,9 +19,12 @@ from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from command import PROGRAM, ComputationError, InputError, Parser, end_with, entries_of, voussoir
-from study_file import is_file_entry, read_study, value_in
-from study_scene import end_with_parent, record_of, revision_of, row_in_words, write_whole
+from .command import Parser
+from .errors import ComputationError, InputError
+from .prm import prm_text
+from .program import entries_of, find_program, message_of, start
+from .study_file import is_file_entry, read_study, value_in
+from .study_scene import end_with_parent, record_of, revision_of, row_in_words, write_whole
 
 PLAIN_NUMBER = re.compile(r"[-+]?[0-9]+(\.[0-9]*)?(e[-+]?[0-9]+)?")
 SNAKEFILE = """# Written by `voussoir study`, which runs it, and gathers the results when all scenes are done.
@@ -116,25 +119,13 @@ def in_words(study, values):
     return ", ".join(f"{entry} = {values[entry].text}" for entry in study.factors) or "the only scene"
 
 
-def prm_text(entries):
-    """Entries as a scene file."""
-    lines, path = [], []
-    for entry, value in entries.items():
-        *sections, name = entry.split("/")
-        common = len(os.path.commonprefix([path, sections]))
-        lines += ["end"] * (len(path) - common) + [f"subsection {section}" for section in sections[common:]]
-        lines.append(f"  set {name} = {value}")
-        path = sections
-    return "\n".join(lines + ["end"] * len(path)) + "\n"
-
-
 def entries_with(base, words, known):
     """All entries of the base with these words. Scenes that differ in plain numbers are asked for once: a start of the program
     takes longer than all else here. Whether the numbers can be is for --validate to say."""
     numbers = {entry: text for entry, text in words.items() if PLAIN_NUMBER.fullmatch(text)}
     kind = (base, frozenset(numbers), tuple(sorted((entry, text) for entry, text in words.items() if entry not in numbers)))
     if kind not in known:
-        entries = entries_of(base, [f"{entry}={text}" for entry, text in words.items()])
+        entries = entries_of(base, words)
         if any(entries.get(entry) != text for entry, text in numbers.items()):
             return entries  # it is written in another way
         known[kind] = entries
@@ -181,11 +172,10 @@ def validated(study, directory, scene, name, old, known):
         write_whole(path, text)
     memory = before.get("mem_mb") if before.get("key") == key else None
     if memory is None:
-        result = voussoir(path, "--validate", "--output", directory / "runs" / name, "--overwrite")
+        result = start(path, "--validate", "--output", directory / "runs" / name, "--overwrite")
         if result.returncode != 0:
             text_of_scene(study, scene, {})  # tells the line of the study if an entry's value cannot be
-            message = result.stderr.strip().split("voussoir: error: ", 1)[-1]
-            raise InputError(f"{study.file.name}, {in_words(study, scene[2])}: {message}")
+            raise InputError(f"{study.file.name}, {in_words(study, scene[2])}: {message_of(result.stderr, result.returncode)}")
         found = re.search(r"^Memory\s+about ([0-9.]+) GiB", result.stdout, re.MULTILINE)
         memory = int(1024 * float(found.group(1))) + 1 if found else 0
     return {"key": key, "mem_mb": memory, "values": {entry: scene[2][entry].text for entry in study.factors}}
@@ -330,8 +320,8 @@ def report(directory, scenes):
     return 1 if failed or missing else 0
 
 
-def main():
-    """Reads, checks, runs, gathers, draws."""
+def main(job):
+    """Reads, checks, runs, gathers and draws; @p job: the command file that runs one scene."""
     options = arguments()
     if shutil.which("snakemake") is None:
         raise InputError("`voussoir study` needs Snakemake (on Debian: apt-get install snakemake).")
@@ -345,9 +335,8 @@ def main():
         at_a_time = "as the profile says" if options.profile and not options.jobs else f"{jobs} at a time"
         print(f"Study     {study.file.stem}: {len(names)} scenes, {at_a_time}, with {threads} thread{'s' if threads > 1 else ''} each", flush=True)
         scenes = validate_all(study, directory, names, jobs)
-        job = " ".join(shlex.quote(word) for word in (sys.executable, str(Path(__file__).resolve().with_name("study_scene.py"))))
-        write_whole(directory / "scenes.json", json.dumps({"program": str(Path(PROGRAM).resolve()), "job": job, "threads": threads,
-                                                           "scenes": scenes}, indent=1))
+        write_whole(directory / "scenes.json", json.dumps({"program": str(Path(find_program()).resolve()), "job": shlex.join((sys.executable, str(job))),
+                                                           "threads": threads, "scenes": scenes}, indent=1))
         write_whole(directory / "Snakefile", SNAKEFILE)
         take_over(directory, scenes)
         todo = [name for name, scene in scenes.items() if not is_done(directory, name, scene)]
@@ -358,13 +347,9 @@ def main():
             return 0
         if todo:
             run_workflow(options, directory, scenes, todo, jobs, threads)
-        from study_figures import draw  # what takes a second to load
-        from study_results import write_results
+        from .study_figures import draw  # what takes a second to load
+        from .study_results import write_results
         rows = write_results(study, directory, {name: scene for name, scene in scenes.items() if is_done(directory, name, scene)})
         draw(study, rows, directory / "figures")
         print(f"Results   {directory / 'results.csv'}, {directory / 'figures'}")
         return report(directory, scenes)
-
-
-if __name__ == "__main__":
-    end_with(main)

@@ -12,11 +12,12 @@ import json
 import os
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
-MESSAGES = ("voussoir: error: ", "voussoir: failed: ", "voussoir: ")
+from .errors import InputError
+from .program import message_of
+from .results import read_summary
 
 
 def end_with_parent(number=signal.SIGTERM):
@@ -43,10 +44,10 @@ def record_of(directory, name):
 
 
 def summary_of(directory, name):
-    """summary.json of a scene, {} if it has none."""
+    """Returns summary.json of a scene, {} if there is none."""
     try:
-        return json.loads((Path(directory) / "runs" / name / "summary.json").read_text())
-    except (OSError, ValueError):
+        return read_summary(Path(directory) / "runs" / name)
+    except InputError:
         return {}
 
 
@@ -63,16 +64,6 @@ def row_in_words(directory, name):
     tensions = [value for key, value in extremes.items() if key.startswith("max_tension")]
     words += [f"tension {1e-6 * max(tensions):.1f} MPa"] if tensions else []
     return ", ".join([*words, f"{summary['seconds']['wall']:.0f} s"])
-
-
-def message_of(log, status):
-    """The program's last word about a failure."""
-    lines = [line for line in log.splitlines() if line.strip()]
-    for start in MESSAGES:
-        for line in reversed(lines):
-            if line.startswith(start) and not line.startswith("voussoir: warning"):
-                return line[len(start):]
-    return f"voussoir ended with status {status}" + (f": {lines[-1]}" if lines else " and said nothing.")
 
 
 def run(program, directory, name, threads, extra):
@@ -120,7 +111,3 @@ def main(directory, name, threads):
     if record["status"] == 0:
         (directory / "done" / name).touch()
     return 1 if record["status"] else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of what a scene would run, before anything is run.
 
@@ -10,16 +9,17 @@ DIR/surfaces.vtu  the faces in groups, with the number of the group (doc/mesh.md
 DIR/mesh.msh      the mesh as the program has it, for gmsh
 """
 
-import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-import numpy as np  # noqa: E402
-from command import InputError, Parser, end_with, entries_of, voussoir  # noqa: E402
-from drawing import plt  # noqa: E402
-from picture import CONCRETE, FACES, draw_mesh, view_of  # noqa: E402
-from vtu import write_vtu  # noqa: E402
-from matplotlib.collections import PolyCollection  # noqa: E402
+import numpy as np
+from matplotlib.collections import PolyCollection
+
+from .command import Parser
+from .errors import InputError
+from .program import call, entries_of, set_options
+from .drawing import plt
+from .picture import CONCRETE, FACES, draw_mesh, view_of
+from .vtu import write_vtu
 
 FIRST_ROCK, BASE, UPSTREAM, DOWNSTREAM, CREST, FREE, ARTIFICIAL = 1000, 1, 2, 3, 4, 5, 6
 WATER, ROCK, EARTH = (.62, .76, .86), (.70, .66, .58), (.80, .84, .70)
@@ -199,17 +199,13 @@ def main():
     if len(options.scenes) != 1:
         raise InputError("`voussoir view` needs one scene: voussoir view SCENE.prm")
     scene = Path(options.scenes[0])
-    overrides = [word for entry in options.overrides for word in ("--set", entry)]
     entries = entries_of(scene, options.overrides)
     output = options.output or Path("output") / f"{scene.stem}-view"
     try:
         output.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"The directory {output} cannot be made: {error.strerror}. Choose another one with --output.") from error
-    result = voussoir("mesh", scene, "--format", "2.2", "--output", output / "mesh.msh", *overrides)
-    if result.returncode != 0:
-        raise InputError(result.stderr.strip().removeprefix("voussoir: error: "))
-    print(result.stdout, end="")
+    print(call("mesh", scene, "--format", "2.2", "--output", output / "mesh.msh", *set_options(options.overrides)), end="")
     mesh = Mesh(output / "mesh.msh")
     level, density = float(entries["Reservoir/Water level"]), float(entries["Reservoir/Density"])
     for surface, name in ((UPSTREAM, "upstream"), (CREST, "crest")):
@@ -225,7 +221,3 @@ def main():
     groups = ", ".join(f"{name} {number}" for (dimension, number), name in sorted(mesh.names.items()) if dimension == 2)
     print(f"Groups    {groups}\nPicture   {output / 'view.png'}\nParaView  {output / 'mesh.vtu'}, {output / 'surfaces.vtu'}")
     return 0
-
-
-if __name__ == "__main__":
-    end_with(main)
