@@ -65,7 +65,7 @@ def seconds_per_second(costs, size, ranks):
     latency, bandwidth = (costs["latency"], costs["bandwidth"]) if nodes == 1 else (LATENCY, BANDWIDTH)
     hops = math.log2(ranks) if ranks > 1 else 0.
     pairs = dam_costs["pairs"] * ratio**(2 / 3)
-    gathered = 16. * dam + 3 * pairs * (8. * 8. + 2 * 4. * 8.) # u and K u; forces, and the vectors of GMRES
+    gathered = 16. * dam + 3 * pairs * (8. * 8. + 2 * 4. * 8.)  # u and K u; forces, and the vectors of GMRES
     surface = 2 * 24. * (rock / 3 / ranks)**(2 / 3) * substeps if ranks > 1 else 0.
     messages = rock_costs["messages"] * latency * hops + ((gathered if ranks > 1 else 0.) + surface) / bandwidth
     return [x / step for x in (shared / on_dam, of_rock, alike, messages)]

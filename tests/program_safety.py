@@ -15,8 +15,8 @@ import sys
 import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
-from vtu import read_vtu  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from voussoir.vtu import read_vtu  # noqa: E402
 from run_program import (VOUSSOIR, arch_mesh, expect, from_file, refused, run_cases, runs, same, table, voussoir, write,
                          write_scene)  # noqa: E402
 
