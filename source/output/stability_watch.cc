@@ -2,7 +2,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/tensor3.h>
 #include <voussoir/dam/static_state.h>
-#include <voussoir/output/observers.h>
+#include <voussoir/output/stability_watch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -134,11 +134,5 @@ namespace Voussoir
     text << "a smaller time step (\"Dynamics/Steps per sample\"), and check \"Motion/Unit\" and the motion's "
             "size (voussoir motion).";
     return text.str();
-  }
-
-  void StabilityObserver::record()
-  {
-    if (const std::string trouble = watch.trouble(*run.newmark, run.step, run.is_last()); !trouble.empty())
-      throw ComputationError(trouble);
   }
 } // namespace Voussoir
