@@ -74,8 +74,9 @@ namespace
       ExplicitRegion            region(make_operator(model), model.mass, damping, h);
       std::vector<unsigned int> held;
       for (const BoundaryFace &face : model.faces)
-        held.insert(held.end(), face.nodes.begin(), face.nodes.end());
-      region.fix_nodes(held);
+        for (const unsigned int node : face.nodes)
+          held.insert(held.end(), {3 * node, 3 * node + 1, 3 * node + 2});
+      region.fix(held);
       region.force.assign(3 * model.points.size(), 0.);
       Unknowns f(n), Rf(n);
       for (std::size_t k = 0; k < n; ++k)

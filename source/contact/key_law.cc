@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <voussoir/base/error.h>
 
 namespace Voussoir

@@ -97,12 +97,4 @@ namespace Voussoir
               [](const NaturalMode &a, const NaturalMode &b) { return a.frequency < b.frequency; });
     return modes;
   }
-
-  std::vector<double> natural_frequencies(const Structure &structure, const unsigned int n_modes)
-  {
-    std::vector<double> frequencies;
-    for (const NaturalMode &mode : natural_modes(structure, n_modes))
-      frequencies.push_back(mode.frequency);
-    return frequencies;
-  }
 } // namespace Voussoir

@@ -30,9 +30,6 @@ namespace Voussoir
    * shared out. In another order of operations, so with other bits than one rank has. To be called by all;
    * all get all modes. */
   std::vector<NaturalMode> modes_of_ranks(const Structure &structure, unsigned int n_modes);
-
-  /** Returns the @p n_modes lowest natural frequencies, ascending [Hz]. */
-  std::vector<double> natural_frequencies(const Structure &structure, unsigned int n_modes);
 } // namespace Voussoir
 
 #endif
