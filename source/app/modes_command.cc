@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/modes_command.h>
 #include <voussoir/base/error.h>
-#include <voussoir/base/ranks.h>
 #include <voussoir/dam/dam.h>
 #include <voussoir/dynamics/modes.h>
 #include <voussoir/output/figures.h>
@@ -106,7 +105,7 @@ namespace Voussoir
           "`voussoir modes` finds the frequencies of a dam on a rigid base or on massless rock: rock with "
           "mass radiates. Give --set Foundation/Model=massless or rigid.");
     if (!directory.empty())
-      Ranks::on_first([&] { make_directory(directory); });
+      make_directory(directory);
     const Dam dam(scene, true);
     for (const std::string &warning : dam.mesh_warnings)
       std::cerr << "voussoir: warning: " << warning << "\n";
@@ -115,6 +114,6 @@ namespace Voussoir
     for (std::size_t i = 0; i < modes.size(); ++i)
       std::printf("%4zu  %10.5f\n", i + 1, modes[i].frequency);
     if (!directory.empty())
-      Ranks::on_first([&] { write_modes(dam, modes, directory); });
+      write_modes(dam, modes, directory);
   }
 } // namespace Voussoir

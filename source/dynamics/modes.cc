@@ -49,8 +49,6 @@ namespace Voussoir
     if (2 * n_modes + 2 > n)
       throw InputError("The dam has only " + std::to_string(n) +
                        " unknowns. Reduce the number of modes (--count).");
-    if (Ranks::size() > 1)
-      return modes_of_ranks(structure, n_modes);
     JointSystem    system(structure, JointLaws(), ContactParameters(), 0., 1., 0.);
     Unknowns       load(n), u;
     const Operator mass{
