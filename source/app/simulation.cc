@@ -224,14 +224,6 @@ namespace Voussoir
   void Simulation::start_foundation()
   {
     dam->foundation->start(motion, grid(), statics.u);
-    if (const double added = dam->foundation->add_interface_mass(dam->structure, grid()); added > 0.)
-    {
-      double mass = 0.;
-      for (const Matrix3 &m : dam->structure.mass)
-        mass += m[0];
-      log.line("Feet      %.3g kg heavier for the sub-steps, %.1f %% of dam, water and feet", added,
-               100. * added / mass);
-    }
   }
 
   void Simulation::start_shaking()

@@ -47,7 +47,7 @@ namespace Voussoir
    *  1. assembly of the dam: base(), add_stiffness(), add_mass(),
    *  2. before the run: delay(), check(), report(), about_steps(),
    *  3. static state: static_springs(), static_feet(), and settle() for each load stage,
-   *  4. start of the dynamic analysis: start(), add_interface_mass(), support(), watch(),
+   *  4. start of the dynamic analysis: start(), support(), watch(),
    *  5. time step: advance(), base_velocity(), step of the dam by Newmark, follow(),
    *  6. after the time step: energies(), trouble_of_energy(), trouble_of_motion(). */
   class Foundation
@@ -118,10 +118,6 @@ namespace Voussoir
      * Throws ComputationError if dam and foundation do not converge. */
     virtual ContactResult settle(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
                                  Unknowns &load, Log &log);
-
-    /** Adds the mass that substeps require at the base nodes. Returns the added mass [kg]. Must be called
-     * before the Newmark object of the dam is created. */
-    virtual double add_interface_mass(Structure &, const TimeGrid &) const { return 0.; }
 
     /** Returns the support of the base nodes, or nullptr. Marks the base nodes as interface nodes of their
      * bodies. Must be called after start(), and before the Newmark object of the dam is created. */
