@@ -15,8 +15,8 @@ import sys
 import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
-from vtu import read_vtu  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from voussoir.vtu import read_vtu  # noqa: E402
 from run_program import (VOUSSOIR, arch_mesh, expect, from_file, refused, run_cases, runs, same, table, voussoir, write,
                          write_scene)  # noqa: E402
 
@@ -104,7 +104,7 @@ def checkpoints():
         refused([*resume, "other"], "other/checkpoint.bin", "damaged")
     shutil.copy("kept/checkpoint.bin.before", "other/checkpoint.bin.before")
     shown = runs(*resume, "other")
-    expect("warning: the checkpoint" in shown and "the one before it" in shown, shown)
+    expect("warning: the checkpoint" in shown and "the previous one" in shown, shown)
     same("other", "whole", 2e-7, ("history", "joint_history", "joints"))
 
     refused([*resume, "kept", "--overwrite"], "--resume", "--overwrite")

@@ -17,7 +17,7 @@ namespace Voussoir
                                                   [&](const auto &joint) { return joint.second == model; });
     }
 
-    /** Keys for which Coulomb's law itself has two branches (doc/keys.md). */
+    /** Returns a warning about keys for which Coulomb's law has two solutions (doc/keys.md), or "". */
     std::string two_branches(const Scene &scene)
     {
       const KeyParameters &keys = scene.joints.keys;
@@ -28,15 +28,15 @@ namespace Voussoir
           face <= std::tan(needed * degree))
         return "";
       std::ostringstream text;
-      text << "Joints/Friction " << face << " beside flanks of " << keys.flank_angle
-           << " degrees with friction " << flank << " (Joints/Keys): above " << std::tan(needed * degree)
-           << " Coulomb's law has two solutions, a key that stays before its flank and one that rides on it, "
-              "and which is found is not determined. Give the flanks the friction of the faces "
-              "(Joints/Keys/Friction = -1), or a smaller angle.";
+      text << "Joints/Friction " << face << " with flanks of " << keys.flank_angle
+           << " degrees and flank friction " << flank << " (Joints/Keys): above " << std::tan(needed * degree)
+           << " Coulomb's law has two solutions: a key stops at its flank, or slides up the flank. The "
+              "result of the run may be either of them. Set Joints/Keys/Friction = -1, the friction of the "
+              "faces, or reduce the flank angle.";
       return text.str();
     }
 
-    /** The last stage has the temperatures of Loads/Temperature/Day, whatever day the stages end with. */
+    /** Returns a warning if the last day of the stages is not Loads/Temperature/Day, or an empty string. */
     std::string other_day(const Scene &scene)
     {
       const TemperatureParameters   &temperature = scene.loads.temperature;
@@ -47,21 +47,23 @@ namespace Voussoir
         return "";
       std::ostringstream text;
       text << "Statics/Stages ends with day " << last->value
-           << ", but its last stage always goes to the temperatures of Loads/Temperature/Day, which is "
-           << temperature.day << ". Set that to " << last->value << ", if it is the day of the earthquake.";
+           << ", but the final stage has the temperatures of Loads/Temperature/Day, which is "
+           << temperature.day << ". Set this entry to " << last->value
+           << " if it is the day of the earthquake.";
       return text.str();
     }
 
     std::string odd_factors(const LoadParameters &loads)
     {
       std::ostringstream text;
-      for (const char *load : {"weight", "water", "tail water", "silt", "uplift"}) // others may be reversed
+      for (const char *load :
+           {"weight", "water", "tail water", "silt", "uplift"}) // other loads may have the opposite sign
         if (const double factor = loads.factor(load); factor < 0. || factor > 5.)
           text << (text.tellp() > 0 ? ", " : "") << load << ' ' << factor;
       if (text.tellp() == 0)
         return "";
       return "Loads/Combination is " + loads.combination + ", with " + text.str() +
-             ": usual are factors of 0 to 5.";
+             ". Usual factors are 0 to 5. Check Loads/Combinations.";
     }
 
     bool is_written(const std::vector<WrittenEntry> &entries, const std::string &name)
@@ -78,8 +80,7 @@ namespace Voussoir
         return "";
       return "Output/Envelope interval is " + std::to_string(scene.output.envelope_interval) +
              ": peaks of the stresses between are missed, so the limits of stresses are not evaluated. Set "
-             "it to 1 "
-             "for Limits.";
+             "it to 1 for Limits.";
     }
 
     std::string no_strength(const Scene &scene)
@@ -103,11 +104,11 @@ namespace Voussoir
       std::ostringstream text;
       text << "the mesh is from a file, and there is no Reservoir/Water level: it is "
            << scene.reservoir.level
-           << " m, that of arch210. Give the level of this dam, or set Reservoir/Density to 0.";
+           << " m, that of arch210. Set the level of this dam, or set Reservoir/Density to 0.";
       return text.str();
     }
 
-    /** @p level of a load that belongs below the surface of the reservoir [m]. */
+    /** Returns a warning if the @p level [m] of a load is above the reservoir, or an empty string. */
     std::string above_the_reservoir(const Scene &scene, const char *load, const char *entry, const bool acts,
                                     const double level, const char *then)
     {
@@ -115,11 +116,11 @@ namespace Voussoir
         return "";
       std::ostringstream text;
       text << entry << " is " << level << " m, above the reservoir (Reservoir/Water level is "
-           << scene.reservoir.level << " m): " << then << " Lower it, or raise the reservoir.";
+           << scene.reservoir.level << " m): " << then << " Reduce it, or raise the reservoir.";
       return text.str();
     }
 
-    /** A load of the chosen combination that the scene does not define. */
+    /** Returns a warning about loads of the combination without entries, or an empty string. */
     std::string undefined_loads(const Scene &scene, const std::vector<WrittenEntry> &entries)
     {
       const LoadParameters &loads = scene.loads;
@@ -137,7 +138,7 @@ namespace Voussoir
           {"concentrated", !loads.concentrated.empty(), "Loads/Concentrated"},
           {"crest line", !loads.crest_line.empty(), "Loads/Crest line"}};
       if (loads.combination.empty() || !is_written(entries, "Loads/Combinations"))
-        return ""; // those that are not written name all loads
+        return ""; // the default combinations contain all loads
       std::string names, missing;
       for (const Row &row : rows)
         if (!row.acts && loads.factor(row.load) != 0.)
@@ -147,8 +148,8 @@ namespace Voussoir
         }
       return names.empty() ? ""
                            : "Loads/Combination " + loads.combination +
-                                 " names loads that the scene does not have: " + names + ". Give " + missing +
-                                 ", or leave them out of Loads/Combinations.";
+                                 " contains loads that are not defined: " + names + ". Set " + missing +
+                                 ", or remove the loads from Loads/Combinations.";
     }
   } // namespace
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <voussoir/base/error.h>
 
 namespace Voussoir
@@ -72,10 +73,11 @@ namespace Voussoir
         return result;
       }
 
-      /** Events of the step, then, with elastic seats, two stresses of friction per flank [Pa]. */
+      /** Events of the step; then, with elastic seats, two stresses of friction per flank [Pa] and the
+       * largest compression of the flanks with which the key left its socket [m]. */
       unsigned int n_memory() const override
       {
-        return n_beside() == 0 ? 0 : 1 + (seat > 0. ? 2 * n_beside() : 0);
+        return n_beside() == 0 ? 0 : 1 + (seat > 0. ? 2 * n_beside() + 1 : 0);
       }
 
       bool needs_mean_force() const override { return seat > 0.; }
@@ -87,8 +89,8 @@ namespace Voussoir
         if (!is_out(past.start))
           return 0.;
         const Contact contact = contact_of(past);
-        return (contact == Contact::face && !is_out(gap) && is_behind(gap)) ||
-                       (contact == Contact::flanks && is_out(gap) && is_behind({{height, gap[1], gap[2]}}))
+        return (contact == Contact::face && !is_out(gap) && depth(gap) > round_off * height) ||
+                       (contact == Contact::flanks && is_out(gap) && is_out_of_line(gap, past))
                    ? 2.
                    : 0.;
       }
@@ -100,7 +102,11 @@ namespace Voussoir
         if (n_beside() == 0)
           return;
         const PresentSurfaces now = present(past);
+        const double          left_with = compression_of(past);
         memory[0] = 0.;
+        if (seat > 0.)
+          memory[2 * n_beside() + 1] =
+              !is_out(gap) ? 0. : (is_out(past.start) ? left_with : depth_at_end(gap));
         for (std::size_t k = 1; k < surfaces.size() && seat > 0.; ++k)
         {
           const bool    carries = !is_out(gap) && k < now.surfaces.size();
@@ -136,12 +142,29 @@ namespace Voussoir
       /** A key on its crest stays there: its opening is the height within the solver's error. */
       bool is_out(const Vector3 &gap) const { return gap[0] >= height * (1. - 1e-6); }
 
-      /** Is the pair on the other side of a flank, by more than round-off? */
-      bool is_behind(const Vector3 &gap) const
+      /** Depth of the pair behind the flanks, the largest [m]. Negative: distance to the nearest flank. */
+      double depth(const Vector3 &gap) const
       {
-        return std::any_of(surfaces.begin() + 1, surfaces.end(),
-                           [&](const ContactSurface &flank)
-                           { return flank.distance(gap) < -round_off * height; });
+        double result = -std::numeric_limits<double>::infinity();
+        for (std::size_t k = 1; k < surfaces.size(); ++k)
+          result = std::max(result, -surfaces[k].distance(gap));
+        return result;
+      }
+
+      /** Depth behind the ends of the flanks [m]: positive for a key that is over a crest. */
+      double depth_at_end(const Vector3 &gap) const { return depth({{height, gap[1], gap[2]}}); }
+
+      /** Is a key outside of its socket over a crest, by more than round-off and more than the compression of
+       *  the flank on which it left? */
+      bool is_out_of_line(const Vector3 &gap, const PairPast &past) const
+      {
+        return depth_at_end(gap) > round_off * height + compression_of(past);
+      }
+
+      /** Compression of a flank with which the key left its socket [m]. */
+      double compression_of(const PairPast &past) const
+      {
+        return seat > 0. && past.memory ? std::max(0., past.memory[2 * n_beside() + 1]) : 0.;
       }
 
       /** On what the pair can touch in the step from past.start, with the events so far. */
@@ -149,7 +172,7 @@ namespace Voussoir
       {
         if (!is_out(past.start))
           return Contact::flanks;
-        if (is_behind({{height, past.start[1], past.start[2]}}))
+        if (is_out_of_line(past.start, past))
           return Contact::crest;
         const double events = past.memory && n_beside() > 0 ? past.memory[0] : 0.;
         return events == 0. ? Contact::face : events == 1. ? Contact::flanks : Contact::crest;

@@ -117,7 +117,8 @@ namespace Voussoir
           {
             std::ostringstream message;
             message << "The static state did not converge in step " << i + 1 << " of " << path.n_steps()
-                    << ": relative residual " << result.residual << " after " << result.iterations
+                    << ": residual " << result.residual << " of the joint forces and "
+                    << result.residual_over_load << " of the load, after " << result.iterations
                     << " Newton steps. Increase \"Statics/Water increments\".";
             throw ComputationError(message.str());
           }
