@@ -164,8 +164,7 @@ namespace Voussoir
     try
     {
       const Arguments arguments = read_arguments(words);
-      return (arguments.command.empty() || arguments.command == "modes") && !arguments.words.empty() &&
-             !arguments.version && !arguments.help;
+      return arguments.command.empty() && !arguments.words.empty() && !arguments.version && !arguments.help;
     }
     catch (const InputError &)
     {

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <iomanip>
 #include <map>
-#include <numeric>
 #include <set>
 #include <sstream>
 

@@ -64,9 +64,8 @@ namespace Voussoir
         "Coupling", coupling,
         "Time coupling of dam and rock. mean traction: the forces are constant during a time step of the "
         "dam, and the displacements agree at its end. This conserves energy for any number of substeps. "
-        "partition: the rock receives the predicted motion of the base. With substeps the base nodes then "
-        "need additional mass, whose error is in doc/rock.md. auto: partition for one substep, otherwise "
-        "mean traction.",
+        "partition: the rock receives the predicted motion of the base, with one substep only. auto: "
+        "partition for one substep, otherwise mean traction.",
         Selection("auto|mean traction|partition"));
     prm.leave_subsection();
   }
