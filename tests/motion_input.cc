@@ -4,8 +4,7 @@
 
 #include "testing.h"
 
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
@@ -268,8 +267,8 @@ namespace
     p.factor = 1e4;
     expect_error([&] { make_motion(p, ""); }, {"1000 g", "Factor"});
 
-    MotionParameters         declared;
-    dealii::ParameterHandler prm;
+    MotionParameters declared;
+    Entries          prm;
     declared.add_parameters(prm);
     for (const std::string entry : {"Seed = -1", "Matching iterations = -1", "Matching iterations = 5000000"})
     {

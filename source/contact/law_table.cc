@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/entries.h>
 #include <voussoir/base/names.h>
 #include <voussoir/contact/cohesive_law.h>
 #include <voussoir/contact/fja_law.h>
@@ -8,41 +9,63 @@
 #include <voussoir/contact/tied_law.h>
 
 #include <algorithm>
-#include <optional>
 
 namespace Voussoir
 {
   namespace
   {
-    using Entries = std::vector<const char *>;
-
     struct LawRow
     {
       const char *name, *doc;
       std::unique_ptr<JointLaw> (*make)(const LawParameters &);
+      EntryNames entries; ///< of section Joints that it reads
 
-      /** Entries of section Joints that the law reads; all, if they are not listed. */
-      std::optional<Entries> entries = std::nullopt;
+      /** What the message about JointLaw::needs_mean_force() adds to the name; null: it never needs it. */
+      const char *mean_force = nullptr;
 
-      bool lists(const std::string &entry) const
-      {
-        const auto is_named = [&](const char *name)
-        { return entry.rfind(std::string("Joints/") + name, 0) == 0; };
-        return entries && std::any_of(entries->begin(), entries->end(), is_named);
-      }
+      /** A sentence about parameters that are implausible together, or empty; null: there are none. */
+      std::string (*warning)(const LawParameters &) = nullptr;
     };
 
     /** All laws. The selection of the entry "Joints/Model", its text and the messages follow from these rows.
      */
     const LawRow laws[] = {
-        {"tied", "the monolithic dam", make_tied_law, Entries{}},
-        {"FJA", "opens and slides with friction", make_fja_law, Entries{"Friction", "Equations"}},
-        {"FJB", "opens, does not slide", make_fjb_law, Entries{"Equations"}},
-        {"KSM", "shear keys (Joints/Keys) on a face that opens and slides", make_key_law,
-         Entries{"Friction", "Equations", "Keys/"}},
-        {"cohesive", "FJA with a bond of the strength Joints/Strength that breaks", make_cohesive_law,
-         Entries{"Friction", "Equations", "Strength", "Fracture energy"}}};
+        {"tied", "the monolithic dam", make_tied_law, {}},
+        {"FJA", "opens and slides with friction", make_fja_law, {"Joints/Friction", "Joints/Equations"}},
+        {"FJB", "opens, does not slide", make_fjb_law, {"Joints/Equations"}},
+        {"KSM",
+         "shear keys (Joints/Keys) on a face that opens and slides",
+         make_key_law,
+         {"Joints/Friction", "Joints/Equations", "Joints/Keys/"},
+         " (with a compliance of its seats)",
+         key_law_warning},
+        {"cohesive",
+         "FJA with a bond of the strength Joints/Strength that breaks",
+         make_cohesive_law,
+         {"Joints/Friction", "Joints/Equations", "Joints/Strength", "Joints/Fracture energy"},
+         "",
+         cohesive_law_warning}};
+
+    /** The row of that name; null for a law that is not in the table. */
+    const LawRow *find_row(const std::string &name)
+    {
+      const auto row =
+          std::find_if(std::begin(laws), std::end(laws), [&](const LawRow &l) { return name == l.name; });
+      return row == std::end(laws) ? nullptr : row;
+    }
   } // namespace
+
+  void LawParameters::add_parameters(Entries &prm)
+  {
+    using dealii::Patterns::Double;
+    prm.add_parameter("Friction", friction, "Coefficient of friction [-].", {.1, 2., true}, Double(0., 1e4));
+    prm.add_parameter("Strength", strength, "Tensile strength of the bond [Pa] (Model = cohesive).",
+                      {1e5, 6e6, true}, Double(0.));
+    prm.add_parameter(
+        "Fracture energy", fracture_energy,
+        "Energy that the bond takes per area as it opens [N/m] (Model = cohesive); 0: it is lost at once.",
+        {10., 1000., true}, Double(0.));
+  }
 
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters)
   {
@@ -51,16 +74,30 @@ namespace Voussoir
 
   bool joint_law_reads(const std::string &name, const std::string &entry)
   {
-    const auto row =
-        std::find_if(std::begin(laws), std::end(laws), [&](const LawRow &l) { return name == l.name; });
-    return row == std::end(laws) || !row->entries || row->lists(entry);
+    const LawRow *row = find_row(name);
+    return !row || includes(row->entries, entry);
+  }
+
+  std::string joint_law_warning(const std::string &name, const LawParameters &parameters)
+  {
+    const LawRow *row = find_row(name);
+    return row && row->warning ? row->warning(parameters) : "";
+  }
+
+  std::string joint_laws_of_mean_force()
+  {
+    std::string names;
+    for (const LawRow &law : laws)
+      if (law.mean_force)
+        names = law.name + std::string(law.mean_force) + (names.empty() ? "" : " and ") + names;
+    return names;
   }
 
   std::string joint_laws_with(const std::string &entry)
   {
     std::string names;
     for (const LawRow &law : laws)
-      if (law.lists(entry))
+      if (includes(law.entries, entry))
         names += (names.empty() ? "" : ", ") + std::string(law.name);
     return names;
   }

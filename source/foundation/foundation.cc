@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/foundation/foundation.h>
 #include <voussoir/foundation/foundation_names.h>
 #include <voussoir/rock/boundary_table.h>
 
 namespace Voussoir
 {
-  void FoundationParameters::add_parameters(dealii::ParameterHandler &prm)
+  void FoundationParameters::add_parameters(Entries &prm)
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Foundation");
     prm.add_parameter("Model", model, "What the dam stands on. " + foundation_docs() + ".",
                       Selection(foundation_names()));
-    prm.add_parameter("Young's modulus", rock.young, "Modulus of elasticity of the rock [Pa].", Double(1.));
-    prm.add_parameter("Poisson's ratio", rock.poisson, "Poisson's ratio of the rock [-].",
+    prm.add_parameter("Young's modulus", rock.young, "Modulus of elasticity of the rock [Pa].", {5e8, 1.2e11},
+                      Double(1.));
+    prm.add_parameter("Poisson's ratio", rock.poisson, "Poisson's ratio of the rock [-].", {.1, .4, true},
                       Double(0., largest_poisson));
-    prm.add_parameter("Density", rock.density, "Density of the rock [kg/m^3].", Double(1e-3));
+    prm.add_parameter("Density", rock.density, "Density of the rock [kg/m^3].", {1800., 3300.}, Double(1e-3));
     prm.add_parameter("Zones", zones,
                       "Materials of zones of the rock, as \"NAME: E nu rho, NAME: E nu rho\", modulus of "
                       "elasticity, Poisson's ratio and density, in Pa and kg/m^3 or with units; NAME is that "
                       "of the volumes \"rock NAME\" of the mesh.",
                       Map(Anything(), Anything()));
     prm.add_parameter("Mass damping", mass_damping, "Rayleigh damping of the rock: factor of the mass [1/s].",
-                      Double(0., 1e3));
+                      {0., 10.}, Double(0., 1e3));
     prm.add_parameter(
         "Stiffness damping", stiffness_damping,
         "Rayleigh damping of the rock: factor of the stiffness [s]. It lowers the critical time step.",
-        Double(0., 1.));
+        {0., .01}, Double(0., 1.));
     prm.add_parameter("Boundary", boundary, "Artificial boundary: " + boundary_help() + ".",
                       Selection(boundary_names("|")));
     prm.add_parameter(

@@ -14,6 +14,7 @@ namespace Voussoir
     {
       const char *name, *doc;
       std::unique_ptr<Foundation> (*make)(const FoundationSite &);
+      EntryNames entries; ///< that it reads
     };
 
     std::unique_ptr<Foundation> make_rigid_ground(const FoundationSite &)
@@ -24,10 +25,21 @@ namespace Voussoir
     /** All foundations. The selection of the entry "Foundation/Model", its text and the messages follow from
      * these rows. */
     const FoundationRow rows[] = {
-        {"rigid", "the base moves as the ground motion says", make_rigid_ground},
-        {"rock", "the rock of the mesh, explicit, the earthquake from below", make_explicit_rock},
-        {"massless", "its stiffness only, on a rigid ground that moves as the ground motion says",
-         make_massless_rock}};
+        {"rigid", "the base moves as the ground motion says", make_rigid_ground, {"Foundation/Model"}},
+        {"rock",
+         "the rock of the mesh, explicit, the earthquake from below",
+         make_explicit_rock,
+         {"Foundation/"}},
+        {"massless",
+         "its stiffness only, on a rigid ground that moves as the ground motion says",
+         make_massless_rock,
+         {"Foundation/Model", "Foundation/Young's modulus", "Foundation/Poisson's ratio",
+          "Foundation/Zones"}}};
+
+    const FoundationRow &row_of_model(const std::string &model)
+    {
+      return row_of(rows, model, "is no foundation", "They are:");
+    }
 
     void check_mesh(const FoundationSite &site, const Foundation &foundation)
     {
@@ -47,8 +59,7 @@ namespace Voussoir
 
   std::unique_ptr<Foundation> make_foundation(const FoundationSite &site)
   {
-    const FoundationRow        &row = row_of(rows, site.parameters.model, "is no foundation", "They are:");
-    std::unique_ptr<Foundation> foundation = row.make(site);
+    std::unique_ptr<Foundation> foundation = row_of_model(site.parameters.model).make(site);
     check_mesh(site, *foundation);
     return foundation;
   }
@@ -61,5 +72,10 @@ namespace Voussoir
   std::string foundation_docs()
   {
     return docs_of(rows);
+  }
+
+  bool foundation_reads(const std::string &model, const std::string &entry)
+  {
+    return includes(row_of_model(model).entries, entry);
   }
 } // namespace Voussoir

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/motion/motion_parameters.h>
@@ -18,7 +17,7 @@ namespace Voussoir
     const char *const names[] = {"x", "y", "z"};
   } // namespace
 
-  void MotionParameters::add_parameters(dealii::ParameterHandler &prm)
+  void MotionParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Motion");
     prm.add_parameter(
@@ -31,12 +30,14 @@ namespace Voussoir
         "Length of the ground motion and of the run [s]. Longer records are cut, shorter ones refused. -1: "
         "that "
         "of the shortest record; 20.48 s of an artificial motion. On rock, -1 adds to the run the time that "
-        "the waves travel to the dam's base, in whole time steps of the motion.");
+        "the waves travel to the dam's base, in whole time steps of the motion.",
+        {0., 300.});
     prm.add_parameter(
         "Time step", time_step,
         "Sampling interval of the motion [s]; Duration is a multiple of it. Records with a longer "
         "interval are interpolated linearly, those with a shorter one filtered first, so that nothing above "
-        "0.5/Time step remains; each component may have its own interval.");
+        "0.5/Time step remains; each component may have its own interval.",
+        {1e-4, .05});
     prm.add_parameter("Factor", factor, "Factor [-] on all components, whatever their source.");
     for (unsigned int d = 0; d < 3; ++d)
       prm.add_parameter(std::string("Scale ") + names[d], scale[d],
@@ -47,7 +48,7 @@ namespace Voussoir
     prm.leave_subsection();
   }
 
-  void MotionParameters::add_file_parameters(dealii::ParameterHandler &prm)
+  void MotionParameters::add_file_parameters(Entries &prm)
   {
     prm.add_parameter(
         "File", file,
@@ -68,7 +69,7 @@ namespace Voussoir
         Patterns::Selection("g|m/s^2|cm/s^2"));
   }
 
-  void MotionParameters::add_artificial_parameters(dealii::ParameterHandler &prm)
+  void MotionParameters::add_artificial_parameters(Entries &prm)
   {
     prm.add_parameter(
         "Spectrum", spectrum.code,
@@ -78,18 +79,22 @@ namespace Voussoir
     prm.add_parameter(
         "Characteristic period", spectrum.characteristic_period,
         "Source = artificial: period T_g [s] of the site where the spectrum begins to descend; 0.2 "
-        "on rock.");
+        "on rock.",
+        {.1, 2.});
     prm.add_parameter(
         "Maximum beta", spectrum.maximum_beta,
         "Source = artificial: largest spectral acceleration over peak acceleration [-]; 2.5 for arch "
-        "dams.");
-    prm.add_parameter("Peak acceleration", peak_acceleration, "Source = artificial: in x and in y [g].");
+        "dams.",
+        {1.5, 4.});
+    prm.add_parameter("Peak acceleration", peak_acceleration, "Source = artificial: in x and in y [g].",
+                      {.005, 2.});
     prm.add_parameter("Vertical ratio", vertical_ratio,
-                      "Source = artificial: peak and spectrum in z over those in x and y [-].");
+                      "Source = artificial: peak and spectrum in z over those in x and y [-].", {.2, 1.5});
     prm.add_parameter(
         "Damping", damping,
         "Damping ratio [-] of the spectrum: of spectrum.csv, and with Source = artificial of the design "
-        "spectrum.");
+        "spectrum.",
+        {.005, .2});
     prm.add_parameter(
         "Seed", seed,
         "Source = artificial: number [-] that selects the random phases; equal seeds give equal "

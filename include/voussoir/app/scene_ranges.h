@@ -3,6 +3,7 @@
 #define voussoir_scene_ranges_h
 
 #include <voussoir/app/declared_entries.h>
+#include <voussoir/base/entries.h>
 #include <voussoir/dam/scene.h>
 
 namespace Voussoir
@@ -30,11 +31,9 @@ namespace Voussoir
    * table. Reads the table. */
   std::vector<UsedValue> values_of_sources(const Scene &scene);
 
-  /** A sentence about a value that no dam, rock, water or earthquake has; empty if it is plausible, or no
-   * range is known. */
-  std::string implausible(const UsedValue &value);
-
-  std::vector<std::string> entries_with_ranges(); ///< by their names in scene files
+  /** A sentence about a value outside of the usual range of its entry; empty if it is inside, or no range is
+   * declared. */
+  std::string implausible(const UsedValue &value, const UsualRanges &usual);
 } // namespace Voussoir
 
 #endif

@@ -8,8 +8,9 @@
 namespace Voussoir
 {
   /** Sentences about those entries that have no effect, because of what the others say, and about those whose
-   *  value is outside of what dams have. Entries that repeat the default are not spoken of. */
-  std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<WrittenEntry> &entries);
+   *  value is outside of its usual range. Entries that repeat the default are not spoken of. */
+  std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<WrittenEntry> &entries,
+                                          const UsualRanges &usual);
 
   /** The entries and sections ("Joints/Keys/") that the tables behind scene_warnings() name, for tests. */
   std::vector<std::string> entries_with_warnings();

@@ -4,6 +4,7 @@
 
 #include <voussoir/base/error.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -13,6 +14,17 @@ namespace Voussoir
 {
   /** The values of an enumeration and the names that scenes and results give them. */
   template <typename T> using Names = std::vector<std::pair<const char *, T>>;
+
+  /** Entries by their names, "Section/Entry"; a name that ends in a slash stands for all below it. */
+  using EntryNames = std::vector<std::string>;
+
+  /** Do the names include the entry? */
+  inline bool includes(const EntryNames &names, const std::string &entry)
+  {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string &name)
+                       { return name.back() == '/' ? entry.rfind(name, 0) == 0 : entry == name; });
+  }
 
   // Tables have rows {name, doc, ...}, whose order is that of all lists.
 

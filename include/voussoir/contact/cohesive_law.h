@@ -26,6 +26,8 @@ namespace Voussoir
    * Edges where planes of a joint meet are not known to this law. InputError for negative values and other
    * equations. */
   std::unique_ptr<JointLaw> make_cohesive_law(const LawParameters &parameters);
+
+  std::string cohesive_law_warning(const LawParameters &parameters); ///< see joint_law_warning()
 } // namespace Voussoir
 
 #endif

@@ -9,6 +9,8 @@ namespace Voussoir
 {
   /** Law KSM: a flat face with shear keys. Throws InputError for keys that cannot be. */
   std::unique_ptr<JointLaw> make_key_law(const LawParameters &parameters);
+
+  std::string key_law_warning(const LawParameters &parameters); ///< see joint_law_warning()
 } // namespace Voussoir
 
 #endif

@@ -6,6 +6,8 @@
 
 namespace Voussoir
 {
+  class Entries;
+
   /** The equations that stand for a law. */
   enum class Equations
   {
@@ -26,9 +28,12 @@ namespace Voussoir
     std::string direction = "both";   ///< of slip that is restrained: radial, vertical, both
     double      friction = -1.;       ///< of the flanks [-]; -1: that of the face
     double      seat_compliance = 0.; ///< of the flanks, per area of the joint [m/Pa]; 0: rigid
+
+    void add_parameters(Entries &prm);
   };
 
-  /** What makes a joint law of its name. Section "Joints" of a scene. */
+  /** What makes a joint law of its name. Section "Joints" of a scene. A new law adds its parameters here, and
+   * their entries in law_table.cc. */
   struct LawParameters
   {
     LawParameters(const double friction = .8, const Equations equations = Equations::alart_curnier,
@@ -41,6 +46,8 @@ namespace Voussoir
     Equations     equations;
     KeyParameters keys;
     double        strength = 0., fracture_energy = 0.; ///< of the bond of law cohesive [Pa], [N/m]
+
+    void add_parameters(Entries &prm); ///< but Equations and Keys
   };
 } // namespace Voussoir
 

@@ -3,23 +3,27 @@
 #define voussoir_face_pressure_h
 
 #include <voussoir/dam/scene.h>
-#include <voussoir/dam/tractions.h>
 #include <voussoir/solid/solid_model.h>
+
+#include <functional>
 
 namespace Voussoir
 {
-  /** Hydrostatic pressure on the surface "downstream" [N]. */
-  void add_tail_water(const SolidModel &model, const TailWaterParameters &water, double gravity,
-                      Unknowns &load);
+  /** Adds the forces of a traction [Pa] on the faces of a surface [N]: with 8 x 8 points per face, since
+   * levels cut through faces. */
+  void add_traction(const SolidModel &model, int surface,
+                    const std::function<Vector3(double z, const Vector3 &normal)> &traction, Unknowns &load);
 
-  /** Sediment on the surface "upstream": at the depth h its vertical pressure is p = density gravity h, its
-   *  horizontal one K p. It pushes with K p the horizontal part of a face, and rests with p on what looks up;
-   * under what leans over it, it bears nothing [N]. K: SiltParameters::pressure_coefficient(). */
-  void add_silt(const SolidModel &model, const SiltParameters &silt, double gravity, Unknowns &load);
+  // Tractions of loads, times a factor, at the height z of a face whose outward normal is given [Pa].
 
-  /** What reservoir, tail water and silt put on the faces, with the factors of the combination; the water
-   * that moves along with the dam is not in it [Pa]. */
-  KnownTraction known_traction(const Scene &scene);
+  Vector3 water_traction(const Scene &scene, double factor, double z, const Vector3 &normal);
+
+  Vector3 tail_water_traction(const Scene &scene, double factor, double z, const Vector3 &normal);
+
+  /** Sediment: at the depth h its vertical pressure is p = density gravity h, its horizontal one K p. It
+   * pushes with K p the horizontal part of a face, and rests with p on what looks up; under what leans over
+   * it, it bears nothing. K: SiltParameters::pressure_coefficient(). */
+  Vector3 silt_traction(const Scene &scene, double factor, double z, const Vector3 &normal);
 } // namespace Voussoir
 
 #endif

@@ -2,13 +2,10 @@
 #ifndef voussoir_limits_h
 #define voussoir_limits_h
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Voussoir
 {
+  class Entries;
+
   /** Section "Limits" of a scene: what the results are held against. Zero: no limit. */
   struct LimitParameters
   {
@@ -28,7 +25,11 @@ namespace Voussoir
     double sliding_safety = 0.;    ///< the least that is asked for [-]
     double key_shear_stress = 0.;  ///< of the keys of a joint, over its area [Pa]
 
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
+
+  private:
+    void add_stresses(Entries &prm);
+    void add_joints_and_base(Entries &prm);
   };
 } // namespace Voussoir
 

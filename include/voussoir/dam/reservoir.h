@@ -6,13 +6,10 @@
 
 #include <string>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Voussoir
 {
+  class Entries;
+
   class SolidModel;
 
   struct ReservoirParameters
@@ -23,7 +20,7 @@ namespace Voussoir
     std::string depth = "global";           ///< or local
     double      factor = 1.;                ///< of the added mass [-]
 
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
   };
 
   /** Hydrostatic pressure on the surface "upstream" below the water level [N]. */

@@ -20,29 +20,28 @@ namespace Voussoir
   {
     unsigned int degree = 1;
     bool         incompatible_modes = true;
-    void         add_parameters(dealii::ParameterHandler &prm);
+    void         add_parameters(Entries &prm);
   };
 
   /** Rayleigh damping C = a0 M + a1 K with the damping ratio at two frequencies. */
   struct DampingParameters
   {
     double ratio = .05, frequency_1 = 1.2, frequency_2 = 6.; ///< [-], [Hz], [Hz]
-    void   add_parameters(dealii::ParameterHandler &prm);
+    void   add_parameters(Entries &prm);
     void   check() const;
     double mass_factor() const;      ///< a0 [1/s]
     double stiffness_factor() const; ///< a1 [s]
   };
 
-  struct JointParameters
+  /** Section "Joints": the laws of the joints and their parameters. */
+  struct JointParameters : LawParameters
   {
+    JointParameters() { keys.seat_compliance = -1.; } ///< [m/Pa]; -1: 20 height/E
+
     std::string                         model = "FJA";
-    double                              friction = .8;
-    std::string                         equations = "alart-curnier";
-    double                              strength = 0., fracture_energy = 0.; ///< of law cohesive [Pa], [N/m]
-    KeyParameters                       keys;
-    double                              seat_compliance = -1.; ///< of the keys [m/Pa]; -1: 20 height/E
-    std::map<unsigned int, std::string> overrides;             ///< joint number -> model
-    void                                add_parameters(dealii::ParameterHandler &prm);
+    std::string                         equations_name = "alart-curnier";
+    std::map<unsigned int, std::string> overrides; ///< joint number -> model
+    void                                add_parameters(Entries &prm);
     void                                check() const;
     /** @p young: modulus of the concrete [Pa]. */
     LawParameters law(double young) const;
@@ -61,7 +60,7 @@ namespace Voussoir
     unsigned int water_increments = 1;
     double       gravity = 9.81; ///< [m/s^2]
     std::string  stages;         ///< before the water is raised to its level: static_stages()
-    void         add_parameters(dealii::ParameterHandler &prm);
+    void         add_parameters(Entries &prm);
   };
 
   struct OutputParameters
@@ -75,7 +74,7 @@ namespace Voussoir
     bool                               block_forces = true;           ///< blocks.csv
     std::string                        stress_recovery = "tractions"; ///< or elements
     double                             tensile_strength = 0.;         ///< [Pa], 0: none
-    void                               add_parameters(dealii::ParameterHandler &prm);
+    void                               add_parameters(Entries &prm);
     void                               check() const;
     bool knows_tractions() const { return stress_recovery == "tractions"; } ///< do stresses take them?
     std::map<std::string, Vector3> probe_places() const; ///< throws InputError for a malformed one
@@ -116,7 +115,7 @@ namespace Voussoir
 
     std::vector<std::string> warnings; ///< of read_scene(), about entries that the user wrote
 
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
     void check() const;
 
     std::vector<std::string> sources; ///< the scene file and the files that it includes
@@ -135,7 +134,7 @@ namespace Voussoir
    * and implausible values go to Scene::warnings. @p prm: receives the declarations and values, for printing.
    */
   void read_scene(const std::string &file, const std::vector<std::string> &overrides, Scene &scene,
-                  dealii::ParameterHandler &prm);
+                  Entries &prm);
 } // namespace Voussoir
 
 #endif

@@ -7,13 +7,10 @@
 
 #include <string>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Voussoir
 {
+  class Entries;
+
   /** Subsection "Foundation". */
   struct FoundationParameters
   {
@@ -33,7 +30,7 @@ namespace Voussoir
     /** Does the rock make steps of its own, coupled by mean tractions? */
     bool has_own_steps() const { return coupling == "mean traction" || (coupling == "auto" && substeps > 1); }
 
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
 
     /** Of the zones, by name. Throws InputError as zone_materials(). */
     std::map<std::string, Material> zone_materials() const;

@@ -6,6 +6,8 @@
 
 namespace Voussoir
 {
+  class Entries;
+
   /** The rock around arch210: a block with a valley along x, whose section is the profile of the dam's foot.
    *  Subsection "Mesh/Arch210/Rock". */
   struct Arch210RockParameters
@@ -16,7 +18,7 @@ namespace Voussoir
     double       element_size = 22;                ///< [m], far from the dam
     unsigned int n_layers = 6;                     ///< of equal elements along the artificial boundary
 
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
 
     /** Throws InputError if a number is out of range. */
     void check() const;

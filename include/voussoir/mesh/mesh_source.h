@@ -9,6 +9,8 @@
 
 namespace Voussoir
 {
+  class Entries;
+
   /** Where the mesh comes from: subsection "Mesh" of the scene. */
   struct MeshParameters
   {
@@ -20,7 +22,7 @@ namespace Voussoir
     Arch210Parameters     arch210;
     Arch210RockParameters arch210_rock;
 
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
 
     /** Throws InputError for source "file" without a file, and for axes that are not three different ones. */
     void check() const;

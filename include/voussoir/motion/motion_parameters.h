@@ -7,13 +7,10 @@
 #include <array>
 #include <string>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Voussoir
 {
+  class Entries;
+
   /** Envelope of an artificial motion: t^2, then one, then exp(-decay_rate (t - decay_begin)). */
   struct MotionEnvelope
   {
@@ -49,7 +46,7 @@ namespace Voussoir
     double         decay_rate = automatic;  ///< [1/s]
     unsigned int   matching_iterations = 20;
 
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
     void check() const; ///< throws InputError, naming the entry
 
     bool         duration_is_automatic() const { return duration == automatic; }
@@ -66,8 +63,8 @@ namespace Voussoir
     double target(unsigned int direction, double period) const;
 
   private:
-    void add_file_parameters(dealii::ParameterHandler &prm);
-    void add_artificial_parameters(dealii::ParameterHandler &prm);
+    void add_file_parameters(Entries &prm);
+    void add_artificial_parameters(Entries &prm);
   };
 
   /** Where artificial motions are to match, and how well: Chinese hydraulic practice. */
