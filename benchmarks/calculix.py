@@ -30,6 +30,10 @@ from pathlib import Path
 
 import numpy as np
 
+import program  # noqa: F401  for the path of the package
+from voussoir.prm import read_entries
+from voussoir.program import set_options
+
 SURFACES = {"base": 1, "upstream": 2, "downstream": 3, "crest": 4}
 HEXAHEDRON, QUADRILATERAL = 5, 3  # gmsh element types
 HEX_EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
@@ -301,7 +305,7 @@ class CalculiX:
 
 
 def voussoir(options, *arguments):
-    command = [options.voussoir, *arguments] + [word for entry in options.set for word in ("--set", entry)]
+    command = [options.voussoir, *arguments, *set_options(options.set)]
     print("Voussoir  " + " ".join(command[1:]), flush=True)
     result = subprocess.run(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     if result.returncode:
@@ -309,22 +313,8 @@ def voussoir(options, *arguments):
     return result.stdout
 
 
-def read_scene(path):
-    """All entries of a scene, with their defaults, as the program writes them: section/entry -> value."""
-    entries, section = {}, []
-    for line in (line.split("#")[0].strip() for line in path.read_text().splitlines()):
-        if line.startswith("subsection "):
-            section.append(line.split(maxsplit=1)[1])
-        elif line == "end":
-            section.pop()
-        elif line.startswith("set "):
-            name, value = line[4:].split("=", 1)
-            entries["/".join(section + [name.strip()])] = value.strip()
-    return entries
-
-
 def take_from_scene(options, path):
-    scene = read_scene(path)
+    scene = {entry: value for entry, (value, _) in read_entries(path.read_text()).items()}
     for name, entry in [("young", "Concrete/Young's modulus"), ("poisson", "Concrete/Poisson's ratio"),
                         ("density", "Concrete/Density"), ("water_level", "Reservoir/Water level"),
                         ("water_density", "Reservoir/Density"), ("gravity", "Statics/Gravity"),

@@ -24,14 +24,13 @@ import matplotlib
 import numpy as np
 
 from program import ROOT, add_program_argument, run, simulate
-
-sys.path.insert(0, str(ROOT / "scripts"))
-from accuracy import strongest  # noqa: E402
-from zone_tension import read, zone_means  # noqa: E402
+from voussoir.accuracy import strongest
+from voussoir.tables import read_table
+from voussoir.zone_tension import zone_means
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-from matplotlib.ticker import LogLocator  # noqa: E402
+import matplotlib.pyplot as plt
+from matplotlib.ticker import LogLocator
 
 RIGID, ROCK, MANY = (ROOT / "prm" / f"{name}.prm" for name in ("coarse", "rock_fja", "rigid28"))
 STEPS = "Dynamics/Steps per sample"
@@ -63,7 +62,8 @@ def groups():
     modes, degree = "Elements/Incompatible modes", "Elements/Degree"
     rock = {**mesh(30, 10, 1), STEPS: 6, "Mesh/Arch210/Rock/Boundary layers": 9}
     layers = "Foundation/Layers at the dam"
-    at_dam = [(name(m), f"{n} layers", {**mesh(*m), layers: n}) for m, some in (((30, 10, 1), (0, 1, 2, 3, 4, 8)), ((60, 20, 2), (0, 3, 4)), ((90, 30, 3), (0, 3)))
+    at_dam = [(name(m), f"{n} layers", {**mesh(*m), layers: n})
+              for m, some in (((30, 10, 1), (0, 1, 2, 3, 4, 8)), ((60, 20, 2), (0, 3, 4)), ((90, 30, 3), (0, 3)))
               for n in some]
     boundaries = ("mtf3", "mtf4")
     boxes = [(b, label, {**settings, "Foundation/Boundary": b}) for b in boundaries for label, settings in
@@ -141,8 +141,8 @@ class Runs:
         self.n += 1
         directory = self.directory / str(self.n)
         summary = simulate(self.options.voussoir, self.scene, {**self.common, **settings}, directory)
-        openings = np.array([max(float(j["opening_upstream"]), float(j["opening_downstream"]))
-                             for j in read(directory / "joints.csv")])
+        joints = read_table(directory / "joints.csv")
+        openings = np.maximum(joints["opening_upstream"], joints["opening_downstream"])
         print(".", end="", file=sys.stderr, flush=True)
         means, areas = zone_means(directory)
         if self.areas is None:

@@ -22,7 +22,7 @@ import numpy as np
 
 from program import ROOT, add_program_argument, run as program_output, simulate
 from paper import scatter
-from figures import read_table
+from voussoir.tables import read_table
 
 SCENE = ROOT / "prm" / "coarse.prm"
 STRONG = {"Motion/Duration": 5.12, "Motion/Rise end": 0.5, "Motion/Decay begin": 4.5, "Output/Envelope interval": 0}
@@ -126,7 +126,6 @@ def friction(mu):
 def rough(mu=0.8):
     """No slip while closed, free when open, instead of FJB."""
     return {"FJB": {"Joints/Model": "FJA", "Joints/Friction": 10}, "FJA": {"Joints/Friction": mu}}
-
 
 
 def one(entry, value):

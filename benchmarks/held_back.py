@@ -17,7 +17,6 @@ import argparse
 import csv
 import json
 import math
-import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -25,10 +24,8 @@ from pathlib import Path
 import numpy as np
 from scipy import signal
 
-from program import ROOT, add_program_argument, run
-
-sys.path.insert(0, str(ROOT / "scripts"))
-from zone_tension import zone_means  # noqa: E402
+from program import add_program_argument, run
+from voussoir.zone_tension import zone_means
 
 G = 9.80665  # m/s^2
 HEAD = "elevation,upstream_x,upstream_radius,thickness,downstream_radius,right_angle,left_angle\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the messages of a run with several ranks cost: mpirun -np 2 build/benchmarks/benchmark_messages
-// Prints for doc/scaling.md the wall time of a gathering, of a decision by all, and of a swap of two
+// Prints for doc/performance.md the wall time of a gathering, of a decision by all, and of a swap of two
 // neighbours [us].
 
 #include <voussoir/base/log.h>

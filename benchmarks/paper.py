@@ -24,11 +24,10 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from program import ROOT, add_program_argument, run as program_output
-
-sys.path.insert(0, str(ROOT / "scripts"))
-from figures import read_table  # noqa: E402
-from paper_figures import upper_part  # noqa: E402
-from vtu import read_vtu  # noqa: E402
+from paper_figures import draw
+from paper_run import FACES, Run
+from voussoir.tables import read_table
+from voussoir.vtu import read_vtu
 
 REDUCED = {"Mesh/Arch210/Elements along": 36, "Mesh/Arch210/Elements up": 14, "Mesh/Arch210/Rock/Element size": 30}
 UNTIL = 12.8  # s: the motion decays from 11 s on
@@ -45,8 +44,6 @@ CASES = {"3.2_fja": ("paper_3_2_fja", {}), "3.2_fjb": ("paper_3_2_fjb", {}), "3.
          "3.2_ksm_vertical": ("paper_3_2_ksm", {KEYS + "Direction": "vertical"})}
 NAMES = {"3.2_fja": "FJA", "3.2_fjb": "FJB", "3.2_ksm": "KSM", "3.1_fja": "FJA", "3.1_fjb": "FJB"}
 ALONG_Y = ("3.2_fja", "3.2_fjb", "3.2_ksm")  # with the displacements of both sides of the joints
-LIMIT = 1.5  # MPa, the paper's
-FACES = ("upstream", "downstream")
 
 
 def probes_of_joints(options, case):
@@ -141,59 +138,6 @@ def write_profile(directory):
             out.write(f"{joint},{face},{place[2]:.2f},{opening:.6g},{slip:.6g}\n")
     for file in [*files, directory / "solution.pvd"]:
         file.unlink(missing_ok=True)
-
-
-def along_y(directory):
-    """Largest growth of the distance along y, the dam's axis, between both sides of each joint (joint, face) [mm], or None. At
-    an inclined joint slip has a component along y."""
-    history = read_table(directory / "history.csv")
-    n = sum(name.startswith("left_upstream_") and name.endswith("_y") for name in history)
-    distance = [[history[f"left_{face}_{j}_y"] - history[f"right_{face}_{j}_y"] for face in FACES] for j in range(1, n + 1)]
-    return np.array([[1e3 * (d - d[0]).max() for d in faces] for faces in distance]) if n else None
-
-
-class Run:
-    """What one directory says: openings and slips at the crest (joint, face) [mm], the envelopes, tensions [MPa]."""
-
-    def __init__(self, directory):
-        self.summary = json.loads((directory / "summary.json").read_text())
-        self.tied = self.summary["law"] == "tied"
-        if not self.tied:
-            joints = read_table(directory / "joints.csv")
-            self.openings, self.slips = (1e3 * np.abs(np.column_stack([joints[f"{what}_{face}"] for face in FACES]))
-                                         for what in ("opening", "slip"))
-        self.along_y = along_y(directory)
-        nodes = read_table(directory / "faces.csv", ["face"])
-        cells = read_table(directory / "faces_cells.csv", ["face"])
-        self.nodes, self.face = nodes, nodes["face"]
-        self.tension = nodes["max_principal"] / 1e6
-        self.quads = np.stack([cells[f"n{i}"] for i in range(4)], axis=1).astype(int)
-        corners = np.stack([nodes[c] for c in "xyz"], axis=1)[self.quads]
-        diagonals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-        self.area = np.zeros(len(self.face))
-        np.add.at(self.area, self.quads.ravel(), np.repeat(np.linalg.norm(diagonals, axis=1) / 8, 4))
-        self.upper = upper_part(nodes["z"], nodes["s"])
-
-    def measures(self):
-        result = {}
-        for face in FACES:
-            upper, whole = (self.face == face) & self.upper, self.face == face
-            result[f"upper_mean_{face}"] = self.tension[upper].mean()
-            for name, part in (("upper", upper), ("whole", whole)):
-                below = part & (self.tension < LIMIT)
-                result[f"{name}_share_{face}"] = 100 * self.area[below].sum() / self.area[part].sum()
-            result[f"whole_mean_{face}"] = np.average(self.tension[whole], weights=self.area[whole])
-        extremes = self.summary["extremes"]
-        for face in FACES:
-            result[f"largest_{face}"] = extremes[f"max_tension_{face}"]["value"] / 1e6
-        if not self.tied:
-            wide = self.openings.max(axis=1)
-            result.update(mean_opening=wide.mean(), largest_opening=wide.max(), first_opening=wide[0],
-                          last_opening=wide[-1], inner_opening=wide[1:-1].mean(),
-                          mean_slip=self.slips.max(axis=1).mean(), largest_slip=self.slips.max())
-        result["newton_mean"], result["newton_max"] = (self.summary["newton_iterations"][k] for k in ("mean", "max"))
-        result["energy_balance"] = self.summary["energy_balance_error"]
-        return result
 
 
 def load(output):
@@ -374,7 +318,6 @@ def main():
     print_joints(runs)
     print_cut(options.output)
     write_csv(runs, options.csv)
-    from paper_figures import draw
     draw(runs, options.output, options.figures)
     return 0
 

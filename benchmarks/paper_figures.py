@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figures laid out as the paper's, for benchmarks/paper.py; and several single runs in one figure, for doc/rock.md:
+"""Figures laid out as the paper's, for benchmarks/paper.py; and several single runs in one figure, for doc/verification.md:
 
     benchmarks/paper_figures.py rock 'rigid base=DIR' FJA=DIR FJB=DIR [--output output/figures]
 
@@ -8,33 +8,22 @@ DIR are the output directories; the first word begins the names of the figures.
 """
 
 import argparse
-import sys
 from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "scripts"))
-import figures  # noqa: E402
-from figures import plt, LineCollection  # noqa: E402
+from paper_run import FACES, LIMIT, Run, upper_part
+from voussoir.drawing import LineCollection, edges, plt, triangles
+from voussoir.tables import read_table
 
 COLOURS = {"FJA": "#0b5394", "FJB": "#cc4125", "KSM": "#6aa84f"}
 BENEATH = {"color": "#e6a194", "linewidth": 3.2}  # FJB where KSM is drawn over it, and may cover it
 OTHERS = ["#7f7f7f", "#b45f06", "#674ea7"]
 LEVELS = [0., .5, 1., 1.5, 2., 3., 4., 6., 8., 12.]  # MPa, in all figures
-LIMIT = 1.5  # MPa, the paper's: a heavy line
-FACES = ("upstream", "downstream")
 
 
 def colour_of(law, number):
     return COLOURS.get(law[:3], OTHERS[number % len(OTHERS)])
-
-
-def upper_part(z, s):
-    """Which places are in the upper part of a face: of the paper's dam, 210 m high, those above 150 m, within 150 m of the crown; of
-    others the same shares of the height."""
-    height = np.ptp(z)
-    return (z >= z.min() + 150. / 210. * height) & (np.abs(s) <= 150. / 210. * height)
 
 
 class Envelope:
@@ -48,14 +37,14 @@ class Envelope:
 
     def draw(self, axes):
         drawn = np.stack([self.s, self.z], axis=1)
-        points, corners = figures.triangles(drawn, self.quads)
+        points, corners = triangles(drawn, self.quads)
         values = np.concatenate([self.value, self.value[self.quads].mean(axis=1)])
         reds = plt.get_cmap("YlOrRd")(np.linspace(0., 1., len(LEVELS)))
         contours = axes.tricontourf(points[:, 0], points[:, 1], corners, values, levels=LEVELS,
                                     colors=np.vstack([[[.75, .85, .95, 1.]], reds]), extend="both")
         axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=LEVELS, colors="0.35", linewidths=0.2)
         axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=[LIMIT], colors="k", linewidths=0.9)
-        outline, joints = figures.edges(drawn, np.stack([self.x, self.y, self.z], axis=1), self.quads)
+        outline, joints = edges(drawn, np.stack([self.x, self.y, self.z], axis=1), self.quads)
         axes.add_collection(LineCollection(joints, colors="k", linewidths=0.5, capstyle="projecting"))
         axes.add_collection(LineCollection(outline, colors="k", linewidths=1.1, capstyle="projecting"))
         margin = .03 * np.ptp(self.z)
@@ -117,7 +106,7 @@ def crest(runs, what):
 
 def profiles(directories, title, path):
     """`directories`: law -> of a run with profile.csv. Opening over height, a panel for each joint."""
-    tables = {law: figures.read_table(directory / "profile.csv", ["face"]) for law, directory in directories.items()
+    tables = {law: read_table(directory / "profile.csv") for law, directory in directories.items()
               if (directory / "profile.csv").exists()}
     if not tables:
         return
@@ -152,7 +141,7 @@ def layout(run, path):
     envelope = Envelope(run.nodes, run.quads, run.tension, "upstream")
     drawn = np.stack([envelope.s, envelope.z], axis=1)
     figure, axes = plt.subplots(figsize=(8, 3.6))
-    outline, joints = figures.edges(drawn, np.stack([envelope.x, envelope.y, envelope.z], axis=1), envelope.quads)
+    outline, joints = edges(drawn, np.stack([envelope.x, envelope.y, envelope.z], axis=1), envelope.quads)
     axes.add_collection(LineCollection(drawn[np.vstack([envelope.quads.T, envelope.quads[:, 0]]).T], colors="0.7", linewidths=.4))
     axes.add_collection(LineCollection(joints, colors=COLOURS["FJB"], linewidths=1.6))
     axes.add_collection(LineCollection(outline, colors="k", linewidths=1.3))
@@ -231,7 +220,6 @@ def main():
     options = parser.parse_args()
     if any("=" not in run for run in options.runs):
         parser.error("give runs as LABEL=DIR")
-    from paper import Run
     runs = {label: {1: Run(Path(directory))} for label, directory in (run.split("=", 1) for run in options.runs)}
     options.output.mkdir(parents=True, exist_ok=True)
     for face in FACES:

@@ -28,7 +28,8 @@ import calculix
 import node_to_node
 from peers import COLUMNS, SCENE as JOINTED, write_motion
 from program import ROOT, add_program_argument, run, simulate
-from choices import error, mesh, read
+from choices import error, mesh
+from voussoir.tables import read_table
 
 TIED = ROOT / "benchmarks" / "calculix_arch210.prm"
 COARSE, FINE = mesh(30, 8, 1), mesh(60, 16, 2)
@@ -104,8 +105,8 @@ def with_node_to_node(options, directory):
     for n in STEPS:
         settings = {"Mesh/File": data / "s1k.v41.msh", "Motion/File": directory / "motion.txt", "Motion/Time step": .01 / n}
         summary = simulate(options.voussoir, JOINTED, settings, directory / "run")
-        joints = read(directory / "run" / "joints.csv")
-        value = np.array([[float(j[column]) for j in joints] for column, _ in COLUMNS[:2]])
+        joints = read_table(directory / "run" / "joints.csv")
+        value = np.array([joints[column] for column, _ in COLUMNS[:2]])
         rows.append(("Voussoir", 10 / n, summary["seconds"]["cpu"], value))
     for n in STEPS:
         before = time.process_time()

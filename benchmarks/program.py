@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the program for the other scripts of this directory, on one thread, and measures its CPU time."""
+"""Runs the program for the other scripts of this directory, on one thread, and measures its CPU time.
 
-import json
+The import of this module puts the package voussoir of these sources on the path."""
+
 import os
 import resource
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "python"))
+from voussoir.program import set_options
+from voussoir.results import read_summary
 
 
 def add_program_argument(parser):
@@ -17,9 +22,7 @@ def add_program_argument(parser):
 
 def run(program, *arguments, settings=None):
     """What the program printed, and its CPU seconds. `settings` are entries of the scene and their values."""
-    command = [str(word) for word in (program, *arguments)]
-    for entry, value in (settings or {}).items():
-        command += ["--set", f"{entry}={value}"]
+    command = [str(word) for word in (program, *arguments, *set_options(settings))]
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     result = subprocess.run(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                             env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})
@@ -35,7 +38,7 @@ def simulate(program, scene, settings=None, output=None):
         directory = Path(output or temporary)
         _, seconds = run(program, scene, "--output", directory,
                          settings={"Output/Figures": "false", **(settings or {})})
-        summary = json.loads((directory / "summary.json").read_text())
+        summary = read_summary(directory)
     summary["seconds"]["cpu"] = seconds
     return summary
 

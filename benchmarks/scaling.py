@@ -5,7 +5,7 @@
 Usage: benchmarks/scaling.py --measure [--voussoir build/voussoir] [--messages build/benchmark_messages]
        benchmarks/scaling.py [--output doc/figures/scaling.png]
 The first writes doc/scaling.json: the stages of rigid28 and rock28 on one rank and one thread, messages and their cost on two ranks.
-The second prints the tables of doc/scaling.md from it, and draws the figure. Only the network and the larger sizes are not measured.
+The second prints the tables of doc/performance.md from it, and draws the figure. Only the network and the larger sizes are not measured.
 """
 import argparse
 import json
@@ -65,7 +65,7 @@ def seconds_per_second(costs, size, ranks):
     latency, bandwidth = (costs["latency"], costs["bandwidth"]) if nodes == 1 else (LATENCY, BANDWIDTH)
     hops = math.log2(ranks) if ranks > 1 else 0.
     pairs = dam_costs["pairs"] * ratio**(2 / 3)
-    gathered = 16. * dam + 3 * pairs * (8. * 8. + 2 * 4. * 8.) # u and K u; forces, and the vectors of GMRES
+    gathered = 16. * dam + 3 * pairs * (8. * 8. + 2 * 4. * 8.)  # u and K u; forces, and the vectors of GMRES
     surface = 2 * 24. * (rock / 3 / ranks)**(2 / 3) * substeps if ranks > 1 else 0.
     messages = rock_costs["messages"] * latency * hops + ((gathered if ranks > 1 else 0.) + surface) / bandwidth
     return [x / step for x in (shared / on_dam, of_rock, alike, messages)]

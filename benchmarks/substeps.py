@@ -4,7 +4,7 @@
 
     benchmarks/substeps.py [--voussoir PROGRAM] [--scenes rock_fja rock28] [--set ENTRY=VALUE ...]
 
-Five seconds of strong shaking of prm/rock_fja.prm, 2.56 s of prm/rock28.prm; prints a Markdown table for doc/rock.md. Differences
+Five seconds of strong shaking of prm/rock_fja.prm, 2.56 s of prm/rock28.prm; prints a Markdown table for doc/verification.md. Differences
 are root mean squares over the samples of the motion (10 ms), over that of the reference's way from its static place. Cost:
 seconds of processor time of one thread per second of shaking, without set-up and static state.
 """

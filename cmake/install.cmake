@@ -27,11 +27,18 @@ install(FILES ${CMAKE_BINARY_DIR}/cmake/VoussoirConfig.cmake ${CMAKE_BINARY_DIR}
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 install(TARGETS voussoir RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY scripts/ DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts USE_SOURCE_PERMISSIONS FILES_MATCHING PATTERN "*.py"
-  PATTERN "*.css" PATTERN __pycache__ EXCLUDE PATTERN mutants.py EXCLUDE PATTERN coverage.py EXCLUDE PATTERN function_lengths.py EXCLUDE PATTERN site.py EXCLUDE)
+  PATTERN __pycache__ EXCLUDE PATTERN mutants.py EXCLUDE PATTERN coverage.py EXCLUDE PATTERN function_lengths.py EXCLUDE
+  PATTERN check_imports.py EXCLUDE PATTERN site.py EXCLUDE)
 install(DIRECTORY prm meshes studies DESTINATION ${VOUSSOIR_SHARE_DIR} PATTERN __pycache__ EXCLUDE)
+# The scripts look for the package in ../python, whichever Python runs them.
 install(DIRECTORY python/voussoir DESTINATION ${VOUSSOIR_PYTHON_DIR} PATTERN __pycache__ EXCLUDE)
 if(VOUSSOIR_PYTHON_DIR STREQUAL "${VOUSSOIR_SHARE_DIR}/python") # for pip; Python's own directory wants no such file
   install(FILES python/pyproject.toml DESTINATION ${VOUSSOIR_PYTHON_DIR})
+else()
+  file(RELATIVE_PATH package /${VOUSSOIR_SHARE_DIR}/python /${VOUSSOIR_PYTHON_DIR}/voussoir)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/python)
+  file(CREATE_LINK ${package} ${CMAKE_BINARY_DIR}/python/voussoir SYMBOLIC)
+  install(FILES ${CMAKE_BINARY_DIR}/python/voussoir DESTINATION ${VOUSSOIR_SHARE_DIR}/python)
 endif()
 install(FILES README.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY doc DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.gif")

@@ -11,21 +11,14 @@ voussoir-scene.schema.json   JSON Schema of an object {"Section/Entry": value}, 
 import argparse
 import json
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "python"))
+from voussoir.program import declarations
+
 LARGEST = {"[Double": 1e300, "[Integer": 2147483647}
-
-
-def entries_of(tree, path=()):
-    """("Section/Entry", its declaration) of `voussoir parameters json`."""
-    for name, child in tree.items():
-        if "pattern_description" in child:
-            yield "/".join([*path, name]), child
-        else:
-            yield from entries_of(child, (*path, name))
 
 
 def unit_of(entry):
@@ -82,8 +75,7 @@ def main():
     parser.add_argument("--output", default=ROOT / ".vscode", type=Path)
     parser.add_argument("--voussoir", default=ROOT / "build" / "voussoir", help="the program")
     options = parser.parse_args()
-    result = subprocess.run([options.voussoir, "parameters", "json"], capture_output=True, text=True, check=True)
-    entries = dict(entries_of(json.loads(result.stdout)))
+    entries = declarations(options.voussoir)
     schema = {"$schema": "http://json-schema.org/draft-07/schema#", "title": "A scene of Voussoir", "type": "object", "additionalProperties": False,
               "properties": {name: schema_of(entry) for name, entry in entries.items()}}
     options.output.mkdir(parents=True, exist_ok=True)

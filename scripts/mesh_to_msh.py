@@ -18,7 +18,7 @@ from pathlib import Path
 
 try:
     import meshio
-    import numpy as np
+    import numpy  # noqa: F401 (of meshio)
 except ImportError:
     sys.exit(3)
 

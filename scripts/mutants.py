@@ -159,7 +159,7 @@ def mutate(text, mutant, number):
 def make_tree(mutants, tree):
     """Copies what git has, and puts the mutants in. Files that do not change keep their time."""
     needed = ["CMakeLists.txt", "CITATION.cff", "LICENSE", "README.md", "benchmarks", "cmake", "doc/Doxyfile.in", "include",
-              "meshes", "prm", "scripts", "source", "tests"]
+              "meshes", "prm", "python", "scripts", "source", "tests"]
     texts = sources(*needed)
     names = ", ".join(f'"{m["name"]}"' for m in mutants)
     texts["include/voussoir/mutant.h"] = (HEADER % names).encode()
@@ -217,7 +217,8 @@ def build(tree, directory, patterns=None):
         if command is compilation:
             command += ["--target", *(targets_of(directory, patterns) if patterns else ["all"]), "--", "-k", "0"]
         with open(log_name, "a") as log:
-            if subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, env={**os.environ, "CCACHE_BASEDIR": str(tree), "CCACHE_NOHASHDIR": "1"}).returncode != 0:
+            environment = {**os.environ, "CCACHE_BASEDIR": str(tree), "CCACHE_NOHASHDIR": "1"}
+            if subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, env=environment).returncode != 0:
                 sys.exit(f"mutants: the build failed; see {log.name}")
 
 

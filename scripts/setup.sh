@@ -8,7 +8,7 @@ required=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev libfclib
           ninja-build cmake g++ git python3-matplotlib)
 optional=(python3-meshio) # reads .inp and .med
 if [[ "${1:-}" != --program ]]; then
-  required+=(gmsh numdiff ccache clang-format shellcheck doxygen)
+  required+=(gmsh numdiff ccache clang-format shellcheck flake8 doxygen)
   # Only benchmarks/calculix.py and contact.py, `voussoir study`, scripts/site.py, and the test that looks at the page of `voussoir report`, use them.
   optional+=(calculix-ccx python3-siconos python3-h5py chromium snakemake mkdocs python3-jsonschema)
 fi

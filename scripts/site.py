@@ -23,9 +23,9 @@ NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.
     "Start": ("index", "limits", "install", "tutorials/1_first_run", "pages"),
     "How-to": ("tutorials/2_own_dam", "tutorials/3_own_records", "tutorials/4_rock", "tutorials/6_study", "tutorials/7_report",
                "read_results", "choose_mesh", "messages", "report", "parallel"),
-    "Reference": ("input_file", "parameters", "output", "mesh", "loads", "studies", "python", "glossary", "changes", "release_0.3.0"),
+    "Reference": ("input_file", "parameters", "output", "mesh", "loads", "studies", "python", "glossary", "changes"),
     "Theory": ("method", "keys", "rock", "boundary"),
-    "Evidence": ("verification", "accuracy", "convergence", "contact", "performance", "scaling", "paper", "rigid_base", "failures"),
+    "Evidence": ("verification", "accuracy", "contact", "performance", "paper", "rigid_base", "failures"),
     "Develop": ("CONTRIBUTING", "tutorials/5_own_law"),
 }
 

@@ -18,6 +18,7 @@ form() # the sources as clang-format 14 writes them, scripts without complaints,
   fi
   scripts/check_rooms.sh
   shellcheck scripts/*.sh .ci/run
+  flake8 python scripts benchmarks meshes
   scripts/mutants.py --check
 }
 

@@ -6,8 +6,8 @@ import json
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
-from chromium import Chromium, find_browser  # noqa: E402  pylint: disable=unused-import
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from voussoir.chromium import Chromium, find_browser  # noqa: E402  pylint: disable=unused-import
 
 
 class Browser(Chromium):

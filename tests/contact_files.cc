@@ -328,7 +328,7 @@ namespace
     }
     catch (const InputError &error)
     {
-      there = std::string(error.what()).find("there already") != std::string::npos;
+      there = std::string(error.what()).find("already exists") != std::string::npos;
     }
     report("a file that is there is not overwritten", 0., "", there);
   }

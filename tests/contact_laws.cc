@@ -757,6 +757,32 @@ namespace
     below("key on its elastic seat again: compression, relative error", compression, 1e-9);
   }
 
+  /** A key that leaves its socket while an elastic flank is compressed finds its socket again; one that moves
+   * on sideways does not. */
+  void test_out_of_compressed_seat()
+  {
+    constexpr double height = .2, side = 1e-3;
+    for (const double angle : {0., 30.})
+      for (const double beyond : {0., 1.})
+      {
+        KeyParameters k = keys(height, 0., angle, "radial", 0.);
+        k.seat_compliance = 1e-9;
+        LedKey       key(k, 0.);
+        const double corner = height * std::tan(angle * pi / 180.);
+        key.past.area = 1.;
+        key.step(.9 * height, .9 * corner + side);
+        key.step(height * 1.01, corner + side); // out, its flank compressed
+        const double slip = key.past.start[1] + beyond * side;
+        key.step(1.2 * height, slip);
+        const std::string what = "key of " + text(angle) + " deg, out of its compressed seat and " +
+                                 text(beyond) + " mm further: ";
+        below(what + "opening after closing - " + (beyond == 0. ? "flank" : "height") + " [m]",
+              std::max(0., beyond == 0. ? key.step(-.1, .5 * corner) - .51 * height
+                                        : std::abs(key.step(-.1, slip) - height)),
+              1e-9);
+      }
+  }
+
   /** A key that is pulled out, goes over its flank and comes back: its crest and its flank stop it from
    * below, whatever the steps. */
   void test_out_over_and_back()
@@ -895,5 +921,5 @@ int main()
   return run_all({test_derivatives, test_solve, test_impulses, test_accelerations, test_units, test_error,
                   test_no_keys, test_rectangular, test_variational, test_kinematics, test_structures,
                   test_start_on_flank, test_default_friction, test_seats, test_out_over_and_back,
-                  test_back_onto_elastic_seat});
+                  test_back_onto_elastic_seat, test_out_of_compressed_seat});
 }

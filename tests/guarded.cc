@@ -80,11 +80,11 @@ namespace
                          for (volatile unsigned int i = 0;; ++i)
                            ;
                        },
-                       problem + "reading it does not end", {1., 1e9});
-    thrown<InputError>("the child waits", [] { pause(); }, problem + "reading it does not end", {.1, 1e9});
+                       problem + "reading did not end", {1., 1e9});
+    thrown<InputError>("the child waits", [] { pause(); }, problem + "reading did not end", {.1, 1e9});
     thrown<InputError>(
         "the child takes all memory", [] { std::vector<char>(std::size_t(1) << 40, 'x'); },
-        problem + "a size in it asks for more than 1 GB");
+        problem + "a size in the file requires more than 1 GB");
     thrown<InputError>(
         "InputError", [] { throw InputError("bad words"); }, "bad words");
     thrown<ComputationError>(

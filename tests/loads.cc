@@ -435,7 +435,7 @@ namespace
         [&](const double z, const Vector3 &normal) { return silt_traction(scene, 1., z, normal); }, load);
   }
 
-  /** The traction that the table has for a load is that of its forces, with the factor of the combination. */
+  /** The tractions of the table give the forces of the loads, with the factors of the combination. */
   void tractions_of_table()
   {
     SolidModel model(wall({{2, 4, 6}}), 1);

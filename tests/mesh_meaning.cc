@@ -87,7 +87,7 @@ namespace
         [] {
           check(moved([](const P &p) { return P{-p[0], -p[1], p[2]}; }));
         },
-        {"'downstream' looks upstream", "\"Mesh/Axes\" = -x -y z", "the axes are wrong"});
+        {"'downstream' faces upstream", "\"Mesh/Axes\" = -x -y z", "the axes are wrong"});
     // The scene turns already, but wrongly: what is proposed is in the axes of the file.
     expect_error(
         [] {
@@ -99,7 +99,7 @@ namespace
       if (face.surface == PhysicalId::upstream || face.surface == PhysicalId::downstream)
         face.surface = PhysicalId::upstream + PhysicalId::downstream - face.surface;
     expect_error([&] { check(exchanged); },
-                 {"'downstream' looks upstream", "Exchange the names", "the names are wrong"});
+                 {"'downstream' faces upstream", "Exchange the names", "the names are wrong"});
     HexMesh upside_down = arch(8);
     for (auto &face : upside_down.faces)
       if (face.surface == PhysicalId::crest || face.surface == PhysicalId::base)
@@ -109,7 +109,7 @@ namespace
     no_crest.faces.erase(std::remove_if(no_crest.faces.begin(), no_crest.faces.end(),
                                         [](const auto &face) { return face.surface == PhysicalId::crest; }),
                          no_crest.faces.end());
-    expect_error([&] { check(no_crest); }, {"base looks up"});
+    expect_error([&] { check(no_crest); }, {"base faces up"});
     // Turned about z: a valley whose sides differ looks 30 degrees off x, by 50 degrees it is the mesh. And a
     // block that leans.
     check(moved([](const P &p) { return P{.866 * p[0] - .5 * p[1], .5 * p[0] + .866 * p[1], p[2]}; }));
@@ -120,7 +120,7 @@ namespace
                 return P{.643 * p[0] - .766 * p[1], .766 * p[0] + .643 * p[1], p[2]};
               }));
         },
-        {"50 degrees off x", "Turn the mesh about z"});
+        {"50 degrees to x", "Turn the mesh about z"});
     check(moved([](const P &p) { return P{p[0] + p[2], p[1], p[2]}; }));
   }
 

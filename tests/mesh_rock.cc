@@ -390,7 +390,7 @@ namespace
     bad([&](HexMesh &m) { part(m); }, {"'base'", "one hexahedron only", "share their nodes"});
     bad([&](HexMesh &m) { part(m), erase(m, PhysicalId::base); }, {"do not touch"});
     bad([&](HexMesh &m) { erase(m, PhysicalId::base); }, {"in no surface", "'base'"});
-    bad([&](HexMesh &m) { erase(m, PhysicalId::artificial); }, {"nothing holds the rock"});
+    bad([&](HexMesh &m) { erase(m, PhysicalId::artificial); }, {"the rock has no supports"});
     bad(
         [&](HexMesh &m) {
           m.faces.push_back({{64, 65, 66, 67}, PhysicalId::free_surface});

@@ -179,7 +179,7 @@ namespace
     report.correlations[2] = -0.4;
     std::ostringstream table;
     print_report(report, table);
-    expect(table.str().find("spectrum of y is off by up to 12.0 %") != std::string::npos, table.str());
+    expect(table.str().find("spectrum of y has an error of up to 12.0 %") != std::string::npos, table.str());
     expect(table.str().find("correlation of y-z is -0.400") != std::string::npos, table.str());
   }
 

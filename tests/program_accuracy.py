@@ -125,9 +125,9 @@ def on_rock():
 def maths():
     """Orders and limits of known series; a retry that the program asks for; what several errors come to."""
     os.environ["VOUSSOIR_PROGRAM"] = VOUSSOIR
-    sys.path.insert(0, str(SCRIPTS))
-    import accuracy
+    sys.path.insert(0, str(SCRIPTS.parent / "python"))
     import numpy as np
+    from voussoir import accuracy
     for order in (1.3, 2., 3.):
         for sizes in ([1, 2 / 3, 1 / 2], [1, 1 / 2, 1 / 4], [1 / 3, 1 / 5, 1 / 6]):
             choice = accuracy.Choice("x", [{}] * 3, sizes, 0)

@@ -75,8 +75,8 @@ def page():
     """Text of files that would be a script, an image or a frame of the page stands there as text: all of it at once, and then in each value
     and each name of summary.json by itself. Thousands of pages, without figures."""
     directory, text = hostile_run()
-    import report  # of the scripts
-    from runs import Skip
+    from voussoir import report
+    from voussoir.runs import Skip
     report.figures = type("Figures", (), {"DIRECTIONS": report.figures.DIRECTIONS, "__getattr__": lambda self, name: no_figure(Skip)})()
     for words in ((str(directory),), (str(directory), "sound")):
         expect(page_of(report, words, f"{words}"), "the run of another person is refused")
@@ -164,7 +164,7 @@ def pdf():
         chromium.open(Path("page.html"), 794)
         expect(chromium.value("document.querySelectorAll('script, iframe, x-hostile').length") == 0, "elements of another person")
         expect(not chromium.complaints(), f"{chromium.complaints()}")
-    from chromium import print_page
+    from voussoir.chromium import print_page
     Path("bare.pdf").write_bytes(print_page(
         f'<!DOCTYPE html><meta http-equiv="refresh" content="0; url={secret.resolve().as_uri()}">{HOSTILE.format(secret.resolve().as_uri())}'
         f'<object data="{secret.resolve().as_uri()}"></object><img src="{address}image"><link rel="stylesheet" href="{address}style">'

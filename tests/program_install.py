@@ -30,7 +30,7 @@ def does(*command, environment=None):
 def install():
     cmake, prefix = os.environ["CMAKE"], Path("prefix").absolute()
     does(cmake, "--install", os.environ["BUILD"], "--prefix", str(prefix))
-    for file in ("bin/voussoir", "include/voussoir/contact/joint_law.h", "share/voussoir/scripts/figures.py",
+    for file in ("bin/voussoir", "include/voussoir/contact/joint_law.h", "share/voussoir/scripts/figures.py", "share/voussoir/python/voussoir/report.css",
                  "share/voussoir/prm/quickstart.prm", "share/voussoir/meshes/keys_law.msh"):
         expect((prefix / file).is_file(), f"{file} is not installed")
 
@@ -78,7 +78,8 @@ def packages():
             expect(part in fields[name], f"{name} has no {part!r}: {fields[name]}")
         print(f"    {name}: {re.search('Installed-Size: (.*)', fields[name])[1]} kB")
     files = {name: {line.split()[5] for line in does("dpkg-deb", "-c", path).splitlines()} for name, (path,) in found.items()}
-    for name, parts in (("voussoir", ("bin/voussoir", "share/voussoir/scripts/report.py", "share/voussoir/prm/quickstart.prm", "share/man/man1/voussoir.1.gz",
+    for name, parts in (("voussoir", ("bin/voussoir", "share/voussoir/scripts/report.py", "share/voussoir/python/voussoir/report.py",
+                                      "share/voussoir/prm/quickstart.prm", "share/man/man1/voussoir.1.gz",
                                       "share/doc/voussoir/copyright", "share/doc/voussoir/changelog.gz", "share/doc/voussoir/doc/install.md")),
                         ("voussoir-dev", ("include/voussoir/contact/joint_law.h", "share/doc/voussoir-dev/copyright"))):
         for part in parts:

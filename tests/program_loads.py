@@ -12,9 +12,9 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "golden"))
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
 import meshes  # noqa: E402
-import vtu  # noqa: E402
+from voussoir import vtu  # noqa: E402
 import scenes  # noqa: E402
 from compare import STRESS, Worst, at_places, key, read_vtu, scene  # noqa: E402
 from run_program import (MESH, run_cases, expect, refused, runs, same, summary, table, voussoir, write,  # noqa: E402

@@ -100,14 +100,14 @@ def units():
             if unit in (None, given):
                 runs(*options)
             else:
-                refused(options, "table.csv", f"headings that say {unit}, but Motion/Unit is {given}", f"Set Motion/Unit = {unit}")
+                refused(options, "table.csv", f"headings with the unit {unit}, but Motion/Unit is {given}", f"Set Motion/Unit = {unit}")
     table_of("", 380.)  # in cm/s2
     expect("the peak acceleration of the motion is 38.7 g" in runs(*asked()), "a record in cm/s2 that is taken in m/s2")
     expect("the peak" not in runs(*asked("--set", "Motion/Unit=cm/s^2")), "a record in cm/s2")
     table_of("", .45)  # in g
     for command in (asked(), ["unitless.prm", "--validate"]):
         result = voussoir(*command)
-        expect(result.returncode == 0 and "the scene has no Motion/Unit" in result.stdout + result.stderr, f"{result}")
+        expect(result.returncode == 0 and "the input file has no Motion/Unit" in result.stdout + result.stderr, f"{result}")
     for unit in ("g", "m/s^2"):
         result = voussoir(*asked("--set", f"Motion/Unit={unit}"))
         expect("Motion/Unit" not in result.stdout + result.stderr, f"{unit}: {result}")

@@ -18,7 +18,7 @@ from pathlib import Path
 from run_program import VOUSSOIR, expect, refused, run_cases, runs, summary, write, write_scene
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "python"), str(ROOT / "scripts")]
+sys.path.insert(0, str(ROOT / "python"))
 
 
 def package():
@@ -77,9 +77,9 @@ def damaged(run, voussoir):
     write("broken/endless.csv", "a,b\n1," + 200000 * "x" + "\n")
     write("broken/summary.json", Path("out/summary.json").read_text()[:40])
     write("broken/bad.vtu", "no mesh")
-    calls = [(lambda: broken.table("short"), ("short.csv, line 4", "2 values")), (lambda: broken.table("long"), ("long.csv, line 4",)),
+    calls = [(lambda: broken.table("short"), ("short.csv is damaged", "line 4 has 2 values")), (lambda: broken.table("long"), ("long.csv is damaged", "line 4")),
              (lambda: broken.table("binary"), ("binary.csv", "no table")),
-             (lambda: broken.table("endless"), ("endless.csv", "no table")), (lambda: broken.summary, ("summary.json", "not whole"))]
+             (lambda: broken.table("endless"), ("endless.csv", "no table")), (lambda: broken.summary, ("summary.json", "not valid JSON"))]
     try:
         import meshio  # noqa: F401
         calls.append((lambda: broken.mesh("bad.vtu"), ("bad.vtu", "mesh")))
@@ -97,8 +97,8 @@ def damaged(run, voussoir):
 
 def on_rock(mesh):
     """The ring on flat ground: the rock is a block, with the dam's foot in its middle; it makes the dam softer, the more the softer it is."""
-    from arch_from_table import Dam, build, read_table, volume_of
-    from arch_rock import ROCK, add_rock
+    from voussoir.arch_from_table import Dam, build, read_table, volume_of
+    from voussoir.arch_rock import ROCK, add_rock
     nodes, cells, sides = build(Dam(read_table("ring.csv")), 3, 12, 4, 2, 5.)
     foot, extent = nodes[nodes[:, 2] == 0.], 90.
     long = foot[:, 0].max() - foot[:, 0].min() + 2 * extent
@@ -171,7 +171,7 @@ def arcs():
     text = mesh(str(ROOT / "meshes" / "pacoima.csv"), "--along", "22", "--up", "7", "--rock", "170")
     expect(abs(float(re.search(r"volume (\d+) m3", text)[1]) / 168.2e3 - 1) < .03, text)
     import numpy as np
-    from arch_from_table import Dam, read_table
+    from voussoir.arch_from_table import Dam, read_table
     edge = Dam(read_table(ROOT / "meshes" / "pacoima.csv"))  # upstream, as dams are measured
     points = [edge.place(angle, edge.top, 0.) for angle in np.linspace(*edge.ends, 501)]
     expect(abs(sum(map(math.dist, points, points[1:])) - 179.5) < .5, "the crest of Pacoima")

@@ -20,8 +20,8 @@ from run_program import expect, run_cases, runs, write_scene
 
 SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
 STATE = SCRIPTS / "paraview_state.py"
-sys.path.insert(0, str(SCRIPTS))
-from vtu import read_vtu  # noqa: E402
+sys.path.insert(0, str(SCRIPTS.parent / "python"))
+from voussoir.vtu import read_vtu  # noqa: E402
 
 NEEDED = {0: {"displacement": 3, "max_principal": 1}, 1: {"displacement": 3, "opening": 1}}  # part -> arrays, their components
 

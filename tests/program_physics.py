@@ -9,9 +9,9 @@ import math
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
 from run_program import run_cases, expect, runs, summary, table, write_scene  # noqa: E402
-from vtu import read_vtu  # noqa: E402
+from voussoir.vtu import read_vtu  # noqa: E402
 
 TIED = ["--set", "Joints/Model=tied"]
 STILL = ["--set", "Motion/Source=none", "--set", "Motion/File="]

@@ -165,7 +165,7 @@ def refusals():
     refused(["report", "run", "--output", "page.txt"], "page.txt", ".html")
     refused(["report", "run", "--output", "no/such/place.html"], "no/such/place.html")
     history = Path("run/history.csv").read_text().splitlines()
-    for text, said in (("\n".join(history[:9] + [history[9][:12]] + history[10:]), "row 9 has"), ("\n".join(history[:5]) + "\n0.05,what" + ",0" * (len(history[0].split(",")) - 2), "what"),
+    for text, said in (("\n".join(history[:9] + [history[9][:12]] + history[10:]), "line 10 has"), ("\n".join(history[:5]) + "\n0.05,what" + ",0" * (len(history[0].split(",")) - 2), "what"),
                        ("\n".join(line.partition(",")[2] for line in history), "no column time")):
         Path("run/history.csv").write_text(text)
         refused(["report", "run"], "run/history.csv is damaged", said, "Repeat the run")

@@ -15,8 +15,8 @@ import sys
 import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
-from vtu import read_vtu  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from voussoir.vtu import read_vtu  # noqa: E402
 from run_program import (VOUSSOIR, arch_mesh, expect, from_file, refused, run_cases, runs, same, table, voussoir, write,
                          write_scene)  # noqa: E402
 
@@ -25,7 +25,7 @@ LONG = ["--set", "Motion/Duration=3"]
 
 def failed(result, *parts):
     """The run must have ended with status 1 and a message that has all these parts."""
-    message = "".join(line + "\n" for line in result.stderr.splitlines() if not line.startswith("voussoir: stopping as soon"))
+    message = "".join(line + "\n" for line in result.stderr.splitlines() if not line.startswith("voussoir: stopping when"))
     what = f"status {result.returncode}, message: {message.strip()}"
     expect(result.returncode == 1 and message.startswith(("voussoir: failed: ", "voussoir: stopped: ")), what)
     for part in parts:
@@ -104,7 +104,7 @@ def checkpoints():
         refused([*resume, "other"], "other/checkpoint.bin", "damaged")
     shutil.copy("kept/checkpoint.bin.before", "other/checkpoint.bin.before")
     shown = runs(*resume, "other")
-    expect("warning: the checkpoint" in shown and "the one before it" in shown, shown)
+    expect("warning: the checkpoint" in shown and "the previous one" in shown, shown)
     same("other", "whole", 2e-7, ("history", "joint_history", "joints"))
 
     refused([*resume, "kept", "--overwrite"], "--resume", "--overwrite")
@@ -154,7 +154,7 @@ def signals():
     while process.poll() is None and not Path("twice/.voussoir").exists():  # it sets up, for seconds
         time.sleep(.002)
     process.send_signal(signal.SIGTERM)
-    expect("once more" in process.stderr.readline(), "the first signal is answered")
+    expect("second signal" in process.stderr.readline(), "the first signal is answered")
     process.send_signal(signal.SIGINT)
     expect(process.wait(10) == -signal.SIGINT, f"two signals: {process.returncode}")
     # One that was to be ignored stays so, and the mesh's reader does not take it for damage.

@@ -213,7 +213,7 @@ def axes():
         refused(arguments, name, f'"Mesh/Axes" = {values}')
         mended(arguments, f"Mesh/Axes={values}")
     exchanged = [(kind, {2: 3, 3: 2}.get(tag, tag) if kind == 3 else tag, nodes) for kind, tag, nodes in mesh["elements"]]
-    refused(variant("exchanged.msh", lambda x, y, z: [x, y, z], exchanged), "'downstream' looks upstream",
+    refused(variant("exchanged.msh", lambda x, y, z: [x, y, z], exchanged), "'downstream' faces upstream",
             "Exchange the names", "the names are wrong")
 
 

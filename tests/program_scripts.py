@@ -15,7 +15,7 @@ from types import SimpleNamespace
 from program_physics import close, settings
 from run_program import VOUSSOIR, expect, run_cases, runs, summary, write_scene
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
 
 LIMITS = ("Limits/Tensile strength=0.4 MPa", "Limits/Demand-capacity ratio=2", "Limits/Overstress duration=0.4", "Limits/Overstressed share=0.2",
           "Limits/Opening=1e-6", "Limits/Slip=10", "Limits/Base friction=1", "Limits/Sliding safety=50", "Joints/Friction=0.3")
@@ -32,8 +32,8 @@ def equal(found, expected, what):
 
 def numbers():
     """Numbers of the report as an engineer writes them: three digits, the unit's scale, powers of ten, the typographic minus."""
-    from drawing import energy_unit
-    from report_tables import number, unit_of, with_unit
+    from voussoir.drawing import energy_unit
+    from voussoir.report_tables import number, unit_of, with_unit
     for value, unit, text in ((.00123456, "mm", "1.23"), (.0123456, "mm", "12.3"), (.123456, "mm", "123"), (1.2344, "mm", "1234"),
                               (.000123456, "mm", "0.123"), (5e-7, "mm", "5.0 × 10⁻⁴"), (5e-8, "mm", "0"), (-2.5e6, "MPa", "−2.50"),
                               (.125, "%", "12.5"), (1.5e6, "", "1.5 × 10⁶"), (-2e-4, "", "−2.0 × 10⁻⁴"), (7.25, "s", "7.25"),
@@ -50,11 +50,12 @@ def numbers():
 
 def tables():
     """Tables and scenes of a run as they are read: half a line at the end is none, a damaged row is named, defaults are told."""
-    from command import InputError
-    from runs import read_entries, read_table
+    from voussoir.errors import InputError
+    from voussoir.prm import read_entries
+    from voussoir.runs import read_table
     Path("sound.csv").write_text("time,value\n0,1\n0.1,2\n0.2")
     equal({name: list(column) for name, column in read_table(Path("sound.csv")).items()}, {"time": [0., .1], "value": [1., 2.]}, "a table without its end")
-    for text, part in (("time,value\n0,1\n0.1\n0.2,3\n", "row 2 has 1 values, and 2 columns"), ("time,value\n0,one\n0.1,2\n", "one")):
+    for text, part in (("time,value\n0,1\n0.1\n0.2,3\n", "line 3 has 1 values for 2 columns"), ("time,value\n0,one\n0.1,2\n", "one")):
         Path("bad.csv").write_text(text)
         try:
             read_table(Path("bad.csv"))
@@ -71,8 +72,9 @@ def results():
     runs("scene.prm", "--output", "run", *settings(*LIMITS))
     runs("scene.prm", "--output", "tied", *settings("Joints/Model=tied"))
     runs("scene.prm", "--output", "still", *settings("Motion/Source=none", "Motion/File=", "Motion/Unit=m/s^2", "Limits/Tensile strength=0.4 MPa"))
-    from report_tables import differences, extremes, items, verdict
-    from runs import Run, name_apart, scene_of
+    from voussoir.report_tables import differences, extremes, items, verdict
+    from voussoir.prm import prm_text
+    from voussoir.runs import Run, name_apart
     run, tied, still = Run("run"), Run("tied"), Run("still")
     found, known, history = items(run), summary("run"), table("run/history.csv")
     for name, largest in (("downstream", max), ("upstream", min)):
@@ -102,14 +104,14 @@ def results():
     expect("<tr class=differs>" in differences([run, tied]) and "<tr class=differs>" not in differences([run]), "entries that differ")
     name_apart(three := [run, Run("run"), tied])
     expect(len({one.name for one in three}) == 3, f"three runs have the names {[one.name for one in three]}")
-    Path("again.prm").write_text(scene_of({entry: value for entry, (value, default) in run.entries.items() if default is not None}))
+    Path("again.prm").write_text(prm_text({entry: value for entry, (value, default) in run.entries.items() if default is not None}))
     equal(runs("scene", "again.prm").splitlines()[1:], runs("scene", "scene.prm", *settings(*LIMITS)).splitlines()[1:], "the scene of the report")
     joints(run)
 
 
 def joints(run):
     """Which joints open most, and how much, by joints.csv."""
-    from drawing import FACES, common_top, crest_values, worst_joints
+    from voussoir.drawing import FACES, common_top, crest_values, worst_joints
     rows = table("run/joints.csv")
     largest = {int(row["joint"]): max(float(row[f"opening_{face}"]) for face in FACES) for row in rows}
     equal(worst_joints(run, 2), sorted(largest, key=lambda joint: -largest[joint]), "the worst joints")
@@ -122,10 +124,10 @@ def joints(run):
 def shapes():
     """Outer faces of two cubes that stay together or part; places between corners; the picture with the widest opening; a film's picture."""
     import numpy as np
-    from command import InputError
-    from film import Picture
-    from picture import FACES, View, below, bilinear, creases, normals, outer, outer_faces, read_solution, widest
-    from vtu import read_vtu, write_vtu
+    from voussoir.errors import InputError
+    from voussoir.film import Picture
+    from voussoir.picture import FACES, View, below, bilinear, creases, normals, outer, outer_faces, read_solution, widest
+    from voussoir.vtu import read_vtu, write_vtu
     corners = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], dtype=float)
     points, cells = np.concatenate([corners, corners + [1, 0, 0]]), np.arange(16).reshape(2, 8)
     moved = np.zeros((16, 3))
@@ -177,8 +179,8 @@ def films():
 def arcs():
     """The mesher's functions: slopes by Fritsch and Butland, volumes and Jacobians of cubes, graded lengths."""
     import numpy as np
-    from arch_from_table import monotone, n_columns, smallest_jacobian, volume_of
-    from arch_rock import graded
+    from voussoir.arch_from_table import monotone, n_columns, smallest_jacobian, volume_of
+    from voussoir.arch_rock import graded
     # Slopes 1 and 1/2 on steps 1 and 2: (3 + 6) / (5 / 1 + 4 / (1/2)) at the middle; at the ends by three points 7/6 and 1/6.
     curve = monotone(np.array([0., 1., 3.]), np.array([0., 1., 2.]))
     for at, slope in ((0., 7. / 6.), (1., 9. / 13.), (3., 1. / 6.)):
@@ -206,8 +208,8 @@ def arcs():
 def columns_and_rock(np):
     """Radii that shrink downwards: columns stay in vertical planes normal to the crest, abutments are where the table has them; the
     artificial boundary of the rock is its outer box but for the top, the free surface is inside of it."""
-    from arch_from_table import Dam, build, read_table
-    from arch_rock import add_rock
+    from voussoir.arch_from_table import Dam, build, read_table
+    from voussoir.arch_rock import add_rock
     Path("radii.csv").write_text("elevation,upstream_x,upstream_radius,thickness,downstream_radius,right_angle,left_angle\n"
                                  "285,-2,74,22,50,22,20\n345,-8,112,15,95,43,40\n405,0,150,6,144,51,48\n")
     dam = Dam(read_table("radii.csv"))
@@ -233,8 +235,8 @@ def columns_and_rock(np):
 
 def studies():
     """What a study says in units and lists."""
-    from command import InputError
-    from study_file import combined, edit_distance, nearest, number_with_unit, value_in, values_of
+    from voussoir.errors import InputError
+    from voussoir.study_file import combined, edit_distance, nearest, number_with_unit, value_in, values_of
     for text, unit, value in (("3 MPa", "Pa", 3e6), ("2.5kPa", "Pa", 2500.), ("1 GPa", "Pa", 1e9), ("20 mm", "m", .02), ("2 cm", "m", .02), ("5 %", "-", .05), ("7", "m", 7.)):
         close(number_with_unit(text, unit, "here"), value, 1e-12, text)
     equal(values_of("3 ... 6", "here"), ["3", "4", "5", "6"], "a range")
@@ -255,7 +257,7 @@ def studies():
 
 def motion_of_study():
     """The crest's way from its static place, and the largest acceleration of the base in any direction."""
-    from study_results import motion_of
+    from voussoir.study_results import motion_of
     Path("run").mkdir(exist_ok=True)
     Path("run/history.csv").write_text("time,crest_x,base_acceleration_x,base_acceleration_y,base_acceleration_z\n"
                                        "0,0.5,0,0,0\n0.1,0.4,1,-3,2\n0.2,0.75,-2,1,0\n")
@@ -266,7 +268,7 @@ def motion_of_study():
 
 def zones():
     """Means over zones of two plane faces with a linear tension, away from the base, by hand."""
-    from zone_tension import zone_means
+    from voussoir.zone_tension import zone_means
     n, height, width = 24, 30., 60.  # elements each way
     with open("faces.csv", "w") as nodes, open("faces_cells.csv", "w") as cells:
         nodes.write("face,monolith,x,y,z,s,max_principal,min_principal\n")

@@ -11,12 +11,12 @@ import sys
 from collections import Counter
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
 sys.path.insert(0, str(Path(__file__).resolve().parent / "golden"))
 import meshes  # noqa: E402
 from compare import E, GRAVITY, STRESS, at_places, read_vtu as read_fields, scene  # noqa: E402
 from run_program import run_cases, expect, runs, summary, table, write_scene  # noqa: E402
-from vtu import read_vtu  # noqa: E402
+from voussoir.vtu import read_vtu  # noqa: E402
 
 
 def rows(name):

@@ -19,7 +19,7 @@ from pathlib import Path
 from run_program import VOUSSOIR, expect, refused, run_cases, runs, summary, voussoir, write, write_scene
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(ROOT / "python"))
 STUDY = """
 set Scene = scene.prm
 subsection Factors
@@ -59,8 +59,8 @@ def times_of(directory):
 
 def not_read(text, *parts):
     """The study is refused with a message that has these parts."""
-    from command import InputError
-    from study_file import read_study
+    from voussoir.errors import InputError
+    from voussoir.study_file import read_study
     try:
         read_study(write("bad.prm", text))
     except InputError as error:
@@ -235,9 +235,9 @@ def quantile(distribution, share):
 def fits():
     """Damaged area, fragility and tornado against what they must be."""
     import numpy as np
-    from study_figures import effects, independent, lognormal_fit, lognormal_of_passings, normal, passings
-    from study_file import Study
-    from study_results import area_above
+    from voussoir.study_figures import effects, independent, lognormal_fit, lognormal_of_passings, normal, passings
+    from voussoir.study_file import Study
+    from voussoir.study_results import area_above
     # A linear field on a unit square: the strip above the limit, for any direction
     points, cells = np.array([[0., 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]), np.array([[0, 1, 2, 3]])
     for limit, share in ((-.1, 1), (0, 1), (.25, .75), (.5, .5), (.9, .1), (1, 0), (1.1, 0)):
@@ -281,7 +281,7 @@ def examples():
     """The studies of the tree: what they would run; the small one is run."""
     needs_snakemake()
     studies = ROOT / "studies"
-    from study_file import read_study
+    from voussoir.study_file import read_study
     for name, scenes in (("ida/ida", 50), ("ida/small", 4), ("joints/joints", 15), ("joints/small", 9)):
         found = read_study(studies / f"{name}.prm")
         expect(len(found.scenes) == scenes, f"{name}: {len(found.scenes)} scenes")

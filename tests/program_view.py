@@ -17,8 +17,8 @@ from program_physics import Solution, close, settings
 from run_program import expect, refused, run_cases, runs, summary, write_scene
 
 SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
-sys.path.insert(0, str(SCRIPTS))
-from vtu import read_vtu  # noqa: E402
+sys.path.insert(0, str(SCRIPTS.parent / "python"))
+from voussoir.vtu import read_vtu  # noqa: E402
 
 
 def table(name):
@@ -57,7 +57,7 @@ def view():
 def water_line():
     """Faces are cut at the level of the water: not wet or dry as a whole."""
     import numpy as np
-    from picture import below
+    from voussoir.picture import below
     face = np.array([[0., 0., 2.], [0., 3., 2.], [0., 3., 6.], [0., 0., 6.]])
     for level, area in ((1., 0.), (2., 0.), (5., 9.), (5.9, 11.7), (6., 12.), (9., 12.)):
         part = below(face, level)

@@ -199,7 +199,7 @@ namespace
     // All defaults written out, and every default as a value of its own.
     std::ostringstream all;
     prm.print_parameters(all, dealii::ParameterHandler::PRM);
-    expect(warnings_of(all.str()).empty(), "the defaults are warned of");
+    expect(warnings_of(all.str()).empty(), "the defaults produce warnings");
 
     const std::vector<Warned> cases = {
         {"subsection Joints\nset Friction = 0.5\nset Model = FJB\nend\n",
@@ -318,7 +318,7 @@ namespace
     });
   }
 
-  /** Of the values in a file the last one holds; an included file may be overridden. */
+  /** The last value of an entry in a file is used. An included file may be overridden. */
   void test_twice()
   {
     std::ofstream("included.prm") << "subsection Joints\nset Friction = 0.7\nend\n";
@@ -373,7 +373,7 @@ namespace
     expect(strength.low == 1e5 && strength.high == 6e6 && strength.or_zero, "the usual strength of a bond");
   }
 
-  /** The default combination names the loads of the table, none of which acts by default. */
+  /** The default combination contains all loads of the table. By default none of them acts. */
   void test_loads()
   {
     const LoadParameters loads;
@@ -386,7 +386,7 @@ namespace
       expect(!load.acts(scene), std::string("by default a dam without water has the load ") + load.name);
   }
 
-  /** What the table of laws says that they read is what they read. */
+  /** The laws read exactly the entries of their rows. */
   void test_entries_of_laws()
   {
     const std::vector<std::pair<std::string, std::function<void(LawParameters &)>>> changes = {

@@ -141,14 +141,13 @@ namespace
     Newmark newmark(dam.structure, dam.laws, scene.contact, motion.dt, ImpactRule::mean_force);
     newmark.start(zero, zero, {}, zero, {});
     const StabilityWatch watch(dam, motion, newmark);
-    const JointRecorder  joints(dam.structure, *dam.geometry);
     for (step = 1; step <= n; ++step)
     {
       Unknowns load = zero;
       dam.foundation->advance(load);
       newmark.advance(load, dam.foundation->base_velocity());
       dam.foundation->follow(newmark.state());
-      const std::string trouble = watch.trouble(newmark, joints, step, step == n);
+      const std::string trouble = watch.trouble(newmark, step, step == n);
       if (!trouble.empty())
         return trouble;
     }

@@ -31,19 +31,20 @@ namespace Voussoir
 
   namespace
   {
-    /** The entries of all scenes, or of a section. The format may be left out. */
+    /** Prints all entries, or those of a section. The format is optional. */
     void print_parameters(const std::vector<std::string> &words)
     {
       const bool has_format =
           !words.empty() && (words[0] == "prm" || words[0] == "json" || words[0] == "markdown");
       if (words.size() > (has_format ? 2 : 1))
-        throw InputError("`voussoir parameters` prints prm, json or markdown, of one section: \"" +
-                         words.back() + "\" is one word too many.");
+        throw InputError(
+            "`voussoir parameters` prints prm, json or markdown, of one section. Remove the argument \"" +
+            words.back() + "\".");
       Entries prm;
       Scene   scene;
       scene.add_parameters(prm);
       const std::string  section = words.empty() ? "" : words.back();
-      std::ostringstream text; // deal.II does not like streams that fail
+      std::ostringstream text; // deal.II does not accept streams that fail
       print_entries(prm, has_format ? words[0] : "prm", has_format && words.size() == 1 ? "" : section, text);
       std::cout << text.str();
     }
@@ -70,7 +71,7 @@ namespace Voussoir
 
   namespace
   {
-    /** The scene file among the words. */
+    /** Returns the input file of the command line. */
     std::string scene_file(const Arguments &arguments)
     {
       const auto &words = arguments.words;
@@ -78,10 +79,11 @@ namespace Voussoir
         throw InputError("There is no command \"" + words[0] + "\". Did you mean `voussoir " +
                          nearest_command(words[0]) + "`? `voussoir --help` shows all.");
       if (words.size() > 1)
-        throw InputError("\"" + words[1] + "\" is one word too many. `voussoir --help` shows how.");
+        throw InputError("There are too many arguments: \"" + words[1] +
+                         "\". `voussoir --help` shows the usage.");
       if (words.empty())
         throw InputError("`voussoir " + arguments.command + "` needs one scene file. `voussoir " +
-                         arguments.command + " --help` shows how.");
+                         arguments.command + " --help` shows the usage.");
       return words[0];
     }
 
@@ -115,7 +117,7 @@ namespace Voussoir
       {
         throw ComputationError(not_enough_memory(scene));
       }
-      catch (const ExcOutOfMemory &) // deal.II's
+      catch (const ExcOutOfMemory &) // of deal.II
       {
         throw ComputationError(not_enough_memory(scene));
       }
@@ -128,7 +130,7 @@ namespace Voussoir
       std::ostringstream text;
       const std::string &command = arguments.command, file = scene_file(arguments);
       if ((command == "mesh" || command == "motion") && arguments.value("--output").empty())
-        throw InputError("`voussoir " + command + "` needs --output FILE.");
+        throw InputError("`voussoir " + command + "` requires --output FILE.");
       read_scene(file, arguments.overrides, scene, prm);
       if (!command.empty() && !arguments.value("--output").empty())
         scene.check_output(arguments.value("--output"));
@@ -149,8 +151,8 @@ namespace Voussoir
           std::cout << note << '\n';
         print_report(report_motion(motion, scene.motion), std::cout);
         if (const double factor = scene.loads.factor("earthquake"); factor != 1.)
-          std::cout << "The scene's combination of loads takes " << factor
-                    << " times this motion (Loads/Combination), which is not in these numbers.\n";
+          std::cout << "The load combination multiplies this motion by " << factor
+                    << " (Loads/Combination). These numbers do not include the factor.\n";
       }
       for (const std::string &warning : scene.warnings) // an error would come first
         std::cerr << "voussoir: warning: " << warning << "\n";
@@ -173,7 +175,7 @@ namespace Voussoir
 
   int run_command(const std::vector<std::string> &words)
   {
-    openblas_set_num_threads(1); // bodies and joints are what runs in parallel
+    openblas_set_num_threads(1); // parallelism is over bodies and joints
     const Arguments arguments = read_arguments(words);
     if (arguments.version)
       std::cout << "Voussoir " VOUSSOIR_VERSION " (" VOUSSOIR_REVISION "), deal.II " DEAL_II_PACKAGE_VERSION

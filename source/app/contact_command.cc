@@ -21,7 +21,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** Joint by joint pays when there are several groups of many pairs, and needs a symmetric W. */
+    /** Returns true if the problem is solved joint by joint: several groups of many pairs, symmetric W. */
     bool has_joints(const BlockSparseMatrix &W, const PairGroups &groups)
     {
       return groups.size.size() > 1 && W.n_rows() >= 8 * groups.size.size() && is_symmetric(W);
@@ -61,8 +61,8 @@ namespace Voussoir
         scale(x, exponent);
     }
 
-    /** Divides by a power of two, such that the largest is about 1 and squares neither overflow nor
-     * underflow. Returns the exponent. */
+    /** Divides the values by a power of two. The largest value is then about 1, so that squares do not
+     * overflow. Returns the exponent. */
     template <typename T> int normalise(std::vector<T> &values)
     {
       double size = 0.;
@@ -131,7 +131,7 @@ namespace Voussoir
 
   namespace
   {
-    /** The method or the equations that --solver names. */
+    /** Sets the method of --solver. Returns its equations. */
     Equations choose_solver(const std::string &solver, ContactParameters &parameters)
     {
       if (solver == "paper" || solver == "fischer-burmeister")
@@ -159,13 +159,13 @@ namespace Voussoir
       std::error_code error;
       std::filesystem::create_directories(directory, error);
       if (error || !std::filesystem::is_directory(directory, error))
-        throw InputError("--write-solutions: the directory " + directory + " cannot be made.");
-      std::map<std::string, std::string> names; // and their files: a file may repeat
+        throw InputError("--write-solutions: the directory " + directory + " cannot be created.");
+      std::map<std::string, std::string> names; // file of each name; a file may be listed twice
       for (const std::string &file : files)
         if (names.try_emplace(std::filesystem::path(file).stem().string(), file).first->second != file)
-          throw InputError("--write-solutions: two of the files are called " +
+          throw InputError("--write-solutions: two of the files have the name " +
                            std::filesystem::path(file).stem().string() +
-                           ", and their solutions would be, too. Solve them one by one.");
+                           ", and so would their solutions. Solve them separately.");
     }
 
     void write_solution(const std::string &directory, const std::string &file, const Unknowns &force)
@@ -178,7 +178,7 @@ namespace Voussoir
       out.check();
     }
 
-    /** Solves one problem and prints its line. */
+    /** Solves one problem and prints its result. */
     FrictionSolution solve_and_print(const std::string &file, const FrictionProblem &problem,
                                      const ContactParameters &parameters, const Equations equations)
     {
@@ -204,9 +204,9 @@ namespace Voussoir
 
   void run_contact(const std::vector<std::string> &files, const ContactOptions &options)
   {
-    omp_set_num_threads(1); // small problems; CPU seconds are those of the solution
+    omp_set_num_threads(1); // small problems; CPU time is that of the solution
     if (files.empty())
-      throw InputError("`voussoir contact` needs FCLib files. `voussoir --help` shows how.");
+      throw InputError("`voussoir contact` requires FCLib files. `voussoir --help` shows the usage.");
     ContactParameters parameters = parameters_of(options);
     const Equations   equations = choose_solver(options.solver, parameters);
     if (!options.solutions.empty())
@@ -243,7 +243,7 @@ namespace Voussoir
                        : "");
     if (unreadable > 0)
       throw InputError(std::to_string(unreadable) + " of " + std::to_string(files.size()) +
-                       " files cannot be read, as said above; the others were solved." +
+                       " files cannot be read (see above). The others were solved." +
                        (failures > 0 ? " Of these, " + not_converged : ""));
     if (failures > 0)
       throw ComputationError(not_converged);

@@ -69,11 +69,11 @@ namespace Voussoir
             << escaped(entry.documentation) << " |\n";
     }
 
-    /** Those in a section, or a single one. */
+    /** Returns the entries of a section, or a single entry. */
     std::vector<DeclaredEntry> entries_in(const std::vector<DeclaredEntry> &all, const std::string &section)
     {
       std::vector<DeclaredEntry> result;
-      std::vector<std::string>   names; // of all sections and entries
+      std::vector<std::string>   names; // names of all sections and entries
       for (const DeclaredEntry &entry : all)
       {
         const std::string name = entry.name();
@@ -89,7 +89,7 @@ namespace Voussoir
       return result;
     }
 
-    /** What stands between two markers, from @p position on, which moves behind the second one. */
+    /** Returns the text between two markers after @p position. Moves @p position behind the second marker. */
     std::string between(const std::string &text, const std::string &first, const std::string &second,
                         std::size_t &position)
     {
@@ -103,7 +103,7 @@ namespace Voussoir
       return text.substr(from + first.size(), to - from - first.size());
     }
 
-    /** "0...MAX_DOUBLE (inclusive)" */
+    /** Returns a range such as "0...MAX_DOUBLE (inclusive)" in words. */
     std::string range_in_words(const std::string &range)
     {
       if (range.empty())

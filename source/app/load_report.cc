@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The static loads in the log and in summary.json.
+// Static loads in the log and in summary.json.
 
-#include <voussoir/app/simulation.h>
+#include <voussoir/app/run_report.h>
 #include <voussoir/dam/base_uplift.h>
 #include <voussoir/dam/temperature.h>
 
 namespace Voussoir
 {
-  void Simulation::report_loads()
+  void report_loads(const Dam &dam, Log &log)
   {
+    const Scene &scene = dam.scene;
     if (!scene.loads.combination.empty())
       log.line("Loads     combination %s: %s", scene.loads.combination.c_str(),
                scene.loads.combinations.at(scene.loads.combination).c_str());
-    for (const StaticLoad &load : dam->loads)
+    for (const StaticLoad &load : dam.loads)
     {
       const Vector3 f = load.resultant();
       const bool    usual = load.name == "water" || load.name == "weight";
@@ -23,16 +24,17 @@ namespace Voussoir
                  t[0], t[1], scene.loads.temperature.grouting);
       }
       else if (!usual && norm(f) == 0.)
-        log.line("warning: the load %s is nothing: it does not reach the dam. Check its entries in Loads.",
+        log.line("warning: the load %s is zero: it does not reach the dam. Check its entries in Loads.",
                  load.name.c_str());
       else if (!usual || load.factor != 1.)
         log.line("Loads     %s x %g: %.4g %.4g %.4g MN%s", load.name.c_str(), load.factor, 1e-6 * f[0],
-                 1e-6 * f[1], 1e-6 * f[2], dam->base_is_held() ? ", without what acts on the held base" : "");
+                 1e-6 * f[1], 1e-6 * f[2],
+                 dam.base_is_held() ? ", without the forces on the fixed base" : "");
     }
     if (scene.loads.uplift.base && scene.loads.factor("uplift") != 0.)
     {
       Vector3 sum{};
-      for (const auto &monolith : base_uplift(scene, *dam->model).of_monolith)
+      for (const auto &monolith : base_uplift(scene, *dam.model).of_monolith)
         for (unsigned int c = 0; c < 3; ++c)
           sum[c] += 1e-6 * monolith.second[c];
       log.line("Loads     uplift at the base: %.4g %.4g %.4g MN, a part of the compression there", sum[0],
@@ -40,10 +42,11 @@ namespace Voussoir
     }
   }
 
-  Json Simulation::json_of_loads() const
+  Json json_of_loads(const Dam &dam)
   {
-    Json json;
-    for (const StaticLoad &load : dam->loads)
+    const Scene &scene = dam.scene;
+    Json         json;
+    for (const StaticLoad &load : dam.loads)
     {
       Json one;
       one.add("factor", load.factor).add_list("resultant", load.resultant());
@@ -52,7 +55,7 @@ namespace Voussoir
     if (scene.loads.uplift.base && scene.loads.factor("uplift") != 0.)
     {
       Json uplift;
-      for (const auto &monolith : base_uplift(scene, *dam->model).of_monolith)
+      for (const auto &monolith : base_uplift(scene, *dam.model).of_monolith)
         uplift.add_list("monolith " + std::to_string(monolith.first), monolith.second);
       json.add("base uplift", uplift);
     }

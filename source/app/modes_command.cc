@@ -31,11 +31,11 @@ namespace Voussoir
       std::error_code error;
       std::filesystem::create_directories(directory, error);
       if (error)
-        throw InputError("The directory " + directory + " cannot be made: " + error.message() +
+        throw InputError("The directory " + directory + " cannot be created: " + error.message() +
                          ". Choose another one with --output.");
     }
 
-    /** modes.csv: participation factors are those of modes with a modal mass of one. */
+    /** Returns the table of modes.csv. Participation factors are for modes with unit modal mass. */
     Table table_of(const std::vector<NaturalMode> &modes, const Structure &structure)
     {
       const Vector3 whole = free_mass(structure);
@@ -65,7 +65,7 @@ namespace Voussoir
       return table;
     }
 
-    /** The shape as a displacement, the largest of which is 1 m. */
+    /** Returns the mode shape as displacements, scaled to a maximum of 1 m. */
     void write_shape(const Dam &dam, const NaturalMode &mode, const std::string &file)
     {
       double largest = 0.;
@@ -102,9 +102,8 @@ namespace Voussoir
   {
     const unsigned int count = count_of(count_text);
     if (scene.foundation.model == "rock")
-      throw InputError(
-          "`voussoir modes` finds the frequencies of a dam on a rigid base or on massless rock: rock with "
-          "mass radiates. Give --set Foundation/Model=massless or rigid.");
+      throw InputError("`voussoir modes` requires a rigid base or massless rock, because rock with mass "
+                       "radiates energy. Use --set Foundation/Model=massless or rigid.");
     if (!directory.empty())
       Ranks::on_first([&] { make_directory(directory); });
     const Dam dam(scene, true);

@@ -21,8 +21,8 @@ namespace Voussoir
 {
   namespace
   {
-    /** Rank and number of ranks, as mpirun of Open MPI, of MPICH and Intel (and Slurm's PMI-2), or srun tell
-     *  them in the environment; 0 and 1 for a program that was started alone. */
+    /** Returns rank and number of ranks from the environment variables of Open MPI, MPICH and Intel (PMI), or
+     * srun. Returns 0 and 1 without these variables. */
     std::pair<int, int> rank_of_launcher()
     {
       constexpr const char *names[][2] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
@@ -34,8 +34,8 @@ namespace Voussoir
       return {0, 1};
     }
 
-    /** This process is alone, and so are the programs that it starts (scripts, and the runs that these
-     * start): else each would wait for the other ranks. */
+    /** Removes the variables of the launcher. Otherwise child processes, such as scripts and their runs,
+     * would wait for the other ranks. */
     void forget_launcher()
     {
       std::vector<std::string> names = {"SLURM_PROCID", "SLURM_STEP_NUM_TASKS"};
@@ -53,7 +53,7 @@ namespace Voussoir
 
   namespace
   {
-    /** Does what the words say; returns the status, and what is to be told of an error. */
+    /** Runs the command. Returns the exit status and the message of an error. */
     std::pair<int, std::string> run_guarded(const std::vector<std::string> &words, const int n_ranks)
     {
       try
@@ -83,9 +83,8 @@ namespace Voussoir
       }
       catch (const std::bad_alloc &)
       {
-        return {1,
-                "voussoir: failed: there is not enough memory. Use fewer elements; --validate estimates what "
-                "is needed."};
+        return {1, "voussoir: failed: there is not enough memory. Use fewer elements. --validate estimates "
+                   "the required memory."};
       }
       catch (const std::exception &error)
       {
@@ -96,17 +95,17 @@ namespace Voussoir
 
   int run_program(const std::vector<std::string> &words)
   {
-    // Nothing of a single process needs MPI, which takes longer to start than many a command to run.
+    // A single process does not need MPI, whose start may take longer than a command.
     dealii::MultithreadInfo::set_thread_limit(1);
     const auto [rank, n_launched] = rank_of_launcher();
     const bool is_shared = n_launched > 1 && runs_scene(words);
     if (n_launched > 1 && !is_shared)
     {
       if (rank != 0)
-        return 0; // the first one does alone what is not a run
+        return 0; // commands other than runs use the first rank only
       forget_launcher();
     }
-    std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of the write
+    std::signal(SIGXFSZ, SIG_IGN); // a file size limit is reported by the write operation
     const auto [status, message] = run_guarded(words, is_shared ? n_launched : 1);
     if (!message.empty())
       std::cerr << message << std::endl;

@@ -19,13 +19,13 @@ namespace Voussoir
 
   namespace
   {
-    /** A line "set a = b" with the subsections around it. */
+    /** Line "set a = b" with its subsections. */
     struct Entry
     {
       std::vector<std::string>     path; ///< subsections, then the entry
       std::string                  value;
-      std::string                  place;            ///< for messages
-      std::size_t                  text = no_number; ///< number of the file that it is listed in; none: --set
+      std::string                  place;            ///< position for messages
+      std::size_t                  text = no_number; ///< number of its file; no_number: --set
       static constexpr std::size_t no_number = -1;
     };
 
@@ -44,8 +44,8 @@ namespace Voussoir
       return true;
     }
 
-    /** Throws InputError with @p message for a file that cannot be read, and for a directory, a pipe or a
-     * device, which is not even opened: that may never end. */
+    /** Opens a file. Throws InputError with @p message if it cannot be read, or if it is a directory, a pipe
+     * or a device, because reading from those may block. */
     std::ifstream opened(const std::string &file, const std::string &message)
     {
       std::error_code error;
@@ -70,7 +70,7 @@ namespace Voussoir
       for (unsigned int number = 1; std::getline(in, line); ++number)
       {
         const std::string place = file + ", line " + std::to_string(number);
-        if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0) // of editors on Windows
+        if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0) // byte order mark
           line.erase(0, 3);
         line = trimmed(line);
         while (!line.empty() && line.back() == '\\' && std::getline(in, more))
@@ -114,14 +114,15 @@ namespace Voussoir
         throw InputError(file + ": subsection \"" + section.back() + "\" is not closed. Add an \"end\".");
     }
 
-    /** The declaration of an entry. Throws InputError, with the nearest one, if there is none. */
+    /** Returns the declaration of an entry. Throws InputError, with the most similar one, for an unknown
+     * entry name. */
     const DeclaredEntry &declaration(const std::vector<DeclaredEntry> &known, const Entry &entry)
     {
       const auto found = std::find_if(known.begin(), known.end(),
                                       [&](const DeclaredEntry &k) { return k.path == entry.path; });
       if (found != known.end())
         return *found;
-      // Nearest by name; the same entry in another section counts as near.
+      // Most similar name; the same entry in another section is similar.
       const std::string path = joined(entry.path);
       const auto        distance = [&](const DeclaredEntry &k) {
         return std::min(edit_distance(k.name(), path), edit_distance(k.path.back(), entry.path.back()) + 2);
@@ -133,18 +134,17 @@ namespace Voussoir
                        nearest->name() + "\"? `voussoir parameters` prints all entries.");
     }
 
-    /** Throws InputError for a list of pairs "key: value" in which a key is twice: the first would be lost.
-     */
+    /** Throws InputError for a list of pairs "key: value" with a repeated key. */
     void expect_different_keys(const std::string &value, const char separator, const std::string &what)
     {
       std::istringstream    pairs(value);
       std::set<std::string> keys;
       for (std::string pair; std::getline(pairs, pair, separator);)
         if (const std::string key = trimmed(pair.substr(0, pair.find(':'))); !keys.insert(key).second)
-          throw InputError(what + " has \"" + key + "\" twice. Leave one, or give the other another name.");
+          throw InputError(what + " has \"" + key + "\" twice. Remove or rename one of them.");
     }
 
-    /** Sets the entry, and writes its value in the declared unit back. */
+    /** Sets the entry in @p prm. Converts its value to the declared unit. */
     void apply(ParameterHandler &prm, const DeclaredEntry &declared, Entry &entry)
     {
       const std::string what = entry.place + ": entry \"" + declared.name() + "\"",
@@ -181,7 +181,7 @@ namespace Voussoir
     std::vector<std::string>         section;
 
     std::ifstream in =
-        opened(file, "The scene file " + file + " cannot be read. Give the path of a .prm file.");
+        opened(file, "The scene file " + file + " cannot be read. Check the path of the .prm file.");
     const std::filesystem::path path(file);
     scene.name = path.stem().string();
     scene.directory = path.parent_path().string();
@@ -192,15 +192,16 @@ namespace Voussoir
       if (equals == std::string::npos)
         throw InputError("--set '" + override + "': write --set 'Section/Entry=value'.");
       if (equals == 0)
-        throw InputError("--set '" + override + "': there is no entry before the \"=\".");
+        throw InputError("--set '" + override +
+                         "': there is no entry before the \"=\". Write --set 'Section/Entry=value'.");
       Entry              entry{{}, trimmed(override.substr(equals + 1)), "--set"};
       std::istringstream parts(override.substr(0, equals));
       for (std::string part; std::getline(parts, part, '/');)
         entry.path.push_back(trimmed(part));
       entries.push_back(entry);
     }
-    std::map<std::string, WrittenEntry>                        written; // the last value holds
-    std::map<std::pair<std::string, std::size_t>, std::string> places;  // of entry and text
+    std::map<std::string, WrittenEntry>                        written; // the last value is used
+    std::map<std::pair<std::string, std::size_t>, std::string> places;  // by entry and file
     std::vector<std::string>                                   twice;
     for (Entry &entry : entries)
     {
@@ -210,7 +211,7 @@ namespace Voussoir
       std::string &before = places[{declared.name(), entry.text}];
       if (!before.empty() && entry.text != Entry::no_number)
         twice.push_back(declared.name() + " is in the file twice, " + before + " and " + entry.place +
-                        ": the last value holds, " + entry.value + ". Delete the other one.");
+                        ": the last value is used, " + entry.value + ". Remove one of them.");
       before = entry.place;
     }
     scene.check();

@@ -12,7 +12,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** Of the laws of the joints about their parameters. */
+    /** Adds the warnings of all joint laws about their parameters. */
     void add_law_warnings(const Scene &scene, std::vector<std::string> &warnings)
     {
       const JointParameters &joints = scene.joints;
@@ -23,7 +23,7 @@ namespace Voussoir
         warnings.push_back(joint_law_warning(model, joints.law(scene.concrete.young)));
     }
 
-    /** The last stage has the temperatures of Loads/Temperature/Day, whatever day the stages end with. */
+    /** Returns a warning if the last day of the stages is not Loads/Temperature/Day, or an empty string. */
     std::string other_day(const Scene &scene)
     {
       const TemperatureParameters   &temperature = scene.loads.temperature;
@@ -34,8 +34,9 @@ namespace Voussoir
         return "";
       std::ostringstream text;
       text << "Statics/Stages ends with day " << last->value
-           << ", but its last stage always goes to the temperatures of Loads/Temperature/Day, which is "
-           << temperature.day << ". Set that to " << last->value << ", if it is the day of the earthquake.";
+           << ", but the final stage has the temperatures of Loads/Temperature/Day, which is "
+           << temperature.day << ". Set this entry to " << last->value
+           << " if it is the day of the earthquake.";
       return text.str();
     }
 
@@ -49,7 +50,7 @@ namespace Voussoir
       if (text.tellp() == 0)
         return "";
       return "Loads/Combination is " + loads.combination + ", with " + text.str() +
-             ": usual are factors of 0 to 5.";
+             ". Usual factors are 0 to 5. Check Loads/Combinations.";
     }
 
     bool is_written(const std::vector<WrittenEntry> &entries, const std::string &name)
@@ -66,8 +67,7 @@ namespace Voussoir
         return "";
       return "Output/Envelope interval is " + std::to_string(scene.output.envelope_interval) +
              ": peaks of the stresses between are missed, so the limits of stresses are not evaluated. Set "
-             "it to 1 "
-             "for Limits.";
+             "it to 1 for Limits.";
     }
 
     bool reservoir_acts(const Scene &scene)
@@ -83,11 +83,11 @@ namespace Voussoir
       std::ostringstream text;
       text << "the mesh is from a file, and there is no Reservoir/Water level: it is "
            << scene.reservoir.level
-           << " m, that of arch210. Give the level of this dam, or set Reservoir/Density to 0.";
+           << " m, that of arch210. Set the level of this dam, or set Reservoir/Density to 0.";
       return text.str();
     }
 
-    /** Loads whose surface belongs below that of the reservoir. */
+    /** Adds warnings about loads with a level above that of the reservoir. */
     void add_levels_above_the_reservoir(const Scene &scene, std::vector<std::string> &warnings)
     {
       for (const LoadRow &load : load_table())
@@ -97,17 +97,17 @@ namespace Voussoir
           std::ostringstream text;
           text << load.level_entry << " is " << load.level(scene)
                << " m, above the reservoir (Reservoir/Water level is " << scene.reservoir.level
-               << " m): " << load.above_reservoir << " Lower it, or raise the reservoir.";
+               << " m): " << load.above_reservoir << " Reduce it, or raise the reservoir.";
           warnings.push_back(text.str());
         }
     }
 
-    /** A load of the chosen combination that the scene does not define. */
+    /** Returns a warning about loads of the combination without entries, or an empty string. */
     std::string undefined_loads(const Scene &scene, const std::vector<WrittenEntry> &entries)
     {
       const LoadParameters &loads = scene.loads;
       if (loads.combination.empty() || !is_written(entries, "Loads/Combinations"))
-        return ""; // those that are not written name all loads
+        return ""; // the default combinations contain all loads
       std::string names, missing;
       for (const LoadRow &load : load_table())
         if (load.defined_by && !load.acts(scene) && loads.factor(load.name) != 0.)
@@ -117,8 +117,8 @@ namespace Voussoir
         }
       return names.empty() ? ""
                            : "Loads/Combination " + loads.combination +
-                                 " names loads that the scene does not have: " + names + ". Give " + missing +
-                                 ", or leave them out of Loads/Combinations.";
+                                 " contains loads that are not defined: " + names + ". Set " + missing +
+                                 ", or remove the loads from Loads/Combinations.";
     }
   } // namespace
 

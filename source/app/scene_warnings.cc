@@ -29,6 +29,7 @@ namespace Voussoir
              std::all_of(others.begin(), others.end(),
                          [](const auto &entry) { return entry.second == "tied"; });
     }
+    /** Returns whether any load with the given property acts. */
     bool any_acts(const Scene &scene, bool LoadRow::*which)
     {
       const auto &loads = load_table();
@@ -36,7 +37,7 @@ namespace Voussoir
                          [&](const LoadRow &load) { return load.*which && load.acts(scene); });
     }
 
-    /** Relations between choices. */
+    /** Entries without effect because of other choices. */
     const std::vector<IdleEntries> relations = {
         {"Mesh/Source is file", [](const Scene &s) { return !is_arch210(s); }, {"Mesh/Arch210/"}},
         {"Mesh/Source is arch210",
@@ -94,7 +95,7 @@ namespace Voussoir
          {"Foundation/Nodal layers"}},
     };
 
-    /** The first that holds is the one that is told. */
+    /** Returns all conditions under which entries have no effect. The first true condition is reported. */
     std::vector<IdleEntries> rules()
     {
       std::vector<IdleEntries> all;

@@ -8,7 +8,7 @@
 
 #include <sys/resource.h>
 
-// Of OpenBLAS, which exports them; null with another library.
+// Functions of OpenBLAS. They are null with another library.
 extern "C" void *blas_memory_alloc(int) __attribute__((weak));
 extern "C" void  blas_memory_free(void *) __attribute__((weak));
 
@@ -34,7 +34,7 @@ namespace Voussoir
     if (!enough)
       throw std::bad_alloc();
 
-    for (void *&place : trial) // all at once, so that no thread takes what another one has given back
+    for (void *&place : trial) // all before the first release, so that each thread has its own
       place = blas_memory_alloc(0);
     for (void *place : trial)
       blas_memory_free(place);

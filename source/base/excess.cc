@@ -10,7 +10,7 @@ namespace Voussoir
     long count = 0;
 #pragma omp parallel for simd schedule(static) reduction(+ : count) if (n > 10000)
     for (std::size_t i = 0; i < n; ++i)
-      count += !(std::abs(x[i]) <= bound); // also what is not a number
+      count += !(std::abs(x[i]) <= bound); // also counts values that are not numbers
     return count;
   }
 

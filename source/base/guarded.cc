@@ -39,7 +39,7 @@ namespace Voussoir
       return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     }
 
-    /** Address space of this process [byte]; 0 where /proc is missing. */
+    /** Returns the address space of this process [bytes]; 0 without /proc. */
     double address_space()
     {
       double pages = 0.;
@@ -47,7 +47,7 @@ namespace Voussoir
       return pages * double(sysconf(_SC_PAGESIZE));
     }
 
-    /** A child that exceeds them gets SIGXCPU or std::bad_alloc. */
+    /** Sets the limits of this process. Exceeding them causes SIGXCPU or std::bad_alloc. */
     void set_limits(const GuardLimits &limits)
     {
       const auto set = [](const auto resource, const double limit)
@@ -61,7 +61,7 @@ namespace Voussoir
       };
       set(RLIMIT_CORE, 0.);
       set(RLIMIT_CPU, std::ceil(limits.cpu_seconds));
-#ifndef __SANITIZE_ADDRESS__ // whose shadow memory is larger than any limit
+#ifndef __SANITIZE_ADDRESS__ // its shadow memory exceeds any limit
       if (const double used = address_space(); used > 0.)
         set(RLIMIT_AS, used + limits.memory);
 #endif
@@ -74,7 +74,7 @@ namespace Voussoir
         dup2(nowhere, descriptor);
     }
 
-    /** Runs @p work; what came of it, with the message of its exception. */
+    /** Runs @p work. Returns the outcome and the @p message of an exception. */
     Outcome attempt(const std::function<void()> &work, std::string &message)
     {
       try
@@ -103,18 +103,18 @@ namespace Voussoir
       }
     }
 
-    /** The child's life. */
+    /** Runs the child process: @p work, then @p send. Never returns. */
     [[noreturn]] void child(const int descriptor, const GuardLimits &limits,
                             const std::function<void()> &work, const std::function<void(PipeWriter &)> &send)
     {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU})
-        std::signal(number, SIG_DFL); // other handlers are the program's
+        std::signal(number, SIG_DFL); // the program may have other handlers
       for (const int number : {SIGINT, SIGTERM, SIGHUP})
-        std::signal(number, SIG_IGN); // they are for the program, which ends its child
+        std::signal(number, SIG_IGN); // only for the parent, which ends its child
       std::signal(SIGPIPE, SIG_IGN);
-      std::atexit([] { _exit(1); }); // a library that ends the program does not run what the parent will run
-      omp_set_num_threads(1);        // the other threads are not in this process
+      std::atexit([] { _exit(1); }); // skips the exit functions of the parent if a library calls exit()
+      omp_set_num_threads(1);        // the child has a single thread
       silence();
       set_limits(limits);
       try
@@ -128,14 +128,14 @@ namespace Voussoir
         else
           pipe.put(message);
       }
-      catch (...) // nobody listens
+      catch (...) // the parent does not read any more
       {
         _exit(1);
       }
       _exit(0);
     }
 
-    /** The child, ended in every case. */
+    /** Child process, which the destructor kills if it still runs. */
     class Child
     {
     public:
@@ -144,13 +144,13 @@ namespace Voussoir
       Child(const Child &) = delete;
       Child &operator=(const Child &) = delete;
 
-      /** How it ended; kills it if it did not. */
+      /** Kills the child if it still runs, and returns its exit status. */
       int end()
       {
         int status = 0;
         if (id > 0)
         {
-          kill(id, SIGKILL); // changes nothing for one that has ended
+          kill(id, SIGKILL); // no effect on an ended process
           while (waitpid(id, &status, 0) < 0 && errno == EINTR)
             ;
         }
@@ -164,17 +164,17 @@ namespace Voussoir
 
     std::string reason_of_death(const int status, const GuardLimits &limits)
     {
-      constexpr const char *damaged = ". The file is damaged; write it anew.";
+      constexpr const char *damaged = ". The file is damaged; write it again.";
       if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
-        return "reading it does not end (" + std::to_string(std::lround(std::ceil(limits.cpu_seconds))) +
-               " s of CPU time), or was killed (for want of memory?). Is the file damaged?";
+        return "reading did not end within " + std::to_string(std::lround(std::ceil(limits.cpu_seconds))) +
+               " s of CPU time, or the reading process was killed, as for lack of memory. Check the file.";
       if (WIFSIGNALED(status))
-        return std::string("the library that reads it crashed (") + strsignal(WTERMSIG(status)) + ")" +
+        return std::string("the library that reads the file crashed (") + strsignal(WTERMSIG(status)) + ")" +
                damaged;
-      return std::string("the library that reads it gave up") + damaged;
+      return std::string("the library that reads the file ended the process") + damaged;
     }
 
-    /** Closes in every case. */
+    /** File descriptor, closed by the destructor. */
     struct Descriptor
     {
       int value;
@@ -194,7 +194,7 @@ namespace Voussoir
       if (written < 0 && errno == EINTR)
         continue;
       if (written <= 0)
-        throw std::runtime_error("nobody reads what the process writes");
+        throw std::runtime_error("the reading end of the pipe is closed");
       p += written;
       n -= static_cast<std::size_t>(written);
     }
@@ -281,13 +281,14 @@ namespace Voussoir
     case Outcome::no_memory:
     {
       std::ostringstream text;
-      text << problem << ": a size in it asks for more than " << std::setprecision(2) << 1e-9 * limits.memory
-           << " GB of memory. The file is damaged; write it anew.";
+      text << problem << ": a size in the file requires more than " << std::setprecision(2)
+           << 1e-9 * limits.memory << " GB of memory. The file is damaged; write it again.";
       throw InputError(text.str());
     }
     case Outcome::exception:
       throw InputError(problem + ": " + message);
     }
-    throw InputError(problem + ": the library that reads it went wild. The file is damaged; write it anew.");
+    throw InputError(problem +
+                     ": the library returned an invalid result. The file is damaged; write it again.");
   }
 } // namespace Voussoir

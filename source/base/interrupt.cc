@@ -19,8 +19,9 @@ namespace Voussoir
       noted = signal;
       for (const int number : numbers)
         std::signal(number, SIG_DFL);
-      constexpr char text[] = "voussoir: stopping as soon as the state can be kept; once more ends at once\n";
-      if (write(STDERR_FILENO, text, sizeof(text) - 1) < 0) // nobody to tell
+      constexpr char text[] =
+          "voussoir: stopping when the state is saved; a second signal ends the program immediately\n";
+      if (write(STDERR_FILENO, text, sizeof(text) - 1) < 0) // stderr is closed
         return;
     }
   } // namespace
@@ -29,7 +30,7 @@ namespace Voussoir
   {
     living = true;
     noted = 0;
-    std::signal(SIGPIPE, SIG_IGN); // a reader of the screen that goes away does not end the run
+    std::signal(SIGPIPE, SIG_IGN); // a closed stdout must not end the run
     for (unsigned int i = 0; i < 3; ++i)
       if ((before[i] = std::signal(numbers[i], note)) == SIG_IGN)
         std::signal(numbers[i], SIG_IGN);

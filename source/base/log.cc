@@ -72,7 +72,7 @@ namespace Voussoir
 
   namespace
   {
-    /** Bytes of the UTF-8 character at @p i; 0 if there is none. */
+    /** Returns the number of bytes of the UTF-8 character at @p i; 0 if it is invalid. */
     std::size_t utf8_length(const std::string &text, const std::size_t i)
     {
       const auto byte = [&](const std::size_t k) -> unsigned char { return k < text.size() ? text[k] : 0; };
@@ -104,7 +104,7 @@ namespace Voussoir
           quoted += code;
         }
         else
-          quoted += n > 0 ? text.substr(i, n) : "\\ufffd"; // a name need not be UTF-8
+          quoted += n > 0 ? text.substr(i, n) : "\\ufffd"; // names of files need not be UTF-8
       }
       return quoted + "\"";
     }
@@ -138,7 +138,7 @@ namespace Voussoir
     std::string result = "{";
     for (const auto &member : members)
     {
-      std::string value = member.second; // indent what spans lines
+      std::string value = member.second; // indent all lines of the value
       for (std::size_t i = 0; (i = value.find('\n', i)) != std::string::npos; i += 3)
         value.insert(i + 1, "  ");
       result += (result.size() > 1 ? ",\n  \"" : "\n  \"") + member.first + "\": " + value;

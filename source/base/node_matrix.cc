@@ -50,7 +50,8 @@ namespace Voussoir
   {
     for (unsigned int row = 0; row < n_rows(); ++row)
       for (std::size_t k = start[row]; k < start[row + 1]; ++k)
-        if (column[k] >= row && start[column[k]] < start[column[k] + 1]) // a part may lack the other's row
+        if (column[k] >= row &&
+            start[column[k]] < start[column[k] + 1]) // a part of a matrix may lack the row
         {
           const auto begin = column.begin() + start[column[k]], end = column.begin() + start[column[k] + 1];
           Matrix3   &a = value[k], &b = value[std::lower_bound(begin, end, row) - column.begin()];

@@ -26,7 +26,7 @@ namespace Voussoir
       return value == nullptr ? "" : value;
     }
 
-    /** The words as execv wants them. */
+    /** Returns the null-terminated array that execv requires. */
     std::vector<char *> pointers_to(const std::vector<std::string> &words)
     {
       std::vector<char *> result;
@@ -89,11 +89,9 @@ namespace Voussoir
   {
     const fs::path script = find_script(name);
     if (script.empty())
-      throw InputError(
-          "The script " + name +
-          " of the program was not found. It stands beside the build or in share/voussoir/scripts "
-          "of the installation; the environment variable VOUSSOIR_SCRIPTS may name its "
-          "directory.");
+      throw InputError("The script " + name +
+                       " was not found. It belongs to the build, or to share/voussoir/scripts of the "
+                       "installation. Set the environment variable VOUSSOIR_SCRIPTS to its directory.");
     std::error_code error;
     setenv("VOUSSOIR_PROGRAM", fs::read_symlink("/proc/self/exe", error).c_str(), 1);
     for (const std::string &python : python_interpreters())
@@ -107,8 +105,8 @@ namespace Voussoir
       execv(python.c_str(), pointers_to(words).data());
       throw InputError(python + " cannot be started: " + std::strerror(errno) + ".");
     }
-    throw InputError(
-        "`voussoir` needs a python3 with numpy and matplotlib for this command (on Debian: apt-get "
-        "install python3-matplotlib); the environment variable VOUSSOIR_PYTHON may name one.");
+    throw InputError("This command requires a python3 with numpy and matplotlib (on Debian: apt-get install "
+                     "python3-matplotlib). Install them, or set the environment variable VOUSSOIR_PYTHON to "
+                     "such an interpreter.");
   }
 } // namespace Voussoir

@@ -23,9 +23,9 @@ namespace Voussoir
   {
     unsigned int this_rank = 0, n_ranks = 1;
     std::size_t  messages = 0;
-    int          screen = STDERR_FILENO; ///< kept for what only this rank has to tell
+    int          screen = STDERR_FILENO; ///< stderr, for messages of this rank only
 
-    double waited = 0.; ///< processor time in messages [s]
+    double waited = 0.; ///< CPU time in messages [s]
 
     double processor_time()
     {
@@ -34,7 +34,7 @@ namespace Voussoir
       return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
     }
 
-    /** While one lives, this process is in messages. */
+    /** Counts the CPU time during its life as time in messages. */
     struct InMessage
     {
       InMessage() : begin(processor_time()) { ++messages; }
@@ -75,7 +75,7 @@ namespace Voussoir
     {
       if (n_ranks == 1)
         return;
-      constexpr std::size_t most = 1u << 30; // of one message
+      constexpr std::size_t most = 1u << 30; // values per message
       for (std::size_t i = 0; i < n; i += most)
       {
         const InMessage now;
@@ -83,7 +83,8 @@ namespace Voussoir
       }
     }
 
-    /** The threads of this rank: its share of the cores of its machine, unless the user says otherwise. */
+    /** Sets the number of threads to this rank's part of the cores of its machine, unless
+     * OMP_NUM_THREADS is set. */
     void share_cores()
     {
 #ifdef _OPENMP
@@ -94,7 +95,7 @@ namespace Voussoir
       int n_beside = 1;
       MPI_Comm_size(machine, &n_beside);
       MPI_Comm_free(&machine);
-      // mpirun may have bound this rank to a part of the cores already.
+      // mpirun may have bound this rank to some of the cores already.
       const int n_cores = static_cast<int>(std::thread::hardware_concurrency());
       omp_set_num_threads(std::max(1, std::min(omp_get_num_procs(), n_cores / n_beside)));
 #endif
@@ -142,9 +143,9 @@ namespace Voussoir
     {
       MPI_Finalize();
       throw InputError(
-          "This is one of " + std::to_string(n) + " processes, but the program's MPI knows of " +
+          "The launcher started " + std::to_string(n) + " processes, but MPI reports " +
           std::to_string(size) +
-          ": start it with the mpirun of the MPI that it was built with (with srun: --mpi=pmix).");
+          ". Use the mpirun of the MPI library that the program was built with. With srun, add --mpi=pmix.");
     }
     this_rank = rank;
     n_ranks = size;
@@ -167,14 +168,14 @@ namespace Voussoir
       return status;
     MPI_Request request;
     MPI_Ibarrier(MPI_COMM_WORLD, &request);
-    constexpr double patience = 20.; // [s] for ranks that are slower on their way to the same error
+    constexpr double patience = 20.; // [s] for ranks that reach the same error later
     const auto       begin = std::chrono::steady_clock::now();
     for (int all_here = 0; true;)
     {
       MPI_Test(&request, &all_here, MPI_STATUS_IGNORE);
       if (all_here)
         break;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5)); // the first one may be drawing
+      std::this_thread::sleep_for(std::chrono::milliseconds(5)); // rank 0 may still draw figures
       const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
       if (status != 0 && waited.count() > patience)
       {
@@ -248,7 +249,7 @@ namespace Voussoir
   bool Ranks::have_same(const std::string &text)
   {
     const auto digest = static_cast<unsigned int>(std::hash<std::string>()(text));
-    return any(any(digest) == digest ? 0 : 1) == 0; // of two digests one is not the or of both
+    return any(any(digest) == digest ? 0 : 1) == 0; // two different hashes differ from their or
   }
 
   void Ranks::on_first(const std::function<void()> &action)

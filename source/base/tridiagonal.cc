@@ -24,7 +24,7 @@ namespace Voussoir
   double Tridiagonal::residual(const double eigenvalue) const
   {
     const std::size_t n = diagonal.size();
-    // The eigenvector, from its last component to the first: that way it grows.
+    // Eigenvector from its last component to the first. In this direction the components grow.
     double after = 0., now = 1., square = 1.;
     for (std::size_t i = n - 1; i > 0; --i)
     {

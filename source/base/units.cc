@@ -16,14 +16,14 @@ namespace Voussoir
     struct Unit
     {
       const char *name, *dimension;
-      double      factor; ///< in the SI unit; degrees for angles
+      double      factor; ///< SI units; degrees for angles
     };
 
     constexpr double pi = 3.14159265358979323846, standard_gravity = 9.80665, foot = .3048,
                      pound_force = 4.4482216152605, pound = .45359237;
 
     const std::vector<Unit> units = {
-        // The first of a dimension is what messages call it by.
+        // Messages list the units of a dimension in this order.
         {"m", "length", 1.},
         {"km", "length", 1e3},
         {"dm", "length", .1},
@@ -50,7 +50,7 @@ namespace Voussoir
         {"t/m^3", "density", 1e3},
         {"g/cm^3", "density", 1e3},
         {"kg/dm^3", "density", 1e3},
-        {"kN/m^3", "density", 1e3 / standard_gravity}, // a unit weight
+        {"kN/m^3", "density", 1e3 / standard_gravity}, // unit weight
         {"lb/ft^3", "density", pound / (foot * foot * foot)},
         {"m/s^2", "acceleration", 1.},
         {"cm/s^2", "acceleration", 1e-2},
@@ -124,7 +124,7 @@ namespace Voussoir
     rest.erase(0, rest.find_first_not_of(" \t"));
     rest.erase(rest.find_last_not_of(" \t") + 1);
     if (end == value.c_str() || rest.empty() || !std::isfinite(number) || rest[0] == ',' ||
-        value.find_first_of("xX") != std::string::npos) // no hexadecimal numbers
+        value.find_first_of("xX") != std::string::npos) // excludes hexadecimal numbers
       return value;
 
     const bool  is_pure = declared.empty() || declared == "-";

@@ -12,24 +12,26 @@ namespace Voussoir
 {
   namespace
   {
-    /** Linear softening of a cracked bond: tension against opening. */
+    /** Linear softening of a cracked bond: tensile force by opening. */
     class Softening
     {
     public:
-      /** @p peak: strength [N]; @p end: opening at which it is lost [m]; @p largest: opening so far [m]. */
+      /** @param peak strength [N]
+       * @param end opening at which the bond is lost [m]
+       * @param largest largest opening so far [m] */
       Softening(const double peak, const double end, const double largest)
           : peak(peak), end(end), largest(largest)
       {
       }
 
-      /** [N]. Closed: that at the first opening. */
+      /** Returns the tensile force [N]. If the pair is closed, it is the force at the start of opening. */
       double tension(const double opening) const
       {
         const double w = std::max(opening, 0.);
         return w >= end || largest >= end ? 0. : w >= largest ? peak * (1. - w / end) : stiffness() * w;
       }
 
-      /** Of tension() where it grows or falls [N/m]. */
+      /** Returns the derivative of tension() [N/m]; 0 where the force is constant. */
       double slope(const double opening) const
       {
         return opening < 0. || opening >= end || largest >= end ? 0.
@@ -37,7 +39,7 @@ namespace Voussoir
                                                                 : stiffness();
       }
 
-      /** Integral of the tension [J]; exact. */
+      /** Returns the exact integral of the tensile force [J]. */
       double work(const double from, const double to) const
       {
         double       sum = 0., last = std::min(from, to);
@@ -51,7 +53,7 @@ namespace Voussoir
         return from < to ? sum : -sum;
       }
 
-      /** Energy lost for ever [J]. */
+      /** Returns the dissipated energy [J]. */
       double lost() const { return .5 * peak * std::min(largest, end); }
 
     private:
@@ -88,8 +90,7 @@ namespace Voussoir
         for (unsigned int i = 0; i < 3; ++i)
           e.d_gap[3 * i] += e.d_force[3 * i] * slope;
         if (e.touching && strength > 0. && past.memory[condition] == cracked && past.memory[largest] == 0.)
-          e.touching |=
-              bond_bit; // it has not opened: the tension of this step is no impulse to be given back
+          e.touching |= bond_bit; // no opening yet: an impact must not return the tension of this step
       }
 
       Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &past,
@@ -116,7 +117,7 @@ namespace Voussoir
           force[0] -= at_contact;
           return force;
         }
-        double low = 0., high = b[0]; // opening = b - H tension lies between
+        double low = 0., high = b[0]; // bounds of the opening b - H tension
         for (unsigned int i = 0; i < 100 && high - low > 1e-15 * high; ++i)
         {
           const double middle = .5 * (low + high);
@@ -156,9 +157,9 @@ namespace Voussoir
         if (memory[largest] == 0. && gap[0] <= nothing * end)
         {
           if (length(gap[1] - past.start[1], gap[2] - past.start[2]) > nothing * end)
-            memory[largest] = nothing * end; // it slid: from now on a crack like any other
+            memory[largest] = nothing * end; // it slipped and remains cracked
           else if (-force[0] < (1. - nothing) * strength * past.area)
-            memory[condition] = bonded; // others cracked and relieved it before it moved
+            memory[condition] = bonded; // unloaded by other cracks before it moved
           return;
         }
         memory[largest] = std::max(memory[largest], gap[0]);
@@ -166,7 +167,7 @@ namespace Voussoir
           memory[condition] = lost;
       }
 
-      /** Without strength it is a pair with friction, also on edges. */
+      /** Returns the friction of the face if the strength is 0: the law is then FJA, also on edges. */
       double flat_friction() const override { return strength == 0. ? face->flat_friction() : -1.; }
 
       double bond_energy(const Vector3 &gap, const double area, const double *memory) const override
@@ -183,14 +184,14 @@ namespace Voussoir
         condition,
         largest
       };
-      static constexpr double        bonded = 0., cracked = 1., lost = 2.; ///< conditions
-      static constexpr double        nothing = 1e-8; ///< over end; openings and slips below are round-off
+      static constexpr double        bonded = 0., cracked = 1., lost = 2.; ///< values of the condition
+      static constexpr double        nothing = 1e-8; ///< times end; smaller openings and slips are round-off
       static constexpr unsigned char face_bit = 1, bond_bit = 2; ///< of PairEquations::touching
 
       bool is_bonded(const double *memory) const { return strength > 0. && memory[condition] == bonded; }
 
-      /** The force of contact: @p force without the tension of a step that ends at @p opening; and that
-       * tension's slope [N/m]. */
+      /** Returns the contact force: @p force without the tension of a step that ends at @p opening. @p slope
+       * receives the derivative of that tension [N/m]. */
       Vector3 without_tension(Vector3 force, const double opening, const PairPast &past, double &slope) const
       {
         slope = 0.;
@@ -225,7 +226,8 @@ namespace Voussoir
   std::unique_ptr<JointLaw> make_cohesive_law(const LawParameters &parameters)
   {
     if (parameters.equations != Equations::alart_curnier)
-      throw InputError("Joints/Equations: the law cohesive has the equations \"alart-curnier\" only.");
+      throw InputError(
+          "Joints/Equations: the law cohesive supports alart-curnier only. Set the entry to alart-curnier.");
     if (!(parameters.strength >= 0.))
       throw InputError("Joints/Strength must be at least 0 Pa.");
     if (!(parameters.fracture_energy >= 0. && std::isfinite(parameters.fracture_energy)))

@@ -11,23 +11,23 @@ namespace Voussoir
     using dealii::Patterns::Integer;
     using dealii::Patterns::Selection;
     prm.enter_subsection("Contact");
+    prm.add_parameter("Tolerance", tolerance,
+                      "Largest relative residual of the joint conditions in a converged step [-].",
+                      Double(1e-15, 1e-3));
+    prm.add_parameter("Maximum iterations", max_iterations,
+                      "Largest number of Newton steps of a contact problem [-].", Integer(1));
+    prm.add_parameter("Sweeps", sweeps, "Number of Gauss-Seidel iterations before the first Newton step [-].",
+                      Integer(0));
     prm.add_parameter(
-        "Tolerance", tolerance,
-        "Relative residual of the joint conditions at which a step is accepted; independent of units [-].",
-        Double(1e-15, 1e-3));
-    prm.add_parameter("Maximum iterations", max_iterations, "Newton steps before the solver gives up [-].",
-                      Integer(1));
-    prm.add_parameter("Sweeps", sweeps, "Gauss-Seidel sweeps before the first Newton step [-].", Integer(0));
-    prm.add_parameter("Method", method,
-                      "newton (falls back on sweeps, then on the proximal point method), proximal, or sweeps "
-                      "(Gauss-Seidel alone).",
-                      Selection(method_names()));
-    prm.add_parameter(
-        "Write problems", write_problems,
-        "Write the contact problems of the joints to OUTPUT/contact in FCLib's format, with the initial "
-        "guess; for FJA, whose problems are Coulomb's. `voussoir contact` solves them.");
-    prm.add_parameter("Write interval", write_interval, "Problems between two that are written [-].",
-                      Integer(1));
+        "Method", method,
+        "Contact solver. newton: Newton's method; if it stalls, Gauss-Seidel iterations and then the "
+        "proximal point method follow. proximal: proximal point method. sweeps: Gauss-Seidel iterations.",
+        Selection(method_names()));
+    prm.add_parameter("Write problems", write_problems,
+                      "true: write the contact problems to OUTPUT/contact as FCLib files, with the initial "
+                      "guess. Requires the law FJA. `voussoir contact` solves the files.");
+    prm.add_parameter("Write interval", write_interval,
+                      "Every N-th contact problem is written, where N is this number [-].", Integer(1));
     prm.leave_subsection();
   }
 

@@ -26,7 +26,7 @@ namespace Voussoir
       return sum;
     }
 
-    /** Of the starts. */
+    /** Returns the squared norm of the gaps at the start of the step. */
     double norm_square(const std::vector<PairPast> &past)
     {
       double sum = 0.;
@@ -36,8 +36,8 @@ namespace Voussoir
       return sum;
     }
 
-    /** Largest eigenvalue of the symmetric part of a positive definite 3x3 matrix: power method with
-     *  squaring. */
+    /** Returns the largest eigenvalue of the symmetric part of a positive definite 3x3 matrix, by the power
+     * method with squaring. */
     double largest_eigenvalue(Matrix3 a)
     {
       for (unsigned int i = 0; i < 3; ++i)
@@ -61,7 +61,7 @@ namespace Voussoir
       return std::exp((log_scale + std::log(trace)) / 64.); // (trace A^64)^(1/64), within 2 % from above
     }
 
-    /** 2-norm of W [m/N], nearly: power iteration. */
+    /** Returns an estimate of the 2-norm of W [m/N] by power iteration. */
     double norm(const ContactOperator &W)
     {
       Unknowns x(3 * std::size_t(W.n_pairs())), y;
@@ -130,7 +130,7 @@ namespace Voussoir
   Vector3 ContactSolver::shifted_gap(const std::size_t i, const Iterate &x) const
   {
     Vector3 g = get(x.gap, i);
-    if (proximal.alpha > 0. && number[i] == no_surfaces) // surfaces have it themselves
+    if (proximal.alpha > 0. && number[i] == no_surfaces) // included in PairSurfaces
       for (unsigned int c = 0; c < 3; ++c)
         g[c] += proximal.alpha / rho[i] * (x.force[3 * i + c] - proximal.centre[3 * i + c]);
     return g;
@@ -166,7 +166,7 @@ namespace Voussoir
     return sum;
   }
 
-  /** @p rigid: of the problem with rigid seats. */
+  /** Computes the relative residual. @p rigid: without the artificial compliance of rigid flanks. */
   double ContactSolver::residual(const Iterate &x, const bool rigid)
   {
     of_pair.assign(law.size(), 0.);
@@ -190,14 +190,14 @@ namespace Voussoir
       const Vector3 g = shifted_gap(i, x), s = (*past)[i].start, r = get(x.force, i);
       f += of_pair[i];
       p += dot(r, r);
-      for (unsigned int c = 0; c < 3; ++c) // friction only knows the displacement of the step
+      for (unsigned int c = 0; c < 3; ++c) // friction depends on the displacement of the step only
       {
         const double before = c == 0 || law[i]->is_tangentially_tied() ? 0. : s[c];
         q += ((*b)[3 * i + c] - before) * ((*b)[3 * i + c] - before);
         u += (g[c] - before) * (g[c] - before);
       }
     }
-    // Where slip is a small part of the gap, the round-off of the gap bounds the accuracy.
+    // If slip is a small part of the gap, the round-off of the gap limits the accuracy.
     const double force_size = std::sqrt(p), load_size = mean_rho * std::sqrt(q), error = std::sqrt(f),
                  round_off = 1e-15 * mean_rho * std::sqrt(norm_square(*past));
     scale = std::max({force_size, load_size, mean_rho * std::sqrt(u), round_off / parameters.tolerance});
@@ -206,16 +206,17 @@ namespace Voussoir
     result.residual_over_load = load_size > 0. ? error / load_size : result.residual;
     if (!std::isfinite(f + scale) || force_size > 1e7 * (load_size + round_off))
       return std::numeric_limits<double>::infinity();
-    // Forces without bound (a problem without a solution, a singular step) make any error small against the
-    // forces. The error must be small against the load, too, as far as the round-off of W force allows, for
-    // forces up to 1e4 loads: beyond, a squeeze of 1e-10 of the load would be taken for round-off.
+    // Unbounded forces (a problem without a solution, a singular step) make any error small relative to
+    // the forces. The error must therefore be small relative to the load, too. The round-off of W force
+    // is allowed, for forces up to 1e4 loads. With larger forces, an overlap of 1e-10 of the load would
+    // count as round-off.
     const double allowance = 4. * std::numeric_limits<double>::epsilon() * norm_of_W * mean_rho *
                              std::min(force_size, 1e4 * load_size);
     scale = std::min(scale, std::max(load_size, (allowance + round_off) / parameters.tolerance));
     return scale > 0. ? error / scale : 0.;
   }
 
-  /** gap = W force + b, free of the round-off of updates; the last product is kept for the next step. */
+  /** Computes gap = W force + b without the round-off of updates. Keeps the product for the next step. */
   void ContactSolver::refresh_gap(Iterate &x)
   {
     if (multiplied != x.force || product.empty())
@@ -250,7 +251,7 @@ namespace Voussoir
 
   void ContactSolver::sweep(const unsigned int count, Iterate &x)
   {
-    const double accuracy = parameters.method == "sweeps" ? 1e-14 : 1e-6; // Newton's method does the rest
+    const double accuracy = parameters.method == "sweeps" ? 1e-14 : 1e-6; // Newton's method follows
     const auto   solve_pair = [&](const unsigned int pair, const Matrix3 &H, const Vector3 &free)
     {
       if (number[pair] == no_surfaces)
@@ -268,7 +269,8 @@ namespace Voussoir
       refresh_gap(x);
   }
 
-  /** Moves along @p step; returns by how much of it. None decreases: the whole step is taken. */
+  /** Moves @p x along @p step and returns the fraction used. If no fraction decreases the merit function, the
+   * whole step is used. */
   double ContactSolver::line_search(const double bound, const Iterate &step, Iterate &x)
   {
     Iterate trial;
@@ -289,7 +291,7 @@ namespace Voussoir
     return 1.;
   }
 
-  /** The residual @p now, free of the round-off of single precision where that matters. */
+  /** Returns the residual @p now. Recomputes it without the round-off of single precision if necessary. */
   double ContactSolver::checked_residual(const double target, const double now, Iterate &x)
   {
     if (drift == 0. || (now > target && drift <= .1 * now))
@@ -299,9 +301,9 @@ namespace Voussoir
     return residual(x);
   }
 
-  /** How exact the linear solver must be: as Newton is about to become (Eisenstat and Walker 1996, choice 2),
-   *  but not looser than 1e-3 when it stalls: a loose step misses the soft modes of bodies that only their
-   *  neighbours hold. */
+  /** Returns the tolerance of the linear solver: that of Eisenstat and Walker (1996), choice 2, but at most
+   * 1e-3 if Newton stalls. A loose tolerance does not resolve the soft modes of bodies that are supported by
+   * their neighbours only. */
   double ContactSolver::forcing_term(const double now, const double previous, const double target,
                                      const bool stalls) const
   {
@@ -309,8 +311,8 @@ namespace Voussoir
     return std::clamp(.9 * ratio * ratio, std::min(loosest, .3 * target / now), loosest);
   }
 
-  /** One step from the equations as last evaluated, its merit at most @p bound. Returns what @p drift has
-   *  grown by, times the scale. */
+  /** Performs a Newton step with the equations of the last evaluate(). @p bound: upper limit of the merit
+   * function. Returns the increase of @p drift times the scale. */
   double ContactSolver::newton_step(const double forcing, const double bound, Iterate &x)
   {
     for_each_in_chunks(with_surfaces.size(), [&](const std::size_t i)
@@ -335,8 +337,8 @@ namespace Voussoir
     return 1e-6 * t * mean_rho * std::sqrt(norm_square(step.gap));
   }
 
-  /** Newton's method from @p x for the present (regularised) problem. False when it stalls for @p patience
-   *  steps; @p x is then the best that was found. */
+  /** Performs Newton's method from @p x for the present (regularised) problem. Returns false if it stalls for
+   * @p patience steps; @p x is then the best iterate. */
   bool ContactSolver::newton(const double target, const unsigned int max_steps, const unsigned int patience,
                              Iterate &x)
   {
@@ -347,12 +349,12 @@ namespace Voussoir
     unsigned int       stalled = 0;
     for (unsigned int k = 0; now > target && k < max_steps && steps_left() > 0 && !out_of_time(); ++k)
     {
-      // Nonmonotone, until it cycles.
+      // The line search is nonmonotone unless Newton cycles.
       const double bound = stalled > 2 ? merits.back() : *std::max_element(merits.begin(), merits.end());
       const double moved = newton_step(forcing_term(now, previous, target, stalled > 0), bound, x);
       previous = now;
       const double reached = residual(x);
-      if (!std::isfinite(reached)) // singular
+      if (!std::isfinite(reached)) // singular matrix
         break;
       drift += moved / scale;
       now = checked_residual(target, reached, x);

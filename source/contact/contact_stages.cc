@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stages of a solution: sweeps, Newton's method, sweeps, proximal points.
+// Stages of a solution: Gauss-Seidel iterations, Newton's method, proximal point method.
 #include <voussoir/contact/contact_solver.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** Of the process: what ends a solution must not depend on what else the machine does [s]. */
+    /** Returns the CPU time of the process [s]. Other processes do not affect this limit. */
     double cpu_time()
     {
       return double(std::clock()) / CLOCKS_PER_SEC;
@@ -41,9 +41,9 @@ namespace Voussoir
       pair.surfaces.regularise(alpha / rho[pair.pair], get(x.force, pair.pair), x.beside.data() + pair.begin);
   }
 
-  /** Regularised problems around the last solution; superlinear, since alpha falls with the residual. Where
-   *  six of them in a row cannot be solved and do not bring the residual down, Gauss-Seidel iterations go on
-   *  from there: the best iterate would lead to the same place again. */
+  /** Solves regularised problems around the last solution. Convergence is superlinear, since alpha falls with
+   * the residual. After six failures in a row without progress, Gauss-Seidel iterations continue from the
+   * present iterate: the best iterate would lead to the same failures. */
   bool ContactSolver::proximal_point(Iterate &x)
   {
     const auto here = [&]
@@ -53,8 +53,8 @@ namespace Voussoir
     };
     const bool   flat = with_surfaces.empty();
     double       now = here();
-    double       boost = 1., halved = now; // halved: the last residual that was half of the one before
-    double       lower = best.residual;    // the residual that counts as progress
+    double       boost = 1., halved = now; // last residual that was half of the one before
+    double       lower = best.residual;    // residual that counts as progress
     unsigned int n_sweeps = 20, failures = 0, halved_at = result.iterations;
     while (now > tolerance && std::isfinite(now) && steps_left() > 0 && !out_of_time())
     {
@@ -63,13 +63,13 @@ namespace Voussoir
         halved = best.residual;
         halved_at = result.iterations;
       }
-      // Where Coulomb's law has several solutions it may circle for ever: better a smaller step.
+      // If Coulomb's law has several solutions, the iteration may not end. A reduced time step is better.
       else if (!flat && result.iterations > halved_at + 60)
         break;
-      // Forces that grow while the residual stays are those of a problem without a solution.
+      // Growing forces with a constant residual are typical of a problem without a solution.
       else if (flat && result.force_over_load > 1e4 && result.iterations > halved_at + 60)
         break;
-      const double usual = 5. * result.residual, // not over the load: forces may be much larger
+      const double usual = 5. * result.residual, // not relative to the load, since forces may be much larger
           alpha = flat ? std::min(1., usual) * boost : std::min(1., usual * boost);
       regularise(alpha, x);
       const bool solved = newton(std::max(.1 * now, .3 * tolerance), 50, flat ? 15 : 4, x);
@@ -106,15 +106,14 @@ namespace Voussoir
     return now <= tolerance;
   }
 
-  /** The stages, to the present tolerance. */
+  /** Performs the stages for the present tolerance. */
   bool ContactSolver::stages(Iterate &x)
   {
     if (parameters.method == "sweeps")
       return sweeps_only(x);
     if (parameters.method == "newton")
     {
-      // With surfaces that share a force a Newton step that gains nothing is rarely followed by one that
-      // does.
+      // With secondary surfaces, a Newton step without progress is rarely followed by one with progress.
       const unsigned int patience = with_surfaces.empty() ? 15 : 4;
       sweep(parameters.sweeps, x);
       bool converged = newton(tolerance, steps_left(), patience, x);
@@ -130,7 +129,7 @@ namespace Voussoir
         return true;
     }
     result.path = ContactPath::proximal;
-    if (!with_surfaces.empty()) // where there are several solutions, those found so far only mislead
+    if (!with_surfaces.empty()) // with several solutions, earlier iterates are misleading
     {
       best = Best();
       std::fill(x.force.begin(), x.force.end(), 0.);
@@ -140,15 +139,16 @@ namespace Voussoir
     if (parameters.method == "proximal")
     {
       sweep(parameters.sweeps, x);
-      refresh_gap(x); // the sweeps are in single precision
+      refresh_gap(x); // Gauss-Seidel works in single precision
     }
     return proximal_point(x);
   }
 
-  /** The stages for pairs with rigid seats, around the forces of one solution after the other. */
+  /** Solves a problem with rigid flanks by a sequence of problems with an artificial compliance (seat_alpha,
+   * relative to that of the pair). Each problem is centred at the forces of the previous solution. */
   void ContactSolver::rigid_seats(Iterate &x)
   {
-    double       now = 1e-3; // what a compliance of 1e-3 leaves, about
+    double       now = 1e-3; // typical error with a compliance of 1e-3
     unsigned int failures = 0;
     for (unsigned int i = 0; i < 200 && steps_left() > 0 && !out_of_time(); ++i)
     {
@@ -184,7 +184,7 @@ namespace Voussoir
 
   void ContactSolver::guess_bonded(const Unknowns &right_hand_side, Unknowns &force)
   {
-    constexpr double softness = 1e-4; // of pairs, relative: also where W is singular forces stay in bounds
+    constexpr double softness = 1e-4; // relative compliance of the pairs; bounds the forces for singular W
     jacobian->expect_far_coupling();
     for (std::size_t i = 0; i < law.size(); ++i)
     {
@@ -201,7 +201,8 @@ namespace Voussoir
     jacobian->solve(1e-3, force, gap);
   }
 
-  /** Starts a solution; its first iterate is @p force, or none where nothing touches. */
+  /** Starts a solution and returns the first iterate. Its forces are @p force, or zero if @p force has values
+   * that are not finite. */
   ContactSolver::Iterate ContactSolver::first_guess(const Unknowns              &right_hand_side,
                                                     const std::vector<PairPast> &pairs, Unknowns &force)
   {
@@ -235,7 +236,8 @@ namespace Voussoir
     if (defined)
     {
       best = {residual(x, true), x.force, x.beside};
-      // Nothing touches? Newton comes close to zero forces only, which is not enough where b is zero, too.
+      // Test for open joints: Newton's method only approximates zero forces, which is insufficient if
+      // b is zero.
       const Iterate none{Unknowns(force.size(), 0.), *b, Unknowns(x.beside.size(), 0.)};
       if (best.residual > tolerance && residual(none, true) <= tolerance)
       {

@@ -24,7 +24,7 @@ namespace Voussoir
       throw InputError(file + ": " + what);
     }
 
-    /** libfclib ends the program when an entry is missing, so look first. */
+    /** Checks of a file before libfclib reads it, since libfclib ends the program if an entry is missing. */
     class Inspector
     {
     public:
@@ -50,7 +50,7 @@ namespace Voussoir
         }
       }
 
-      /** Number of entries of a data set of integers or reals. */
+      /** Returns the number of entries of a data set of integers or reals. */
       long long size(const std::string &path, const bool integers) const
       {
         if (!has(path))
@@ -89,14 +89,13 @@ namespace Voussoir
     {
       const Inspector in(file);
       if (!in.has("/fclib_local"))
-        refuse(file, in.has("/fclib_global") ? "this is a global problem; `voussoir contact` solves local "
-                                               "ones (\"fclib_local\"): condense "
-                                               "it first, W = H^T M^-1 H, q = H^T M^-1 f + w."
-                                             : "there is no \"fclib_local\" problem in it.");
+        refuse(file, in.has("/fclib_global")
+                         ? "this is a global problem. `voussoir contact` solves local problems "
+                           "(\"fclib_local\"). Condense it first: W = H^T M^-1 H, q = H^T M^-1 f + w."
+                         : "the file has no problem \"fclib_local\".");
       const std::string W = "/fclib_local/W/", vectors = "/fclib_local/vectors/";
       if (const int dimension = in.integer("/fclib_local/spacedim"); dimension != 3)
-        refuse(file,
-               "the problem has " + std::to_string(dimension) + " dimensions; Voussoir solves those with 3.");
+        refuse(file, "the problem has " + std::to_string(dimension) + " dimensions; it must have 3.");
       if (in.has("/fclib_local/V") || in.has("/fclib_local/R"))
         refuse(file, "the problem has a bilateral part (V, R), which Voussoir does not solve.");
       const long long m = in.integer(W + "m"), n = in.integer(W + "n"), nzmax = in.integer(W + "nzmax"),
@@ -121,10 +120,10 @@ namespace Voussoir
       fits("i", true, nz >= 0 ? nz : nzmax, nz >= 0 ? nz : nzmax);
       fits("x", false, nz >= 0 ? nz : nzmax, nzmax);
       if (in.size(vectors + "q", false) != m)
-        refuse(file, "vectors/q must have " + std::to_string(m) + " entries, as W has rows.");
+        refuse(file, "vectors/q must have " + std::to_string(m) + " entries, one per row of W.");
       if (in.size(vectors + "mu", false) != m / 3)
         refuse(file, "vectors/mu must have " + std::to_string(m / 3) + " entries, one per contact.");
-      if (in.has(W + "conditioning")) // then libfclib reads these, too, and ends the program without them
+      if (in.has(W + "conditioning")) // then libfclib also requires these
       {
         in.size(W + "conditioning", false);
         in.size(W + "determinant", false);
@@ -140,12 +139,12 @@ namespace Voussoir
       {
         if (row < 0 || column < 0 || row >= W.m || column >= W.n)
           refuse(file, "W has an entry at row " + std::to_string(row) + ", column " + std::to_string(column) +
-                           ", which is outside of it.");
+                           ", outside the matrix.");
         if (!std::isfinite(value))
           refuse(file, "W has an entry that is not a finite number, in row " + std::to_string(row) + ".");
         rows[row / 3].try_emplace(column / 3, Matrix3{}).first->second[3 * (row % 3) + column % 3] += value;
       };
-      if (W.nz >= 0) // triplets; the header says rows are in p, all files have them in i
+      if (W.nz >= 0) // triplets: rows are in i in all files, although the header states p
         for (int k = 0; k < W.nz; ++k)
           add(W.i[k], W.p[k], W.x[k]);
       else
@@ -170,7 +169,7 @@ namespace Voussoir
       return result;
     }
 
-    /** By the libraries, which may crash. */
+    /** Reads the file in this process. The libraries may crash. */
     FrictionProblem read_unguarded(const std::string &file)
     {
       inspect(file);
@@ -181,7 +180,7 @@ namespace Voussoir
                                                                       free(p);
                                                                     });
       if (!problem)
-        refuse(file, "libfclib cannot read the problem.");
+        refuse(file, "libfclib cannot read the problem. The file is damaged; write it again.");
       FrictionProblem result;
       result.W = blocks(file, *problem->W);
       result.q.assign(problem->q, problem->q + problem->W->m);
@@ -241,7 +240,7 @@ namespace Voussoir
                    const Unknowns &guess_gap)
   {
     if (std::filesystem::exists(file))
-      refuse(file, "the file is there already.");
+      refuse(file, "the file already exists. Remove it, or choose another name.");
     std::vector<int>    start(1, 0), column;
     std::vector<double> value;
     for (unsigned int i = 0; i < problem.W.n_rows(); ++i)
@@ -270,10 +269,10 @@ namespace Voussoir
     local.mu = const_cast<double *>(problem.mu.data());
     local.spacedim = 3;
     local.info = &info;
-    OutputFile(file).check(); // the library ends the program where a file cannot be made
+    OutputFile(file).check(); // libfclib ends the program if it cannot create the file
     std::remove(file.c_str());
     if (fclib_write_local(&local, file.c_str()) != 1)
-      throw WriteError("The problem of the joints cannot be written to " + file + ".");
+      throw WriteError("The contact problem cannot be written to " + file + ".");
     if (guess_force.empty())
       return;
     fclib_solution guess{};

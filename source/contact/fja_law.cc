@@ -55,8 +55,8 @@ namespace Voussoir
       const double mu;
     };
 
-    /** The same joint by the paper's own equations (3b), (4b): the angle of slip is that of the force, which
-     * is undefined at an open or unloaded pair. For comparison only; see doc/method.md. */
+    /** The same joint with the equations (3b) and (4b) of the paper. The angle of slip is that of the force,
+     * which is undefined for an open or unloaded pair. For comparison only; see doc/method.md. */
     class FJAPaper : public FJA
     {
     public:
@@ -75,12 +75,13 @@ namespace Voussoir
                      t22 = p > 0. ? c * c / p : 0.;
         const double radius = closed ? mu * (force[0] - rho * gap[0]) : 0.;
         const double trial = p - rho * (g1 * c + g2 * s), across = rho * (g2 * c - g1 * s);
-        // (3b) along (c, s): h3 = p - clip(trial, radius); (4b) across it: h4. Residual h3 (c,s) + h4 (-s,c).
+        // (3b) along (c, s): h3 = p - clip(trial, radius); (4b) normal to it: h4. Residual h3 (c,s)
+        // + h4 (-s,c).
         const bool   slips = std::abs(trial) > radius;
         const double sign = trial < 0. ? -1. : 1., h3 = slips ? p - sign * radius : p - trial;
         e.residual[1] = h3 * c - across * s;
         e.residual[2] = h3 * s + across * c;
-        // derivatives of h3 and h4
+        // Derivatives of h3 and h4.
         const Vector3 d_trial = {{0., c - rho * (g1 * t11 + g2 * t12), s - rho * (g1 * t12 + g2 * t22)}};
         Vector3       h3_f = {{0., c, s}}, h3_g = {{0., 0., 0.}};
         if (slips && closed)
@@ -105,7 +106,7 @@ namespace Voussoir
       }
     };
 
-    /** The arrow matrix of the Jordan product with x, or its inverse, times a 3x3 matrix. */
+    /** Returns the arrow matrix of the Jordan product with @p x times a 3x3 matrix. */
     Matrix3 arrow_times(const Vector3 &x, const Matrix3 &a)
     {
       Matrix3 b;
@@ -118,6 +119,7 @@ namespace Voussoir
       return b;
     }
 
+    /** Returns the inverse of the arrow matrix of @p x times a 3x3 matrix. */
     Matrix3 arrow_inverse_times(const Vector3 &x, const Matrix3 &a)
     {
       const double det = x[0] * x[0] - x[1] * x[1] - x[2] * x[2];
@@ -131,9 +133,10 @@ namespace Voussoir
       return b;
     }
 
-    /** Coulomb's law as complementarity on the second-order cone (De Saxce): X = rho (u_n + mu |u_t|, mu u_t)
-     * and Y = (mu r_n, r_t) are orthogonal members of it, where X + Y = (X o X + Y o Y)^(1/2), o: Jordan
-     * product (Fukushima, Luo and Tseng 2001). */
+    /** Coulomb's law as a complementarity problem on the second-order cone (De Saxce). The vectors X =
+     * rho (u_n + mu |u_t|, mu u_t) and Y = (mu r_n, r_t) must be orthogonal members of the cone. This
+     * holds if and only if X + Y = (X o X + Y o Y)^(1/2), with the Jordan product o (Fukushima, Luo
+     * and Tseng 2001). */
     class FJASmooth : public FJA
     {
     public:
@@ -143,7 +146,7 @@ namespace Voussoir
                     PairEquations &e) const override
       {
         alart_curnier(force, gap[0], {{gap[1] - past.start[1], gap[2] - past.start[2]}}, mu, rho,
-                      e); // for the state
+                      e); // sets the state
         const PairState state = e.state;
         e = {};
         if (mu == 0.)
@@ -172,9 +175,9 @@ namespace Voussoir
         Matrix3      dX = {{rho, rho * mu * k1, rho * mu * k2, 0., rho * mu, 0., 0., 0., rho * mu}},
                 dY = {{mu, 0., 0., 0., 1., 0., 0., 0., 1.}};
         Vector3 x = X, y = Y;
-        if (!(high > 0.)) // X = Y = 0: a member of the generalized Jacobian
+        if (!(high > 0.)) // X = Y = 0: an element of the generalised Jacobian
           z = {{1., 0., 0.}}, x = y = {{std::sqrt(.5), 0., 0.}};
-        else if (low < 1e-8 * high) // on the boundary of the cone: a member close by
+        else if (low < 1e-8 * high) // on the boundary of the cone: an element nearby
           z[0] += 1e-8 * high;
         const Matrix3 a = arrow_inverse_times(z, arrow_times(x, dX)),
                       b = arrow_inverse_times(z, arrow_times(y, dY));

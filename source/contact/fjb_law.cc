@@ -10,7 +10,7 @@ namespace Voussoir
   {
     constexpr std::array<bool, 3> all = {{true, true, true}}, tangential = {{false, true, true}};
 
-    /** Flat joint that opens and does not slip, open or closed. Equations (2b), (5), (6). */
+    /** Flat joint that opens and has no slip, whether it is open or closed. Equations (2b), (5), (6). */
     class FJB : public JointLaw
     {
     public:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace Voussoir
@@ -43,10 +44,11 @@ namespace Voussoir
       {
       }
 
-      /** A key that is in its seat at the start of the step touches the face and its flanks. A key that is
-       * out (opening >= height) and out of line closes on its crest. A key that is out and in line touches
-       * the face only; if the step would then pass through a flank, the step is solved again with the flanks,
-       *  and if it ends out of line on their extension, with the crest: see excess(). */
+      /** Returns the active surfaces of a step. A key in its socket at the start of the step touches the face
+       * and its flanks. A key outside (opening >= height) and out of line closes on its crest. A key outside
+       * and in line touches the face only. If the step then passes through a flank, it is solved again with
+       * the flanks. If it ends out of line on their extension, it is solved again with the crest: excess().
+       */
       PresentSurfaces present(const PairPast &past) const override
       {
         PresentSurfaces result{{surfaces[0]}, {1}, past.start};
@@ -74,10 +76,11 @@ namespace Voussoir
         return result;
       }
 
-      /** Events of the step, then, with elastic seats, two stresses of friction per flank [Pa]. */
+      /** Events of the step; then, with elastic seats, two stresses of friction per flank [Pa] and the
+       * largest compression of the flanks with which the key left its socket [m]. */
       unsigned int n_memory() const override
       {
-        return n_beside() == 0 ? 0 : 1 + (seat > 0. ? 2 * n_beside() : 0);
+        return n_beside() == 0 ? 0 : 1 + (seat > 0. ? 2 * n_beside() + 1 : 0);
       }
 
       bool needs_mean_force() const override { return seat > 0.; }
@@ -89,8 +92,8 @@ namespace Voussoir
         if (!is_out(past.start))
           return 0.;
         const Contact contact = contact_of(past);
-        return (contact == Contact::face && !is_out(gap) && is_behind(gap)) ||
-                       (contact == Contact::flanks && is_out(gap) && is_behind({{height, gap[1], gap[2]}}))
+        return (contact == Contact::face && !is_out(gap) && depth(gap) > round_off * height) ||
+                       (contact == Contact::flanks && is_out(gap) && is_out_of_line(gap, past))
                    ? 2.
                    : 0.;
       }
@@ -102,7 +105,11 @@ namespace Voussoir
         if (n_beside() == 0)
           return;
         const PresentSurfaces now = present(past);
+        const double          left_with = compression_of(past);
         memory[0] = 0.;
+        if (seat > 0.)
+          memory[2 * n_beside() + 1] =
+              !is_out(gap) ? 0. : (is_out(past.start) ? left_with : depth_at_end(gap));
         for (std::size_t k = 1; k < surfaces.size() && seat > 0.; ++k)
         {
           const bool    carries = !is_out(gap) && k < now.surfaces.size();
@@ -112,7 +119,7 @@ namespace Voussoir
         }
       }
 
-      /** That of the seats. */
+      /** Returns the energy of the flank contact [J]. */
       double bond_energy(const Vector3 &gap, const double area, const double *memory) const override
       {
         double energy = 0.;
@@ -138,20 +145,37 @@ namespace Voussoir
       /** A key on its crest stays there: its opening is the height within the solver's error. */
       bool is_out(const Vector3 &gap) const { return gap[0] >= height * (1. - 1e-6); }
 
-      /** Is the pair on the other side of a flank, by more than round-off? */
-      bool is_behind(const Vector3 &gap) const
+      /** Depth of the pair behind the flanks, the largest [m]. Negative: distance to the nearest flank. */
+      double depth(const Vector3 &gap) const
       {
-        return std::any_of(surfaces.begin() + 1, surfaces.end(),
-                           [&](const ContactSurface &flank)
-                           { return flank.distance(gap) < -round_off * height; });
+        double result = -std::numeric_limits<double>::infinity();
+        for (std::size_t k = 1; k < surfaces.size(); ++k)
+          result = std::max(result, -surfaces[k].distance(gap));
+        return result;
       }
 
-      /** On what the pair can touch in the step from past.start, with the events so far. */
+      /** Depth behind the ends of the flanks [m]: positive for a key that is over a crest. */
+      double depth_at_end(const Vector3 &gap) const { return depth({{height, gap[1], gap[2]}}); }
+
+      /** Returns whether a key outside of its socket is over a crest, by more than round-off and more than
+       * the compression of the flank on which it left. */
+      bool is_out_of_line(const Vector3 &gap, const PairPast &past) const
+      {
+        return depth_at_end(gap) > round_off * height + compression_of(past);
+      }
+
+      /** Compression of a flank with which the key left its socket [m]. */
+      double compression_of(const PairPast &past) const
+      {
+        return seat > 0. && past.memory ? std::max(0., past.memory[2 * n_beside() + 1]) : 0.;
+      }
+
+      /** Returns the possible contact of the pair in the step from past.start, with the events so far. */
       Contact contact_of(const PairPast &past) const
       {
         if (!is_out(past.start))
           return Contact::flanks;
-        if (is_behind({{height, past.start[1], past.start[2]}}))
+        if (is_out_of_line(past.start, past))
           return Contact::crest;
         const double events = past.memory && n_beside() > 0 ? past.memory[0] : 0.;
         return events == 0. ? Contact::face : events == 1. ? Contact::flanks : Contact::crest;
@@ -213,7 +237,7 @@ namespace Voussoir
     return std::make_unique<KSM>(std::move(surfaces), keys);
   }
 
-  /** Keys for which Coulomb's law itself has two branches (doc/keys.md). */
+  /** Returns a warning about keys for which Coulomb's law has two solutions (doc/keys.md), or "". */
   std::string key_law_warning(const LawParameters &parameters)
   {
     const KeyParameters &keys = parameters.keys;
@@ -222,11 +246,11 @@ namespace Voussoir
     if (keys.height == 0. || needed >= 90. || face <= std::tan(needed * degree))
       return "";
     std::ostringstream text;
-    text << "Joints/Friction " << face << " beside flanks of " << keys.flank_angle
-         << " degrees with friction " << flank << " (Joints/Keys): above " << std::tan(needed * degree)
-         << " Coulomb's law has two solutions, a key that stays before its flank and one that rides on it, "
-            "and which is found is not determined. Give the flanks the friction of the faces "
-            "(Joints/Keys/Friction = -1), or a smaller angle.";
+    text << "Joints/Friction " << face << " with flanks of " << keys.flank_angle
+         << " degrees and flank friction " << flank << " (Joints/Keys): above " << std::tan(needed * degree)
+         << " Coulomb's law has two solutions: a key stops at its flank, or slides up the flank. The "
+            "result of the run may be either of them. Set Joints/Keys/Friction = -1, the friction of the "
+            "faces, or reduce the flank angle.";
     return text.str();
   }
 
@@ -234,24 +258,24 @@ namespace Voussoir
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Keys");
-    prm.add_parameter("Height", height, "Height of the shear keys [m]; a joint that opens more is free.",
+    prm.add_parameter("Height", height,
+                      "Height of the shear keys [m]. A joint with a larger opening slips freely.",
                       {.005, 2., true}, Double(0.));
-    prm.add_parameter("Clearance", clearance, "Clearance of each flank of a key, normal to it [m].", {0., .1},
+    prm.add_parameter("Clearance", clearance, "Clearance normal to each flank of a key [m].", {0., .1},
                       Double(0.));
     prm.add_parameter("Flank angle", flank_angle,
-                      "Angle between the flanks and the normal of the joint [degrees]; 0: rectangular keys.",
+                      "Angle between the flanks and the normal of the joint [degrees]. 0: rectangular keys.",
                       {10., 80., true}, Double(0., 89.));
     prm.add_parameter("Direction", direction, "Direction of the slip that the keys restrain.",
                       Selection("radial|vertical|both"));
     prm.add_parameter("Friction", friction,
-                      "Coefficient of friction of the flanks [-]; -1: that of the faces (Joints/Friction).",
+                      "Coefficient of friction of the flanks [-]. -1: that of the faces (Joints/Friction).",
                       {-1., 2.}, Double(-1.));
-    prm.add_parameter(
-        "Seat compliance", seat_compliance,
-        "Compliance of a key's seat, per area of the joint [m/Pa]: how much the flanks give under the "
-        "stress that they carry; -1: from the concrete's modulus, 20 Height/E, as meshed keys have "
-        "it (doc/keys.md); 0: rigid.",
-        Double(-1., 1e-6));
+    prm.add_parameter("Seat compliance", seat_compliance,
+                      "Compliance of the flank contact of the keys, per area of the joint [m/Pa]. -1: 20 "
+                      "Height/E with Young's modulus E of the concrete, the result of meshed keys "
+                      "(doc/keys.md). 0: rigid.",
+                      Double(-1., 1e-6));
     prm.leave_subsection();
   }
 } // namespace Voussoir

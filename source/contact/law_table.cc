@@ -18,35 +18,35 @@ namespace Voussoir
     {
       const char *name, *doc;
       std::unique_ptr<JointLaw> (*make)(const LawParameters &);
-      EntryNames entries; ///< of section Joints that it reads
+      EntryNames entries; ///< entries of section Joints that the law reads
 
-      /** What the message about JointLaw::needs_mean_force() adds to the name; null: it never needs it. */
+      /** Addition to the name in the message about JointLaw::needs_mean_force(); null: never needed. */
       const char *mean_force = nullptr;
 
-      /** A sentence about parameters that are implausible together, or empty; null: there are none. */
+      /** Returns a warning about parameters that are implausible in combination, or ""; null: no warnings. */
       std::string (*warning)(const LawParameters &) = nullptr;
     };
 
-    /** All laws. The selection of the entry "Joints/Model", its text and the messages follow from these rows.
-     */
+    /** All laws. The selection and the help of the entry "Joints/Model" and the messages follow
+     * from these rows. */
     const LawRow laws[] = {
-        {"tied", "the monolithic dam", make_tied_law, {}},
-        {"FJA", "opens and slides with friction", make_fja_law, {"Joints/Friction", "Joints/Equations"}},
-        {"FJB", "opens, does not slide", make_fjb_law, {"Joints/Equations"}},
+        {"tied", "no opening and no slip (monolithic dam)", make_tied_law, {}},
+        {"FJA", "opening, and slip with friction", make_fja_law, {"Joints/Friction", "Joints/Equations"}},
+        {"FJB", "opening, no slip", make_fjb_law, {"Joints/Equations"}},
         {"KSM",
-         "shear keys (Joints/Keys) on a face that opens and slides",
+         "FJA with shear keys (Joints/Keys)",
          make_key_law,
          {"Joints/Friction", "Joints/Equations", "Joints/Keys/"},
-         " (with a compliance of its seats)",
+         " (with a seat compliance)",
          key_law_warning},
         {"cohesive",
-         "FJA with a bond of the strength Joints/Strength that breaks",
+         "FJA with a tensile strength (Joints/Strength)",
          make_cohesive_law,
          {"Joints/Friction", "Joints/Equations", "Joints/Strength", "Joints/Fracture energy"},
          "",
          cohesive_law_warning}};
 
-    /** The row of that name; null for a law that is not in the table. */
+    /** Returns the row of a law; null if the law is not in the table. */
     const LawRow *find_row(const std::string &name)
     {
       const auto row =
@@ -59,12 +59,12 @@ namespace Voussoir
   {
     using dealii::Patterns::Double;
     prm.add_parameter("Friction", friction, "Coefficient of friction [-].", {.1, 2., true}, Double(0., 1e4));
-    prm.add_parameter("Strength", strength, "Tensile strength of the bond [Pa] (Model = cohesive).",
+    prm.add_parameter("Strength", strength, "Tensile strength of the joint [Pa]. Model cohesive only.",
                       {1e5, 6e6, true}, Double(0.));
-    prm.add_parameter(
-        "Fracture energy", fracture_energy,
-        "Energy that the bond takes per area as it opens [N/m] (Model = cohesive); 0: it is lost at once.",
-        {10., 1000., true}, Double(0.));
+    prm.add_parameter("Fracture energy", fracture_energy,
+                      "Fracture energy of the joint per area [N/m]. Model cohesive only. 0: the strength is "
+                      "lost immediately.",
+                      {10., 1000., true}, Double(0.));
   }
 
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters)

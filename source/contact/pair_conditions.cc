@@ -76,8 +76,8 @@ namespace Voussoir
 
   namespace
   {
-    /** Slip at one pair: force_t(k) = -(S + k I)^-1 c, where k = |slip|/|force_t| is the root of
-     *  |force_t(k)| - mu force_n(k). */
+    /** Solution with slip at one pair: force_t(k) = -(S + k I)^-1 c, where k = |slip|/|force_t| is the root
+     * of |force_t(k)| - mu force_n(k). */
     class Slip
     {
     public:
@@ -85,7 +85,7 @@ namespace Voussoir
       {
         Vector3 force;
         double  excess; ///< 1/(mu force_n) - 1/|force_t|: positive outside the cone
-        bool    usable; ///< is excess a number?
+        bool    usable; ///< excess is a number
       };
 
       Slip(const Matrix3 &H, const Vector3 &b, const double mu)
@@ -104,11 +104,13 @@ namespace Voussoir
 
       bool outside(const Vector3 &f) const { return length(f[1], f[2]) > mu * f[0]; }
 
-      /** The root between @p low and @p high. 1/|force_t| is nearly linear in k, so the secant of 1/|force_t|
-       *  - 1/(mu force_n) converges in a few steps; bisection keeps the bracket. */
+      /** Returns the solution for the root between @p low and @p high. 1/|force_t| is nearly linear in
+       * k, so the secant method for 1/|force_t| - 1/(mu force_n) converges in a few steps. Bisection
+       * keeps the bracket. */
       Vector3 between(double low, Trial at_low, double high, Trial at_high) const
       {
-        int last_side = 0; // of the end that moved: the other one's value is halved when it stays (Illinois)
+        int last_side =
+            0; // side that moved last; if it moves again, the value of the other side is halved (Illinois)
         for (unsigned int i = 0; i < 200 && high - low > 4e-16 * high; ++i)
         {
           double     middle = .5 * (low + high);
@@ -140,7 +142,7 @@ namespace Voussoir
     };
   } // namespace
 
-  /** Open, stick, or slip. Cannot fail for H positive definite. */
+  /** The pair is open, sticks or slips. A solution exists for every positive definite H. */
   Vector3 solve_coulomb(const Matrix3 &H, const Vector3 &b, const double mu)
   {
     if (b[0] >= 0.)

@@ -9,7 +9,7 @@ namespace Voussoir
   {
     const Matrix3 one = {{1., 0., 0., 0., 1., 0., 0., 0., 1.}};
 
-    /** Changes the frame of equations. */
+    /** Transforms equations from the frame @p axes to that of the pair. */
     void rotate(const Matrix3 &axes, PairEquations &e)
     {
       const Matrix3 back = transpose(axes);
@@ -49,7 +49,7 @@ namespace Voussoir
 
   namespace
   {
-    /** Gives a surface the compliance @p more besides its own, around the force @p centre. */
+    /** Adds the compliance @p more to a surface, with the reference force @p centre. */
     void soften(ContactSurface &s, const double more, const Vector3 &centre)
     {
       const double total = s.compliance + more;
@@ -107,7 +107,8 @@ namespace Voussoir
     return force;
   }
 
-  /** As alart_curnier(), without the derivatives, which resolve() has in closed form. */
+  /** Computes the equations of alart_curnier() without their derivatives. resolve() has these
+   * in closed form. */
   void PairSurfaces::equations_of(const ContactSurface &s, const Vector3 &force, const Vector3 &gap,
                                   Beside &mine)
   {
@@ -173,7 +174,8 @@ namespace Voussoir
     const double size = norm(gap) + norm(present.start);
     for (std::size_t k = 0; k < present.surfaces.size() && carrying != 0; ++k)
     {
-      // The gap of a stiff seat is what the last proximal step was.
+      // With an artificial compliance, the gap of a closed flank is the last change of its force
+      // times that compliance.
       const double left = 1e-6 * (seats[k].compliance - present.surfaces[k].compliance) * norm(force);
       if (present.surfaces[k].distance(gap) <= 1e-10 * size + left)
         carrying |= present.bits[k];
@@ -181,8 +183,8 @@ namespace Voussoir
     return carrying;
   }
 
-  /** What the equations of a surface say of its force: its change where the gap stays; adds what it resists
-   *  the gap with to @p stiffness. */
+  /** Linearises the force of a surface. mine.constant receives its change for a constant gap; its stiffness
+   * against the gap is added to @p stiffness. */
   void PairSurfaces::resolve(const ContactSurface &s, Beside &mine, Matrix3 &stiffness)
   {
     const Vector3 &res = mine.residual;
@@ -217,7 +219,7 @@ namespace Voussoir
     }
   }
 
-  /** Change of the force of a surface with the gap. */
+  /** Computes the change of the force of a surface for a change of the gap. */
   void PairSurfaces::find_change(const ContactSurface &s, const Beside &mine, const Vector3 &d_gap,
                                  double *change)
   {
@@ -239,8 +241,8 @@ namespace Voussoir
     change[2] -= along * e2 + across * e1;
   }
 
-  /** Sums of the surfaces beside the face, as last evaluated: how they resist the gap, and the change of
-   * their force where it stays. Does any touch? */
+  /** Sums up the secondary surfaces of the last evaluate(): their stiffness against the gap, and the change
+   * of their force for a constant gap. Returns whether a secondary surface is closed. */
   bool PairSurfaces::eliminate(Matrix3 &stiffness, Vector3 &constant)
   {
     bool any = false;
@@ -284,7 +286,7 @@ namespace Voussoir
     std::fill(d_beside, d_beside + 3 * n_beside(), 0.);
     if (std::all_of(other.begin(), other.end(), [](const Beside &mine) { return mine.is_idle; }))
       return;
-    Vector3 rest = e.residual; // what the change of force leaves of the equations at this change of the gap
+    Vector3 rest = e.residual; // residual of the equations for these changes of force and gap
     add(rest, e.d_force * d_force);
     add(rest, e.d_gap * d_gap);
     const Matrix3 adjoint = transpose(e.d_gap);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The solution of one pair alone: on its face, by Newton's method, or from sweeps over its surfaces.
+// Solution of one pair alone: on its face, by Newton's method, or by Gauss-Seidel iterations
+// over its surfaces.
 #include <voussoir/contact/pair_conditions.h>
 #include <voussoir/contact/pair_surfaces.h>
 
@@ -9,7 +10,8 @@ namespace Voussoir
 {
   namespace
   {
-    /** Gauss-Seidel over the surfaces of a pair, each solved exactly. @p r: their forces. */
+    /** Performs a Gauss-Seidel iteration over the surfaces of a pair, with the exact solution of each.
+     * @p r: their forces. */
     void sweep(const std::vector<ContactSurface> &surfaces, const Vector3 &start, const Matrix3 &H,
                const Vector3 &b, std::vector<Vector3> &r)
     {
@@ -31,7 +33,8 @@ namespace Voussoir
     }
   } // namespace
 
-  /** Most pairs touch on their face only, or nowhere: the force then. */
+  /** Returns whether the pair touches on its face only or is open, as most pairs do. @p force is
+   * then the solution. */
   bool PairSurfaces::face_alone(const Matrix3 &H, const Vector3 &b, Vector3 &force) const
   {
     const ContactSurface &face = regular[0];
@@ -49,8 +52,8 @@ namespace Voussoir
     return true;
   }
 
-  /** Newton's method, not held to decrease. Returns the norm of the equations at the best, which is left in
-   * @p force and @p beside. */
+  /** Performs Newton's method without a line search. Returns the smallest norm of the equations; @p force and
+   * @p beside are the iterate that has it. */
   double PairSurfaces::newton(const Matrix3 &H, const Vector3 &b, const double scale, const double accuracy,
                               Vector3 &force, Forces &beside)
   {
@@ -114,7 +117,7 @@ namespace Voussoir
       std::copy(now.begin(), now.begin() + 3 * n_beside(), beside);
       return force;
     }
-    // Where that circles: from sweeps over the surfaces, at first from zero.
+    // If Newton cycles: Gauss-Seidel iterations over the surfaces, first from zero forces.
     std::vector<Vector3> r(1 + n_beside(), Vector3{});
     for (unsigned int round = 0; round < 30 && !(smallest <= 1e2 * accuracy * scale); ++round)
     {

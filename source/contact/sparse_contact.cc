@@ -19,8 +19,9 @@ namespace Voussoir
 {
   namespace
   {
-    /** Direct solution of Newton's systems: the rows that only give a force component are taken out, the rest
-     *  is factorised anew for each set of equations, dense where little is left or little of it is zero. */
+    /** Direct solver of Newton's linear systems. Rows that determine a single force component are eliminated.
+     * The remaining matrix is factorised for each set of equations. The factorisation is dense if the matrix
+     * is small or has few zeros. */
     class DirectJacobian : public ContactJacobian
     {
     public:
@@ -81,7 +82,7 @@ namespace Voussoir
         return true;
       }
 
-      /** The rows and columns that are active, row by row. */
+      /** Assembles the active rows and columns, row by row. */
       void assemble()
       {
         start.assign(1, 0);
@@ -128,7 +129,7 @@ namespace Voussoir
           singular = info != 0;
           return;
         }
-        // Row by row is the transpose column by column.
+        // The matrix by rows is its transpose by columns.
         void *symbolic = nullptr;
         int   status =
             umfpack_di_symbolic(n, n, start.data(), column.data(), value.data(), &symbolic, nullptr, nullptr);
@@ -158,7 +159,7 @@ namespace Voussoir
       const SparseContactOperator      &op;
       const BlockSparseMatrix          &W;
       const std::vector<PairEquations> *equations = nullptr;
-      std::vector<int>                  position; ///< of each unknown among the active ones, or -1
+      std::vector<int>                  position; ///< index of each unknown among the active ones, or -1
       std::vector<unsigned int>         active;
       std::vector<int>                  start, column, pivots;
       std::vector<double>               value, lu;

@@ -110,7 +110,7 @@ namespace Voussoir
     const auto along = [](const Vector3 &f, const Vector3 &d) { return f[1] * d[1] + f[2] * d[2]; };
     Vector3    on_face = force;
     double     taken = 0.;
-    bool       is_flat = true; // nothing but the face carries or stores anything
+    bool       is_flat = true; // only the face carries force or stores energy
     for (std::size_t k = 1; k < now.surfaces.size(); ++k)
     {
       const ContactSurface &s = now.surfaces[k];

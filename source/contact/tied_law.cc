@@ -6,7 +6,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** Both directions bilateral: the monolithic dam. */
+    /** No opening and no slip: the monolithic dam. */
     class Tied : public JointLaw
     {
     public:

@@ -16,8 +16,8 @@ namespace Voussoir
 
   namespace
   {
-    /** While it lives, every node of the model has an equation of its own: no load is lost where the base is
-     * held, and none is shared where monoliths are tied. */
+    /** Gives every node of the model its own equation during the lifetime of the object, including fixed and
+     * tied nodes. */
     class AllNodesFree
     {
     public:
@@ -62,7 +62,7 @@ namespace Voussoir
       }
     }
 
-    /** The force block * x with its moment. */
+    /** Adds the coefficients of the force block * x and its moment. */
     void add_block(std::array<double, 18> &part, const Vector3 &arm, const Matrix3 &block)
     {
       for (unsigned int d = 0; d < 3; ++d)
@@ -80,14 +80,14 @@ namespace Voussoir
         wrench[r] += part[3 * r] * x[0] + part[3 * r + 1] * x[1] + part[3 * r + 2] * x[2];
     }
 
-    /** Downstream in the plane, along the arch, inward normal; upward where a base has no mean plane. */
+    /** Returns BlockBase::axes. The normal is vertical if a base has no mean plane. */
     std::array<Vector3, 3> axes_of(const Vector3 &outward, const double area)
     {
       Vector3      inward{{0., 0., 1.}}, stream{{1., 0., 0.}};
       const double projection = norm(outward);
       for (unsigned int c = 0; projection > 1e-9 * area && c < 3; ++c)
         inward[c] = -outward[c] / projection;
-      if (std::abs(inward[0]) > .999) // across the river: no direction of it is downstream
+      if (std::abs(inward[0]) > .999) // the plane has no downstream direction
         stream = {{0., 0., -1.}};
       const double out_of_plane = dot(stream, inward);
       for (unsigned int c = 0; c < 3; ++c)
@@ -131,7 +131,7 @@ namespace Voussoir
     find_lone_pairs(joint_water);
     {
       const AllNodesFree all_free(model);
-      Structure          whole; // its masses
+      Structure          whole; // only its masses are used
       whole.mass.assign(model.n_nodes(), Matrix3{});
       whole.added_mass = whole.mass;
       add_cells(whole);
@@ -181,7 +181,7 @@ namespace Voussoir
     }
   }
 
-  /** That of the cell's monolith; as many as there are where it has no base. */
+  /** Returns the base of the monolith of a cell, or the number of bases if there is none. */
   unsigned int BaseForces::block_of(const DoFHandler<3>::active_cell_iterator &cell) const
   {
     const int  monolith = cell->material_id();
@@ -190,7 +190,7 @@ namespace Voussoir
     return found - of_block.begin();
   }
 
-  /** Nodes that are held, or move as one with a node of the base. */
+  /** Finds the fixed nodes and the nodes with the equation of a base node. */
   void BaseForces::find_supports()
   {
     std::set<unsigned int> supporting = {rigid_ground};
@@ -209,7 +209,7 @@ namespace Voussoir
     }
   }
 
-  /** The pairs with one node on the foundation. */
+  /** Finds the pairs with one node on the foundation. */
   void BaseForces::find_lone_pairs(const std::vector<double> &joint_water)
   {
     const std::vector<Pair>             &pairs = dam.structure.pairs;
@@ -234,7 +234,7 @@ namespace Voussoir
     }
   }
 
-  /** Stiffness and lumped mass of the cells at the supports. */
+  /** Adds the stiffness and the lumped mass of the cells at the supports. */
   void BaseForces::add_cells(Structure &whole)
   {
     std::vector<std::map<unsigned int, std::array<double, 18>>> sums(of_block.size());
@@ -265,7 +265,7 @@ namespace Voussoir
       }
   }
 
-  /** What static loads, and the mass of the water, put on the supports themselves. */
+  /** Adds the static loads and the added mass at the supports. */
   void BaseForces::add_loads(Structure &whole)
   {
     const Scene &scene = dam.scene;
@@ -294,7 +294,7 @@ namespace Voussoir
       }
   }
 
-  /** It lies in no displacement: these count from there. */
+  /** The staged weight is in no displacement, because displacements are relative to the state after it. */
   void BaseForces::add_staged_weight()
   {
     const double weight = dam.scene.statics.gravity * dam.scene.loads.factor("weight");
@@ -325,7 +325,7 @@ namespace Voussoir
       {
         const unsigned int node = stiffness[b].node[k];
         const Vector3      du = change(node);
-        Vector3            u = get(step.after, node); // the mean, and the damping's
+        Vector3            u = get(step.after, node); // mean, with the damping term
         for (unsigned int c = 0; c < 3; ++c)
           u[c] += (damping - .5) * du[c];
         add_product(result[b], stiffness[b].part[k], u);

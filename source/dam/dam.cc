@@ -22,7 +22,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** InputError where joint j is not between monoliths j and j + 1, as many as there are. */
+    /** Throws InputError if a joint j is not between the monoliths j and j + 1. */
     void check_joint_numbers(const HexMesh &opened, const std::string &source)
     {
       std::set<int> numbers, monoliths;
@@ -34,14 +34,13 @@ namespace Voussoir
                                     monoliths.size() > 1 ? *monoliths.rbegin() - 1 : 0);
       for (int j = 1; j <= n_joints; ++j)
         if (numbers.count(j) == 0)
-          throw InputError(
-              "mesh " + source + ": joint " + std::to_string(j) + " has no faces: monoliths " +
-              std::to_string(j) + " and " + std::to_string(j + 1) +
-              " do not meet. Number the monoliths one after the other, from the right bank to the "
-              "left; and let the nodes of both coincide on the joint, if they are numbered so.");
+          throw InputError("mesh " + source + ": joint " + std::to_string(j) + " has no faces: monoliths " +
+                           std::to_string(j) + " and " + std::to_string(j + 1) +
+                           " do not meet. Number the monoliths consecutively from the right bank to the "
+                           "left. If they are, make their nodes on the joint coincide.");
     }
 
-    /** InputError for a monolith that stands on nothing. */
+    /** Throws InputError for a monolith without base nodes. */
     void check_feet(const HexMesh &opened, const std::string &source)
     {
       std::set<unsigned int> base;
@@ -54,10 +53,9 @@ namespace Voussoir
                                            [&](const unsigned int n) { return base.count(n) > 0; });
       for (const auto &[monolith, does] : stands)
         if (!does)
-          throw InputError(
-              "mesh " + source + ": monolith " + std::to_string(monolith) +
-              " has no node on the surface \"base\", so that nothing holds it. Let the joints beside "
-              "it reach the base, or mark its foot.");
+          throw InputError("mesh " + source + ": monolith " + std::to_string(monolith) +
+                           " has no node on the surface \"base\", so it is unsupported. Extend its joints to "
+                           "the base, or add its lowest faces to the surface.");
     }
   } // namespace
 
@@ -91,7 +89,7 @@ namespace Voussoir
     check_water_level();
   }
 
-  /** The monoliths with open joints; measures and counts on the way. */
+  /** Returns the mesh of the monoliths with open joints. Sets the dimensions and numbers of the dam. */
   HexMesh Dam::open_monoliths(const HexMesh &mesh, const std::string &source)
   {
     const HexMesh concrete = monoliths_only(mesh);
@@ -129,7 +127,7 @@ namespace Voussoir
     return tied || impact_rule(scene.impact_rule) != ImpactRule::mean_force || scene.contact.write_problems;
   }
 
-  /** Model and structure, on the foundation. */
+  /** Creates the model and the structure with the foundation. */
   void Dam::assemble(const HexMesh &opened)
   {
     model = std::make_unique<SolidModel>(opened, scene.elements.degree);
@@ -139,12 +137,12 @@ namespace Voussoir
     geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
     initial_stress.assign(model->n_nodes(), Stress{});
     if (scene.statics.self_weight == "staged")
-      stage_self_weight(); // on a rigid base: displacements count from there
+      stage_self_weight(); // on a rigid base; later displacements are relative to this state
     if (foundation->base() != Foundation::Base::held)
     {
       model->free_base();
       if (foundation->base() == Foundation::Base::shared)
-        tie_joints(*model, n_joints, true); // the foundation joins all monoliths
+        tie_joints(*model, n_joints, true); // the monoliths share their base nodes
       structure = assemble_structure(*model, materials, incompatible_modes);
       pairs = find_pairs(*model, n_joints);
       if (foundation->base() == Foundation::Base::led)
@@ -165,7 +163,7 @@ namespace Voussoir
     structure.collect_interfaces();
   }
 
-  /** The pairs of the dam's base are what the foundation makes of them. */
+  /** Removes the pairs at the base, which the foundation couples. */
   void Dam::remove_feet(std::vector<Pair> &pairs) const
   {
     const std::set<unsigned int> base = nodes_of_base();
@@ -183,13 +181,13 @@ namespace Voussoir
     return base;
   }
 
-  /** The laws of the pairs; the feet of the joints are tied where the foundation does not open there. */
+  /** Assigns the laws of the pairs. Pairs at the base are tied if the foundation requires it. */
   void Dam::tie_feet()
   {
     laws.assign(structure.pairs);
     if (laws.need_mean_force() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)
       throw InputError("The joint models " + joint_laws_of_mean_force() +
-                       " need \"Dynamics/Impact\" = mean-force, not " + scene.impact_rule + ".");
+                       " require \"Dynamics/Impact\" = mean-force, not " + scene.impact_rule + ".");
     std::set<unsigned int> base;
     if (foundation->base() == Foundation::Base::tied)
       base = nodes_of_base();
@@ -225,8 +223,8 @@ namespace Voussoir
       {
         std::ostringstream text;
         text << std::setprecision(8) << "Entry \"" << load.level_entry << "\" is " << load.level(scene)
-             << " m, above the dam, which ends at " << top
-             << " m. Lower it, or check the axes and the length unit of the mesh.";
+             << " m, above the top of the dam at " << top
+             << " m. Reduce it, or check the axes and the length unit of the mesh.";
         throw InputError(text.str());
       }
     has_water =

@@ -23,7 +23,7 @@ namespace Voussoir
     if (nodes.size() < 2)
       throw InputError(
           "The surfaces \"crest\" and \"upstream\" of the mesh do not meet, or are missing. Results are "
-          "reported along their common edge: mark both surfaces in the mesh.");
+          "reported along their common edge. Add both surfaces to the mesh.");
     std::sort(nodes.begin(), nodes.end(),
               [&](const unsigned int i, const unsigned int j)
               { return model.points[i][1] < model.points[j][1]; });
@@ -42,7 +42,7 @@ namespace Voussoir
     for (unsigned int p = 0; p < pairs.size(); ++p)
     {
       CrestPairs  &crest = joints[pairs[p].joint];
-      const double tall = 1e-3; // nodes of the crest may differ a little in height [m]
+      const double tall = 1e-3; // tolerance for the heights of crest nodes [m]
       for (const bool upstream : {true, false})
       {
         unsigned int &best = upstream ? crest.upstream : crest.downstream;
@@ -62,14 +62,14 @@ namespace Voussoir
 
   void DamGeometry::find_crown(const SolidModel &model, const std::vector<unsigned int> &nodes)
   {
-    const double same = 1e-6 * (at.back() - at.front()); // places that round-off may exchange [m]
+    const double same = 1e-6 * (at.back() - at.front()); // tolerance for equal positions [m]
     double       nearest = std::numeric_limits<double>::infinity(), place = nearest;
     for (const unsigned int i : nodes)
       nearest = std::min(nearest, std::abs(arc_length(model.points[i])));
     for (const unsigned int i : nodes)
       if (const double s = arc_length(model.points[i]); std::abs(s) <= nearest + same)
         place = std::min(place, s);
-    std::map<unsigned int, double> side; // of each node there: where its first element is
+    std::map<unsigned int, double> side; // of each node there: smallest arc length of its elements
     for (const unsigned int i : nodes)
       if (std::abs(arc_length(model.points[i]) - place) <= same)
         side[i] = std::numeric_limits<double>::infinity();
@@ -95,9 +95,10 @@ namespace Voussoir
       const double dx = edge[i + 1][0] - edge[i][0], dy = edge[i + 1][1] - edge[i][1],
                    length = at[i + 1] - at[i];
       const double     t = ((p[0] - edge[i][0]) * dx + (p[1] - edge[i][1]) * dy) / (length * length);
-      constexpr double endless = std::numeric_limits<double>::infinity(); // beyond the ends the edge goes on
-      const double     s = std::clamp(t, i == 0 ? -endless : 0., i + 2 == edge.size() ? endless : 1.);
-      const double     d = std::hypot(p[0] - edge[i][0] - s * dx, p[1] - edge[i][1] - s * dy);
+      constexpr double endless =
+          std::numeric_limits<double>::infinity(); // the edge is extended beyond its ends
+      const double s = std::clamp(t, i == 0 ? -endless : 0., i + 2 == edge.size() ? endless : 1.);
+      const double d = std::hypot(p[0] - edge[i][0] - s * dx, p[1] - edge[i][1] - s * dy);
       if (d < nearest)
         nearest = d, result = at[i] + s * length;
     }
@@ -119,11 +120,11 @@ namespace Voussoir
 
   namespace
   {
-    /** Of the nodes where @p node is, on both sides of a joint, that of the monolith with the element whose
-     * middle is the nearest to @p p. A point that is the node's own does not say. */
+    /** Returns the node at the position of @p node whose monolith has the element centre nearest to @p p. If
+     * @p p equals this position, the result is @p node. */
     unsigned int on_side_of(const SolidModel &model, const unsigned int node, const Point<3> &p)
     {
-      const double                         same = 1e-6; // place [m]
+      const double                         same = 1e-6; // tolerance for equal positions [m]
       std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
       unsigned int                         result = node;
       double                               nearest = std::numeric_limits<double>::infinity();
@@ -145,7 +146,7 @@ namespace Voussoir
   {
     const unsigned int                   node = nearest_node(model, p);
     std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-    double                               element = 0.; // how far its elements reach
+    double                               element = 0.; // largest extent of its elements [m]
     for (const auto &cell : model.dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
@@ -157,9 +158,9 @@ namespace Voussoir
     {
       std::ostringstream message;
       message << what << " at " << place({{p[0], p[1], p[2]}}) << " is " << distance
-              << " m from the dam, more than an element (" << element << " m): its nearest node is at "
+              << " m from the dam, more than an element (" << element << " m). Its nearest node is at "
               << place({{model.points[node][0], model.points[node][1], model.points[node][2]}})
-              << ". Give a point of the dam, in the axes of the scene.";
+              << ". Use a point of the dam, in the axes of the input file.";
       throw InputError(message.str());
     }
     return on_side_of(model, node, p);

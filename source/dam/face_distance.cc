@@ -26,7 +26,7 @@ namespace Voussoir
     {
       const Tensor<1, 3> normal = cross_product_3d(t[1] - t[0], t[2] - t[0]);
       const double       area = normal.norm();
-      bool               above = area > 0.; // is the foot of the normal in the triangle?
+      bool               above = area > 0.; // true: the projection of p is in the triangle
       double             nearest = std::numeric_limits<double>::infinity();
       for (unsigned int k = 0; k < 3; ++k)
       {
@@ -37,7 +37,7 @@ namespace Voussoir
       return above ? std::abs((p - t[0]) * normal) / area : nearest;
     }
 
-    /** Distances of points to a surface of the model. */
+    /** Distance of points to a surface of the model. */
     class SurfaceDistance
     {
     public:
@@ -71,7 +71,7 @@ namespace Voussoir
       {
         double nearest = std::numeric_limits<double>::infinity();
         for (auto found = tree.qbegin(boost::geometry::index::nearest(p, triangles.size()));
-             found != tree.qend(); ++found) // by the distance of the boxes
+             found != tree.qend(); ++found) // in the order of the distances of the boxes
         {
           if (boost::geometry::distance(p, found->first) >= nearest)
             break;
@@ -91,7 +91,7 @@ namespace Voussoir
   {
     const SurfaceDistance upstream(model, PhysicalId::upstream), downstream(model, PhysicalId::downstream);
     if (upstream.is_empty() || downstream.is_empty())
-      throw InputError("Entry \"" + entry + "\" needs the thickness of the dam, but the surface \"" +
+      throw InputError("Entry \"" + entry + "\" requires the thickness of the dam, but the surface \"" +
                        (upstream.is_empty() ? "upstream" : "downstream") +
                        "\" of the mesh is missing. Mark it in the mesh.");
     std::vector<double> place(model.n_nodes());

@@ -14,7 +14,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** The load with these parameters. */
+    /** Returns the row of a load with the given member of LoadParameters. */
     template <auto parameters> LoadRow load_of(const char *name, const unsigned int order)
     {
       return {name, order, [](const Scene &scene) { return (scene.loads.*parameters).acts(); },
@@ -110,7 +110,7 @@ namespace Voussoir
       return row;
     }
 
-    /** In joints (StaticState) and at the base (base_uplift()). */
+    /** Returns the row of the uplift in joints (StaticState) and at the base (base_uplift()). */
     LoadRow uplift()
     {
       LoadRow row = load_of<&LoadParameters::uplift>("uplift", 7);
@@ -145,6 +145,7 @@ namespace Voussoir
       return row;
     }
 
+    /** Returns the rows of the table, sorted by LoadRow::order. */
     std::vector<const LoadRow *> rows_by_order()
     {
       std::vector<const LoadRow *> rows;
@@ -165,7 +166,7 @@ namespace Voussoir
     }
   } // namespace
 
-  /** All static loads. A new one is its own files, its parameters and a row here. */
+  // A new load has its own files, its parameters and a row here.
   const std::vector<LoadRow> &load_table()
   {
     static const std::vector<LoadRow> table = {weight(),      water(),  tail_water(),   silt(),
@@ -218,7 +219,7 @@ namespace Voussoir
 
   KnownTraction known_traction(const Scene &scene)
   {
-    std::vector<std::pair<const LoadRow *, double>> parts; // with their factors
+    std::vector<std::pair<const LoadRow *, double>> parts; // rows with load factors
     for (const LoadRow &load : load_table())
       if (load.traction)
         parts.emplace_back(&load, scene.loads.factor(load.name));

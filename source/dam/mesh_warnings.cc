@@ -11,7 +11,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** Elements of degree 1 that come from tetrahedra. */
+    /** Returns a warning about elements of degree 1 that come from tetrahedra, or an empty string. */
     std::string split_tetrahedra(const HexMesh &opened, const Scene &scene)
     {
       constexpr double usual = .2; // split tetrahedra: 2/27
@@ -26,14 +26,12 @@ namespace Voussoir
               "element is "
            << ratio
            << " of its largest one, on average). With Elements/Degree = 1 they make the dam too stiff: "
-              "frequencies "
-              "are about 10 to 20 % too high where one tetrahedron reaches through the dam, and 1 to 7 % "
-              "where two "
-              "do. Set Elements/Degree = 2.";
+              "frequencies are about 10 to 20 % too high where one tetrahedron reaches through the dam, and "
+              "1 to 7 % where two do. Set Elements/Degree = 2.";
       return text.str();
     }
 
-    /** Distance of neighbouring nodes on the joints whose law has a fracture energy, the largest [m]. */
+    /** Returns the largest distance of neighbouring nodes on joints with a fracture energy [m]. */
     double distance_of_pairs(const HexMesh &opened, const Scene &scene)
     {
       double longest = 0.;
@@ -49,8 +47,8 @@ namespace Voussoir
       return longest / scene.elements.degree;
     }
 
-    /** Joints with a bond whose crack takes less energy than the adjacent elements hold. @p young: of the
-     * concrete [Pa]. */
+    /** Returns a warning about cohesive joints whose crack needs less energy than the adjacent elements
+     * store, or an empty string. @p young: Young's modulus of the concrete [Pa]. */
     std::string long_elements_on_bonds(const HexMesh &opened, const Scene &scene, const double young)
     {
       const double strength = scene.joints.strength, energy = scene.joints.fracture_energy,
@@ -62,9 +60,8 @@ namespace Voussoir
       text.precision(2);
       text << "nodes of cohesive joints are up to " << distance
            << " m apart, more than E G_f/f_t^2 = " << required
-           << " m (with Joints/Fracture energy and Joints/Strength): which pairs crack depends on the number "
-              "of "
-              "increments and on the time step. ";
+           << " m (with Joints/Fracture energy and Joints/Strength). The cracked pairs then depend on the "
+              "number of increments and on the time step. ";
       if (required > 0.)
         text << "Refine the mesh along these joints to " << required << " m, or compare several "
              << "Statics/Water increments.";

@@ -17,14 +17,13 @@ namespace Voussoir
       const Vector3     &x = entry.second.place;
       const unsigned int nearest = node_at(
           model, "Entry \"Loads/Concentrated\": load \"" + entry.first + "\"", Point<3>(x[0], x[1], x[2]));
-      std::set<unsigned int> sharing; // the place; nodes that move as one count once
+      std::set<unsigned int> sharing; // equations of the nodes at this position
       for (unsigned int i = 0; i < model.n_nodes(); ++i)
         if (model.points[i].distance(model.points[nearest]) < 1e-6 * (1. + model.points[nearest].norm()))
           sharing.insert(model.equation[i]);
       if (sharing.count(rigid_ground) > 0)
-        throw InputError(
-            "Entry \"Loads/Concentrated\": load \"" + entry.first +
-            "\" is on the base, which is held: it would have no effect. Move it, or leave it out.");
+        throw InputError("Entry \"Loads/Concentrated\": load \"" + entry.first +
+                         "\" is on the fixed base and has no effect. Move it, or remove it.");
       for (const unsigned int e : sharing)
         for (unsigned int c = 0; c < 3; ++c)
           load[3 * std::size_t(e) + c] += entry.second.force[c] / sharing.size();
@@ -48,7 +47,7 @@ namespace Voussoir
     for (const auto &cell : model.dof_handler.active_cell_iterators())
       for (unsigned int line = 0; line < GeometryInfo<3>::lines_per_cell; ++line)
       {
-        bool crest = false, edge = false; // is it an edge of such a face of the cell?
+        bool crest = false, edge = false; // is the line an edge of such a face of the cell?
         for (const unsigned int face : cell->face_indices())
           for (unsigned int l = 0; l < GeometryInfo<3>::lines_per_face; ++l)
             if (cell->face(face)->line(l) == cell->line(line))
@@ -60,7 +59,7 @@ namespace Voussoir
           continue;
         ++n_lines;
         const double length = cell->line(line)->diameter();
-        // Simpson's rule with the node in the middle, exact for the shape functions of both degrees
+        // Simpson's rule with the midside node, exact for the shape functions of both degrees
         const double ends = model.fe.degree == 1 ? .5 : 1. / 6.;
         const auto   add = [&](const unsigned int node, const double part)
         {
@@ -74,6 +73,6 @@ namespace Voussoir
       }
     if (n_lines == 0)
       throw InputError("Entry \"Loads/Crest line\": the surfaces \"crest\" and \"" + loads.crest_edge +
-                       "\" of the mesh do not meet, or are missing. Mark both in the mesh.");
+                       "\" of the mesh have no common edge, or are missing. Correct them in the mesh.");
   }
 } // namespace Voussoir

@@ -14,22 +14,22 @@ namespace Voussoir
   void ReservoirParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Reservoir");
-    prm.add_parameter("Water level", level, "z of the water surface, in the axes of the scene [m].",
-                      {-500., 9000.});
-    prm.add_parameter("Density", density, "Density of the water; 0 means an empty reservoir [kg/m^3].",
+    prm.add_parameter("Water level", level,
+                      "Height z of the water surface in the axes of the input file [m].", {-500., 9000.});
+    prm.add_parameter("Density", density, "Density of the water [kg/m^3]. 0: empty reservoir.",
                       {900., 1300., true}, Patterns::Double(0.));
     prm.add_parameter("Added mass", added_mass,
                       "Hydrodynamic added mass on the upstream face. " + added_mass_docs() + ".",
                       Patterns::Selection(added_mass_names()));
     prm.add_parameter(
         "Depth", depth,
-        "Depth of the reservoir in Westergaard's formula: global (deepest point) or local (generalised "
-        "formula: the vertical section through the node).",
+        "Depth of the reservoir in Westergaard's formula. global: deepest point. local: vertical section "
+        "through the node (generalised formula).",
         Patterns::Selection("global|local"));
     prm.add_parameter(
         "Factor", factor,
-        "Factor of the added mass; 0.5 is common in Chinese practice, and closer to an incompressible "
-        "reservoir [-].",
+        "Factor of the added mass [-]. 0.5 is common in Chinese practice, and closer to an incompressible "
+        "reservoir.",
         {.1, 1.5, true}, Patterns::Double(0.));
     prm.leave_subsection();
   }
@@ -37,7 +37,7 @@ namespace Voussoir
   void add_water_pressure(const SolidModel &model, const ReservoirParameters &reservoir, const double gravity,
                           Unknowns &load)
   {
-    // More points than the pressure needs: the water line cuts through faces.
+    // More points than for a smooth pressure, because the water line intersects faces.
     for_faces(model, PhysicalId::upstream, 8,
               [&](const FEFaceValues<3> &values, const auto &dofs)
               {
@@ -57,7 +57,7 @@ namespace Voussoir
 
   namespace
   {
-    /** The foot of the upstream face, as elevation over y. */
+    /** Lower edge of the upstream face, as height over y. */
     class UpstreamFoot
     {
     public:
@@ -69,8 +69,8 @@ namespace Voussoir
         std::sort(foot.begin(), foot.end());
         if (foot.empty())
           throw InputError(
-              "The surfaces \"upstream\" and \"base\" of the mesh do not meet, so that the depth of the "
-              "reservoir is not known. Mark both in the mesh, or set \"Reservoir/Added mass\" to none.");
+              "The surfaces \"upstream\" and \"base\" of the mesh have no common edge, so the depth of the "
+              "reservoir is unknown. Correct them in the mesh, or set \"Reservoir/Added mass\" to none.");
         for (const auto &p : foot)
           lowest = std::min(lowest, p.second);
       }
@@ -96,7 +96,7 @@ namespace Voussoir
 
   namespace
   {
-    /** Westergaard's mass per area over the upstream face [kg/m^2]. */
+    /** Westergaard's added mass per area of the upstream face [kg/m^2]. */
     class Westergaard
     {
     public:
@@ -118,7 +118,7 @@ namespace Voussoir
       const UpstreamFoot         foot;
     };
 
-    /** m n n^T. Returns its part along x, also of a node that is held. */
+    /** Adds m n n^T. Returns its part along x, for fixed nodes, too. */
     double add_mass(const unsigned int equation, const double m, const Tensor<1, 3> &n, Structure &structure)
     {
       if (equation != rigid_ground)
@@ -131,8 +131,8 @@ namespace Voussoir
       return m * n[0] * n[0];
     }
 
-    /** The mass of a face by the hat functions between neighbouring nodes: the shares by the shape functions
-     * of degree 2 can be negative where the water line cuts the face. */
+    /** Returns the nodal masses of a face by hat functions between neighbouring nodes. Shape functions of
+     * degree 2 can give negative masses if the water line intersects the face. */
     std::vector<double> hat_masses(const SolidModel &model, const FEFaceValues<3> &values,
                                    const Westergaard &westergaard)
     {
@@ -160,7 +160,7 @@ namespace Voussoir
     double                    total = 0.;
     std::vector<double>       mass;
     std::vector<Tensor<1, 3>> normal;
-    // More points than a smooth mass needs: the water line cuts through faces.
+    // More points than for a smooth mass, because the water line intersects faces.
     for_faces(model, PhysicalId::upstream, 8,
               [&](const FEFaceValues<3> &values, const auto &dofs)
               {
@@ -206,11 +206,12 @@ namespace Voussoir
 
   namespace
   {
-    /** What moves with the dam, by name. */
+    /** Row of the table of added masses. */
     struct AddedMassRow
     {
       const char *name, *doc;
-      double (*add)(const SolidModel &, const ReservoirParameters &, Structure &); ///< in x [kg]
+      double (*add)(const SolidModel &, const ReservoirParameters &,
+                    Structure &); ///< returns the mass in x [kg]
       std::vector<double> (*per_area)(const SolidModel &, const ReservoirParameters &);
     };
 
@@ -230,9 +231,11 @@ namespace Voussoir
     }
 
     const AddedMassRow added_masses[] = {
-        {"Westergaard", "his formula, in the normal direction of the upstream face", add_westergaard_mass,
-         westergaard_per_area},
-        {"Westergaard-nodal", "the same at the nodes, by their areas: coarser, for comparison",
+        {"Westergaard",
+         "Westergaard's formula in the normal direction of the upstream face, integrated over the elements",
+         add_westergaard_mass, westergaard_per_area},
+        {"Westergaard-nodal",
+         "the same formula at the nodes times their areas, less accurate, for comparison",
          add_nodal_westergaard_mass, westergaard_per_area},
         {"none", "the water is a static load only",
          [](const SolidModel &, const ReservoirParameters &, Structure &) { return 0.; }, no_mass}};

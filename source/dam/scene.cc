@@ -20,21 +20,20 @@ namespace Voussoir
                       Patterns::Integer(1, 2));
     prm.add_parameter(
         "Incompatible modes", incompatible_modes,
-        "Add bending modes to elements of degree 1, which lock without them. They cost nothing after the "
-        "set-up.");
+        "true: incompatible bending modes in elements of degree 1, which lock without them. The modes do not "
+        "increase the time of a step.");
     prm.leave_subsection();
   }
 
   void DampingParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Damping");
-    prm.add_parameter("Ratio", ratio,
-                      "Rayleigh damping, as a ratio of critical damping at the two frequencies [-].",
+    prm.add_parameter("Ratio", ratio, "Damping ratio of the Rayleigh damping at the two frequencies [-].",
                       {.001, .2, true}, Patterns::Double(0., 1.));
-    prm.add_parameter("Frequency 1", frequency_1, "Lower frequency at which the ratio holds [Hz].", {0., 20.},
+    prm.add_parameter("Frequency 1", frequency_1, "Lower frequency with this damping ratio [Hz].", {0., 20.},
                       Patterns::Double(1e-6));
-    prm.add_parameter("Frequency 2", frequency_2, "Upper frequency at which the ratio holds [Hz].",
-                      {.5, 100.}, Patterns::Double(1e-6));
+    prm.add_parameter("Frequency 2", frequency_2, "Upper frequency with this damping ratio [Hz].", {.5, 100.},
+                      Patterns::Double(1e-6));
     prm.leave_subsection();
   }
 
@@ -59,21 +58,19 @@ namespace Voussoir
   void JointParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Joints");
-    prm.add_parameter("Model", model, "What happens in the joints: " + joint_law_docs() + ".",
+    prm.add_parameter("Model", model, "Joint law. " + joint_law_docs() + ".",
                       Patterns::Selection(joint_law_names()));
     LawParameters::add_parameters(prm);
+    prm.add_parameter("Overrides", overrides,
+                      "Models of single joints, as \"number: model, number: model\". Joints are numbered "
+                      "from the right bank.",
+                      Patterns::Map(Patterns::Integer(1), Patterns::Selection(joint_law_names())));
     prm.add_parameter(
-        "Overrides", overrides,
-        "Models of single joints, as \"number: model, number: model\"; joints are numbered from the right "
-        "bank.",
-        Patterns::Map(Patterns::Integer(1), Patterns::Selection(joint_law_names())));
-    prm.add_parameter("Equations", equations_name,
-                      "Form of the joint equations: alart-curnier (the paper's, with the slip angle of the "
-                      "trial force; always "
-                      "converges), paper (slip angle of the force itself, as printed) or fischer-burmeister; "
-                      "the last two for "
-                      "comparison.",
-                      Patterns::Selection(equations_names()));
+        "Equations", equations_name,
+        "Form of the joint equations. alart-curnier: slip angle of the trial force, always converges. paper: "
+        "slip angle of the joint force, as printed. fischer-burmeister: other function. Both are for "
+        "comparison. Default alart-curnier, because it always converges.",
+        Patterns::Selection(equations_names()));
     keys.add_parameters(prm);
     prm.leave_subsection();
   }
@@ -96,24 +93,25 @@ namespace Voussoir
 
   void JointParameters::check() const
   {
-    // KSM takes a key for seated on a flank within 1e-9 of its height. Steps begin where the one before was
-    // solved to, some 1e-12 m: in keys below a millimetre they begin beyond their flanks, where the pair's
-    // problem takes 200 times as long, or for ever.
+    // KSM treats a flank as closed within 1e-9 of the key height. A step starts with the error of the
+    // previous solution, about 1e-12 m. Smaller keys would start beyond their flanks, where the problem of
+    // the pair takes 200 times as long, or does not converge.
     constexpr double smallest = 1e-3;
     if (keys.height != 0. && !(keys.height >= smallest))
     {
       std::ostringstream message;
       message << "Entry \"Joints/Keys/Height\" must be at least " << smallest
-              << " m, or 0 for a joint without keys, and is " << keys.height << " m.";
+              << " m, or 0 for a joint without keys, but it is " << keys.height << " m.";
       throw InputError(message.str());
     }
-    // Steps begin where the one before was solved to; a stiffer seat is not told from that.
+    // The compression of a stiffer flank contact is below the error of the previous solution.
     constexpr double stiffest = 1e-12;
     if (keys.seat_compliance > 0. && keys.seat_compliance < stiffest)
     {
       std::ostringstream message;
       message << "Entry \"Joints/Keys/Seat compliance\" must be at least " << stiffest
-              << " m/Pa, or 0 for rigid seats, or -1, and is " << keys.seat_compliance << " m/Pa.";
+              << " m/Pa, or 0 for rigid flanks, or -1 for 20 Height/E, but it is " << keys.seat_compliance
+              << " m/Pa.";
       throw InputError(message.str());
     }
   }
@@ -123,24 +121,23 @@ namespace Voussoir
     prm.enter_subsection("Statics");
     prm.add_parameter(
         "Self-weight", self_weight,
-        "staged: on free-standing monoliths, before the joints are closed, as dams are built; monolithic: "
-        "on the finished dam, together with the water; none.",
+        "Application of the self-weight. staged: to free-standing monoliths, before the joints are grouted. "
+        "monolithic: to the finished dam, together with the water. none: no self-weight. Default staged, "
+        "because dams are built in this way.",
         Patterns::Selection("staged|monolithic|none"));
-    prm.add_parameter(
-        "Water increments", water_increments,
-        "Increments in which the water is raised; friction makes the result depend on the path a little.",
-        Patterns::Integer(1));
+    prm.add_parameter("Water increments", water_increments,
+                      "Number of load increments of each static stage [-]. The result depends slightly on it "
+                      "because of friction.",
+                      Patterns::Integer(1));
     prm.add_parameter("Gravity", gravity, "Acceleration of gravity [m/s^2].", {9.7, 9.9},
                       Patterns::Double(0.));
-    prm.add_parameter(
-        "Stages", stages,
-        "What comes before the water is raised to Reservoir/Water level, one after the other, as \"grout "
-        "140, "
-        "fill 100, day 90, grout 210\": fill Z, the reservoir to the level z [m]; grout Z, the joints up to "
-        "z, "
-        "which carry nothing before (without it all are grouted at first); day D, the temperatures of that "
-        "day of Loads/Temperature/Table. Each in \"Water increments\" steps.",
-        Patterns::Anything());
+    prm.add_parameter("Stages", stages,
+                      "Static stages before the final stage with Reservoir/Water level, such as \"grout 140, "
+                      "fill 100, day 90, grout 210\". fill Z: reservoir at the level Z [m]. grout Z: joints "
+                      "grouted up to the height Z [m]. Joints above carry no forces. Without a grout stage "
+                      "all joints are grouted at the start. day D: temperatures of the day D of "
+                      "Loads/Temperature/Table. Each stage has \"Water increments\" steps.",
+                      Patterns::Anything());
     prm.leave_subsection();
   }
 
@@ -149,34 +146,32 @@ namespace Voussoir
     prm.enter_subsection("Output");
     prm.add_parameter(
         "Probes", probes,
-        "Points whose displacement goes into history.csv, as \"name: x y z; name: x y z\" [m]; the nearest "
-        "node is taken.",
+        "Points whose displacement is written to history.csv, as \"name: x y z; name: x y z\" [m]. The "
+        "nearest node is used.",
         Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
     prm.add_parameter("Envelope interval", envelope_interval,
-                      "Steps between two evaluations of the stresses for their envelopes; 0: no envelopes.",
+                      "Number of steps between two evaluations of the stress envelopes [-]. 0: no envelopes.",
                       Patterns::Integer(0));
     prm.add_parameter("Solution interval", solution_interval,
-                      "Steps between two files of the whole solution for ParaView; 0: none.",
+                      "Number of steps between two ParaView files of the solution [-]. 0: none.",
                       Patterns::Integer(0));
-    prm.add_parameter("Checkpoint interval", checkpoint_interval, "Steps between two checkpoints; 0: none.",
-                      Patterns::Integer(0));
-    prm.add_parameter("Progress interval", progress_interval, "Steps between two lines on the screen.",
-                      Patterns::Integer(1));
+    prm.add_parameter("Checkpoint interval", checkpoint_interval,
+                      "Number of steps between two checkpoints [-]. 0: none.", Patterns::Integer(0));
+    prm.add_parameter("Progress interval", progress_interval,
+                      "Number of steps between two progress lines [-].", Patterns::Integer(1));
     prm.add_parameter("Figures", figures,
-                      "Draw the figures at the end of the run (needs python3-matplotlib).");
+                      "true: draw the figures at the end of the run. Requires python3-matplotlib.");
     prm.add_parameter(
         "Block forces", block_forces,
-        "Write blocks.csv: the force of the foundation on the base of each monolith over time.");
+        "true: write blocks.csv, the force of the foundation on the base of each monolith over time.");
     prm.add_parameter(
         "Stress recovery", stress_recovery,
-        "Stresses at the nodes: tractions (from the elements, with the known tractions on faces and "
-        "joints, and with the tractions on the base extrapolated to its nodes) or elements (from these "
-        "alone).",
+        "Computation of the nodal stresses. tractions: from the elements and the known tractions on faces "
+        "and joints, with tractions on the base extrapolated to its nodes. elements: from the elements only.",
         Patterns::Selection("tractions|elements"));
     prm.add_parameter("Tensile strength", tensile_strength,
-                      "summary.json says how much of each face has tension above it; 0: above Limits/Tensile "
-                      "strength, if that "
-                      "is given [Pa].",
+                      "Strength for the share of each face with larger tension in summary.json [Pa]. 0: "
+                      "Limits/Tensile strength, if it is set.",
                       Patterns::Double(0.));
     prm.leave_subsection();
   }
@@ -194,18 +189,17 @@ namespace Voussoir
       const bool taken = probe.first == "crest" || probe.first == "crest_left" || probe.first == "base" ||
                          probe.first == "base_acceleration";
       if (probe.first.empty() || taken || probe.first.find_first_of(",\"") != std::string::npos)
-        throw InputError(
-            "Entry \"Output/Probes\": \"" + probe.first +
-            "\" cannot be the name of a probe; it becomes a column of history.csv, " +
-            std::string(taken ? "which has one of that name" : "where commas and quotes cannot be") +
-            ". Separate probes by "
-            "semicolons, as in \"name: x y z; name: x y z\".");
+        throw InputError("Entry \"Output/Probes\": \"" + probe.first +
+                         "\" cannot be the name of a probe, because it becomes a column of history.csv, " +
+                         std::string(taken ? "which has a column of this name"
+                                           : "where commas and quotes are not allowed") +
+                         ". Separate probes by semicolons, as in \"name: x y z; name: x y z\".");
       std::istringstream in(probe.second);
       std::string        more;
       Vector3           &p = places[probe.first];
       if (!(in >> p[0] >> p[1] >> p[2]) || in >> more)
-        throw InputError("Entry \"Output/Probes\": probe \"" + probe.first + "\" has the place \"" +
-                         probe.second + "\"; write three numbers, x y z.");
+        throw InputError("Entry \"Output/Probes\": probe \"" + probe.first + "\" has the position \"" +
+                         probe.second + "\". Write three numbers, x y z.");
     }
     return places;
   }
@@ -215,18 +209,18 @@ namespace Voussoir
     mesh.add_parameters(prm);
     elements.add_parameters(prm);
     prm.enter_subsection("Concrete");
-    prm.add_parameter("Young's modulus", concrete.young,
-                      "Dynamic modulus of elasticity of the concrete [Pa].", {5e9, 6e10},
-                      Patterns::Double(1.));
+    prm.add_parameter("Young's modulus", concrete.young, "Dynamic Young's modulus of the concrete [Pa].",
+                      {5e9, 6e10}, Patterns::Double(1.));
     prm.add_parameter("Poisson's ratio", concrete.poisson, "Poisson's ratio of the concrete [-].",
                       {.1, .3, true}, Patterns::Double(-.99, .499));
     prm.add_parameter("Density", concrete.density, "Density of the concrete [kg/m^3].", {1800., 3000.},
                       Patterns::Double(1e-3));
-    prm.add_parameter("Zones", concrete_zones,
-                      "Materials of zones of the dam, as \"NAME: E nu rho, NAME: E nu rho\", modulus of "
-                      "elasticity, Poisson's ratio and density, in Pa and kg/m^3 or with units; NAME is that "
-                      "of the volumes \"monolith 1 NAME\" of the mesh.",
-                      Patterns::Map(Patterns::Anything(), Patterns::Anything()));
+    prm.add_parameter(
+        "Zones", concrete_zones,
+        "Materials of dam zones, as \"NAME: E nu rho, NAME: E nu rho\". E is Young's modulus, nu "
+        "Poisson's ratio and rho the density, with units or in Pa and kg/m^3. NAME is the zone of the "
+        "mesh volumes \"monolith 1 NAME\".",
+        Patterns::Map(Patterns::Anything(), Patterns::Anything()));
     prm.leave_subsection();
     damping.add_parameters(prm);
     reservoir.add_parameters(prm);
@@ -238,27 +232,25 @@ namespace Voussoir
     prm.enter_subsection("Dynamics");
     prm.add_parameter(
         "Steps per sample", steps_per_sample,
-        "Time steps in each sampling interval of the ground motion, which is linear between its samples. "
-        "With rock the time step must be below the critical one (--validate prints it).",
+        "Number of time steps per sampling interval of the ground motion [-]. The motion is linear between "
+        "its samples. With rock the time step must be below the critical one, which --validate prints.",
         Patterns::Integer(1));
-    prm.add_parameter("Error estimate", error_estimate,
-                      "Estimate the error that the time step makes in the extremes, by a companion of twice "
-                      "the step beside the run: 40 to 90 % more work. Not on rock with mass.");
+    prm.add_parameter(
+        "Error estimate", error_estimate,
+        "true: estimate the error of the extremes due to the time step, by a comparison run with twice "
+        "the step. It increases the time of the run by 40 to 90 %. Not on rock with mass.");
     prm.add_parameter(
         "Impact", impact_rule,
-        "Joint forces and velocities of touching faces: mean-force (forces are means over the step, so that "
-        "joints "
-        "never create energy); impulse-consistent (forces at the end of the step, with Coulomb's law for "
-        "impulses); paper (Taylor and Papadopoulos); none (plain Newmark, which rings). The last three for "
-        "comparison.",
+        "Joint forces and velocities of closed joints. mean-force: the forces are means over "
+        "the step, so joints never create energy. For comparison: impulse-consistent (forces at the end "
+        "of the step, with Coulomb's law for impulses), paper (Taylor and Papadopoulos) and none "
+        "(plain Newmark, which oscillates).",
         Patterns::Selection(impact_rule_names()));
-    prm.add_parameter(
-        "Factors", factors,
-        "Precision in which the factors of the monoliths' matrices are kept: single halves what a step reads "
-        "of "
-        "them, and their memory. The displacement of a step is then found as an increment, and what the "
-        "equations of motion leave over is carried to the next step (doc/method.md).",
-        Patterns::Selection("double|single"));
+    prm.add_parameter("Factors", factors,
+                      "Precision of the matrix factors of the monoliths. single: half of the memory and of "
+                      "the memory traffic of a step. The unknown is then the displacement increment, and the "
+                      "residual of the equations of motion is added to the next step (doc/method.md).",
+                      Patterns::Selection("double|single"));
     prm.leave_subsection();
     contact.add_parameters(prm);
     limits.add_parameters(prm);
@@ -291,14 +283,14 @@ namespace Voussoir
     const std::filesystem::path directory_of_file = std::filesystem::path(file).parent_path();
     if (!directory_of_file.empty() && !std::filesystem::is_directory(directory_of_file))
       throw InputError("There is no directory " + directory_of_file.string() + " for the file " + file +
-                       ". Make it, or choose another file with --output.");
+                       ". Create it, or choose another file with --output.");
     std::vector<std::string> inputs = sources;
     for (const auto &input : input_files())
       inputs.push_back(input.second);
     std::error_code error;
     for (const std::string &input : inputs)
       if (std::filesystem::equivalent(input, file, error))
-        throw InputError("The file " + file + " would be overwritten, and is input (" + input +
+        throw InputError("The file " + file + " would be overwritten, but it is an input (" + input +
                          "). Choose another one with --output.");
   }
 
@@ -310,19 +302,16 @@ namespace Voussoir
     damping.check();
     if (foundation.model == "rock" && error_estimate)
       throw InputError(
-          "Entry \"Dynamics/Error estimate\" is for a dam on a rigid base or on massless rock: rock "
-          "with mass moves at steps of its own. Leave it out; `voussoir accuracy` estimates the "
-          "error there.");
+          "Entry \"Dynamics/Error estimate\" requires a rigid base or massless rock, because rock with mass "
+          "has its own time steps. Remove the entry, and use `voussoir accuracy` to estimate the error.");
     if (foundation.model == "rock" && foundation.has_own_steps() && impact_rule != "mean-force")
-      throw InputError(
-          "Rock with steps of its own (\"Foundation/Substeps\" above 1, or "
-          "\"Foundation/Coupling\" = mean traction) needs \"Dynamics/Impact\" = mean-force, not " +
-          impact_rule + ".");
+      throw InputError("Subcycled rock (\"Foundation/Substeps\" above 1, or \"Foundation/Coupling\" = mean "
+                       "traction) requires \"Dynamics/Impact\" = mean-force, not " +
+                       impact_rule + ".");
     if (foundation.model == "rock" && contact.write_problems)
-      throw InputError(
-          "Entry \"Contact/Write problems\" is for a dam on a rigid base or on massless rock: on "
-          "rock the feet of the joints are tied, or couple all joints, which no problem file "
-          "has. Leave it out, or set \"Foundation/Model\" to rigid or massless.");
+      throw InputError("Entry \"Contact/Write problems\" requires a rigid base or massless rock, because the "
+                       "files cannot contain the coupling of base nodes by rock. Remove the entry, or set "
+                       "\"Foundation/Model\" to rigid or massless.");
     joints.check();
     loads.check();
     static_stages(statics.stages);

@@ -44,28 +44,28 @@ namespace Voussoir
                has_lifts = has(stages, StaticStage::Kind::grout);
     const std::string entry = "Entry \"Statics/Stages\"";
     if (has_days && dam.scene.loads.temperature.table.empty())
-      throw InputError(entry + " names days, but there is no table of temperatures. Give "
-                               "\"Loads/Temperature/Table\", or leave the days out.");
+      throw InputError(entry + " has days, but there is no temperature table. Set "
+                               "\"Loads/Temperature/Table\", or remove the days.");
     if (has(stages, StaticStage::Kind::fill) && dam.scene.reservoir.density == 0.)
       throw InputError(entry +
-                       " fills the reservoir, but \"Reservoir/Density\" is 0. Set it to 1000, or leave the "
-                       "levels out.");
+                       " fills the reservoir, but \"Reservoir/Density\" is 0. Set it to 1000, or remove the "
+                       "levels.");
     if (has_lifts && dam.scene.statics.self_weight == "monolithic")
-      throw InputError(entry + " grouts joints in lifts, but \"Statics/Self-weight\" = monolithic puts the "
-                               "weight on the finished dam. Choose staged, or leave the lifts out.");
-    if (has(stages, StaticStage::Kind::fill) && dam.scene.loads.factor("water") == 0.)
-      throw InputError(entry + " fills the reservoir, but the combination of loads leaves the water out. Add "
-                               "it to \"Loads/Combinations\", or leave the levels out.");
-    if (has_lifts && dam.tied)
       throw InputError(entry +
-                       " grouts joints, but the dam has none that are open: all are tied. Choose another "
-                       "\"Joints/Model\", or leave the lifts out.");
-    Scene at = dam.scene;         // as it is at a stage
-    at.reservoir.level = endless; // empty: its surface is at the foot of the face
+                       " grouts joints in lifts, but \"Statics/Self-weight\" = monolithic applies the "
+                       "weight to the finished dam. Set it to staged, or remove the lifts.");
+    if (has(stages, StaticStage::Kind::fill) && dam.scene.loads.factor("water") == 0.)
+      throw InputError(entry + " fills the reservoir, but the load combination leaves the water out. Add "
+                               "it to \"Loads/Combinations\", or remove the levels.");
+    if (has_lifts && dam.tied)
+      throw InputError(entry + " grouts joints, but all joints are tied. Set another "
+                               "\"Joints/Model\", or remove the lifts.");
+    Scene at = dam.scene;         // the input file at a stage
+    at.reservoir.level = endless; // empty: the water level is at the lower end of the face
     for (unsigned int i = 0; i < dam.model->n_nodes(); ++i)
       if (dam.model->on_surface(i, PhysicalId::upstream))
         at.reservoir.level = std::min(at.reservoir.level, dam.model->points[i][2]);
-    if (has_days) // until the first of them
+    if (has_days) // no temperature load before the first day
       at.loads.temperature = TemperatureParameters();
     double grouted = has_lifts ? -endless : endless;
     for (const StaticStage &stage : stages)
@@ -74,7 +74,7 @@ namespace Voussoir
       case StaticStage::Kind::grout:
         if (stage.value <= grouted)
           throw InputError(entry + ": \"" + in_words("grout ", stage.value) +
-                           "\" is not above the lift before. Name the lifts from below.");
+                           "\" is not above the previous lift. List the lifts in ascending order.");
         grouted = stage.value;
         break;
       case StaticStage::Kind::fill:
@@ -106,7 +106,7 @@ namespace Voussoir
         top = std::max(top, dam.model->points[i][2]);
     std::ostringstream text;
     text << std::setprecision(8) << "Entry \"Statics/Stages\": the level " << level
-         << " m is above the dam, which ends at " << top << " m. Lower it.";
+         << " m is above the dam, whose top is at " << top << " m. Reduce the level.";
     if (level > top + 1e-6 * dam.size)
       throw InputError(text.str());
   }

@@ -15,9 +15,9 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double usual_gap = 5e-3; // of joints that are not grouted [m]
+    constexpr double usual_gap = 5e-3; // usual gap of joints before grouting [m]
 
-    /** The pairs between two heights are grouted where they are: their gap counts from there. */
+    /** Grouts the pairs between two heights: their gap is zero in the current state. */
     void close_pairs(const Structure &structure, const double from, const double to, const Unknowns &u,
                      Unknowns &closed, Unknowns &gap)
     {
@@ -29,7 +29,7 @@ namespace Voussoir
         }
     }
 
-    /** The steps of the static load history, one after the other. */
+    /** Computes the steps of the static load history. */
     class StaticHistory
     {
     public:
@@ -88,10 +88,10 @@ namespace Voussoir
                                                1., 0., ForceMeaning(), springs, feet.get());
       }
 
-      /** Where open joints are wet, the step is solved again until the water has gone as far as it goes. */
+      /** Solves a step, repeatedly until water spreads to no further pair. */
       ContactResult solve_step(const unsigned int i)
       {
-        const Unknowns start = gap; // slip is counted from the last step
+        const Unknowns start = gap; // slip is relative to the previous step
         Unknowns       offset = state.closed;
         for (double &x : offset)
           x = -x;
@@ -99,11 +99,10 @@ namespace Voussoir
         const auto     solve = [&](const Unknowns &load)
         {
           stop_if_asked();
-          state.memory = committed; // the events of rounds before the last are none
+          state.memory = committed; // crack events of previous iterations are discarded
           return system->solve(load, offset, start, state.memory, state.force, gap, state.u);
         };
-        const auto pressure =
-            [&](const double z) // a joint that is not grouted has no faces that it could part
+        const auto pressure = [&](const double z) // no pressure in joints before grouting
         { return z > path.part(i).grouted ? 0. : water_pressure(i, z); };
         ContactResult total;
         total.converged = true;
@@ -118,8 +117,9 @@ namespace Voussoir
           {
             std::ostringstream message;
             message << "The static state did not converge in step " << i + 1 << " of " << path.n_steps()
-                    << ": relative residual " << result.residual << " after " << result.iterations
-                    << " Newton steps. More increments may help (entry \"Statics/Water increments\").";
+                    << ": residual " << result.residual << " of the joint forces and "
+                    << result.residual_over_load << " of the load, after " << result.iterations
+                    << " Newton steps. Increase \"Statics/Water increments\".";
             throw ComputationError(message.str());
           }
         } while (water && water->spread(system->states(), pressure));
@@ -127,7 +127,7 @@ namespace Voussoir
         return total;
       }
 
-      /** Adds a row, and a line of the log at the end of each stage. */
+      /** Adds a row to the steps, and a line to the log at the end of each stage. */
       void record(const unsigned int i)
       {
         const StaticPart  &part = path.part(i);
@@ -152,11 +152,10 @@ namespace Voussoir
           log.line("Stage     %s: crest %.1f mm downstream, %u pairs open, %u wet, largest opening %.2f mm",
                    part.name.c_str(), 1e3 * state.crown[0], step.n_open, step.n_wet, 1e3 * step.opening);
         if (path.ends_part(i) && step.overlap > usual_gap)
-          log.line(
-              "warning: stage %s: joints above the lift of %g m overlap by %.1f mm, since what is not "
-              "grouted does not touch in this program. Beyond a joint's gap of a few millimetres that is "
-              "no state of a dam: grout higher before (Statics/Stages).",
-              part.name.c_str(), part.grouted, 1e3 * step.overlap);
+          log.line("warning: stage %s: joints above the lift of %g m overlap by %.1f mm, more than the usual "
+                   "gap of joints before grouting. The program has no contact there. Add a grouting stage "
+                   "before this one (Statics/Stages).",
+                   part.name.c_str(), part.grouted, 1e3 * step.overlap);
       }
 
       const Dam                   &dam;
@@ -175,7 +174,7 @@ namespace Voussoir
       StaticState                     state;
     };
 
-    /** Throws InputError for a static state of metres, from which no dynamic analysis can start. */
+    /** Throws InputError for implausible displacements, see static_state(). */
     void check(const Dam &dam, const Unknowns &u, const Vector3 &crown)
     {
       constexpr double largest_share = .01;
@@ -191,11 +190,11 @@ namespace Voussoir
       std::ostringstream text;
       text.precision(4);
       if (!(crest <= largest_share * dam.size))
-        text << "its crest has moved by " << crest << " m against the base";
+        text << "its crest has a displacement of " << crest << " m relative to the base";
       else if (!(weight <= largest_share * dam.size))
-        text << "its crest has moved by " << weight << " m under its own weight";
+        text << "its crest has a displacement of " << weight << " m under its own weight";
       else if (!(joint <= largest_joint_share * dam.size))
-        text << "a joint has moved by " << joint << " m at " << place(where);
+        text << "a joint has a displacement of " << joint << " m at " << place(where);
       else
         return;
       throw InputError(
@@ -204,7 +203,7 @@ namespace Voussoir
           "[kg/m3], \"Mesh/Length unit\", \"Reservoir/Water level\" [m] and \"Reservoir/Density\", "
           "and \"Statics/Gravity\"" +
           std::string(dam.foundation->uses_rock() ? ", and \"Foundation/Young's modulus\" [Pa]" : "") +
-          "; voussoir SCENE.prm --validate shows what the scene holds.");
+          ". voussoir SCENE.prm --validate prints the properties of the dam.");
     }
   } // namespace
 

@@ -37,15 +37,15 @@ namespace Voussoir
         Row                row;
         if (!(std::istringstream(line) >> more) ||
             (number == 1 && std::isalpha(static_cast<unsigned char>(more[0]))))
-          continue; // empty, or the names of the columns
+          continue; // empty line or column names
         const std::string place =
             "Entry \"Loads/Temperature/Table\": " + file + ", line " + std::to_string(number);
         if (!(words >> row[0] >> row[1] >> row[2]) || words >> more)
           throw InputError(place + " is \"" + line +
-                           "\"; write three numbers, the day and the temperatures of the upstream and of the "
+                           "\". Write three numbers: the day, and the temperatures of the upstream and the "
                            "downstream face in degC.");
         if (!rows.empty() && !(row[0] > rows.back()[0]))
-          throw InputError(place + ": the days must ascend; this one follows " +
+          throw InputError(place + ": the days must ascend, but this one follows " +
                            std::to_string(rows.back()[0]) + ".");
         rows.push_back(row);
       }
@@ -91,7 +91,7 @@ namespace Voussoir
       if (!rows.empty())
         message << ", only those of " << rows.front()[0] << " to " << rows.back()[0];
       throw InputError(message.str() +
-                       ". Lengthen the table, or change \"Loads/Temperature/Day\" (or the day in "
+                       ". Extend the table, or change \"Loads/Temperature/Day\" (or the day in "
                        "\"Statics/Stages\").");
     }
     std::size_t k = 1;

@@ -67,7 +67,7 @@ namespace Voussoir
           edges.push_back({f, other});
   }
 
-  /** Water that is moved along pushes back with its mass times the acceleration, normal to the face. */
+  /** The pressure is the added mass times the acceleration normal to the face. */
   void Tractions::add_moving_water(const Unknowns &acceleration)
   {
     for (std::size_t f = 0; f < faces.size(); ++f)
@@ -96,7 +96,7 @@ namespace Voussoir
         for (unsigned int c = 0; c < 3; ++c)
           traction[f][c] = side * (frame[0][c] * t[0] + frame[1][c] * t[1] + frame[2][c] * t[2]);
       }
-    constexpr unsigned int n_passes = 6; // at corners two edges of a joint meet, nearly orthogonal
+    constexpr unsigned int n_passes = 6; // at corners two nearly orthogonal edges of a joint meet
     for (unsigned int i = 0; i < n_passes; ++i)
       for (const Edge &edge : edges)
         meet(edge);
@@ -106,8 +106,7 @@ namespace Voussoir
     return result;
   }
 
-  /** Shear stresses on an edge are equal: the joint's is made to fit that of the other face, t_1 n_2 = t_2
-   * n_1. */
+  /** Equal shear stresses at an edge, t_1 n_2 = t_2 n_1: changes the traction of the joint face. */
   void Tractions::meet(const Edge &edge)
   {
     const Vector3 &n = faces[edge.joint].normal, &m = faces[edge.other].normal;

@@ -9,9 +9,12 @@ namespace Voussoir
 {
   namespace
   {
-    /** Has a pair that slips slid through the step, with nothing struck and no turn of more than 60 degrees?
-     *  Struck: what it would take to stop its motion into or off its surfaces is more than a millionth of the
-     *  impulse of the step. @p jump, @p change: velocity at the end, displacement of the step. */
+    /** Returns true if a slipping pair has slid through the whole step without an impact and without a turn
+     * of more than 60 degrees. Impact: the impulse that stops the motion normal to the surfaces exceeds a
+     * millionth of the impulse of the step.
+     * @param jump velocity jump at the end of the step [m/s]
+     * @param spent impulse of the joint force in the step [N s]
+     * @param change change of the jump in the step [m] */
     bool slides_on(const JointLaw &law, const Matrix3 &H, const Vector3 &jump, const Vector3 &spent,
                    const Vector3 &change, const unsigned char touching)
     {
@@ -83,7 +86,7 @@ namespace Voussoir
   void Impact::correct_velocity(const JointSystem &system, const std::vector<PairPast> &pasts,
                                 const double dt, const Unknowns &change, Unknowns &v, Unknowns &impulse) const
   {
-    for_each_in_chunks(structure.pairs.size(), // no node is in two of them
+    for_each_in_chunks(structure.pairs.size(), // no node belongs to two pairs
                        [&](const std::size_t p)
                        { correct_pair(system, pasts[p], dt, p, change, v, impulse); });
   }
@@ -100,7 +103,7 @@ namespace Voussoir
     if (rule == ImpactRule::paper)
     {
       const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
-      const bool    face = system.touching()[p] & 1; // not of a pair that touches on a flank only
+      const bool    face = system.touching()[p] & 1; // not for a pair with flank contact only
       const Vector3 f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
       add_kick(pair, f, v);
       for (unsigned int c = 0; c < 3; ++c)
@@ -110,19 +113,21 @@ namespace Voussoir
     if (rule == ImpactRule::mean_force && system.states()[p] == PairState::slip &&
         slides_on(law, pair_inverse[p], jump, spent, get(change, p), system.touching()[p]))
     {
-      // The mean friction of the step is of second order; that of its end velocity would be of first.
+      // The mean friction of the step has an error of second order. Friction from the velocity at the end
+      // would have one of first order.
       const Vector3 kept = law.stop_normal(pair_inverse[p], jump, spent, system.touching()[p]);
       add_kick(pair, kept - spent, v);
       set(impulse, p, kept);
       return;
     }
-    // The velocity without any joint force of this step, then the impulse that the law allows.
+    // Velocity without the joint forces of this step, then the impulse that the law allows.
     const Vector3 lost = pair_inverse[p] * spent;
     Vector3       allowed = law.solve_impulse(pair_inverse[p], jump - lost, past, system.touching()[p]);
     if (rule == ImpactRule::mean_force && !law.is_tangentially_tied())
     {
-      // Where loads tear at a pair more than it strikes, returning the friction of the step could give more
-      // energy than the pair took: then only the normal row is corrected, which always takes energy.
+      // If loads tear at a pair more than the impact, the new friction impulse could supply more energy than
+      // the pair has dissipated. In this case only the normal row is corrected, which
+      // always dissipates energy.
       const Vector3 f = allowed - spent, gained = pair_inverse[p] * f;
       double        gain = 0., size = 0.;
       for (unsigned int c = 0; c < 3; ++c)

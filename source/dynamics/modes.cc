@@ -48,7 +48,7 @@ namespace Voussoir
     const unsigned int n = 3 * structure.n_nodes();
     if (2 * n_modes + 2 > n)
       throw InputError("The dam has only " + std::to_string(n) +
-                       " unknowns: fewer modes must be asked for (--count).");
+                       " unknowns. Reduce the number of modes (--count).");
     if (Ranks::size() > 1)
       return modes_of_ranks(structure, n_modes);
     JointSystem    system(structure, JointLaws(), ContactParameters(), 0., 1., 0.);
@@ -81,7 +81,8 @@ namespace Voussoir
     }
     catch (const ExceptionBase &)
     {
-      throw ComputationError("The natural frequencies did not converge: is the dam held by its base?");
+      throw ComputationError("The natural frequencies did not converge. Check that the base nodes of the dam "
+                             "lie on the surface \"base\".");
     }
     std::vector<NaturalMode> modes;
     for (unsigned int k = 0; k < n_modes; ++k)

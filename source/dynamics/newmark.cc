@@ -23,9 +23,11 @@ namespace Voussoir
         is_single(single_factors && !support), impact(structure, laws, rule)
   {
     if (laws.need_mean_force() && rule != ImpactRule::mean_force)
-      throw InputError("A joint law of this model needs the impact rule mean-force (Dynamics/Impact).");
+      throw InputError(
+          "A joint law of this model requires mean forces. Set \"Dynamics/Impact\" to mean-force.");
     if (support && rule != ImpactRule::mean_force)
-      throw InputError("Rock with steps of its own needs the impact rule mean-force (Dynamics/Impact).");
+      throw InputError(
+          "Massless rock and subcycled rock require mean forces. Set \"Dynamics/Impact\" to mean-force.");
     add_level({dt, support ? support->n_substeps() : 1, 0});
   }
 
@@ -108,15 +110,15 @@ namespace Voussoir
 
   double Newmark::energy_error() const
   {
-    // Before the motion has begun there is only the round-off of the static state.
+    // Before the motion begins, the balance has only the round-off of the static state.
     const double scale = std::max(largest, 1e-6 * std::abs(first.strain));
     return scale > 0. ? std::abs(now.energy.balance(first)) / scale : 0.;
   }
 
-  /** The sum of the equations of motion at both ends of the step, in which accelerations cancel:
-   *  S u_new = load + load_old + M (4/dt^2 u + 4/dt v) + 2/dt C u - K u + G^T (force + force_old), and the
-   *  damping's part of the moving base. With factors in single precision for u_new - u: less S u, and with
-   * what the step before left over. */
+  /** Returns the right-hand side of a step: the sum of the equations of motion at both ends, in which the
+   * accelerations cancel. S u_new = load + load_old + M (4/dt^2 u + 4/dt v) + 2/dt C u - K u
+   * + G^T (force + force_old), plus the damping by the motion of the base. With factors in single precision
+   * the unknown is u_new - u. S u is then subtracted, and the residual of the last step is added. */
   Unknowns Newmark::right_hand_side(const double dt, const Unknowns &load, const Vector3 &base_velocity) const
   {
     Unknowns     rhs(load.size());
@@ -140,7 +142,7 @@ namespace Voussoir
           rhs[k] += 2. / dt * structure.dashpots[k] * now.u[k];
       }
     }
-    if (rule != ImpactRule::mean_force) // there the unknown is the sum of the forces
+    if (rule != ImpactRule::mean_force) // for mean_force the unknown is the sum of the forces
       add_joint_forces(now.force, rhs);
     return rhs;
   }
@@ -151,7 +153,7 @@ namespace Voussoir
     return advance(Part{levels[0]->dt, levels[0]->n_substeps, 0}, load, base_velocity);
   }
 
-  /** One step; false when the joints do not converge: then nothing has changed. */
+  /** Tries one step. Returns false, with the state unchanged, if the joints do not converge. */
   bool Newmark::step(Level &level, const Unknowns &load, const Vector3 &base_velocity, ContactResult &result)
   {
     const double dt = level.dt;
@@ -160,12 +162,12 @@ namespace Voussoir
     result = solve(level, load, base_velocity, force, u_new, left, feet);
     if (!result.converged)
       return false;
-    const double half_dt = .5 * dt; // the impulse of each pair, from the mean of its force over the step
+    const double half_dt = .5 * dt; // impulse of each pair, from the mean force of the step
     for (std::size_t k = 0; k < force.size(); ++k)
       impulse[k] = half_dt * (rule == ImpactRule::mean_force ? force[k] : now.force[k] + force[k]);
 
     Work     work;
-    Unknowns change; // of the jumps
+    Unknowns change; // change of the jumps
     add_work_of_joints(dt, u_new, change, work);
     if (support)
       work.input += push_support(level, feet, u_new);
@@ -188,7 +190,7 @@ namespace Voussoir
     return true;
   }
 
-  /** Is the next step, with these @p forces, nearer to the last one than to none? */
+  /** Returns true if the right-hand side @p forces is closer to that of the last increment than to zero. */
   bool Newmark::continues(const double dt, const Unknowns &forces) const
   {
     if (now.carried.dt != dt)
@@ -209,13 +211,13 @@ namespace Voussoir
       structure.add_pair_force(structure.pairs[p], get(force, p), nodal_force);
   }
 
-  /** With factors in single precision: finds the displacement as an increment to that of the step before, or
-   * to none. @p left: the right-hand side, then with the joint forces. */
+  /** Variant for factors in single precision: the unknown is an increment to the displacement of the last
+   * step, or to zero. @p left: right-hand side, to which the joint forces are added. */
   ContactResult Newmark::solve_for_increment(Level &level, const Unknowns &start, Unknowns &memory,
                                              Unknowns &force, Unknowns &u_new, Unknowns &left)
   {
     Unknowns expected = left;
-    add_joint_forces(force, expected); // as they were
+    add_joint_forces(force, expected); // joint forces of the last step
     const bool goes_on = continues(level.dt, expected);
     Unknowns   reduced = left, offset = start;
     if (goes_on)
@@ -236,9 +238,9 @@ namespace Voussoir
     return result;
   }
 
-  /** Displacements and joint forces at the end of a step; the memory of the laws, once they have converged.
-   * @p left: with factors in single precision, the forces of the equations of motion without S (u_new - u).
-   */
+  /** Solves for displacements and joint forces at the end of a step. Stores the history variables of the laws
+   * if the joints converge. @p left: forces of the equation of motion without S (u_new - u), for factors in
+   * single precision. */
   ContactResult Newmark::solve(Level &level, const Unknowns &load, const Vector3 &base_velocity,
                                Unknowns &force, Unknowns &u_new, Unknowns &left, FeetOfStep &feet)
   {
@@ -271,8 +273,9 @@ namespace Voussoir
     return result;
   }
 
-  /** Work of the joint forces; @p change: of the jumps, 3 per pair [m]. All works of a step are exact, since
-   * all forces enter by their means and u_new - u = dt/2 (v + v_new). */
+  /** Adds the work of the joint forces. @p change: receives the change of the jumps, three values per pair
+   * [m]. All works of a step are exact, because forces enter by their means and u_new - u = dt/2
+   * (v + v_new). */
   void Newmark::add_work_of_joints(const double dt, const Unknowns &u_new, Unknowns &change, Work &work) const
   {
     double &opening = work.opening, &friction = work.friction;
@@ -291,8 +294,8 @@ namespace Voussoir
     opening -= of_friction;
   }
 
-  /** The state at the end of the step, but for joint forces and impacts; the work of loads and damping;
-   * @p left: of solve(). */
+  /** Sets displacement, velocity, load and time at the end of the step, without joint forces and velocity
+   * correction. Computes the work of loads and damping. @p left: see solve(). */
   void Newmark::move(const double dt, const Unknowns &load, const Vector3 &base_velocity,
                      const Unknowns &u_new, const Unknowns &left, Work &work)
   {
@@ -301,7 +304,7 @@ namespace Voussoir
     Unknowns Ku;
     structure.multiply_stiffness(u_new, Ku);
     double  input = 0., damping = 0.;
-    Vector3 base; // its mean velocity
+    Vector3 base; // mean velocity of the base
     for (unsigned int c = 0; c < 3; ++c)
       base[c] = .5 * (now.base_velocity[c] + base_velocity[c]);
     for (unsigned int i = 0; i < structure.n_nodes(); ++i)
@@ -348,8 +351,8 @@ namespace Voussoir
     now.time += dt;
   }
 
-  /** Books the work of a step, whose impacts took the pairs' kinetic energy from @p kinetic_before to what it
-   * is now [J]. */
+  /** Adds the work of a step to the energies. The velocity correction has changed the kinetic energy of the
+   * pairs from @p kinetic_before to its current value [J]. */
   void Newmark::account(const Work &work, const double kinetic_before)
   {
     now.energy.input += work.input;
@@ -375,7 +378,7 @@ namespace Voussoir
     return sum;
   }
 
-  /** load - C v - K u: what would move the nodes at the end of the step if there were no joints [N]. */
+  /** Returns load - C v - K u at the end of the step: the nodal forces without joint forces [N]. */
   Unknowns Newmark::force_without_joints() const
   {
     Unknowns Kv, result(now.u.size());

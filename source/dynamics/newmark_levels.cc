@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// Whole steps and parts of them, and a support that makes steps of its own.
+// Full and reduced time steps of Newmark, and its subcycled or massless support.
 
 #include <voussoir/base/error.h>
 #include <voussoir/dynamics/newmark.h>
@@ -13,13 +12,13 @@ namespace Voussoir
     const double      dt = part.dt;
     ContactParameters of_level = parameters;
     of_level.write_problems = parameters.write_problems && levels.empty();
-    // Of the rule mean-force: the sum of the forces at both ends.
+    // Rule mean-force: the unknown is the sum of the forces at both ends.
     const ForceMeaning    meaning = rule == ImpactRule::mean_force ? ForceMeaning{2., true} : ForceMeaning();
     FootElimination::Feet feet;
     if (support)
     {
       feet = {support->feet(), support->compliance(part.n_substeps)};
-      for (Matrix3 &block : feet.compliance.value) // for the sum of the forces at both ends
+      for (Matrix3 &block : feet.compliance.value) // compliance for the sum of the forces at both ends
         for (double &x : block)
           x *= .5;
     }
@@ -30,7 +29,7 @@ namespace Voussoir
                               support ? &feet : nullptr, is_single)});
   }
 
-  /** Its number; made when there is none yet. */
+  /** Returns the index in levels for the step size of @p part. Adds the level if it is missing. */
   unsigned int Newmark::level_of(const Part &part)
   {
     for (unsigned int i = 0; support && i < levels.size(); ++i)
@@ -59,11 +58,12 @@ namespace Voussoir
     if (part.halvings == most || (support && part.n_substeps == 1))
     {
       std::ostringstream message;
-      message
-          << "The joint conditions did not converge at t = " << now.time + dt << " s, not with time steps of "
-          << dt << " s either: relative residual " << failed.residual << " after " << failed.iterations
-          << " Newton steps and " << failed.sweeps
-          << " Gauss-Seidel iterations. See entries \"Motion/Time step\" and \"Contact/Maximum iterations\".";
+      message << "The contact solver did not converge at t = " << now.time + dt
+              << " s, even with a time step of " << dt << " s. The residual is " << failed.residual
+              << " of the joint forces and " << failed.residual_over_load << " of the load, after "
+              << failed.iterations << " Newton steps and " << failed.sweeps
+              << " Gauss-Seidel iterations. Increase \"Dynamics/Steps per sample\" or \"Contact/Maximum "
+                 "iterations\".";
       throw ComputationError(message.str());
     }
     const unsigned int n = part.n_substeps, n_first = n / 2;
@@ -74,7 +74,7 @@ namespace Voussoir
     Vector3 middle_base;
     for (unsigned int c = 0; c < 3; ++c)
       middle_base[c] = share * base_velocity[c] + (1. - share) * now.base_velocity[c];
-    const double   end = now.time + dt; // free of the round-off of halves
+    const double   end = now.time + dt; // without the round-off of the parts
     ContactResult  result = advance({share * dt, n_first, part.halvings + 1}, middle, middle_base);
     const Unknowns first_half = impulse;
     result += advance({(1. - share) * dt, n - n_first, part.halvings + 1}, load, base_velocity);
@@ -95,8 +95,8 @@ namespace Voussoir
     return result;
   }
 
-  /** The support makes its steps, with the mean force of the step. Returns the work of that on the dam [J].
-   */
+  /** Advances the support under the mean base force of the step. Returns the work of this force on
+   * the dam [J]. */
   double Newmark::push_support(const Level &level, FeetOfStep &feet, const Unknowns &u_new)
   {
     const Unknowns before = at_feet(now.u), after = at_feet(u_new);

@@ -17,7 +17,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** MPI for this process alone: Trilinos' ML does not work without. */
+    /** MPI for this process only, as Trilinos' ML requires MPI. Finalised at the end of the program. */
     class LoneProcess
     {
     public:
@@ -28,7 +28,7 @@ namespace Voussoir
         if (there != 0)
           return;
         std::vector<const char *> names;
-        // Open MPI need not look for networks, which takes longer than many a static state.
+        // Open MPI must not search for networks, which may take longer than the static solution.
         for (const auto &[name, value] : {std::make_pair("OMPI_MCA_pml", "ob1"),
                                           {"OMPI_MCA_btl", "self"},
                                           {"OMPI_MCA_osc", "^ucx"},
@@ -39,7 +39,7 @@ namespace Voussoir
             names.push_back(name);
           }
         MPI_Init(nullptr, nullptr);
-        for (const char *name : names) // programs that are started later know nothing of this
+        for (const char *name : names) // not for child processes
           unsetenv(name);
         started = true;
       }
@@ -56,11 +56,11 @@ namespace Voussoir
       bool started = false;
     };
 
-    /** The stiffness of the aggregates, as ML wants to see it: the blocks are not copied. */
+    /** Stiffness matrix of the aggregates with the interface of ML, without a copy of the blocks. */
     class BlockRows : public Epetra_BasicRowMatrix
     {
     public:
-      /** @p given: by rows, in whatever order the rows are. */
+      /** @p given: blocks, contiguous for each row, with the rows in any order. */
       BlockRows(std::vector<CoarseBlock> &&given, const unsigned int n_aggregates)
           : Epetra_BasicRowMatrix(Epetra_MpiComm(MPI_COMM_SELF)), blocks(std::move(given)),
             row(n_aggregates, {0, 0})
@@ -76,7 +76,7 @@ namespace Voussoir
           for (unsigned int k = 0; k < 6 && blocks[b].row == blocks[b].column; ++k)
             largest = std::max(largest, blocks[b].value[7 * k]);
         }
-        constexpr float trace = 1e-6f; // for motions that an aggregate has not: rotations of one or two nodes
+        constexpr float trace = 1e-6f; // for zero rotations of aggregates with one or two nodes
         for (CoarseBlock &block : blocks)
           for (unsigned int k = 0; k < 6 && block.row == block.column; ++k)
             block.value[7 * k] += trace * largest;
@@ -112,7 +112,7 @@ namespace Voussoir
 
       int Multiply(const bool transposed, const Epetra_MultiVector &x, Epetra_MultiVector &y) const override
       {
-        AssertThrow(!transposed, dealii::ExcNotImplemented()); // it is symmetric
+        AssertThrow(!transposed, dealii::ExcNotImplemented()); // symmetric matrix
         for (int v = 0; v < x.NumVectors(); ++v)
 #pragma omp parallel for schedule(static)
           for (std::size_t a = 0; a < row.size(); ++a)
@@ -135,7 +135,7 @@ namespace Voussoir
         return 0;
       }
 
-      /** Views of single entries would be of numbers in double precision. @{ */
+      /** Not implemented: views require double precision. @{ */
       int ExtractMyEntryView(int, double *&, int &, int &) override
       {
         return no_view();
@@ -154,10 +154,10 @@ namespace Voussoir
       }
 
       std::vector<CoarseBlock>                         blocks;
-      std::vector<std::pair<std::size_t, std::size_t>> row; ///< its blocks: first, and behind the last
+      std::vector<std::pair<std::size_t, std::size_t>> row; ///< first block, and end
     };
 
-    /** Those that deal.II gives to ML for elliptic equations, and the @p modes. */
+    /** Returns the parameters that deal.II sets for elliptic equations, with the rigid body @p modes. */
     Teuchos::ParameterList level_parameters(std::vector<double> &modes)
     {
       Teuchos::ParameterList parameters;
@@ -193,7 +193,7 @@ namespace Voussoir
   {
     static LoneProcess mpi;
     multigrid = std::make_unique<Multigrid>(std::move(stiffness), aggregates.n());
-    std::vector<double> modes; // deal.II's own take ones and zeros only
+    std::vector<double> modes; // those of deal.II have the values 0 and 1 only
     for (unsigned int mode = 0; mode < 6; ++mode)
       for (const RigidMotion &motion : aggregates.rigid(mode))
         modes.insert(modes.end(), motion.begin(), motion.end());
@@ -203,8 +203,9 @@ namespace Voussoir
     }
     catch (const dealii::ExceptionBase &)
     {
-      throw ComputationError("The multigrid levels for the static state of the rock cannot be made: its "
-                             "elements may be badly shaped (see voussoir mesh).");
+      throw ComputationError(
+          "The multigrid levels for the static solution of the rock cannot be created. Its "
+          "elements may be distorted. Check the mesh with voussoir mesh.");
     }
   }
 

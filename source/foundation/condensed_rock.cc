@@ -12,7 +12,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** The rock alone, one body, its artificial boundary as the fixed base. */
+    /** Returns the mesh of the rock as one body, with its artificial boundary as fixed base. */
     HexMesh rock_only(const HexMesh &mesh)
     {
       HexMesh result = mesh;
@@ -30,11 +30,11 @@ namespace Voussoir
           face.surface = PhysicalId::base;
           result.faces.push_back(face);
         }
-      normalize(result); // drops the dam's nodes
+      normalize(result); // removes the nodes of the dam
       return result;
     }
 
-    /** The dense matrix @p S, by row or column, in blocks. */
+    /** Returns the symmetric part of the dense matrix @p S in blocks. */
     BlockSparseMatrix in_blocks(const std::vector<double> &S, const unsigned int n)
     {
       std::vector<unsigned int> all(n);
@@ -50,7 +50,7 @@ namespace Voussoir
       return result;
     }
 
-    /** The rock's stiffness, its feet as interface, condensed. */
+    /** Returns the stiffness matrix of the rock, condensed to the base nodes. */
     std::vector<double> condensed_stiffness(Structure &ground, const std::vector<Foot> &feet,
                                             const std::string &source)
     {
@@ -66,10 +66,10 @@ namespace Voussoir
       }
       catch (const ComputationError &)
       {
-        throw ComputationError(source +
-                               ": the stiffness of the rock cannot be factorised: its artificial "
-                               "boundary does not hold all of it, its elements are badly shaped, or it is "
-                               "too large for this method.");
+        throw ComputationError(
+            source + ": the stiffness matrix of the rock cannot be factorised. Either a part of the rock "
+                     "is not connected to the artificial boundary, or elements are distorted, or "
+                     "the rock is too large for this method. Check the mesh with voussoir mesh.");
       }
     }
   } // namespace
@@ -81,7 +81,8 @@ namespace Voussoir
     std::vector<std::array<double, 3>> points(rock.first_equation.back());
     if (points.size() == rock.n_nodes())
       throw InputError(source + ": no face of the rock lies on the artificial boundary (surface " +
-                       std::to_string(PhysicalId::artificial) + "), which holds massless rock.");
+                       std::to_string(PhysicalId::artificial) +
+                       "). Massless rock is fixed there. Add the surface to the mesh.");
     for (unsigned int i = 0; i < rock.n_nodes(); ++i)
       if (rock.equation[i] != rigid_ground)
         points[rock.equation[i]] = {{rock.points[i][0], rock.points[i][1], rock.points[i][2]}};
@@ -120,8 +121,8 @@ namespace Voussoir
     catch (const dealii::ExceptionBase &)
     {
       throw ComputationError(
-          "The compliance of the massless rock cannot be found: its condensed stiffness is "
-          "not positive definite. Look at the elements of the rock below the dam.");
+          "The compliance of the massless rock cannot be computed, because its condensed stiffness is "
+          "not positive definite. Check the rock elements below the dam.");
     }
     std::vector<double> C(std::size_t(n()) * n());
     for (unsigned int i = 0; i < n(); ++i)

@@ -20,7 +20,7 @@ namespace Voussoir
     result.rock.materials = p.materials_by_volume();
     result.rock.nodal_everywhere = p.nodal_everywhere;
     result.rock.nodal_layers = p.nodal_layers;
-    if (p.nodal_everywhere) // but at the dam: the boundary has what it needs
+    if (p.nodal_everywhere) // the boundary requires layers without "Layers at the dam"
       result.rock.nodal_layers = std::max(p.nodal_layers, make_boundary(p.boundary)->n_layers());
     result.rock.layers_at_dam = p.layers_at_dam;
     result.rock.centre = centre;
@@ -34,8 +34,9 @@ namespace Voussoir
 
   namespace
   {
-    /** Work of a step at each node, over that at a node whose force comes from cells; at @p near_feet one
-     * looks ahead, too. */
+    /** Returns the CPU time of a time step at each node, relative to a node with nodal quadrature only. The
+     * nodes
+     * @p near_feet are also needed for RockPatch. */
     std::vector<double> work_of_nodes(const RockModel &model, const std::vector<unsigned int> &near_feet)
     {
       constexpr double    of_row = 2.5, of_look_ahead = 1.5; // measured, see doc/parallel.md
@@ -54,7 +55,8 @@ namespace Voussoir
         source(site.source), incompatible_modes(site.incompatible_modes)
   {
     if (site.degree != 1)
-      throw InputError("Foundation/Model = rock needs Elements/Degree = 1: dam and rock share their nodes.");
+      throw InputError(
+          "Foundation/Model = rock needs Elements/Degree = 1, because dam and rock share their nodes.");
   }
 
   void ExplicitRock::add_stiffness(const SolidModel &dam, Structure &)
@@ -78,7 +80,7 @@ namespace Voussoir
     RockParameters rock = region_parameters(parameters, centre, 0.).rock;
     rock.incompatible_modes = incompatible_modes;
     model = make_rock_part(mesh, rock, find, parameters.substeps);
-    mesh = HexMesh(); // the model has all of it
+    mesh = HexMesh(); // no longer needed
     give_back_memory();
     RayleighDamping damping;
     damping.mass = parameters.mass_damping;
@@ -106,7 +108,7 @@ namespace Voussoir
     for (const Foot &f : foot)
       for (unsigned int c = 0; c < 3; ++c)
       {
-        double bound = 0.; // Gershgorin's
+        double bound = 0.; // Gershgorin bound
         for (std::size_t k = K.start[f.rock]; k < K.start[f.rock + 1]; ++k)
           for (unsigned int d = 0; is_foot[K.column[k]] && d < 3; ++d)
             bound += std::abs(K.value[k][3 * c + d]);
@@ -126,8 +128,8 @@ namespace Voussoir
     return travel_times(model, lowest);
   }
 
-  /** The region, at rest; the earthquake comes @p delay late [s]. P waves wait for the slower S waves: the
-   * outcrop's components are to be at the dam's lowest foot together, whatever the depth of the rock. */
+  /** P waves enter later than the slower S waves, so that all components of the ground motion arrive at the
+   * lowest base node at the same time. */
   void ExplicitRock::make_rock(const GroundMotion &outcrop, const TimeGrid &steps, const double delay,
                                const std::vector<unsigned int> &near_feet)
   {
@@ -154,7 +156,7 @@ namespace Voussoir
       const Vector3 s = wave(t - delay), p = wave(t - wait);
       return Vector3{{s[0], s[1], p[2]}};
     };
-    if (grid.n > 0) // else without an earthquake
+    if (grid.n > 0) // 0: no earthquake
       shake(*region, model, p, rising, grid.n_substeps() + 2);
     region->keep_energy();
   }
@@ -163,7 +165,7 @@ namespace Voussoir
   {
     make_rock(outcrop, steps, 0.);
     if (grid.substeps == 1)
-      model.stiffness = BlockSparseMatrix(); // its memory: the region has what it needs
+      model.stiffness = BlockSparseMatrix(); // frees memory; not used by the region
     region->set_prescribed(feet_of_rock());
     const std::size_t n = 3 * foot.size();
     rest.assign(n, 0.);
@@ -206,7 +208,7 @@ namespace Voussoir
     for (std::size_t i = 0; i < foot.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
       {
-        // The damping of the rock's mass at the base is the dam's.
+        // The dam applies the mass-proportional damping of the rock mass at the base.
         const std::size_t k = 3 * i + c;
         force[k] = parameters.mass_damping * model.mass[foot[i].rock] * v_predicted[k] - (*taken)[k];
         for (const unsigned int node : foot[i].nodes)
@@ -249,11 +251,11 @@ namespace Voussoir
   void ExplicitRock::keep_account(const double time)
   {
     region->gather_energy();
-    constexpr unsigned int interval = 10; // of the steps at which somebody looks, see StabilityWatch
+    constexpr unsigned int interval = 10; // number of steps between two checks of StabilityWatch
     const auto             step = static_cast<unsigned int>(std::lround(time / grid.dt));
     if (region->is_split() && bounds.velocity > 0. && (step % interval == 0 || step == grid.n))
       if (Ranks::any(region->exceeds(bounds.velocity, bounds.displacement)))
-        region->gather_motion(); // for the first rank to see and say
+        region->gather_motion(); // the first rank reports
     const RegionEnergy e = energy();
     account[1] = std::max({account[1], e.kinetic + e.strain, e.damping, std::abs(e.prescribed + e.external),
                            std::abs(e.transmitted)});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the log, the summary and the table of energies say of the rock.
+// Rock in the log, in summary.json and in energy.csv.
 
 #include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/rock/boundary_table.h>
@@ -15,7 +15,7 @@ namespace Voussoir
     log.line("          %u nodes; boundary %s, free field by %s", n_nodes(), parameters.boundary.c_str(),
              parameters.free_field.c_str());
     if (steps.n > 0)
-      log.line("          the earthquake is at the dam's foot after %.3f s", arrival()[0]);
+      log.line("          the earthquake arrives at the lowest base node after %.3f s", arrival()[0]);
     const std::string warning =
         make_boundary(parameters.boundary)->warning(region_parameters(parameters, {}, steps.substep()));
     if (!warning.empty())
@@ -27,24 +27,25 @@ namespace Voussoir
   {
     if (nodal_layers != parameters.nodal_layers)
       log.line("          %u layers of nodal quadrature at the artificial boundary, not the %u of "
-               "\"Foundation/Nodal layers\": the boundary %s needs as many",
+               "\"Foundation/Nodal layers\", because the boundary %s requires them",
                nodal_layers, parameters.nodal_layers, parameters.boundary.c_str());
     if (parameters.layers_at_dam == 0)
       return;
     const unsigned int n = model.n_cells_at_dam, n_nodal = model.n_nodal_at_dam;
-    log.line("          %u elements about the dam's base are as the dam's", n - n_nodal);
+    log.line("          %u elements at the dam's base are as the dam's", n - n_nodal);
     if (n == 0)
-      log.line(
-          "warning: no element of the rock has a face in the surface \"base\", so \"Foundation/Layers at the "
-          "dam\" finds none: the rock is too stiff under the dam (doc/accuracy.md)");
+      log.line("warning: \"Foundation/Layers at the dam\" has no effect, because no rock element has a face "
+               "on the surface \"base\". The rock at the dam is too stiff (doc/accuracy.md). Add these faces "
+               "to the surface.");
     else if (n_nodal > 0)
-      log.line("warning: %u of %u elements of rock in \"Foundation/Layers at the dam\" lie in the layers of "
-               "nodal quadrature that keep the artificial boundary stable, so the rock there is too stiff "
-               "(doc/accuracy.md)%s: make the rock larger, its elements smaller, or the layers fewer",
-               n_nodal, n,
-               make_boundary(parameters.boundary)->n_layers() > 0
-                   ? ", and in large rock a transmitting boundary of order 3 or 4 may grow without bound"
-                   : "");
+      log.line(
+          "warning: %u of %u elements of rock in \"Foundation/Layers at the dam\" have the nodal quadrature "
+          "of the artificial boundary, so the rock there is too stiff (doc/accuracy.md)%s. Make the rock "
+          "larger or its elements smaller, or reduce the layers at the dam",
+          n_nodal, n,
+          make_boundary(parameters.boundary)->n_layers() > 0
+              ? ", and in large rock a transmitting boundary of order 3 or 4 may be unstable"
+              : "");
   }
 
   std::string ExplicitRock::about_steps() const

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The static state of dam and rock.
+// Static state of dam and rock.
 
 #include <voussoir/base/error.h>
 #include <voussoir/foundation/explicit_rock.h>
@@ -12,7 +12,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** x += f - sum of g (dx + df), the coefficients g those that make f - sum of g df smallest. */
+    /** Anderson acceleration: x += f - sum of g (dx + df). The coefficients g minimise |f - sum of g df|. */
     void accelerate(std::vector<Unknowns> df, std::vector<Unknowns> dx, Unknowns f, Unknowns &x)
     {
       const auto dot_product = [](const Unknowns &a, const Unknowns &b)
@@ -22,7 +22,7 @@ namespace Voussoir
           sum += a[k] * b[k];
         return sum;
       };
-      for (std::size_t j = df.size(); j-- > 0;) // the newest first: Gram-Schmidt
+      for (std::size_t j = df.size(); j-- > 0;) // Gram-Schmidt, newest first
       {
         const double before = dot_product(df[j], df[j]);
         for (std::size_t i = df.size(); i-- > j + 1;)
@@ -52,7 +52,7 @@ namespace Voussoir
         x[k] += f[k];
     }
 
-    /** The newest differences of residuals @p f and bases @p x, for accelerate(). */
+    /** Last differences of the residuals f and the base displacements x, for accelerate(). */
     struct Differences
     {
       std::vector<Unknowns> df, dx;
@@ -112,8 +112,8 @@ namespace Voussoir
         for (const unsigned int node : face.nodes)
           held[node] = true;
       statics = std::make_unique<RockStatics>(model, held);
-      log.line("Rock      static state of %u unknowns; multigrid set up in %.1f s", statics->n_unknowns(),
-               statics->seconds_setup());
+      log.line("Rock      static solution with %u unknowns; multigrid set up in %.1f s",
+               statics->n_unknowns(), statics->seconds_setup());
     }
     Unknowns b(3 * std::size_t(n_nodes()), 0.), u;
     for (const Foot &f : foot)
@@ -156,9 +156,9 @@ namespace Voussoir
     return slack;
   }
 
-  /** The rock gives way under the forces of the dam, the dam follows through stiff springs with the force
-   * that they carried before, so that they are without force in the end. Anderson's acceleration of the
-   * displacements of the base (Walker and Ni 2011). */
+  /** Fixed-point iteration for the displacements of the base, with Anderson acceleration (Walker and Ni
+   * 2011). The dam is solved on stiff springs and the forces of the previous iteration. The rock is solved
+   * under the resulting base forces. At convergence the springs are free of force. */
   ContactResult ExplicitRock::settle(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
                                      Unknowns &load, Log &log)
   {
@@ -178,7 +178,7 @@ namespace Voussoir
         break;
       const double slack = add_slack(springs, u, base, r);
       Unknowns     f;
-      const auto   give_way = [&](const double part) // relative error then
+      const auto   give_way = [&](const double part) // returns the relative error
       {
         solve_rock(r, part, settled, log);
         f = settled;
@@ -191,7 +191,7 @@ namespace Voussoir
         }
         return most / size;
       };
-      error = give_way(.01); // the rounds go on anyway
+      error = give_way(.01); // sufficient for an intermediate iteration
       if (error <= enough)
         error = give_way(0.);
       differences.add(f, base);
@@ -201,12 +201,12 @@ namespace Voussoir
     {
       std::ostringstream message;
       message << "The static state of dam and rock did not converge: relative error " << error << " after "
-              << round << " rounds.";
+              << round << " iterations. Check the materials and the elements of the rock.";
       throw ComputationError(message.str());
     }
     for (std::size_t k = 0; k < r.size(); ++k)
       load[k] -= r[k];
-    log.line("Rock      static state of dam and rock after %u rounds", round);
+    log.line("Rock      static state of dam and rock after %u iterations", round);
     return total;
   }
 } // namespace Voussoir

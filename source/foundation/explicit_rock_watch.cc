@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What no earthquake does to the rock: see StabilityWatch.
+// Detection of an unstable rock: see StabilityWatch.
 
 #include <voussoir/base/excess.h>
 #include <voussoir/base/tensor3.h>
@@ -15,10 +15,10 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double energy_factor = 3.;
+    constexpr double energy_factor = 3.; ///< margin of the energy bound [-]
 
-    /** Energy of the rising wave through the bottom of the rock [J]: incident velocity is half the outcrop's.
-     */
+    /** Returns the energy of the incident wave at the bottom of the rock [J]. Its velocity is half of that at
+     * the outcrop. */
     double incident_energy(const RockModel &rock, const GroundMotion &motion)
     {
       double                energy = 0.;
@@ -27,7 +27,7 @@ namespace Voussoir
         for (unsigned int c = 0; c < 3; ++c)
         {
           const double v = integrals.velocity[k][c];
-          double       impedance = 0.; // times area
+          double       impedance = 0.; // integral over the bottom [N s/m]
           for (const BoundaryFace &face : rock.faces)
             if (face.normal[2] < -.5)
               impedance += face.material.density * face.area *
@@ -51,12 +51,13 @@ namespace Voussoir
     std::ostringstream text;
     text.precision(3);
     if (region->artificial_boundary()->absorbs() && !(-rock.transmitted <= energy_bound))
-      text << "the artificial boundary " << parameters.boundary << " has let " << -rock.transmitted
-           << " J into the rock, more than " << energy_bound << " J, " << energy_factor
-           << " times what the earthquake and the static state hold: the boundary pumps.";
+      text << "the artificial boundary " << parameters.boundary << " has supplied " << -rock.transmitted
+           << " J to the rock. The limit is " << energy_bound << " J, " << energy_factor
+           << " times the energy of the earthquake and the static state.";
     else if (!(std::abs(coupling) <= energy_bound))
-      text << "the coupling of dam and rock has made " << coupling << " J, more than " << energy_bound
-           << " J, " << energy_factor << " times what the earthquake and the static state hold.";
+      text << "the energy error of the coupling of dam and rock is " << coupling << " J. The limit is "
+           << energy_bound << " J, " << energy_factor
+           << " times the energy of the earthquake and the static state.";
     return text.str();
   }
 
@@ -66,9 +67,9 @@ namespace Voussoir
     std::ostringstream text;
     std::size_t        i = find_excess(w, bounds.velocity);
     if (i < w.size())
-      text << "the rock moves at " << w[i] << " m/s, more than " << bounds.velocity << " m/s,";
+      text << "the velocity of the rock is " << w[i] << " m/s (limit " << bounds.velocity << " m/s)";
     else if (i = find_excess(u, bounds.displacement); i < u.size())
-      text << "the rock has moved by " << u[i] << " m, more than " << bounds.displacement << " m,";
+      text << "the displacement of the rock is " << u[i] << " m (limit " << bounds.displacement << " m)";
     else
       return "";
     const auto &p = model.points[i / 3];
@@ -80,9 +81,9 @@ namespace Voussoir
         distance = std::min(distance, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
       }
     text << " in "
-         << "xyz"[i % 3] << " at its node " << place({{p[0], p[1], p[2]}}) << ", " << distance
+         << "xyz"[i % 3] << " at the node " << place({{p[0], p[1], p[2]}}) << ", " << distance
          << " m from the artificial boundary " << parameters.boundary
-         << ": more than an earthquake of this size can do.";
+         << ". This exceeds the limit for this ground motion.";
     return text.str();
   }
 
@@ -92,10 +93,10 @@ namespace Voussoir
     std::ostringstream          text;
     text.precision(3);
     const double rock_dt = region->time_step();
-    text << "Results after that, and some time before, are worthless. Try \"Foundation/Boundary\" = ";
+    text << "Do not use the results after this time, or shortly before it. Try \"Foundation/Boundary\" = ";
     text << other_boundaries(p.boundary);
     if (p.stiffness_damping < .02 * rock_dt)
-      text << ", a \"Foundation/Stiffness damping\" of " << .02 * rock_dt << " s (0.02 of the rock's step)";
+      text << ", a \"Foundation/Stiffness damping\" of " << .02 * rock_dt << " s (0.02 rock time steps)";
     if (!p.nodal_everywhere)
       text << ", \"Foundation/Nodal quadrature everywhere\" = true";
     if (p.layers_at_dam > 0)

@@ -11,7 +11,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** Largest distance of a node of the base from its node of rock, of the size of the base. */
+    /** Largest distance of a base node of the dam from its rock node, relative to the base's size [-]. */
     constexpr double coincidence = 1e-6;
 
     double size_of(const std::vector<std::array<double, 3>> &points)
@@ -47,8 +47,8 @@ namespace Voussoir
       else
         ++n_lost;
     if (n_lost > 0)
-      throw InputError(source + ": the dam's base and the rock must share their nodes; " +
-                       std::to_string(n_lost) + " nodes of the base are not in the rock.");
+      throw InputError(source + ": the dam's base and the rock must share their nodes, but " +
+                       std::to_string(n_lost) + " nodes of the base are not in the rock. Correct the mesh.");
     std::vector<Foot> feet;
     for (const auto &foot : on_rock)
       feet.push_back({foot.first, {foot.second.begin(), foot.second.end()}});

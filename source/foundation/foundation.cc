@@ -10,56 +10,72 @@ namespace Voussoir
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Foundation");
-    prm.add_parameter("Model", model, "What the dam stands on. " + foundation_docs() + ".",
+    prm.add_parameter("Model", model, "Foundation of the dam. " + foundation_docs() + ".",
                       Selection(foundation_names()));
-    prm.add_parameter("Young's modulus", rock.young, "Modulus of elasticity of the rock [Pa].", {5e8, 1.2e11},
-                      Double(1.));
-    prm.add_parameter("Poisson's ratio", rock.poisson, "Poisson's ratio of the rock [-].", {.1, .4, true},
-                      Double(0., largest_poisson));
-    prm.add_parameter("Density", rock.density, "Density of the rock [kg/m^3].", {1800., 3300.}, Double(1e-3));
-    prm.add_parameter("Zones", zones,
-                      "Materials of zones of the rock, as \"NAME: E nu rho, NAME: E nu rho\", modulus of "
-                      "elasticity, Poisson's ratio and density, in Pa and kg/m^3 or with units; NAME is that "
-                      "of the volumes \"rock NAME\" of the mesh.",
-                      Map(Anything(), Anything()));
-    prm.add_parameter("Mass damping", mass_damping, "Rayleigh damping of the rock: factor of the mass [1/s].",
-                      {0., 10.}, Double(0., 1e3));
-    prm.add_parameter(
-        "Stiffness damping", stiffness_damping,
-        "Rayleigh damping of the rock: factor of the stiffness [s]. It lowers the critical time step.",
-        {0., .01}, Double(0., 1.));
-    prm.add_parameter("Boundary", boundary, "Artificial boundary: " + boundary_help() + ".",
+    add_materials(prm);
+    prm.add_parameter("Boundary", boundary,
+                      "Artificial boundary at the edge of the rock mesh. " + boundary_help() + ".",
                       Selection(boundary_names("|")));
     prm.add_parameter(
         "Free field", free_field,
-        "Motion without the dam at the artificial boundary: sections (slices of the mesh where it cuts "
-        "the valley) or columns (layers, with the local height of the ground).",
+        "Free-field motion at the artificial boundary. sections: two-dimensional sections of the mesh where "
+        "it cuts the valley, columns elsewhere. columns: columns of layered ground with the local height of "
+        "the ground surface.",
         Selection("sections|columns"));
     prm.add_parameter(
         "Nodal quadrature everywhere", nodal_everywhere,
-        "Integrate all rock elements but those at the dam at their nodes, which is fastest and what free "
-        "field by sections needs to be exact; else only the layers at the boundary.");
+        "true: nodal (Gauss-Lobatto) quadrature in all rock elements except those of \"Layers at the dam\". "
+        "This is the fastest option, and it makes the free field by sections exact. false: nodal quadrature "
+        "in \"Nodal layers\" only.");
+    prm.add_parameter("Nodal layers", nodal_layers,
+                      "Number of element layers with nodal quadrature at the artificial boundary [-]. With "
+                      "\"Nodal quadrature everywhere\" it is raised to the number that the boundary "
+                      "requires. The log and summary.json contain the number in use.",
+                      Integer(0));
     prm.add_parameter(
-        "Nodal layers", nodal_layers,
-        "Layers of nodal quadrature at the artificial boundary. With Nodal quadrature everywhere at least as "
-        "many as the boundary needs; log and summary have the number.",
-        Integer(0));
-    prm.add_parameter("Layers at the dam", layers_at_dam,
-                      "Layers of rock elements about the dam's base whose stiffness is that of the dam's "
-                      "elements (Gauss points, and modes with Elements/Incompatible modes), except in the "
-                      "layers at the artificial boundary: nodal quadrature makes the rock there too stiff.",
-                      Integer(0, 1000));
-    prm.add_parameter("Substeps", substeps, "Explicit steps of the rock in each step of the dam.",
-                      Integer(1, 100));
+        "Layers at the dam", layers_at_dam,
+        "Number of rock element layers at the dam base with the quadrature of the dam: Gauss "
+        "points, and incompatible modes with \"Elements/Incompatible modes\" [-]. Elements in \"Nodal "
+        "layers\" are excluded. Default 3, because nodal quadrature is too stiff there.",
+        Integer(0, 1000));
+    prm.add_parameter("Substeps", substeps,
+                      "Number of explicit rock time steps per time step of the dam [-].", Integer(1, 100));
     prm.add_parameter(
         "Coupling", coupling,
-        "Of dam and rock. mean traction: forces that are constant in each step of the dam, such "
-        "that dam and rock agree at its end; exact in energy for any number of sub-steps. "
-        "partition: the rock feels the predicted motion of the dam's base; with sub-steps the "
-        "base is made heavier: see doc/rock.md for the error. auto: partition for one sub-step, "
-        "mean traction for more.",
+        "Time coupling of dam and rock. mean traction: the forces are constant during a time step of the "
+        "dam, and the displacements agree at its end. This conserves energy for any number of substeps. "
+        "partition: the rock receives the predicted motion of the base. With substeps the base nodes then "
+        "need additional mass, whose error is in doc/rock.md. auto: partition for one substep, otherwise "
+        "mean traction.",
         Selection("auto|mean traction|partition"));
     prm.leave_subsection();
+  }
+
+  void FoundationParameters::add_materials(Entries &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.add_parameter("Young's modulus", rock.young,
+                      "Young's modulus of rock volumes without an entry in \"Zones\" [Pa].", {5e8, 1.2e11},
+                      Double(1.));
+    prm.add_parameter("Poisson's ratio", rock.poisson,
+                      "Poisson's ratio of the same volumes [-]. With a transmitting boundary of order 2 or "
+                      "higher, values of 0.3 or more may require \"Stiffness damping\".",
+                      {.1, .4, true}, Double(0., largest_poisson));
+    prm.add_parameter("Density", rock.density, "Density of the same volumes [kg/m^3].", {1800., 3300.},
+                      Double(1e-3));
+    prm.add_parameter(
+        "Zones", zones,
+        "Materials of rock zones, as \"NAME: E nu rho, NAME: E nu rho\". E is Young's modulus, nu "
+        "Poisson's ratio and rho the density, with units or in Pa and kg/m^3. NAME is the zone of "
+        "the mesh volumes \"rock NAME\".",
+        Map(Anything(), Anything()));
+    prm.add_parameter("Mass damping", mass_damping,
+                      "Factor of the mass matrix in the Rayleigh damping of the rock [1/s].", {0., 10.},
+                      Double(0., 1e3));
+    prm.add_parameter("Stiffness damping", stiffness_damping,
+                      "Factor of the stiffness matrix in the Rayleigh damping of the rock [s]. It reduces "
+                      "the critical time step.",
+                      {0., .01}, Double(0., 1.));
   }
 
   std::string Foundation::about_steps() const

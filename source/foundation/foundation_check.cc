@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What would make the rock unstable, refused before the run: see doc/boundary.md
+// Checks of the stability of the rock before the run: see doc/boundary.md
 
 #include <voussoir/base/error.h>
 #include <voussoir/foundation/explicit_rock.h>
@@ -22,41 +22,40 @@ namespace Voussoir
       return text;
     }
 
-    /** A run with sub-steps of the rock grows slowly without damping; tests/rock_implicit.cc: 0.1 was not
-     * always enough, two sub-steps needed none. */
+    /** Throws InputError for more than two substeps with "partition" and too little damping. In
+     * tests/rock_implicit.cc, damping of 0.1 rock time steps was not always sufficient. */
     void check_substeps(const FoundationParameters &p, const TimeGrid &steps)
     {
       const double damping = .15 * steps.substep();
       if (steps.substeps > 2 && !p.has_own_steps() &&
-          p.stiffness_damping < .99 * damping) // .99: the message rounds
+          p.stiffness_damping < .99 * damping) // .99: the message has three digits
         throw InputError(
-            "More than two sub-steps (\"Foundation/Substeps\") with \"Foundation/Coupling\" = partition grow "
-            "slowly without damping of the rock: set \"Foundation/Stiffness damping\" to 0.15 of its time "
-            "step, "
-            "here " +
-            number(damping) + " s, or \"Foundation/Coupling\" to mean traction, or take fewer.");
+            "\"Foundation/Coupling\" = partition is unstable with more than two \"Foundation/Substeps\" and "
+            "little damping. Set \"Foundation/Coupling\" to mean traction, \"Foundation/Substeps\" to at "
+            "most 2, or \"Foundation/Stiffness damping\" to at least " +
+            number(damping) + " s (0.15 rock time steps).");
     }
   } // namespace
 
   namespace
   {
-    /** The boundary of the sections of the free field. */
+    /** Returns the artificial boundary of the sections of the free field. */
     std::string boundary_of_sections(const FoundationParameters &parameters)
     {
       return of_sections(region_parameters(parameters, {{0., 0., 0.}}, 0.)).boundary;
     }
 
-    /** Has the rock sections whose boundary is another one? */
+    /** Returns true if the sections of the free field have another boundary than the rock. */
     bool has_other_sections(const FoundationParameters &parameters)
     {
       return parameters.free_field == "sections" && boundary_of_sections(parameters) != parameters.boundary;
     }
 
-    /** Which sections, for messages. */
+    /** Returns the first sentence of a message about these sections. */
     std::string sections_beside(const FoundationParameters &parameters)
     {
       return "The sections of the free field beside the artificial boundary " + parameters.boundary +
-             " end at the boundary " + boundary_of_sections(parameters) + ". ";
+             " have the boundary " + boundary_of_sections(parameters) + ". ";
     }
 
     const std::string without_sections = " Or set \"Foundation/Free field\" to columns.";
@@ -72,18 +71,19 @@ namespace Voussoir
       }
       catch (const InputError &error)
       {
-        const std::string needs = "The artificial boundary " + boundary + " needs " + std::to_string(n) +
+        const std::string needs = "The artificial boundary " + boundary + " requires " + std::to_string(n) +
                                   " layers of equal elements along the artificial boundary";
         const std::string  usual = FoundationParameters().boundary;
         const unsigned int n_usual = make_boundary(usual)->n_layers();
         const std::string  other =
-            "set \"Foundation/Boundary\" to " + usual + ", which needs " + std::to_string(n_usual) + ".";
+            "set \"Foundation/Boundary\" to " + usual + ", which requires " + std::to_string(n_usual) + ".";
         if (source == "arch210")
           throw InputError(needs +
-                           ", and the mesh arch210 has fewer: set \"Mesh/Arch210/Rock/Boundary "
+                           ", but the mesh arch210 has fewer. Set \"Mesh/Arch210/Rock/Boundary "
                            "layers\" to " +
                            std::to_string(n) + (n > n_usual ? ", or " + other : "."));
-        throw InputError(error.what() + (" " + needs) + (n > n_usual ? ": mesh as many, or " + other : "."));
+        throw InputError(error.what() + (" " + needs) +
+                         (n > n_usual ? ". Add layers to the mesh, or " + other : "."));
       }
     }
   } // namespace
@@ -109,10 +109,10 @@ namespace Voussoir
     if (!(rock_dt <= dt_critical)) // or not a number
     {
       std::ostringstream message;
-      message << beyond_critical_step(rock_dt, dt_critical) << " Raise \"Dynamics/Steps per sample\" to "
+      message << beyond_critical_step(rock_dt, dt_critical) << " Increase \"Dynamics/Steps per sample\" to "
               << std::ceil(steps_per_sample * rock_dt / dt_critical) << " or \"Foundation/Substeps\" to "
               << std::ceil(steps.dt / dt_critical)
-              << ", take larger rock elements, or less \"Foundation/Stiffness damping\".";
+              << ", enlarge the rock elements, or reduce \"Foundation/Stiffness damping\".";
       throw InputError(message.str());
     }
     check_stability(steps);

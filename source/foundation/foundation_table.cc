@@ -14,7 +14,7 @@ namespace Voussoir
     {
       const char *name, *doc;
       std::unique_ptr<Foundation> (*make)(const FoundationSite &);
-      EntryNames entries; ///< that it reads
+      EntryNames entries; ///< entries of section Foundation that the model reads
     };
 
     std::unique_ptr<Foundation> make_rigid_ground(const FoundationSite &)
@@ -22,16 +22,15 @@ namespace Voussoir
       return std::make_unique<Foundation>();
     }
 
-    /** All foundations. The selection of the entry "Foundation/Model", its text and the messages follow from
-     * these rows. */
+    /** Table of all foundations. It defines the options and the help text of the entry "Foundation/Model". */
     const FoundationRow rows[] = {
-        {"rigid", "the base moves as the ground motion says", make_rigid_ground, {"Foundation/Model"}},
+        {"rigid", "prescribed ground motion at the base of the dam", make_rigid_ground, {"Foundation/Model"}},
         {"rock",
-         "the rock of the mesh, explicit, the earthquake from below",
+         "elastic rock with mass and explicit time integration, the earthquake enters from below",
          make_explicit_rock,
          {"Foundation/"}},
         {"massless",
-         "its stiffness only, on a rigid ground that moves as the ground motion says",
+         "elastic rock without mass, the ground motion is prescribed at its outer boundary",
          make_massless_rock,
          {"Foundation/Model", "Foundation/Young's modulus", "Foundation/Poisson's ratio",
           "Foundation/Zones"}}};
@@ -49,11 +48,11 @@ namespace Voussoir
       if (foundation.uses_rock() && !has_rock)
         throw InputError("Foundation/Model is " + site.parameters.model +
                          ", but the mesh has no rock (volumes from id 1000 on). Set "
-                         "Mesh/Arch210/Rock/Enabled = true, or give a mesh with rock.");
+                         "Mesh/Arch210/Rock/Enabled = true, or use a mesh with rock.");
       if (has_rock && !foundation.uses_rock() && site.source != "arch210")
         throw InputError(
-            "The mesh has rock (volumes from id 1000 on), but Foundation/Model is rigid: set it to rock or "
-            "massless, or leave the rock out of the mesh.");
+            "The mesh has rock (volumes from id 1000 on), but Foundation/Model is rigid. Set it to rock or "
+            "massless, or remove the rock from the mesh.");
     }
   } // namespace
 

@@ -10,7 +10,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** A + B, B for the @p nodes. */
+    /** Returns A + B, where B has the rows and columns @p nodes. */
     BlockSparseMatrix with_block(const BlockSparseMatrix &A, const std::vector<unsigned int> &nodes,
                                  const BlockSparseMatrix &B)
     {
@@ -57,7 +57,9 @@ namespace Voussoir
         }
         for (const Foot &foot : rock.feet)
           if (foot.nodes.size() != 1)
-            throw InputError(source + ": two nodes of one monolith share a place at the dam's base.");
+            throw InputError(
+                source +
+                ": two nodes of one monolith have the same position on the dam's base. Correct the mesh.");
         BlockSparseMatrix &K = structure.bodies[0].stiffness;
         K = with_block(K, standing.node, standing.matrix(rock.matrix()));
         K.symmetrise();
@@ -68,8 +70,8 @@ namespace Voussoir
         log.line("Rock      massless: %s", in_words(parameters.rock).c_str());
       }
 
-      /** Without them a monolith would be loose. They are taken from the rock again (static_feet()), which
-       * must stay positive definite: half of what its softest motion allows. */
+      /** Springs that make the stiffness matrix of a monolith regular. static_feet() subtracts them from the
+       * rock, which must remain positive definite. Their stiffness is half of the upper bound. */
       Unknowns static_springs(const Structure &structure) const override
       {
         if (one_body)
@@ -146,7 +148,7 @@ namespace Voussoir
       double static_spring() const
       {
         const BlockSparseMatrix C = rock.compliance(std::vector<double>(rock.feet.size(), 0.));
-        double                  softest = 0.; // a bound
+        double                  softest = 0.; // upper bound of the compliance [m/N]
         for (unsigned int i = 0; i < C.n_rows(); ++i)
           for (unsigned int c = 0; c < 3; ++c)
           {
@@ -170,7 +172,7 @@ namespace Voussoir
       StandingNodes                    standing;
       TimeGrid                         grid;
       Unknowns                         at_rest;
-      double                           spring = 0.; ///< below the monoliths in the static state [N/m]
+      double                           spring = 0.; ///< at the base nodes in the static state [N/m]
       std::unique_ptr<MasslessSupport> supported;
     };
   } // namespace

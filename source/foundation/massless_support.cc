@@ -28,7 +28,6 @@ namespace Voussoir
   {
   }
 
-  /** For the mean force of @p n parts of a step. */
   BlockSparseMatrix MasslessSupport::compliance(const unsigned int n) const
   {
     BlockSparseMatrix result = rock.compliance(std::vector<double>(rock.feet.size(), 0.));
@@ -47,7 +46,7 @@ namespace Voussoir
     return place;
   }
 
-  /** One of the nodes on each foot, which are at the same place. */
+  /** Returns the values of one dam node per base node. Dam nodes on the same base node have equal values. */
   Unknowns MasslessSupport::of_rock(const Unknowns &of_nodes) const
   {
     Unknowns result(rock.n());
@@ -56,7 +55,7 @@ namespace Voussoir
     return result;
   }
 
-  /** a S a / 2. */
+  /** Returns a S a / 2. */
   double MasslessSupport::energy(const Unknowns &a) const
   {
     const int    n = rock.n(), stride = 1;

@@ -38,13 +38,13 @@ namespace Voussoir
   {
     patch = std::make_unique<RockPatch>(model, damping(), steps.substep(), feet_of_rock(), steps.substeps);
     make_rock(outcrop, steps, .5 * steps.substep(), patch->nodes());
-    model.stiffness = BlockSparseMatrix(); // its memory: region and patch have what they need
+    model.stiffness = BlockSparseMatrix(); // frees memory; not used by region and patch
     region->force.assign(3 * std::size_t(n_nodes()), 0.);
     standing = StandingNodes(foot);
     rest.clear();
     for (const unsigned int node : standing.node)
       rest.insert(rest.end(), u.begin() + 3 * std::size_t(node), u.begin() + 3 * std::size_t(node) + 3);
-    v.assign(3, 0.); // of the base, in the mean
+    v.assign(3, 0.); // mean of the base nodes
     a = v;
     account.assign(4, 0.);
   }
@@ -77,7 +77,6 @@ namespace Voussoir
     return result;
   }
 
-  /** Of the rock's feet, at the dam's time. */
   Unknowns OwnStepRock::places() const
   {
     const Unknowns &u = region->displacement(), &w = region->half_step_velocity();
@@ -112,7 +111,7 @@ namespace Voussoir
     work_advancing += Ranks::work() - worked;
   }
 
-  /** The forces come by the Support; only the mean velocity of the feet is needed beforehand. */
+  /** Predicts the mean velocity of the base nodes. Forces are exchanged by Support. */
   void OwnStepRock::advance(Unknowns &)
   {
     for (unsigned int c = 0; c < 3; ++c)

@@ -22,8 +22,8 @@ namespace Voussoir
       return sum;
     }
 
-    /** Squares of all blocks of the stiffness. Each rank has those of its own nodes' rows, as RockSplit
-     * shares them out; all get all of them. */
+    /** Squared norms of all blocks of the stiffness matrix. Each rank computes those of its rows (RockSplit)
+     * and receives the others. */
     struct Squares
     {
       std::vector<std::size_t>  start; ///< of each row
@@ -67,8 +67,8 @@ namespace Voussoir
       unsigned int n_rows() const { return static_cast<unsigned int>(diagonal.size()); }
     };
 
-    /** Visits the nodes that are tied to @p node, itself included, with the square of their block over those
-     * of the diagonal. */
+    /** Calls @p visit for all nodes coupled to @p node, including @p node, with the squared norm of the block
+     * relative to the diagonal blocks. */
     template <class Visit>
     void for_neighbours(const Squares &K, const std::vector<bool> &held, const unsigned int node,
                         const Visit &visit)
@@ -80,7 +80,7 @@ namespace Voussoir
             visit(j, part);
     }
 
-    /** The group of each node; @p seeds receives those of the groups. */
+    /** Returns the group of each node. @p seeds receives the central nodes of the groups. */
     std::vector<unsigned int> groups(const Squares &K, const std::vector<bool> &held,
                                      std::vector<unsigned int> &seeds)
     {
@@ -199,14 +199,14 @@ namespace Voussoir
 
   namespace
   {
-    /** The six motions of an aggregate, or their forces, at some nodes. */
+    /** Displacements or forces at some nodes for the six rigid body motions of an aggregate. */
     struct Patch
     {
       std::vector<unsigned int>           nodes;
-      std::vector<std::array<double, 18>> value; ///< of each node, 3x6 row by row
+      std::vector<std::array<double, 18>> value; ///< per node, 3x6 row by row
     };
 
-    /** a x at a node, where a is a block or, with @p transposed, its transpose. */
+    /** Adds a x to y. @p transposed: a^T x. */
     template <bool transposed>
     void add_product(const Matrix3 &a, const std::array<double, 18> &x, std::array<double, 18> &y)
     {
@@ -273,7 +273,7 @@ namespace Voussoir
         return patch;
       }
 
-      /** K x; the nodes of x come first in it. */
+      /** Returns K x. The nodes of x come first. */
       Patch multiply(const Patch &x)
       {
         constexpr double         nothing = 1e-28; // the square of round-off: 1e-14
@@ -287,7 +287,7 @@ namespace Voussoir
         {
           const unsigned int node = x.nodes[i];
           AssertThrow(K.start[node] < K.start[node + 1],
-                      dealii::ExcInternalError()); // a part: has it the row?
+                      dealii::ExcInternalError()); // the row must exist on this rank
           double largest = 0.;
           for (std::size_t k = K.start[node]; k < K.start[node + 1]; ++k)
             largest = std::max(largest, square(K.value[k]));
@@ -310,7 +310,7 @@ namespace Voussoir
         return y;
       }
 
-      /** - damping D^-1 x */
+      /** Returns - damping D^-1 x. */
       Patch scaled(const Patch &x) const
       {
         Patch y;
@@ -337,7 +337,7 @@ namespace Voussoir
 
       const RockAggregates     &aggregates;
       const RockSmoothing      &smoothing;
-      std::vector<unsigned int> at; ///< place of each node in the patch at hand
+      std::vector<unsigned int> at; ///< index of each node in the current patch
     };
   } // namespace
 

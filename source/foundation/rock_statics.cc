@@ -95,8 +95,8 @@ namespace Voussoir
     }
   } // namespace
 
-  /** Of D^-1 K, by Lanczos' method: badly shaped cells have eigenvalues that power iteration takes long to
-   * find, and whose waves the smoother would blow up. */
+  /** Lanczos method. Power iteration converges slowly for distorted elements, and the smoother amplifies
+   * modes above an eigenvalue that is too small. */
   double RockStatics::largest_eigenvalue() const
   {
     constexpr unsigned int n_iterations = 30;
@@ -118,8 +118,9 @@ namespace Voussoir
       if (size == 0. && i > 0)
         break; // an invariant space
       if (!(size > 0.))
-        throw ComputationError("The rock's stiffness is not positive definite: its elements may be badly "
-                               "shaped (see voussoir mesh), or all of its nodes are held.");
+        throw ComputationError(
+            "The stiffness matrix of the rock is not positive definite. Its elements may be "
+            "distorted, or all of its nodes are fixed. Check the mesh with voussoir mesh.");
       everywhere(
           [&](const std::size_t k)
           {
@@ -143,7 +144,7 @@ namespace Voussoir
         mine.push_back(a);
     const RockSmoothing      smoothing{model.stiffness, inverse, 4. / (3. * eigenvalue)};
     std::vector<CoarseBlock> blocks = coarse_rows(aggregates, smoothing, mine);
-    constexpr std::size_t    length = sizeof(CoarseBlock) / sizeof(double); // they are sent as doubles
+    constexpr std::size_t    length = sizeof(CoarseBlock) / sizeof(double); // sent as doubles
     static_assert(sizeof(CoarseBlock) == 19 * sizeof(double), "no bytes between the blocks");
     const std::vector<double>   counts = Ranks::of_all(double(blocks.size()));
     std::size_t                 total = blocks.size();
@@ -168,9 +169,9 @@ namespace Voussoir
     Ranks::on_first([&] { coarse = std::make_unique<CoarseRock>(aggregates, std::move(blocks)); });
   }
 
-  /** Chebyshev's polynomial of degree 2 for the upper part of the spectrum of D^-1 K (Adams, Brezina, Hu and
-   * Tuminaro 2003, J. Comput. Phys. 188): @p z receives it times the @p residual, which follows unless this
-   * @p is_last. */
+  /** Chebyshev polynomial of degree 2 for the upper part of the spectrum of D^-1 K (Adams, Brezina, Hu and
+   * Tuminaro 2003, J. Comput. Phys. 188). Adds its product with the @p residual to @p z. Updates the @p
+   * residual unless @p is_last. */
   void RockStatics::smooth(const bool is_last, Unknowns &residual, Unknowns &z) const
   {
     constexpr double part = 10.;
@@ -197,7 +198,7 @@ namespace Voussoir
     everywhere([&](const std::size_t k) { residual[k] -= work[k]; });
   }
 
-  /** By smooth motions of the aggregates. */
+  /** Correction in the space of smoothed rigid body motions of the aggregates. */
   void RockStatics::correct(Unknowns &residual, Unknowns &z) const
   {
     const double damping = 4. / (3. * eigenvalue);
@@ -312,7 +313,7 @@ namespace Voussoir
       multiply(p, work);
       const double alpha = rz / product(p, work);
       last = rz;
-      if (!(rz > 0.) || !(alpha > 0.)) // a breakdown
+      if (!(rz > 0.) || !(alpha > 0.)) // breakdown
         break;
       everywhere(
           [&](const std::size_t k)
@@ -321,11 +322,11 @@ namespace Voussoir
             r[k] -= alpha * work[k];
           });
     }
-    throw ComputationError("The static state of the rock did not converge: its elements may be badly shaped "
-                           "(see voussoir mesh).");
+    throw ComputationError("The static solution of the rock did not converge. Its elements may be distorted. "
+                           "Check the mesh with voussoir mesh.");
   }
 
-  /** The part of @p x that is new, for later solves. */
+  /** Stores the normalised difference of @p x and @p guess. */
   void RockStatics::keep(const Unknowns &guess, const Unknowns &x)
   {
     constexpr std::size_t most = 60;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The materials of foundation_parameters.h
+// Materials of FoundationParameters.
 
 #include <voussoir/foundation/foundation_parameters.h>
 
@@ -32,7 +32,7 @@ namespace Voussoir
     const auto found = materials.find(zone);
     if (found == materials.end() || same(found->second, rock))
       return PhysicalId::first_rock;
-    int id = PhysicalId::first_rock + 1; // of the first zone with that material
+    int id = PhysicalId::first_rock + 1; // id of the first zone with this material
     for (const auto &other : materials)
     {
       if (same(other.second, found->second))

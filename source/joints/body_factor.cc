@@ -23,7 +23,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** What CHOLMOD says of its memory as an exception. */
+    /** Throws an exception if CHOLMOD reports a lack of memory. */
     void check_memory(const cholmod_common &common)
     {
       if (common.status == CHOLMOD_OUT_OF_MEMORY)
@@ -33,7 +33,7 @@ namespace Voussoir
                                "elements, or more joints.");
     }
 
-    /** A matrix of CHOLMOD that frees itself. */
+    /** Matrix of CHOLMOD with automatic release of its memory. */
     class SparseMatrix
     {
     public:
@@ -50,7 +50,7 @@ namespace Voussoir
     private:
       cholmod_common &common;
     };
-    /** A of the class, its lower triangle, in the matrix @p A. */
+    /** Assembles the lower triangle of the operator A in the matrix @p A. */
     void fill(const Structure &structure, const Body &body, const double mass_factor,
               const double stiffness_factor, const double dashpot_factor, const Unknowns &springs,
               cholmod_sparse *A)
@@ -60,7 +60,7 @@ namespace Voussoir
       int                     *p = static_cast<int *>(A->p), *index = static_cast<int *>(A->i);
       double                  *x = static_cast<double *>(A->x);
       int                      k = 0;
-      // The matrix is symmetric: row by row of K's upper part is column by column of its lower part.
+      // The matrix is symmetric: rows of the upper part of K are columns of the lower part.
       for (unsigned int row = 0; row < K.n_rows(); ++row)
         for (unsigned int i = 0; i < 3; ++i)
         {
@@ -84,7 +84,7 @@ namespace Voussoir
       p[n] = k;
     }
 
-    /** A fill-reducing order in which the interface comes last: minimum degree, or nested dissection. */
+    /** Returns a fill-reducing order with the interface last: minimum degree, or nested dissection. */
     std::vector<int> order(cholmod_sparse *A, const std::vector<bool> &is_interface, const bool dissect,
                            cholmod_common &common)
     {
@@ -98,7 +98,7 @@ namespace Voussoir
       return permutation;
     }
 
-    /** The factor in that order, not filled in yet. */
+    /** Returns the symbolic factor in this order. */
     cholmod_factor *interface_last(cholmod_sparse *A, const std::vector<bool> &is_interface,
                                    const bool dissect, cholmod_common &common)
     {
@@ -110,16 +110,15 @@ namespace Voussoir
       return L;
     }
 
-    /** Chooses the order of elimination of @p A: the interface last, or, where @p is_interface is empty, any.
-     */
+    /** Chooses the order of elimination of @p A: interface last, or any order if @p is_interface is empty. */
     cholmod_factor *analysed(cholmod_sparse *A, const std::size_t n_unknowns,
                              const std::vector<bool> &is_interface, cholmod_common &common)
     {
-      constexpr std::size_t large = 20000; // worth trying METIS, too
+      constexpr std::size_t large = 20000; // METIS is tried above this size
       common.supernodal = CHOLMOD_SUPERNODAL;
       if (is_interface.empty())
       {
-        common.nmethods = n_unknowns < large ? 1 : 0; // 0: CHOLMOD's own choice
+        common.nmethods = n_unknowns < large ? 1 : 0; // 0: chosen by CHOLMOD
         common.method[0].ordering = n_unknowns < large ? CHOLMOD_AMD : CHOLMOD_GIVEN;
         return cholmod_analyze(A, &common);
       }
@@ -134,7 +133,7 @@ namespace Voussoir
       return L;
     }
 
-    /** Numbers in the first @p n_columns of a supernodal factor. */
+    /** Returns the number of entries in the first @p n_columns columns of a supernodal factor. */
     double entries_of(const cholmod_factor *L, const std::size_t n_columns)
     {
       const int *super = static_cast<const int *>(L->super), *pi = static_cast<const int *>(L->pi);
@@ -148,8 +147,8 @@ namespace Voussoir
       return sum;
     }
 
-    /** CHOLMOD asks for four threads for every supernode, also where the program has one or there is one
-     * body; starting them costs more than they give. Where bodies are shared out it gets none anyway. */
+    /** Switches off the threads of CHOLMOD. It starts four threads for every supernode, also if the program
+     * has one thread or one body. Starting them costs more than they save. */
     class NoThreads
     {
     public:
@@ -167,7 +166,7 @@ namespace Voussoir
       NoThreads &operator=(const NoThreads &) = delete;
 
     private:
-      const int levels; ///< before, or -1: left alone
+      const int levels; ///< previous number of levels; -1: unchanged
     };
   } // namespace
 
@@ -226,22 +225,22 @@ namespace Voussoir
     check_memory(cholmod->common);
     const cholmod_factor *L = cholmod->L;
     if (cholmod->common.status != CHOLMOD_OK || L == nullptr || L->minor < L->n)
-      throw ComputationError(
-          "The stiffness of monolith " + std::to_string(body.number) +
-          " is not positive definite: nothing holds it (does its foot lie on the surface \"base\"?), or "
-          "its elements are badly shaped.");
+      throw ComputationError("The stiffness of monolith " + std::to_string(body.number) +
+                             " is not positive definite. Either the monolith has no nodes on the surface "
+                             "\"base\", or its elements are distorted.");
     if (order == Order::interface_last)
       check_interface_is_last();
   }
 
-  /** The elimination tree is a chain there, so its postorder keeps it so. */
+  /** The elimination tree is a chain at the interface, so a postorder does not change it. */
   void BodyFactor::check_interface_is_last() const
   {
     const std::vector<unsigned int> unknown = permutation();
     for (unsigned int i = n() - n_interface(); i < n(); ++i)
       if (!std::binary_search(body.interface.begin(), body.interface.end(), unknown[i] / 3))
-        throw ComputationError("Monolith " + std::to_string(body.number) +
-                               " is not in one piece: the elements of a monolith must be connected.");
+        throw ComputationError(
+            "Monolith " + std::to_string(body.number) +
+            " is not in one piece. Connect its elements, or give its parts different numbers.");
   }
 
   double BodyFactor::n_entries() const
@@ -260,7 +259,7 @@ namespace Voussoir
     return {p, p + n()};
   }
 
-  /** L_GG out of the supernodes, by column. */
+  /** Returns L_GG from the supernodes, by column. */
   std::vector<double> BodyFactor::trailing_block() const
   {
     const cholmod_factor *L = cholmod->L;
@@ -280,12 +279,12 @@ namespace Voussoir
     return dense;
   }
 
-  /** A symmetric matrix, of which the lower triangle is given, from the order of the factor. */
+  /** Returns a symmetric matrix in natural order. @p S: its lower triangle in the order of the factor. */
   std::vector<double> BodyFactor::in_natural_order(const std::vector<double> &S) const
   {
     const unsigned int              m = n_interface();
     const std::vector<unsigned int> unknown = permutation();
-    std::vector<unsigned int>       place(m); // in natural order, of each row
+    std::vector<unsigned int>       place(m); // position of each row in natural order
     for (unsigned int i = 0; i < m; ++i)
     {
       const unsigned int k = unknown[n() - m + i];
@@ -331,7 +330,7 @@ namespace Voussoir
 
   namespace
   {
-    /** Entries of the factor of a graph. */
+    /** Returns the number of entries of the factor of a graph. */
     double fill_in(cholmod_sparse *A, const std::vector<bool> &is_interface, cholmod_common &common)
     {
       cholmod_factor *L = analysed(A, 3 * A->nrow, is_interface, common);
@@ -341,7 +340,7 @@ namespace Voussoir
       return entries;
     }
 
-    /** The lower triangle of the matrix of a graph. */
+    /** Returns the lower triangle of the matrix of a graph. */
     cholmod_sparse *matrix_of(const std::vector<std::vector<unsigned int>> &neighbours,
                               cholmod_common                               &common)
     {
@@ -375,7 +374,7 @@ namespace Voussoir
     cholmod_sparse *A = matrix_of(neighbours, common);
     const double    m = std::count(is_interface.begin(), is_interface.end(), true);
     FactorSize      size;
-    size.entries = 9. * entry * fill_in(A, {}, common); // of 3 x 3
+    size.entries = 9. * entry * fill_in(A, {}, common); // 3x3 values per entry
     if (m > 0.)
     {
       size.leading = 9. * entry * (fill_in(A, is_interface, common) - .5 * m * (m + 1.));

@@ -11,7 +11,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** y = A x for a symmetric matrix. */
+    /** Computes y = A x for a symmetric matrix. */
     void multiply(const std::vector<double> &A, const std::vector<double> &x, double *y)
     {
       const int    n = x.size(), stride = 1;
@@ -25,7 +25,7 @@ namespace Voussoir
                                const double stiffness_factor, const double dashpot_factor,
                                const Unknowns &springs, const bool single)
   {
-    const double       entry = single ? .5 : 1.; // of eight bytes
+    const double       entry = single ? .5 : 1.; // in units of eight bytes
     BodyFactor         A(structure, body, mass_factor, stiffness_factor, dashpot_factor, springs);
     const unsigned int m = A.n_interface();
     A.analyse(BodyFactor::Order::any);

@@ -27,13 +27,14 @@ namespace Voussoir
         y[i] += x[0] * a[i] + x[1] * b[i] + x[2] * c[i];
     }
 
-    // Packs as wide as the registers: GCC keeps what is wider in memory. Sums are added up in as many parts.
+    // A pack has the width of a register; GCC stores wider packs in memory. Sums have as many partial sums
+    // as lanes.
     typedef double Wide __attribute__((vector_size(64)));
     typedef double Pack __attribute__((vector_size(32)));
     typedef float  FloatPack __attribute__((vector_size(16)));
     const bool     is_wide = __builtin_cpu_supports("avx512f");
 
-    // By reference: passing vectors by value depends on the processor.
+    // By reference, because passing vectors by value depends on the processor.
     template <class P, class Number> VOUSSOIR_INLINE void load(const Number *x, P &pack)
     {
       std::memcpy(&pack, x, sizeof(P));
@@ -47,7 +48,7 @@ namespace Voussoir
       return all;
     }
 
-    /** y += A x, and z += A^T v, for four columns of A, @p leading apart. */
+    /** Computes y += A x and z += A^T v for four columns of A with a distance of @p leading values. */
     template <class P>
     VOUSSOIR_INLINE void four_columns(const double *A, const std::size_t leading, const std::size_t m,
                                       const double *x, double *y, const double *v, double *z)
@@ -108,7 +109,7 @@ namespace Voussoir
       for (std::size_t c = 0; c < n; c += 4)
       {
         const std::size_t end = std::min(c + 4, n);
-        for (std::size_t j = c; j < end; ++j) // the block on the diagonal
+        for (std::size_t j = c; j < end; ++j) // diagonal block
         {
           y[j] += A[j * n + j] * x[j];
           one_column(A + j * n + j + 1, end - j - 1, x[j], y + j + 1, x + j + 1, y[j]);

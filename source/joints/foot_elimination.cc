@@ -16,7 +16,8 @@ namespace Voussoir
 {
   namespace
   {
-    /** The pattern of @p R and the feet of each body coupled to each other. */
+    /** Returns the matrix @p R with the sparsity pattern extended by the couplings between base nodes
+     * of one body. */
     BlockSparseMatrix with_bodies(const BlockSparseMatrix &R, const std::vector<unsigned int> &first)
     {
       std::vector<std::vector<unsigned int>> columns(R.n_rows());
@@ -57,7 +58,7 @@ namespace Voussoir
     }
     H.bodies.resize(1);
     H.bodies[0].stiffness = with_bodies(feet.compliance, first);
-    feet.compliance = BlockSparseMatrix(); // its memory: of massless rock it is dense
+    feet.compliance = BlockSparseMatrix(); // releases memory; on massless rock the matrix is dense
     H.mass.resize(feet.node.size());
   }
 
@@ -82,7 +83,7 @@ namespace Voussoir
       for (unsigned int side = 0; side < 2; ++side)
       {
         const unsigned int node = side == 0 ? pair.node_1 : pair.node_2;
-        if (node < body.first_node || node >= body.first_node + body.n_nodes()) // the ground, too
+        if (node < body.first_node || node >= body.first_node + body.n_nodes()) // also if it is the ground
           continue;
         const std::size_t    rows = n_rows(pair.joint), row = 3 * p - begin[pair.joint];
         std::vector<double> &block = B[{pair.joint, b}];
@@ -104,7 +105,7 @@ namespace Voussoir
   {
     H.bodies[0].stiffness.symmetrise();
     factor.emplace_back(H, H.bodies[0], 0., 1., 0.);
-    H = Structure(); // its memory
+    H = Structure(); // releases memory
   }
 
   void FootElimination::solve(Unknowns &x) const
@@ -162,7 +163,7 @@ namespace Voussoir
     add_gaps(-1., x, gap);
   }
 
-  /** Columns of H^-1 for the feet of a body. */
+  /** Returns the columns of H^-1 for the base nodes of a body. */
   std::vector<double> FootElimination::inverse_columns(const unsigned int body) const
   {
     std::vector<double> result;

@@ -43,8 +43,8 @@ namespace Voussoir
   void InterfaceOperator::multiply(const Unknowns &x, Unknowns &y) const
   {
     AssertDimension(x.size(), n());
-    // A block of two joints serves both while it is in the cache; its two products are added up afterwards,
-    // in the order of the blocks, so that the result does not depend on the number of threads.
+    // A block of two joints is used for both joints while it is in the cache. The two products are added
+    // later in the order of the blocks, so that the result does not depend on the number of threads.
     std::vector<const std::pair<const std::pair<unsigned int, unsigned int>, std::vector<double>> *> list;
     for (const auto &b : blocks)
       if (!b.second.empty())
@@ -147,7 +147,7 @@ namespace Voussoir
       return;
     auto parts = share.parts(offset);
     for (std::size_t &begin : parts)
-      begin *= 3; // nine numbers per pair
+      begin *= 3; // nine values per pair
     Ranks::gather(diagonals[0].data(), parts);
   }
 
@@ -173,7 +173,7 @@ namespace Voussoir
   {
     AssertDimension(force.size(), n());
     AssertDimension(gap.size(), n());
-    Floats change(n(), 0.f), moved(n(), 0.f); // of force and gap
+    Floats change(n(), 0.f), moved(n(), 0.f); // changes of force and gap
     gauss_seidel(
         [&](const unsigned int g)
         {
@@ -197,12 +197,12 @@ namespace Voussoir
     Ranks::gather(values.data(), share.parts(of_group));
   }
 
-  /** The pairs of group @p j, one after the other, several times; @p gap is to be taken with what has
-   * @p moved; @p change: receives that of @p force. */
+  /** Visits the pairs of group @p j in sequence, several times. The current gap is @p gap plus @p moved;
+   * @p change receives the change of @p force. */
   void InterfaceOperator::sweep_group(const unsigned int j, const PairSolver &solve_pair, double *force,
                                       const double *gap, float *moved, float *change) const
   {
-    constexpr unsigned int    n_passes = 3; // while the block is in the cache
+    constexpr unsigned int    n_passes = 3; // passes over a block in the cache
     const unsigned int        m = size(j);
     const std::vector<float> &w = single.at({j, j});
     for (unsigned int pass = 0; pass < n_passes; ++pass)

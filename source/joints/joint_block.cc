@@ -16,7 +16,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** The row says: this component of the gap is given. */
+    /** Returns true if the row gives a component of the gap directly: it does not depend on the force. */
     bool gives_gap(const PairEquations &e, const unsigned int row)
     {
       for (unsigned int c = 0; c < 3; ++c)
@@ -37,11 +37,11 @@ namespace Voussoir
       return row_is_trivial(e, row) ? Row::force : gives_gap(e, row) ? Row::gap : Row::unknown;
     }
 
-    /** A^-1 of a symmetric matrix, in place, its lower triangle. False if it is not positive definite, or so
-     * badly conditioned that single precision would not do. */
+    /** Inverts a symmetric matrix in place; only the lower triangle is used. Returns false if it is not
+     * positive definite, or too ill-conditioned for single precision. */
     bool invert(std::vector<double> &A, const int n)
     {
-      constexpr double    worst = 1e4; // largest A_ii A^-1_ii; 76 was the most in a dam
+      constexpr double    worst = 1e4; // largest A_ii A^-1_ii; 76 is the largest value seen in a dam
       std::vector<double> diagonal(n);
       for (int i = 0; i < n; ++i)
         diagonal[i] = A[std::size_t(i) * n + i];
@@ -64,7 +64,7 @@ namespace Voussoir
     leading = padded(n);
   }
 
-  /** Is there F? Made when it is first asked for. */
+  /** Returns whether F exists. Computes F at the first call. */
   bool JointBlock::has_inverse()
   {
     if (!tried_inverse)
@@ -85,10 +85,10 @@ namespace Voussoir
     check_inverse();
   }
 
-  /** Is y = W_jj F y to single precision? Tried with vectors of both signs. */
+  /** Checks y = W_jj F y in single precision, with vectors of both signs. */
   void JointBlock::check_inverse()
   {
-    constexpr double          enough = 1e-6; // what the solver reckons with
+    constexpr double          enough = 1e-6; // relative error that the solver assumes
     std::vector<float>        y(n), z(n);
     std::vector<double>       exact(n);
     std::vector<unsigned int> all(n);
@@ -115,8 +115,8 @@ namespace Voussoir
     }
   }
 
-  /** Factors of equations with the same unknowns still precondition well when only directions of slip have
-   * turned a little. */
+  /** Returns true if the current factors precondition the equations well: the same rows are unknown, and the
+   * directions of slip have changed little. */
   bool JointBlock::is_similar(const PairEquations *present) const
   {
     constexpr double tolerated = .3;
@@ -141,7 +141,7 @@ namespace Voussoir
       return false;
     factor.equations.assign(present, present + n / 3);
     find_rows();
-    // Two thirds: what F's further product is worth.
+    // Two thirds: cost of the additional product with F.
     for_gap =
         given_force.size() + unknown.size() < 2 * (given_gap.size() + unknown.size()) / 3 && has_inverse();
     if (for_gap)
@@ -167,7 +167,7 @@ namespace Voussoir
     }
   }
 
-  /** (d_force F + d_gap) in the rows and columns whose gap is not given. */
+  /** Factorises d_force F + d_gap in the rows and columns without given gap. */
   void JointBlock::factorise()
   {
     std::vector<unsigned int> &rows = factor.active;
@@ -229,7 +229,7 @@ namespace Voussoir
       multiply_by_W(z, y);
   }
 
-  /** y = W_jj z. */
+  /** Computes y = W_jj z. */
   void JointBlock::multiply_by_W(const float *z, float *y) const
   {
     std::fill(y, y + n, 0.f);

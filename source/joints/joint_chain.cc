@@ -16,7 +16,7 @@ namespace Voussoir
   {
   }
 
-  /** The active rows and columns of d_gap W_jk; zero where the joints are not coupled. */
+  /** Fills @p out with the active rows and columns of d_gap W_jk; zero if the joints are not coupled. */
   void JointChain::fill_coupling(const unsigned int j, const unsigned int k, std::vector<float> &out) const
   {
     const auto &rows = factors[j].active, &columns = factors[k].active;
@@ -69,7 +69,7 @@ namespace Voussoir
     }
   }
 
-  /** What the rank of joint @p from has made is needed for joint @p to. */
+  /** Sends the values of joint @p from to the process of joint @p to. */
   void JointChain::give(const unsigned int from, const unsigned int to, std::vector<float> &values) const
   {
     if (const unsigned int owner = W.shares().owner(from); owner != W.shares().owner(to))

@@ -66,7 +66,7 @@ namespace Voussoir
     return std::accumulate(made.begin(), made.end(), 0u);
   }
 
-  /** y += factor * d_gap x, in the rows of a group. */
+  /** Computes y += factor d_gap x in the rows of a group. */
   void JointJacobian::multiply_by_d_gap(const unsigned int group, const float factor, const float *x,
                                         float *y) const
   {
@@ -78,7 +78,7 @@ namespace Voussoir
     }
   }
 
-  /** y = W x. Each block serves both of its groups while it is in the cache. */
+  /** Computes y = W x. Each block is used for both of its groups while it is in the cache. */
   void JointJacobian::multiply_W(const Floats &x, Floats &y) const
   {
     std::vector<std::array<Floats, 2>> products(keys.size());
@@ -108,7 +108,7 @@ namespace Voussoir
     W.gather(y);
   }
 
-  /** y = W x for an @p x with few entries. */
+  /** Computes y = W x for an @p x with few nonzero entries. */
   void JointJacobian::multiply_W_sparse(const Unknowns &x, Floats &y) const
   {
     y.assign(W.n(), 0.f);
@@ -141,7 +141,7 @@ namespace Voussoir
     W.gather(y);
   }
 
-  /** z = P^-1 v, and W z. */
+  /** Computes z = P^-1 v and W z. */
   void JointJacobian::precondition(const Floats &v, Floats &z, Floats &Wz) const
   {
     z = v;
@@ -165,7 +165,7 @@ namespace Voussoir
         z, Wz);
   }
 
-  /** w = J z. */
+  /** Computes w = J z. */
   void JointJacobian::multiply_J(const Floats &z, const Floats &Wz, Floats &w) const
   {
     w.resize(W.n());
@@ -186,13 +186,13 @@ namespace Voussoir
   {
     if (W.is_in_blocks())
       return solve_blocks(tolerance, step, d_gap);
-    const unsigned int iterations =
-        solve_blocks(.5 * tolerance, step, d_gap); // the rest for what is not in them
+    const unsigned int iterations = solve_blocks(
+        .5 * tolerance, step, d_gap); // the remaining tolerance is for couplings outside the blocks
     return iterations + correct(tolerance, step, d_gap);
   }
 
-  /** What the feet couple beyond the blocks is little: a solution with these is corrected until it is one of
-   * the whole operator. */
+  /** Corrects a solution with the blocks until it satisfies the complete operator. The couplings by the base
+   * nodes outside the blocks are small. */
   unsigned int JointJacobian::correct(const double tolerance, Unknowns &step, Unknowns &d_gap) const
   {
     constexpr unsigned int most = 10;
@@ -223,7 +223,7 @@ namespace Voussoir
   unsigned int JointJacobian::solve_blocks(const double tolerance, Unknowns &step, Unknowns &d_gap)
   {
     const unsigned int n = W.n();
-    // The trivial rows first: they are exact, and stay zero in all that follows.
+    // Trivial rows first: their solution is exact and does not change.
     Unknowns r(n);
     bool     trivial = false;
     step.assign(n, 0.);
@@ -262,8 +262,8 @@ namespace Voussoir
 
   namespace
   {
-    /** Makes a column of the Hessenberg matrix triangular by the rotations of the columns before, and one of
-     * its own; applies that to the right-hand side @p g. False if the column is nothing. */
+    /** Makes a column of the Hessenberg matrix triangular by the previous rotations and a new one, and
+     * applies the new rotation to the right-hand side @p g. Returns false if the column is zero. */
     bool rotate(std::vector<double> &column, std::vector<double> &cosine, std::vector<double> &sine,
                 std::vector<double> &g)
     {
@@ -286,7 +286,8 @@ namespace Voussoir
     }
   } // namespace
 
-  /** step += J^-1 r, until the residual is below @p target; d_gap += W of that. */
+  /** Adds J^-1 r to @p step until the residual is below @p target, and the corresponding change of the gap to
+   * @p d_gap. Returns the number of iterations. */
   unsigned int JointJacobian::gmres(const Unknowns &r, double target, Unknowns &step, Unknowns &d_gap) const
   {
     const unsigned int n = W.n(), max_iterations = 100;
@@ -294,7 +295,7 @@ namespace Voussoir
     for (const double x : r)
       norm += x * x;
     norm = std::sqrt(norm);
-    target = std::max(target, 1e-6 * norm); // what single precision can do
+    target = std::max(target, 1e-6 * norm); // limit of single precision
     if (!(norm > target))
       return 0;
     std::vector<Floats>              v(1, Floats(n)), z, Wz;
@@ -342,7 +343,7 @@ namespace Voussoir
     return k;
   }
 
-  // Here, so that the operator does not need to know its solver.
+  // Defined here, so that the operator does not depend on its solver.
   std::unique_ptr<ContactJacobian> InterfaceOperator::make_jacobian() const
   {
     return std::make_unique<JointJacobian>(*this);

@@ -12,7 +12,7 @@ namespace Voussoir
   {
     constexpr double large = std::numeric_limits<double>::max();
 
-    /** For each free node the shortest edge of the joints' faces that it belongs to [m]. */
+    /** Returns for each free node the shortest edge of its joint faces, divided by the element degree [m]. */
     std::vector<double> shortest_edges(const SolidModel &model)
     {
       std::vector<double>                          width(model.first_equation.back(), large);
@@ -72,13 +72,13 @@ namespace Voussoir
       if (known[share] <= allowed)
         continue;
       char text[400];
-      std::snprintf(text, sizeof(text),
-                    "joint %zu has %s by %.4g m at (%.4g, %.4g, %.4g), %.2g times the width of the elements "
-                    "there, %.4g m: its nodes no longer face their partners, so contact and its forces are "
-                    "rough. Take elements at least twice as wide as the joint moves, or look for what moves "
-                    "it so far (friction, keys, size of the motion).",
-                    j + 1, known[is_slip] > 0. ? "slipped" : "opened", known[value], known[x], known[y],
-                    known[z], known[share], known[local]);
+      std::snprintf(
+          text, sizeof(text),
+          "joint %zu has %s by %.4g m at (%.4g, %.4g, %.4g), %.2g times the width of the elements "
+          "there, %.4g m: its nodes no longer face their partners, so its contact forces are inaccurate. Use "
+          "elements at least twice as wide as this movement, or check friction, keys and ground motion.",
+          j + 1, known[is_slip] > 0. ? "slipped" : "opened", known[value], known[x], known[y], known[z],
+          known[share], known[local]);
       texts.emplace_back(text);
     }
     return texts;

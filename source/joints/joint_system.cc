@@ -24,7 +24,7 @@ namespace Voussoir
       return n;
     }
 
-    /** Each joint is the work of the rank that has its first body. */
+    /** Assigns each joint to the process that has its first body. */
     Shares shares_of_joints(const Structure &structure)
     {
       if (structure.share.are_trivial())
@@ -33,7 +33,7 @@ namespace Voussoir
       for (const Pair &pair : structure.pairs)
         if (const unsigned int node = std::min(pair.node_1, pair.node_2); node != rigid_ground)
           owner[pair.joint] = structure.share.owner(structure.body_of(node));
-      for (unsigned int j = 1; j < owner.size(); ++j) // joints without pairs; and parts must ascend
+      for (unsigned int j = 1; j < owner.size(); ++j) // joints without pairs; parts must ascend
         owner[j] = std::max(owner[j], owner[j - 1]);
       return Shares::of_owners(owner);
     }
@@ -43,7 +43,7 @@ namespace Voussoir
       return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     }
 
-    /** R F R^T for frames of two pairs. */
+    /** Returns R F R^T for the frames of two pairs. */
     Matrix3 rotate(const std::array<Vector3, 3> &p, const Matrix3 &F, const std::array<Vector3, 3> &q)
     {
       Matrix3 result;
@@ -68,9 +68,8 @@ namespace Voussoir
   {
     for (const JointLaw *law : laws.of_pair)
       if (parameters.write_problems && law->flat_friction() < 0. && !law->surfaces_law())
-        throw InputError(
-            "Contact/Write problems: only problems with Coulomb friction can be written; use the "
-            "joint model FJA or KSM.");
+        throw InputError("Contact/Write problems: only problems with Coulomb friction can be written. Set "
+                         "\"Joints/Model\" to FJA or KSM.");
     bodies.resize(structure.bodies.size());
     for_each_own_body(
         [&](const unsigned int b)
@@ -101,7 +100,8 @@ namespace Voussoir
                       });
   }
 
-  /** Of a body's interface: made here, or by another rank if rows of W here need it; else empty. */
+  /** Returns the flexibility of the interface of a body, computed here, or by another process if rows of W on
+   * this process require it. Otherwise empty. */
   std::vector<double>
   JointSystem::flexibility_of(const unsigned int                                        b,
                               const std::vector<std::pair<unsigned int, unsigned int>> &sides_of_body)
@@ -123,7 +123,7 @@ namespace Voussoir
     return F;
   }
 
-  /** W = G A^-1 G^T from the flexibilities of the bodies. */
+  /** Assembles W = G A^-1 G^T from the flexibilities of the bodies. */
   void JointSystem::condense()
   {
     std::vector<std::vector<std::pair<unsigned int, unsigned int>>> of_body(bodies.size()); // pair, side
@@ -144,7 +144,7 @@ namespace Voussoir
       }
 
     for (unsigned int j = 0; j < W.n_groups(); ++j)
-      W.block(j, j); // joints without pairs have one, too: an empty one
+      W.block(j, j); // also for joints without pairs: an empty block
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       const std::vector<double> F = flexibility_of(b, of_body[b]);
@@ -179,8 +179,8 @@ namespace Voussoir
       feet->factorise();
   }
 
-  /** W' = W - B H^-1 B^T in blocks. Without masses the feet couple joints that are far from each other as
-   * much as neighbours: what makes an operator of its neighbours converge would not. */
+  /** Replaces W by W - B H^-1 B^T in all blocks. In statics the base nodes couple distant joints as strongly
+   * as neighbours, so an iteration with neighbours only would not converge. */
   void JointSystem::make_whole()
   {
     for (unsigned int k = 0; k < W.n_groups(); ++k)
@@ -195,7 +195,7 @@ namespace Voussoir
                      });
   }
 
-  /** G u + offset for the displacements of the interface as they are, and forces on the feet. */
+  /** Returns G u + offset for the current displacements of the interface and the forces on the base nodes. */
   Unknowns JointSystem::gaps_without_forces(const Unknowns &offset, const Unknowns &foot_force) const
   {
     Unknowns b = offset;
@@ -213,7 +213,7 @@ namespace Voussoir
     return b;
   }
 
-  /** The interface's work space: G^T force. */
+  /** Sets the work array of the interface to G^T force. */
   void JointSystem::put_on_interface(const Unknowns &force)
   {
     std::fill(interface.value.begin(), interface.value.end(), 0.);
@@ -226,10 +226,10 @@ namespace Voussoir
                   (side == 0 ? -1. : 1.) * structure.pairs[p].frame[i][c] * force[3 * p + i];
   }
 
-  /** Forces on the feet without those of the joints. */
+  /** Computes the forces on the base nodes without joint forces. */
   void JointSystem::release_joints(FeetOfStep &of_step) const
   {
-    of_step.place.resize(feet->n(), 0.); // nobody has said where
+    of_step.place.resize(feet->n(), 0.); // zero displacement unless given
     feet->take_from(interface, of_step.force);
     for (std::size_t k = 0; k < of_step.force.size(); ++k)
       of_step.force[k] = of_step.place[k] - of_step.force[k];
@@ -296,7 +296,7 @@ namespace Voussoir
     return result;
   }
 
-  /** The joints alone, again after each event. */
+  /** Solves the joint problem, again after each crack event. */
   ContactResult JointSystem::solve_pairs(const Unknowns &b, const Unknowns &start, Unknowns &memory,
                                          Unknowns &force, Unknowns &gap)
   {
@@ -315,7 +315,7 @@ namespace Voussoir
 
   namespace
   {
-    /** All blocks of @p W on the first rank, none on others. */
+    /** Gathers all blocks of @p W on the first process; other processes have none. */
     InterfaceOperator on_first(const InterfaceOperator &W)
     {
       std::vector<unsigned int> n_pairs;
@@ -353,7 +353,7 @@ namespace Voussoir
               friction_problem(whole, laws, laws.pasts(start, meaning, memory), b);
           char name[40];
           std::snprintf(name, sizeof(name), "/problem-%06u.hdf5", n_solved);
-          std::filesystem::remove(parameters.write_directory + name); // of a step that is done again
+          std::filesystem::remove(parameters.write_directory + name); // file of a step that is repeated
           Unknowns guess, gap;
           if (problem.q.size() == force.size())
           {

@@ -16,16 +16,16 @@ namespace Voussoir
   {
     using Rows = std::vector<std::map<unsigned int, double>>;
 
-    /** Mass matrix of the faces of all sides 1 [m^2], by pairs. */
+    /** Returns the mass matrix of the faces of all sides 1 [m^2], by pairs. */
     Rows face_mass(const SolidModel &model, const std::vector<Pair> &pairs)
     {
-      std::map<std::pair<unsigned int, unsigned int>, unsigned int> pair_at; // surface and free node
+      std::map<std::pair<unsigned int, unsigned int>, unsigned int> pair_at; // (surface, free node) -> pair
       for (unsigned int p = 0; p < pairs.size(); ++p)
         pair_at[{PhysicalId::joint_side_1 + pairs[p].joint + 1, pairs[p].node_1}] = p;
       Rows            rows(pairs.size());
       FEFaceValues<3> values(model.fe, QGauss<2>(model.fe.degree + 1), update_values | update_JxW_values);
       std::vector<types::global_dof_index>               dofs(model.fe.n_dofs_per_cell());
-      std::vector<std::pair<unsigned int, unsigned int>> here; // pair, and number in the cell
+      std::vector<std::pair<unsigned int, unsigned int>> here; // (pair, number in the cell)
       for (const auto &cell : model.dof_handler.active_cell_iterators())
         for (const unsigned int f : cell->face_indices())
         {

@@ -66,13 +66,14 @@ namespace Voussoir
       pack<Number>(supernodes[i], static_cast<const double *>(L->x) + px[i]);
   }
 
-  /** Takes the numbers of @p L over and packs them where they are, if that is worth it and they fit. */
+  /** Takes the values of @p L and packs them in place, if the factor is large and the packed values fit.
+   * Returns whether they are packed. */
   template <class Number> bool PackedFactor::pack_in_place(cholmod_factor_struct *L)
   {
-    constexpr std::size_t large = 1000000; // numbers
+    constexpr std::size_t large = 1000000; // values
     constexpr std::size_t line = 8;        // doubles in 64 bytes
     const int            *px = static_cast<const int *>(L->px);
-    std::size_t           shift = 0; // by which the numbers must be moved back, so that none is overwritten
+    std::size_t           shift = 0; // shift of the values, so that none is overwritten before use
     for (std::size_t i = 0; i < supernodes.size(); ++i)
     {
       const std::size_t next = i + 1 < supernodes.size() ? supernodes[i + 1].values : n_values,
@@ -85,7 +86,7 @@ namespace Voussoir
     auto *x = static_cast<double *>(std::realloc(L->x, 8 * (L->xsize + shift)));
     if (!x)
       return false;
-    L->x = nullptr; // ours from now on
+    L->x = nullptr; // owned by this object from here on
     values.reset(x);
     std::memmove(x + shift, x, 8 * L->xsize);
     first_value = x + (line - reinterpret_cast<std::uintptr_t>(x) / 8 % line) % line;
@@ -96,12 +97,13 @@ namespace Voussoir
       original.assign(from, from + std::size_t(s.n_rows) * s.n_columns);
       pack<Number>(s, original.data());
     }
-    // Such a block shrinks where it is; should it move all the same, its numbers must not be out of line.
+    // realloc() usually shrinks such a block in place. If it moves the block, the alignment
+    // must be restored.
     const std::size_t bytes = sizeof(Number) * n_values,
                       before = static_cast<char *>(first_value) - reinterpret_cast<char *>(x);
     if (void *smaller = std::realloc(x, std::max<std::size_t>(before + bytes, 1)))
     {
-      values.release(); // by realloc
+      values.release(); // released by realloc()
       values.reset(smaller);
     }
     first_value = static_cast<char *>(values.get()) + before;
@@ -115,14 +117,14 @@ namespace Voussoir
     return true;
   }
 
-  /** @p L: by column. */
+  /** Packs the panels of a supernode. @p L: its columns. */
   template <class Number> void PackedFactor::pack(const PackedSupernode &s, const double *L)
   {
     Number *panel = static_cast<Number *>(first_value) + s.values;
     for (std::size_t column = 0; column < s.n_columns; column += width)
     {
       const std::size_t n = s.panel_width(column);
-      double            D[width][width] = {}; // the inverse of the panel's triangle
+      double            D[width][width] = {}; // inverse of the triangle of the panel
       const auto        at = [&](const std::size_t row, const std::size_t j)
       { return L[(column + j) * s.n_rows + row]; };
       for (std::size_t j = 0; j < n; ++j)
@@ -137,7 +139,7 @@ namespace Voussoir
       }
       for (std::size_t row = column; row < s.n_rows; row += width)
       {
-        Pack below[width] = {}; // eight rows of L, without the panel's own and what is past the last
+        Pack              below[width] = {}; // eight rows of L below the panel; zero beyond the last row
         const std::size_t end = std::min(width, s.n_rows - row);
         for (std::size_t k = 0; k < n; ++k)
           for (std::size_t i = row == column ? n : 0; i < end; ++i)

@@ -3,8 +3,9 @@
 
 #include <type_traits>
 
-// One binary for all processors: the widest kernels that the processor has are chosen when it starts. Those
-// of AVX-512 have packs of their own: elsewhere GCC keeps what is wider than 32 bytes in memory.
+// One binary serves all processors: the widest kernels that the processor supports are selected when the
+// program starts. The kernels for AVX-512 have their own packs; elsewhere GCC stores packs wider than 32
+// bytes in memory.
 #define VOUSSOIR_AVX512 __attribute__((target("avx512f")))
 #define VOUSSOIR_CLONES __attribute__((target_clones("fma", "avx", "default")))
 #define VOUSSOIR_INLINE inline __attribute__((always_inline))
@@ -36,9 +37,9 @@ namespace Voussoir
     }
 
     template <class P> constexpr std::size_t lanes = sizeof(P) / 8;
-    template <class P> constexpr std::size_t parts = width / lanes<P>; ///< of eight rows
+    template <class P> constexpr std::size_t parts = width / lanes<P>; ///< packs per eight rows
 
-    /** t = M t for a panel of @p n columns; @p t: from its first row on. */
+    /** Computes t = M t for a panel of @p n columns. @p t: from the first row of the panel on. */
     template <class P, std::size_t n, class Number>
     VOUSSOIR_INLINE void forward_panel(const Number *M, const std::size_t n_rows, double *t)
     {
@@ -54,7 +55,7 @@ namespace Voussoir
           for (std::size_t j = 1; j < n; ++j)
             (j % 2 == 1 ? odd : even) += load<P>(M + j * width + first) * y[j];
           P before = out;
-          if (row == 0) // what the panel's own rows were is in y
+          if (row == 0) // y has the old values of the rows of the panel
             for (std::size_t i = 0; i < lanes<P>; ++i)
               if (first + i < n)
                 before[i] = 0.;
@@ -62,7 +63,8 @@ namespace Voussoir
         }
     }
 
-    /** The sums of the eight lanes of each of @p s, four lanes and four at first: the same for all packs. */
+    /** Stores the sums of the eight lanes of each of @p s. Lanes are added four to four first, in the same
+     * order for all packs. */
     VOUSSOIR_INLINE void add_lanes(const Pack (&s)[width][1], double *sums)
     {
       typedef long long Index __attribute__((vector_size(8 * width)));
@@ -93,7 +95,7 @@ namespace Voussoir
       }
     }
 
-    /** The panel's own rows of t = M^T t. */
+    /** Computes the rows of the panel in t = M^T t. */
     template <class P, std::size_t n, class Number>
     VOUSSOIR_INLINE void backward_panel(const Number *M, const std::size_t n_rows, double *t)
     {
@@ -161,7 +163,7 @@ namespace Voussoir
         x[rows[i - s.n_columns]] = t[i];
     }
 
-    /** @p values: the end of the supernode's. */
+    /** Substitutes backward in one supernode. @p values: end of its values. */
     template <class P, class Number>
     VOUSSOIR_INLINE void backward_supernode(const PackedSupernode &s, const unsigned int *rows,
                                             const Number *values, double *t, double *x)

@@ -52,7 +52,7 @@ namespace Voussoir
   InterfaceOperator make_interface_operator(const BlockSparseMatrix &W, const PairGroups &groups)
   {
     InterfaceOperator         result(groups.size);
-    std::vector<unsigned int> place(W.n_rows()), group(W.n_rows()); // of the old pairs
+    std::vector<unsigned int> place(W.n_rows()), group(W.n_rows()); // per pair of W
     for (unsigned int g = 0, next = 0; g < groups.size.size(); ++g)
     {
       result.block(g, g);

@@ -17,15 +17,15 @@ namespace Voussoir
 
   namespace
   {
-    /** Two coincident nodes of a joint, and the tributary area vector, from side 1 to side 2. */
+    /** Two coincident nodes of a joint, and the tributary area vector from side 1 to side 2. */
     struct NodePair
     {
       unsigned int              joint, node_1, node_2;
       Tensor<1, 3>              area;
-      std::vector<Tensor<1, 3>> planes; ///< its parts, where faces meet at an edge; else empty
+      std::vector<Tensor<1, 3>> planes; ///< parts of the area at an edge; otherwise empty
     };
 
-    /** Adds the area vector of a face to the plane that it lies in, within 20 degrees. */
+    /** Adds the area vector of a face to the plane with the same normal within 20 degrees. */
     void add_to_planes(std::vector<Tensor<1, 3>> &planes, const Tensor<1, 3> &area)
     {
       for (Tensor<1, 3> &plane : planes)
@@ -51,8 +51,8 @@ namespace Voussoir
       return frame;
     }
 
-    /** The nodes of a joint: those of side 1 with their area vectors, outward from side 1, that is from side
-     * 1 to side 2, and the planes that these are made of. */
+    /** Nodes of a joint. Nodes of side 1 have their area vectors, from side 1 to side 2, and the planes of
+     * which these consist. */
     struct JointNodes
     {
       std::map<unsigned int, Tensor<1, 3>>              area;
@@ -104,7 +104,7 @@ namespace Voussoir
       return joints;
     }
 
-    /** The one of the @p candidates that lies where node @p node does, which has the area @p area. */
+    /** Returns the candidate that coincides with @p node, which has the tributary area @p area. */
     unsigned int partner_of(const unsigned int node, const double area, const SolidModel &model,
                             const std::set<unsigned int> &candidates, const unsigned int joint)
     {
@@ -163,14 +163,14 @@ namespace Voussoir
       Pair pair;
       pair.node_1 = model.equation[match.node_1];
       pair.node_2 = model.equation[match.node_2];
-      if (pair.node_1 == pair.node_2) // both fixed, or tied
+      if (pair.node_1 == pair.node_2) // both nodes fixed, or tied
         continue;
       const auto same = std::find_if(pairs.begin(), pairs.end(),
                                      [&](const Pair &other) {
                                        return other.joint == match.joint && other.node_1 == pair.node_1 &&
                                               other.node_2 == pair.node_2;
                                      });
-      if (same != pairs.end()) // nodes that move as one
+      if (same != pairs.end()) // nodes that move together
       {
         same->area += match.area.norm();
         continue;
@@ -219,7 +219,7 @@ namespace Voussoir
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
     {
       master[i] = root(i);
-      if (model.on_surface(i, PhysicalId::base)) // of one monolith is enough
+      if (model.on_surface(i, PhysicalId::base)) // a node of one monolith is sufficient
         fixed[master[i]] = model.base_is_fixed;
     }
     std::fill(model.body.begin(), model.body.end(), 0);

@@ -13,7 +13,8 @@ namespace Voussoir
   {
     constexpr double H = arch210_height;
 
-    /** Where @p f, negative at @p lower and positive at @p upper, is zero. Bisection, to the last digit. */
+    /** Returns the root of @p f by bisection, to the last digit. @p f is negative at @p lower and positive at
+     * @p upper. */
     template <typename Function> double root(const Function &f, double lower, double upper)
     {
       for (unsigned int i = 0; i < 60; ++i)
@@ -24,8 +25,8 @@ namespace Voussoir
       return 0.5 * (lower + upper);
     }
 
-    // The levels of the dam, in metres: t is the slope dx/dy of the centre line at y, w runs from -1
-    // (upstream face) to 1 (downstream face).
+    // Geometry at the height z, in metres. t is the slope dx/dy of the centre line at y. w runs from -1 at
+    // the upstream face to 1 at the downstream face.
     double crown_thickness(const double z)
     {
       const double zeta = (H - z) / H;
@@ -56,7 +57,7 @@ namespace Voussoir
       return radius(z) / 2 * (t * std::hypot(1, t) + std::asinh(t));
     }
 
-    /** The point P(y,z,w). */
+    /** Returns the point P(y, z, w) [m]. */
     std::array<double, 3> point(const double y, const double z, const double w)
     {
       const double share = arc_length(y, z) / arc_length(half_width(z), z);
@@ -65,8 +66,8 @@ namespace Voussoir
       return {crown_centre(z) + y * y / (2 * radius(z)) + w * T / (2 * q), y - w * T * t / (2 * q), z};
     }
 
-    /** A column of nodes: the vertical plane normal to the crest's centre line at its point y = @p crest_y >=
-     * 0, nowhere less than @p smallest_height high [m]. The right half of the dam mirrors the left one. */
+    /** Column of nodes in the left half of the dam. It lies in the vertical plane normal to the centre line
+     * of the crest at y = crest_y >= 0. Its height is at least smallest_height [m]. */
     class Column
     {
     public:
@@ -75,17 +76,17 @@ namespace Voussoir
       {
       }
 
-      /** Along the dam from the plane [m] (times the root of 1 + slope^2); grows with y. */
+      /** Returns the distance of @p p from the plane times sqrt(1 + slope^2) [m]. It increases with y. */
       double distance(const std::array<double, 3> &p) const
       {
         return slope * (p[0] - crest[0]) + p[1] - crest[1];
       }
 
-      /** The height z of the foot: where the plane meets the abutment, or 0 at the valley's floor. Where the
-       * abutment is nearer to the crest than the smallest height, the dam is let into the bank. */
+      /** Returns the height z of the base [m]: that of the abutment, 0 at the floor of the valley, or less
+       * than the abutment where the dam would be lower than the smallest height. */
       double foot(const double w) const { return std::min(abutment(w), highest_foot); }
 
-      /** The node at height z, from the foot up. */
+      /** Returns the node at height @p z, which is at or above the base. */
       std::array<double, 3> node(const double z, const double w) const
       {
         const double reach = z < abutment(w) ? 1.1 * half_width(H) : half_width(z);
@@ -113,7 +114,7 @@ namespace Voussoir
       return arc_length(half_width(H), H);
     }
 
-    /** Where on the crest, s > 0, the foot is @p wall below it. */
+    /** Returns the arc length s > 0 on the crest at which the abutment is @p wall below the crest [m]. */
     double end_of_crest(const double wall)
     {
       const auto end = point(half_width(H - wall), H - wall, 0);
@@ -121,7 +122,7 @@ namespace Voussoir
                         H);
     }
 
-    /** The columns' places on the crest, s from the right bank to the left. */
+    /** Returns the arc length s of the columns on the crest [m], from the right bank to the left. */
     std::vector<double> columns(const Arch210Parameters &parameters)
     {
       const unsigned int n_monoliths = parameters.n_joints + 1;
@@ -143,28 +144,27 @@ namespace Voussoir
     using namespace dealii::Patterns;
     prm.enter_subsection("Mesh");
     prm.enter_subsection("Arch210");
+    prm.add_parameter("Joints", n_joints,
+                      "Number of contraction joints [-], with equal spacing along the crest. The dam has one "
+                      "monolith more. The paper of Hu, Zhang and Lin (2008) uses 5, 17 and 28.",
+                      Integer(0, 60));
     prm.add_parameter(
-        "Joints", n_joints,
-        "Number of contraction joints, equally spaced along the crest; the dam has one monolith "
-        "more. The paper's computations use 5, 17 and 28.",
-        Integer(0, 60));
-    prm.add_parameter("Elements along", elements_along,
-                      "Number of elements along the crest, in all. Rounded up to a multiple of the number of "
-                      "monoliths.",
-                      Integer(1, 10000));
-    prm.add_parameter("Elements up", elements_up, "Number of elements from the foot to the crest.",
+        "Elements along", elements_along,
+        "Total number of elements along the crest [-]. Rounded up to a multiple of the number of monoliths.",
+        Integer(1, 10000));
+    prm.add_parameter("Elements up", elements_up, "Number of elements from the base to the crest [-].",
                       Integer(1, 1000));
     prm.add_parameter("Elements through", elements_through,
-                      "Number of elements from the upstream to the downstream face.", Integer(1, 100));
+                      "Number of elements from the upstream to the downstream face [-].", Integer(1, 100));
     prm.add_parameter("End wall height", end_wall_height,
-                      "The crest ends where the abutment is this far below it [m], at the centre line. The "
-                      "dam's height would run out to zero there.",
+                      "Depth of the abutment below the two ends of the crest [m], at the centre line. With a "
+                      "longer crest, the height of the dam would decrease to zero.",
                       Double(0.01, 20));
     prm.add_parameter(
         "Smallest height", smallest_height,
-        "The dam is nowhere less high than this [m]: near the banks, where the abutment would be "
-        "nearer to the crest, the dam is let into the bank. All rows share this height there; "
-        "without it elements would be as flat as End wall height over their number.",
+        "Smallest height of the dam [m]. Near the banks, where the abutment is nearer to the crest, the dam "
+        "is embedded in the bank. All rows of elements share this height. With 0, the elements at the ends "
+        "would be as flat as \"End wall height\" divided by \"Elements up\".",
         Double(0, 20));
     prm.leave_subsection();
     prm.leave_subsection();
@@ -185,9 +185,9 @@ namespace Voussoir
       throw InputError(section + "'End wall height' is " + std::to_string(end_wall_height) +
                        " m. Choose a height above 0 that leaves at least half of the end monoliths' crest.");
     if (!(smallest_height >= 0) || spoils(smallest_height))
-      throw InputError(section + "'Smallest height' is " + std::to_string(smallest_height) +
-                       " m. Choose a height that the dam exceeds by itself over at least half of the end "
-                       "monoliths' crest.");
+      throw InputError(
+          section + "'Smallest height' is " + std::to_string(smallest_height) +
+          " m. Choose a height that the dam exceeds over at least half of the crest of the end monoliths.");
   }
 
   HexMesh make_arch210(const Arch210Parameters &parameters)
@@ -227,7 +227,7 @@ namespace Voussoir
                                    static_cast<int>(i / per_monolith + 1)};
           mesh.cells.push_back(cell);
 
-          // In the order of hex_faces: foot, crest, right bank, downstream, left bank, upstream.
+          // In the order of hex_faces: base, crest, right bank, downstream, left bank, upstream.
           const bool outside[6] = {k == 0,           k + 1 == n_up, i == 0, l + 1 == n_through,
                                    i + 1 == n_along, l == 0};
           const int  surface[6] = {PhysicalId::base,       PhysicalId::crest, PhysicalId::base,

@@ -11,8 +11,8 @@ namespace Voussoir
   {
     using Vector = std::array<double, 3>;
 
-    constexpr double largest_size = 1.7;   ///< of the element size, where grid lines are long
-    constexpr double smallest_size = 0.35; ///< likewise, mean where they are short
+    constexpr double largest_size = 1.7;   ///< largest element on long grid lines, in element sizes
+    constexpr double smallest_size = 0.35; ///< smallest mean on short grid lines, likewise
 
     class Builder
     {
@@ -45,7 +45,7 @@ namespace Voussoir
         return mesh.nodes[dam_node(column, layer)];
       }
 
-      /** What the dam's outermost layer at a column, cut by lines along x, measures along them [m]. */
+      /** Returns the thickness of the outermost layer of the dam at a column, along x [m]. */
       double foot_size(const unsigned int column, const bool is_upstream) const
       {
         const Vector &a = foot(column, is_upstream ? 0 : n_dam_layers - 1);
@@ -56,7 +56,7 @@ namespace Voussoir
 
       double layer_size(const double extent) const { return std::min(rock.element_size, extent / (n + 6)); }
 
-      /** The block's faces, the sizes of the elements at them and the numbers of elements. */
+      /** Computes the faces of the block, the element sizes at the faces and the numbers of elements. */
       void measure()
       {
         double x_min = foot(0, 0)[0], x_max = x_min, y_max = 0;
@@ -99,8 +99,8 @@ namespace Voussoir
         n_downstream = count_lines(false);
         column_size = y_end - valley[n_columns - 1][0];
         n_side = n_graded(y_side - n * h_side - y_end, column_size, h_side, rock.element_size);
-        // Waves from below disperse, with the square of the cells' height and with their way: deeper rock
-        // than the valley has less tall ones.
+        // The dispersion of waves from below increases with the square of the cell height and with the path.
+        // Rock deeper than the valley therefore has lower cells.
         const double below_valley = -z_bottom - n * h_bottom;
         const double tallest = largest * std::sqrt(std::min(1., 2. * plateau / (plateau + rock.depth)));
         n_down = std::clamp<unsigned int>(std::ceil(below_valley / smallest), 2,
@@ -116,7 +116,7 @@ namespace Voussoir
 
       Vector &ground(const unsigned int i, const unsigned int j) { return surface[i * (n_j + 1) + j]; }
 
-      /** The ground of the dam's columns: lines along the valley, through the foot in the middle. */
+      /** Computes the ground in the columns of the dam: lines along the valley, through the base nodes. */
       void make_dam_columns()
       {
         for (unsigned int c = 0; c <= n_columns; ++c)
@@ -148,7 +148,7 @@ namespace Voussoir
         }
       }
 
-      /** The places x of the layers on the side faces. */
+      /** Returns x of the layers on the side faces [m]. */
       std::vector<double> straight_layers(const double bend)
       {
         const double        upper = x_upstream + n * h_upstream, lower = x_downstream - n * h_downstream;
@@ -173,8 +173,8 @@ namespace Voussoir
         return x;
       }
 
-      /** The ground beyond the dam's end on the left (@p bank = 1) or the right bank (-1). The layers leave
-       *  the dam in its direction and turn to that of y. */
+      /** Computes the ground beyond the end of the dam on the left (@p bank = 1) or the right bank (-1). The
+       * layers continue in the direction of the dam and bend to the direction of y. */
       void make_sides(const int bank)
       {
         const unsigned int end = bank > 0 ? first_column + n_columns : first_column;
@@ -205,7 +205,7 @@ namespace Voussoir
         }
       }
 
-      /** How far layer j is from the dam: 0 at the dam, 1 at the layers along the boundary. */
+      /** Returns the relative distance of layer j: 0 at the dam, 1 at the layers along the boundary. */
       double distance(const unsigned int j) const
       {
         if (j < first_layer)
@@ -214,7 +214,7 @@ namespace Voussoir
         return j <= last_layer ? 0 : std::min(1., double(j - last_layer) / n_downstream);
       }
 
-      /** How far column i is from the dam, likewise. */
+      /** Returns the relative distance of column i, like distance(). */
       double distance_of_column(const unsigned int i) const
       {
         const unsigned int last_column = first_column + n_columns;
@@ -224,8 +224,8 @@ namespace Voussoir
         return std::min(1., double(steps) / n_side);
       }
 
-      /** Evens out the lines across the valley over about 100 m, the more the farther they are from the dam.
-       *  Elements may lose a third of their length at most. */
+      /** Smooths the lines across the valley over about 100 m. The smoothing increases with the distance from
+       * the dam. An element loses at most a third of its length. */
       void smooth()
       {
         const std::vector<Vector> unsmoothed = surface;
@@ -329,16 +329,16 @@ namespace Voussoir
       const Arch210Parameters           &dam;
       const Arch210RockParameters       &rock;
       HexMesh                           &mesh;
-      std::vector<std::array<double, 2>> valley; // (y, z) of each of the dam's columns
+      std::vector<std::array<double, 2>> valley; // (y, z) of each column of the dam
       const unsigned int                 n_columns, n_dam_layers, n;
-      double                    h_upstream, h_downstream, h_side, h_bottom; // [m], of the boundary's layers
-      double                    x_upstream, x_downstream, y_side, y_end, z_bottom, plateau; // [m]
-      double                    surface_size, column_size; // [m], below the ground and beside the dam
-      unsigned int              n_upstream, n_downstream, n_side, n_down; // elements between dam and layers
-      unsigned int              first_column, first_layer;                // of the dam
-      unsigned int              n_i, n_j, n_k; // elements across, along the stream, down
-      std::vector<Vector>       surface;       // ground and foot, by i and j
-      std::vector<unsigned int> number;        // of the node i, j, k
+      double              h_upstream, h_downstream, h_side, h_bottom; // sizes in the boundary layers [m]
+      double              x_upstream, x_downstream, y_side, y_end, z_bottom, plateau; // [m]
+      double              surface_size, column_size; // sizes below the ground, at the ends of the dam [m]
+      unsigned int        n_upstream, n_downstream, n_side, n_down; // elements between dam and layers
+      unsigned int        first_column, first_layer;                // first ones of the dam
+      unsigned int        n_i, n_j, n_k;                            // elements across, along the stream, down
+      std::vector<Vector> surface;                                  // ground and base, by i and j
+      std::vector<unsigned int> number;                             // number of the node i, j, k
     };
   } // namespace
 

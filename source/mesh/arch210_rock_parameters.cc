@@ -11,9 +11,9 @@ namespace Voussoir
     prm.enter_subsection("Mesh");
     prm.enter_subsection("Arch210");
     prm.enter_subsection("Rock");
-    prm.add_parameter("Enabled", enabled, "Mesh the rock around the dam, too. Otherwise the base is rigid.",
-                      Bool());
-    const std::string from = " [m], from the dam's outermost foot to the artificial boundary.";
+    prm.add_parameter("Enabled", enabled,
+                      "true: the mesh includes the rock around the dam. false: the base is rigid.", Bool());
+    const std::string from = " [m], from the outermost base nodes of the dam to the artificial boundary.";
     prm.add_parameter("Upstream", upstream, "Length of the rock upstream" + from, {50., 2000.},
                       Double(50, 1e5));
     prm.add_parameter("Downstream", downstream, "Length of the rock downstream" + from, {50., 2000.},
@@ -21,15 +21,14 @@ namespace Voussoir
     prm.add_parameter("Sides", sides, "Length of the rock on either side" + from, {50., 2000.},
                       Double(50, 1e5));
     prm.add_parameter("Depth", depth, "Depth of the rock" + from, {50., 2000.}, Double(50, 1e5));
-    prm.add_parameter(
-        "Element size", element_size,
-        "Size of the elements far from the dam [m]. Across the valley, the dam's columns decide "
-        "(Elements along); where the rock is thinnest, elements are smaller, and where it is "
-        "thickest, up to 1.7 times as large.",
-        {2., 100.}, Double(1, 1e4));
+    prm.add_parameter("Element size", element_size,
+                      "Size of the rock elements far from the dam [m]. They are smaller where the rock is "
+                      "thinnest, and up to 1.7 times as large where it is thickest. Across the valley, "
+                      "\"Elements along\" determines their number.",
+                      {2., 100.}, Double(1, 1e4));
     prm.add_parameter("Boundary layers", n_layers,
-                      "Number of layers of equal elements along the artificial boundary, which the "
-                      "transmitting boundary needs.",
+                      "Number of layers of equal elements along the artificial boundary [-]. A transmitting "
+                      "boundary requires them.",
                       Integer(6, 100));
     prm.leave_subsection();
     prm.leave_subsection();

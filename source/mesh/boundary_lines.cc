@@ -12,7 +12,7 @@ namespace Voussoir
   {
     using Vector = std::array<double, 3>;
 
-    constexpr double tolerance = 1e-5; ///< of the spacing
+    constexpr double tolerance = 1e-5; ///< relative to the spacing
 
     constexpr CutFace cut_faces[5] = {CutFace::upstream, CutFace::downstream, CutFace::right, CutFace::left,
                                       CutFace::bottom};
@@ -20,7 +20,7 @@ namespace Voussoir
     /** Row of hex_faces opposite to each row. */
     constexpr unsigned int opposite_face[6] = {1, 0, 4, 5, 2, 3};
 
-    /** Whether an edge of the hexahedron joins two of its corners. */
+    /** Returns true if an edge of the hexahedron connects the corners @p a and @p b. */
     bool are_joined(const unsigned int a, const unsigned int b)
     {
       return a % 4 == b % 4 || (a / 4 == b / 4 && (a + 1) % 4 == b % 4) ||
@@ -45,7 +45,7 @@ namespace Voussoir
             const auto *entry = table.owners(face.nodes).first;
             faces.emplace_back(cut_face(*entry), entry);
           }
-        // In the order of cut_faces, so that the first line of a node is the one it keeps.
+        // A node keeps its first line: the order of cut_faces decides.
         std::stable_sort(faces.begin(), faces.end(),
                          [](const auto &a, const auto &b) { return a.first < b.first; });
         for (const auto &face : faces)
@@ -71,7 +71,7 @@ namespace Voussoir
         return "'" + (name != mesh.names.end() ? name->second : physical_name(3, volume)) + "'";
       }
 
-      /** The plane in which a face lies. */
+      /** Returns the plane in which a face lies. */
       CutFace cut_face(const FaceTable::Entry &entry) const
       {
         for (const CutFace face : cut_faces)
@@ -85,12 +85,11 @@ namespace Voussoir
             return face;
         }
         fail("the face at " + place(centre(mesh, entry.key)) +
-             " lies in none of the planes x, y = smallest and largest, z = smallest. Cut the rock by five "
-             "such "
-             "planes, and put the ground into the surface 'free surface'.");
+             " lies in none of the planes of smallest x, largest x, smallest y, largest y and smallest z. "
+             "Cut the rock by these five planes, and put the ground into the surface 'free surface'.");
       }
 
-      /** Shortest edge that leaves the face [m]. */
+      /** Returns the length of the shortest edge from the face into its cell [m]. */
       double depth(const FaceTable::Entry &entry) const
       {
         double     shortest = 1e300;
@@ -104,7 +103,7 @@ namespace Voussoir
         return shortest;
       }
 
-      /** The nodes that edges of the cell join to those of its face, in the order of hex_faces[face]. */
+      /** Returns the nodes opposite to those of a face of a cell, in the order of hex_faces[face]. */
       std::array<unsigned int, 4> across(const unsigned int cell, const unsigned int face) const
       {
         std::array<unsigned int, 4> nodes{};
@@ -115,8 +114,8 @@ namespace Voussoir
         return nodes;
       }
 
-      /** Walks from a face through n_layers elements and adds the lines of those of its nodes that have none.
-       */
+      /** Follows the grid from a face through n_layers elements. Adds the lines of its nodes
+       * without a line. */
       void follow(const CutFace face, const FaceTable::Entry &start)
       {
         const int                                volume = mesh.cells[start.cell].volume;
@@ -131,7 +130,7 @@ namespace Voussoir
             fail("behind the face at " + place(centre(mesh, start.key)) + " (" + name_of(face) +
                  "), the material changes from " + called(volume) + " to " + called(cell.volume) +
                  " in layer " + std::to_string(layer) + " of " + std::to_string(n_layers) +
-                 ". Let the layers of equal elements lie in one material.");
+                 ". Use one material in the layers of equal elements.");
           const auto next = across(entry->cell, entry->cell_face);
           for (unsigned int v = 0; v < 4; ++v)
             for (unsigned int w = 0; w < 4; ++w)
@@ -161,7 +160,7 @@ namespace Voussoir
           }
           else if (lines[known].face == face && lines[known].nodes != line)
             fail("the grid lines from the node at " + place(mesh.nodes[line[0]]) + " (" + name_of(face) +
-                 ") part within " + std::to_string(n_layers) +
+                 ") separate within " + std::to_string(n_layers) +
                  " elements. Mesh the rock along the boundary in layers (gmsh: Extrude or Transfinite).");
           else if (lines[known].face == face && lines[known].volume != volume)
             lines[known].volume = std::min(lines[known].volume, volume); // between two materials
@@ -181,8 +180,8 @@ namespace Voussoir
           for (unsigned int d = 0; d < 3; ++d)
             if (d != axis && !(std::abs(here[d] - start[d]) <= tolerance * line.spacing))
             {
-              text << "is not straight and normal to this face: at its node " << k << " of "
-                   << line.nodes.size() - 1 << ", at " << place(here) << ", it is off by "
+              text << "is not straight and normal to this face: its node " << k << " of "
+                   << line.nodes.size() - 1 << ", at " << place(here) << ", deviates by "
                    << here[d] - start[d] << " m in "
                    << "xyz"[d] << ". Make the outer " << line.nodes.size() - 1
                    << " layers of the rock prismatic: extrude the mesh of this face along its normal.";

@@ -19,7 +19,7 @@ namespace Voussoir
 
   namespace
   {
-    /** A directory of its own for files that are soon gone. */
+    /** Temporary directory. The destructor removes it. */
     class Scratch
     {
     public:
@@ -29,9 +29,9 @@ namespace Voussoir
         const fs::path  place = fs::temp_directory_path(error);
         std::string     name = (place / "voussoir-XXXXXX").string();
         if (error || mkdtemp(name.data()) == nullptr)
-          throw WriteError("No directory can be made " +
-                           (error ? std::string("where TMPDIR says") : "in " + place.string()) +
-                           ", where a mesh is to be converted. Make room there, or set TMPDIR.");
+          throw WriteError("The temporary directory for the conversion of a mesh cannot be created " +
+                           (error ? std::string("in the directory TMPDIR") : "in " + place.string()) +
+                           ". Free disk space there, or set TMPDIR to another directory.");
         path = name;
       }
       ~Scratch()
@@ -77,18 +77,16 @@ namespace Voussoir
   {
     std::error_code error;
     if (!fs::is_regular_file(file, error))
-      throw InputError(
-          "mesh " + file +
-          ": the file does not exist or cannot be read. Check the entry 'File' of subsection 'Mesh'; it "
-          "is relative to the directory of the scene file.");
+      throw InputError("mesh " + file +
+                       ": the file does not exist or cannot be read. Check the entry 'File' of subsection "
+                       "'Mesh'. The path is relative to the directory of the input file.");
     const fs::path script = find_script("mesh_to_msh.py");
     if (script.empty())
       throw InputError(
           "mesh " + file +
-          ": it is to be converted by the script mesh_to_msh.py, which was not found. "
-          "The environment variable VOUSSOIR_SCRIPTS may name its directory; or convert the mesh to MSH "
-          "4.1 yourself.");
-    std::optional<InterruptGuard> guard; // a run has one; others, too, leave no files behind
+          ": the script mesh_to_msh.py, which converts it, was not found. Set the environment variable "
+          "VOUSSOIR_SCRIPTS to its directory, or convert the mesh to MSH 4.1 yourself.");
+    std::optional<InterruptGuard> guard; // not only in a run: remove the files after a signal
     if (!InterruptGuard::lives())
       guard.emplace();
     const Scratch     scratch;
@@ -99,13 +97,13 @@ namespace Voussoir
           status != lacks_meshio)
         break;
     if (guard && guard->received() != nullptr)
-      throw Interrupted(guard->received() + std::string(" came while the mesh was converted."));
+      throw Interrupted(guard->received() + std::string(" was received during the conversion of the mesh."));
     if (status == lacks_meshio)
       throw InputError(
           "mesh " + file +
-          ": it is to be converted by the Python package meshio, which was not found. Install it (on "
-          "Debian: apt-get install python3-meshio), name a Python that has it by the environment "
-          "variable VOUSSOIR_PYTHON, or convert the mesh to MSH 4.1 yourself.");
+          ": the Python package meshio, which converts it, was not found. Install it (on Debian: apt-get "
+          "install python3-meshio), set the environment variable VOUSSOIR_PYTHON to a Python interpreter "
+          "that has it, or convert the mesh to MSH 4.1 yourself.");
     if (status != 0)
       throw InputError("mesh " + file + ": it cannot be converted: " + last_line(said));
     try
@@ -114,7 +112,7 @@ namespace Voussoir
     }
     catch (const InputError &of_made)
     {
-      throw InputError(replaced(of_made.what(), made, file)); // the file that the user knows
+      throw InputError(replaced(of_made.what(), made, file)); // the path of the user's file
     }
   }
 } // namespace Voussoir

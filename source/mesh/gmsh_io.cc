@@ -19,7 +19,7 @@ namespace Voussoir
   {
     namespace model = gmsh::model;
 
-    /** Gmsh's elements that are read: of higher order by their corners, which come first. */
+    /** Element types of gmsh that are read. Elements of higher order begin with their corners. */
     struct ElementKind
     {
       int         dimension, type;
@@ -45,18 +45,18 @@ namespace Voussoir
       return found == std::end(kinds) ? nullptr : found;
     }
 
-    /** Gmsh would run anything that does not look like a mesh as a script: look first. */
+    /** Throws InputError if the file is not a gmsh mesh. Gmsh would execute other files as scripts. */
     void expect_gmsh_file(const std::string &file)
     {
       std::error_code error;
       std::ifstream   stream;
       std::string     line;
-      if (std::filesystem::is_regular_file(file, error)) // opening a pipe would wait for its other end
+      if (std::filesystem::is_regular_file(file, error)) // the opening of a pipe would wait for a writer
         stream.open(file);
       if (!stream.is_open() || !std::getline(stream, line))
         throw InputError("mesh " + file +
-                         ": the file does not exist or cannot be read. Check the entry 'File' " +
-                         "of subsection 'Mesh'; it is relative to the directory of the scene file.");
+                         ": the file does not exist or cannot be read. Check the entry 'File' of " +
+                         "subsection 'Mesh'. The path is relative to the directory of the input file.");
       for (bool in_comments = false; line.rfind("$MeshFormat", 0) != 0;)
       {
         in_comments = (in_comments || line.rfind("$Comments", 0) == 0) && line.rfind("$EndComments", 0) != 0;
@@ -64,7 +64,7 @@ namespace Voussoir
             in_comments || line.empty() || line[0] == '\r' || line.rfind("$EndComments", 0) == 0;
         if (!skip || !std::getline(stream, line))
           throw InputError("mesh " + file +
-                           ": this is not a gmsh mesh, it does not begin with $MeshFormat. " +
+                           ": this is not a gmsh mesh, because it does not begin with $MeshFormat. " +
                            "Save the mesh as MSH 4.1 or 2.2 (gmsh -save -format msh41).");
       }
     }
@@ -87,8 +87,8 @@ namespace Voussoir
         gmsh::open(file);
         const auto cells = elements(3, "hexahedra"), faces = elements(2, "quadrilaterals");
         if (cells.empty())
-          fail("there are no hexahedra in physical volumes. Mesh the dam with hexahedra, give every "
-               "monolith a physical volume ('monolith 1', ...), and save the volume mesh.");
+          fail("there are no hexahedra in physical volumes. Mesh the dam with hexahedra, give every monolith "
+               "a physical volume ('monolith 1', ...), and save the volume mesh.");
         read_nodes();
         MixedMesh mixed;
         for (const Element &element : cells)
@@ -96,21 +96,18 @@ namespace Voussoir
           mixed.cells.push_back({without_double_corners(numbers(element)), element.group, element.zone});
           if (mixed.cells.back().nodes.size() == 6 && !subdivided)
             fail("element " + std::to_string(element.tag) + " of " + physical_name(3, element.group) +
-                 " is a wedge, and the elements of the program are hexahedra, which lose their bending modes "
-                 "and "
-                 "their stresses when two edges are collapsed. Set \"Mesh/Subdivide\" = true: every wedge "
-                 "then "
-                 "becomes six hexahedra and every hexahedron eight (start from a mesh twice as coarse). Or "
-                 "mesh "
-                 "without wedges: end the dam at the banks with a short vertical edge instead of a point.");
+                 " is a wedge. A hexahedron with two collapsed edges would lose its bending modes and give "
+                 "wrong stresses. Set \"Mesh/Subdivide\" = true: every wedge then becomes six hexahedra and "
+                 "every hexahedron eight (start from a mesh twice as coarse). Or mesh without wedges: end "
+                 "the dam at the banks with a short vertical edge instead of a point.");
         }
         for (const Element &element : faces)
         {
           mixed.faces.push_back({numbers(element), element.group});
           if (mixed.faces.back().nodes.size() == 3 && !subdivided)
             fail(physical_name(2, element.group) +
-                 " has triangles, the faces of wedges or tetrahedra. Mesh with "
-                 "hexahedra (gmsh: Transfinite, Recombine), or with wedges and \"Mesh/Subdivide\" = true.");
+                 " has triangles, the faces of wedges or tetrahedra. Mesh with hexahedra (gmsh: Transfinite, "
+                 "Recombine), or with wedges and \"Mesh/Subdivide\" = true.");
         }
         if (subdivided)
         {
@@ -132,7 +129,7 @@ namespace Voussoir
         return result;
       }
 
-      /** Hexahedra and quadrilaterals only. */
+      /** Copies a mesh that has hexahedra and quadrilaterals only. */
       void take_over(const MixedMesh &mixed)
       {
         for (const MixedMesh::Cell &from : mixed.cells)
@@ -160,7 +157,8 @@ namespace Voussoir
         return "physical " + kind + std::to_string(tag) + (name.empty() ? "" : " ('" + name + "')");
       }
 
-      /** Our id of gmsh's group: by its name, or without one by its tag; and takes the name down. */
+      /** Returns the physical id of a group of gmsh: by its name, or by its tag if it has none.
+       * Stores the name. */
       int identify(const int dimension, const int tag)
       {
         std::string name;
@@ -168,12 +166,12 @@ namespace Voussoir
         int id = name.empty() ? tag : physical_id(dimension, name);
         if (id == -1 && !name.empty())
           fail(unknown_group(dimension, tag, name));
-        if (dimension == 3 && !name.empty() && id == PhysicalId::first_rock) // which rock is not said
+        if (dimension == 3 && !name.empty() && id == PhysicalId::first_rock) // ids of rock are free
           for (id = std::max(tag, id); mesh.names.count({3, id}) != 0;)
             ++id;
         if (!name.empty())
         {
-          // A monolith of zones is called by its number.
+          // Name of a monolith with zones: its number only.
           const bool         in_zones = dimension == 3 && is_monolith(id) && !zone_of(name).empty();
           const std::string &called = in_zones ? physical_name(3, id) : name;
           std::string       &names = mesh.names[{dimension, id}];
@@ -185,33 +183,32 @@ namespace Voussoir
         if (mesh.names.count({dimension, id}) != 0 && unnamed.count({dimension, id}) != 0)
           fail("the physical group '" + mesh.names.at({dimension, id}) + "' and " + label(dimension, id) +
                ", which has no name, would both be " + physical_name(dimension, id) +
-               ". Give the latter a name, or remove it.");
+               ". Name the group without a name, or remove it.");
 
         if (dimension == 3 && id < 1)
           fail(label(3, tag) +
                " has an id out of range. Number the monoliths from 1 to 999 and rock from 1000.");
         if (dimension == 2 && physical_id(2, physical_name(2, id)) == -1)
           fail(label(2, tag) +
-               " is unknown. Name it 'base', 'upstream', 'downstream', 'crest', 'free surface', "
-               "'artificial boundary' or 'joint 1 side 1' and so on, use their ids (1 to 6, "
-               "101, 201), or remove it.");
+               " is unknown. Name it 'base', 'upstream', 'downstream', 'crest', 'free surface', 'artificial "
+               "boundary' or 'joint 1 side 1' and so on, use their ids (1 to 6, 101, 201), or remove it.");
         return id;
       }
 
-      /** Of the cells of gmsh's group of volumes. */
+      /** Returns the zone of the cells in a physical volume of gmsh. */
       unsigned int zone_of_group(const int tag)
       {
         std::string name;
         model::getPhysicalName(3, tag, name);
         if (!is_plain(name))
           fail("the physical volume '" + name +
-               "' has letters that no zone can have. Use a to z, digits, blanks, '_' and '-', in the mesh "
-               "and in "
-               "the scene.");
+               "' has letters that are not allowed in the name of a zone. Use a to z, digits, blanks, '_' "
+               "and '-' in the mesh and in the input file.");
         return zone_index(mesh, zone_of(name));
       }
 
-      /** The elements in physical groups of this dimension, by tag; all must be of kinds that are read. */
+      /** Returns the elements in physical groups of this dimension, by tag. Throws InputError for elements of
+       * other kinds. */
       std::vector<Element> elements(const int dimension, const std::string &expected)
       {
         gmsh::vectorpair groups;
@@ -262,12 +259,12 @@ namespace Voussoir
         std::vector<double> local;
         model::mesh::getElementProperties(type, name, dimension, order, n_nodes, local, n_corners);
         const bool tetrahedra = dimension == 3 && n_corners == 4;
-        fail(
-            group + " has elements of type '" + name + "', not " + expected + ". " +
-            (tetrahedra ? "Of degree 1 they lock: a dam of them is far too stiff, and so are its stresses. "
-                        : "") +
-            "Use a transfinite mesh and recombine it (gmsh: Transfinite, Recombine), or extrude a recombined "
-            "surface; gmsh's Mesh.SubdivisionAlgorithm = 2 makes hexahedra of any mesh, but poor ones.");
+        fail(group + " has elements of type '" + name + "', not " + expected + ". " +
+             (tetrahedra ? "Linear tetrahedra lock: the dam would be far too stiff and its stresses wrong. "
+                         : "") +
+             "Use a transfinite mesh and recombine it (gmsh: Transfinite, Recombine), or extrude a "
+             "recombined surface. Mesh.SubdivisionAlgorithm = 2 of gmsh divides any mesh into hexahedra, but "
+             "of poor quality.");
       }
 
       void check_all_grouped(const std::size_t n_grouped) const
@@ -284,9 +281,8 @@ namespace Voussoir
           fail(std::to_string(n_all - n_grouped) + " of " + std::to_string(n_all) +
                " hexahedra are in no physical volume. Put every volume into 'monolith 1', ... or 'rock'.");
         if (n_grouped == 0 && n_all > 0)
-          fail("no hexahedron is in a physical volume. Give every monolith one, named 'monolith 1', "
-               "'monolith 2', "
-               "... from the right bank to the left.");
+          fail("no hexahedron is in a physical volume. Give every monolith a physical volume, named "
+               "'monolith 1', 'monolith 2', ... from the right bank to the left.");
       }
 
       void read_nodes()

@@ -17,14 +17,14 @@ namespace Voussoir
     namespace model = gmsh::model;
     using GmshType::hexahedron_8, GmshType::quadrangle_4;
 
-    /** A physical group as it is written: its tag and name. */
+    /** Tag and name of a physical group in the file. */
     struct Group
     {
       int         tag;
       std::string name;
     };
 
-    /** Groups of cells by volume and zone. The tag is the volume's id where a volume has one zone. */
+    /** Returns the groups of cells by volume and zone. The tag of the first zone is the id of the volume. */
     std::map<std::pair<int, unsigned int>, Group> volume_groups(const HexMesh &mesh)
     {
       std::map<std::pair<int, unsigned int>, Group> groups;
@@ -38,7 +38,7 @@ namespace Voussoir
         Group             &group = entry.second;
         group.tag = volume != last ? volume : next++;
         last = volume;
-        const auto name = mesh.names.find({3, volume}); // of rock: others are written as we call them
+        const auto name = mesh.names.find({3, volume}); // the names of rock are kept, others are standard
         if (!is_monolith(volume) && name != mesh.names.end() && zone_of(name->second) == zone)
           group.name = name->second;
         else if (zone.empty())
@@ -49,8 +49,8 @@ namespace Voussoir
       return groups;
     }
 
-    /** Makes a discrete entity for each physical group of @p dimension and adds its elements, tagged in the
-     *  mesh's order after @p last_tag. */
+    /** Adds a discrete entity of gmsh with its elements for each physical group of @p dimension. The tags of
+     * the elements follow @p last_tag, in the order of the mesh. */
     template <typename Range, typename GroupOf>
     void add_groups(const HexMesh &mesh, const int dimension, const int type, const Range &range,
                     const GroupOf &group_of, std::size_t last_tag)
@@ -70,7 +70,7 @@ namespace Voussoir
       {
         const int id = group.first;
         model::addDiscreteEntity(dimension, id);
-        if (dimension == 3 && id == groups.begin()->first) // all nodes in one place keep their order
+        if (dimension == 3 && id == groups.begin()->first) // one entity with all nodes keeps their order
         {
           std::vector<std::size_t> tags;
           std::vector<double>      coordinates;
@@ -87,7 +87,7 @@ namespace Voussoir
       }
     }
 
-    /** A file that does not stay. */
+    /** Temporary file. The destructor removes it. */
     struct Removed
     {
       const std::string &file;
@@ -102,10 +102,10 @@ namespace Voussoir
     if (version != 4.1 && version != 2.2)
       throw InputError("mesh " + file + ": the MSH format is 4.1 or 2.2, not " + std::to_string(version) +
                        ".");
-    // gmsh does not say when the disk is full: it writes beside, and what is whole is copied.
+    // Gmsh does not report a full disk. It writes a temporary file, which is copied if it is complete.
     const std::string part = file.substr(0, file.size() - 4) + "." + std::to_string(getpid()) + ".msh";
     const Removed     removed{part};
-    OutputFile(file, std::ios::app); // may it be written to?
+    OutputFile(file, std::ios::app); // throws if the file cannot be written
     OutputFile(part).check();
     with_gmsh(file, "gmsh cannot write this file",
               [&]
@@ -134,7 +134,7 @@ namespace Voussoir
     text << in.rdbuf();
     const std::string end = "$EndElements\n", whole = text.str();
     if (whole.size() < end.size() || whole.compare(whole.size() - end.size(), end.size(), end) != 0)
-      throw WriteError("The file " + part + " cannot be written: is the disk full?");
+      throw WriteError("The file " + part + " cannot be written completely. Free some disk space.");
     OutputFile out(file);
     out << whole;
     out.check();

@@ -9,9 +9,9 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double growth = 1.35; ///< largest ratio of the sizes of neighbours, where possible
+    constexpr double growth = 1.35; ///< largest ratio of the sizes of neighbours if possible
 
-    /** Where @p f, negative at @p lower and positive at @p upper or the other way round, is zero. */
+    /** Returns the root of @p f between @p lower and @p upper, where @p f has different signs. */
     double root(const std::function<double(double)> &f, double lower, double upper)
     {
       const bool rises = f(upper) > 0;
@@ -23,8 +23,8 @@ namespace Voussoir
       return 0.5 * (lower + upper);
     }
 
-    /** The elements between a neighbour of size @p first and one of size @p last [m]: no smaller and no
-     * larger than a ratio of neighbouring sizes allows, and of size @p middle within that. */
+    /** Returns the sizes of @p n elements between neighbours of sizes @p first and @p last [m]. The sizes are
+     * @p middle, bounded by the @p ratio of neighbouring sizes. */
     std::vector<double> sizes(const unsigned int n, const double first, const double last,
                               const double middle, const double ratio)
     {

@@ -27,7 +27,7 @@ namespace Voussoir
     constexpr double cube[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                                    {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 
-    /** Determinant of the Jacobian of the trilinear map from the unit cube, at @p xi. */
+    /** Returns the determinant of the Jacobian of the trilinear map from the unit cube at @p xi [m^3]. */
     double jacobian(const HexMesh &mesh, const HexMesh::Cell &cell, const Vector &xi)
     {
       Matrix jacobian{};
@@ -43,6 +43,7 @@ namespace Voussoir
       return determinant(jacobian);
     }
 
+    /** Returns the smallest and the largest determinant at the corners and at the centre [m^3]. */
     std::pair<double, double> jacobian_range(const HexMesh &mesh, const HexMesh::Cell &cell)
     {
       std::array<double, 9> values;
@@ -65,7 +66,7 @@ namespace Voussoir
       for (const auto &cell : mesh.cells)
         for (const unsigned int node : cell.nodes)
           number[node] = 0;
-      // A face with a node of no cell is an error that check_mesh() reports: keep the node until then.
+      // check_mesh() reports faces with a node of no cell. Such nodes remain until then.
       for (const auto &face : mesh.faces)
         for (const unsigned int node : face.nodes)
           number[node] = 0;
@@ -86,7 +87,7 @@ namespace Voussoir
           node = number[node];
     }
 
-    /** "Joint3_minus" -> "joint 3 minus" */
+    /** Splits a name into words and numbers in lower case: "Joint3_minus" into "joint", "3", "minus". */
     std::vector<std::string> words(const std::string &name)
     {
       std::vector<std::string> result;
@@ -106,7 +107,7 @@ namespace Voussoir
       return result;
     }
 
-    /** The number from 1 to @p largest that a word is, else -1. */
+    /** Returns the number in @p word if it is from 1 to @p largest, otherwise -1. */
     int to_number(const std::string &word, const int largest)
     {
       if (word.empty() || word.size() > 4 || !std::isdigit(static_cast<unsigned char>(word[0])))
@@ -173,7 +174,7 @@ namespace Voussoir
     const std::vector<std::string> word = words(name);
     if (dimension == 3)
     {
-      // What follows the number is a zone, and no other number.
+      // A zone may follow the number, but no second number.
       if (word.size() >= 2 && word[0] == "monolith" && (word.size() == 2 || std::isalpha(word[2][0])))
         return to_number(word[1], PhysicalId::first_rock - 1);
       return !word.empty() && word[0] == "rock" ? PhysicalId::first_rock : -1;
@@ -265,7 +266,7 @@ namespace Voussoir
 
   std::map<int, double> volumes(const HexMesh &mesh)
   {
-    // The determinant is quadratic in each coordinate: two Gauss points each way are exact.
+    // The determinant is quadratic in each coordinate: 2x2x2 Gauss points are exact.
     const double          gauss[2] = {0.5 - std::sqrt(1. / 12.), 0.5 + std::sqrt(1. / 12.)};
     std::map<int, double> result;
     for (const auto &cell : mesh.cells)
@@ -299,7 +300,7 @@ namespace Voussoir
 
   double crest_length(const HexMesh &mesh)
   {
-    // By position, so that it does not matter whether the joints are open.
+    // Edges by position: the result is the same for doubled nodes at the joints.
     std::map<int, std::set<std::pair<Vector, Vector>>> edges;
     for (const auto &face : mesh.faces)
       if (face.surface == PhysicalId::crest || face.surface == PhysicalId::upstream ||

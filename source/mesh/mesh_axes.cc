@@ -26,7 +26,7 @@ namespace Voussoir
       return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     }
 
-    /** Outward area vectors of the surfaces of the dam, summed. */
+    /** Sum of the outward area vectors of a surface of the dam, and its area [m^2]. */
     struct Normals
     {
       Vector sum{};
@@ -41,7 +41,7 @@ namespace Voussoir
         if (face.surface != surface)
           continue;
         const auto  owners = table.owners(face.nodes);
-        const auto *owner = owners.first; // of the dam: the base of a dam on rock has two
+        const auto *owner = owners.first; // cell of the dam; a base on rock has two cells
         if (owner != nullptr && !is_monolith(mesh.cells[owner->cell].volume))
           owner = owners.second;
         if (owner == nullptr)
@@ -60,13 +60,14 @@ namespace Voussoir
       return result;
     }
 
-    /** Is @p v within 63 degrees of the axis @p axis, in the sense @p sign? */
+    /** Returns true if the cosine of the angle between @p v and @p sign times the axis exceeds @p cosine. The
+     * default corresponds to 63 degrees. */
     bool along(const Vector &v, const unsigned int axis, const double sign, const double cosine = .45)
     {
       return sign * v[axis] > cosine * norm(v);
     }
 
-    /** The unit vector of the axis that is nearest to @p v. */
+    /** Returns the unit vector of the axis nearest to @p v. */
     Vector nearest_axis(const Vector &v)
     {
       const auto largest =
@@ -96,34 +97,33 @@ namespace Voussoir
 
       void axes() const
       {
-        constexpr double level = .97;           // crests are level, within some 14 degrees
-        constexpr double downstream_is_x = .77; // within 40 degrees: the sides of a valley differ
+        constexpr double level = .97;           // within 14 degrees
+        constexpr double downstream_is_x = .77; // within 40 degrees, since valleys are not symmetric
         if (is_clear(crest) && !along(crest.sum, 2, 1., level))
-          fail("the crest does not look up (z), but along " + direction(crest.sum) + ". " + how_to_turn());
+          fail("the crest does not face up (z), but along " + direction(crest.sum) + ". " + how_to_turn());
         if (is_clear(stream))
         {
           Vector horizontal = stream.sum;
           horizontal[2] = 0.;
           if (norm(horizontal) < .45 * norm(stream.sum))
-            fail("the downstream face looks along " + direction(stream.sum) + ", not downstream (x). " +
-                 how_to_turn());
+            fail("the normal of the downstream face points along " + direction(stream.sum) +
+                 ", not downstream (x). " + how_to_turn());
           if (along(horizontal, 0, -1.))
-            fail("the surface 'downstream' looks upstream (-x), and 'upstream' downstream. Exchange the "
-                 "names of "
-                 "the two surfaces in the mesh; or, if its x axis points upstream, set \"Mesh/Axes\" = " +
-                 turned_axes() + " (now it is " + parameters.axes + ")." + hint_of_the_numbers());
-          if (along(horizontal, 0, 1.) && !along(horizontal, 0, 1., downstream_is_x))
             fail(
-                "the downstream face looks " + degrees_off_x(horizontal) +
-                " degrees off x. Turn the mesh about z until x points downstream: the motion and the results "
-                "are along and across the valley.");
+                "the surface 'downstream' faces upstream (-x), and 'upstream' faces downstream. Exchange the "
+                "names of the two surfaces in the mesh. If the x axis points upstream, set \"Mesh/Axes\" = " +
+                turned_axes() + " (now it is " + parameters.axes + ")." + hint_of_the_numbers());
+          if (along(horizontal, 0, 1.) && !along(horizontal, 0, 1., downstream_is_x))
+            fail("the normal of the downstream face has an angle of " + degrees_off_x(horizontal) +
+                 " degrees to x. Turn the mesh about z until x points downstream: ground motion and results "
+                 "have the directions along and across the valley.");
           if (!along(horizontal, 0, 1.))
-            fail("the downstream face does not look downstream (x), but along " + direction(horizontal) +
+            fail("the downstream face does not face downstream (x), but along " + direction(horizontal) +
                  ". " + how_to_turn());
         }
         if (is_clear(base) && base.sum[2] > .45 * norm(base.sum))
-          fail("the base looks up: its faces are on top of the dam. Mend the names of the mesh's surfaces, "
-               "or, if z points down, \"Mesh/Axes\".");
+          fail("the base faces up: its faces are on top of the dam. Correct the names of the surfaces in the "
+               "mesh. If z points down, correct \"Mesh/Axes\".");
       }
 
       void height() const
@@ -140,8 +140,8 @@ namespace Voussoir
         if (height >= lowest_dam && height <= highest_dam)
           return;
         std::ostringstream text;
-        text << "the dam is " << height << " m high; dams are " << lowest_dam << " to " << highest_dam
-             << " m high. The entry \"Mesh/Length unit\" is " << parameters.length_unit;
+        text << "the dam is " << height << " m high. The program accepts heights of " << lowest_dam << " to "
+             << highest_dam << " m. The entry \"Mesh/Length unit\" is " << parameters.length_unit;
         std::string units;
         for (const char *unit : {"m", "cm", "mm", "ft", "in", "km"})
         {
@@ -154,13 +154,13 @@ namespace Voussoir
                      " m high)";
           }
         }
-        text << (units.empty() ? ", and no other one makes a dam of it: scale the mesh."
+        text << (units.empty() ? ", and no other unit gives such a height. Scale the mesh."
                                : ": the coordinates are probably in another unit. Set it to " + units + ".");
         fail(text.str());
       }
 
     private:
-      /** Do the normals not cancel, as those of a ring do? */
+      /** Returns false if the normals cancel, as those of a ring do. */
       static bool is_clear(const Normals &normals)
       {
         return normals.area > 0. && norm(normals.sum) > .1 * normals.area;
@@ -194,17 +194,18 @@ namespace Voussoir
         return first_y > last_y;
       }
 
-      /** Whether the faces or the axes are the wrong ones: monoliths are numbered to the left bank (y). */
+      /** Returns whether the names or the axes are wrong, from the numbering of the monoliths. The numbers
+       * must increase to the left bank (y). */
       std::string hint_of_the_numbers() const
       {
         return n_monoliths(mesh) == 1 ? ""
                : !are_numbered_to_the_right()
-                   ? " The monoliths are numbered from the right bank to the left, as they should: the names "
+                   ? " The monoliths are numbered from the right bank to the left, as required: the names "
                      "are wrong."
                    : " The monoliths are numbered from the left bank to the right: the axes are wrong.";
       }
 
-      /** The value of "Axes" that turns the dam as its faces say, empty if they do not agree. */
+      /** Returns the value of "Axes" for which the surfaces have the correct directions. */
       std::string turned_axes() const
       {
         const Vector up = is_clear(crest) ? nearest_axis(crest.sum) : Vector{0., 0., 1.};
@@ -214,7 +215,7 @@ namespace Voussoir
             s[d] = 0.;
         const Vector downstream = norm(s) > 0. ? nearest_axis(s) : Vector{up[2], up[0], up[1]};
         const auto   file = file_axes(parameters.axes);
-        // The file's directions of our axes; right-handed there.
+        // Vectors in the axes of the file, which are right-handed.
         const auto in_file = [&](const Vector &v)
         {
           Vector result{};
@@ -229,7 +230,7 @@ namespace Voussoir
       std::string how_to_turn() const
       {
         return "Set \"Mesh/Axes\" = " + turned_axes() + " (now it is " + parameters.axes +
-               "), or mend the names of the mesh's surfaces.";
+               "), or correct the names of the surfaces in the mesh.";
       }
 
       [[noreturn]] void fail(const std::string &text) const
@@ -240,7 +241,7 @@ namespace Voussoir
       const HexMesh        &mesh;
       const MeshParameters &parameters;
       const std::string    &source;
-      Normals               crest, base, stream; ///< stream: downstream less upstream
+      Normals               crest, base, stream; ///< stream: downstream minus upstream
     };
   } // namespace
 

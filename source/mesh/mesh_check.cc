@@ -35,7 +35,7 @@ namespace Voussoir
           for (const double coordinate : mesh.nodes[n])
             if (!std::isfinite(coordinate))
               fail("node " + std::to_string(n + 1) + " of " + std::to_string(mesh.nodes.size()) +
-                   " has a coordinate that is not a finite number. Mend or write the file again.");
+                   " has a coordinate that is not a finite number. Correct the file, or write it again.");
       }
 
       void volumes() const
@@ -53,7 +53,7 @@ namespace Voussoir
         int expected = 1;
         for (const int monolith : monoliths)
           if (monolith != expected++)
-            fail("the monoliths are not numbered without gaps: the largest is " +
+            fail("the numbers of the monoliths have gaps: the largest is " +
                  std::to_string(*monoliths.rbegin()) + ", but there is no monolith " +
                  std::to_string(expected - 1) + ". Number them 1, 2, ... from the right bank to the left.");
       }
@@ -106,7 +106,8 @@ namespace Voussoir
           rock_faces(surface_of);
       }
 
-      /** With rock, 'base' is where dam and rock meet, all of it; the ground and the boundary are rock's. */
+      /** Checks the surfaces of a mesh with rock. The surface 'base' has exactly the faces between dam and
+       * rock. Ground and artificial boundary have faces of the rock only. */
       void rock_faces(const std::map<std::array<unsigned int, 4>, int> &surface_of) const
       {
         for (const auto &face : surface_of)
@@ -146,14 +147,14 @@ namespace Voussoir
         if (has(has_rock ? PhysicalId::artificial : PhysicalId::base))
           return;
         if (has_rock)
-          fail("nothing holds the rock: there is no surface 'artificial boundary' (id 6). Put the rock's cut "
-               "faces into it.");
-        fail("there is no surface 'base' (id 1), so nothing holds the dam. Put the faces on the valley's "
-             "floor "
-             "and flanks into it.");
+          fail("the rock has no supports: there is no surface 'artificial boundary' (id 6). Put the lateral "
+               "faces and the bottom of the rock into it.");
+        fail("the dam has no supports: there is no surface 'base' (id 1). Put the faces on the floor and the "
+             "flanks of the valley into it.");
       }
 
-      /** Two monoliths that share no nodes and whose contact is in no joint surfaces would come apart. */
+      /** Throws InputError for two monoliths that lie face to face without common nodes and
+       * without a joint. */
       void contacts() const
       {
         std::set<std::array<unsigned int, 4>> named;
@@ -182,7 +183,7 @@ namespace Voussoir
       bool may_be_interior(const int surface, const unsigned int cell_1, const unsigned int cell_2) const
       {
         const int volume_1 = mesh.cells[cell_1].volume, volume_2 = mesh.cells[cell_2].volume;
-        if (is_joint_side(surface)) // the marked joints of a conforming mesh
+        if (is_joint_side(surface)) // joint surfaces of a conforming mesh
           return is_monolith(volume_1) && is_monolith(volume_2) && volume_1 != volume_2;
         return surface == PhysicalId::base && is_monolith(volume_1) != is_monolith(volume_2);
       }

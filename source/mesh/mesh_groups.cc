@@ -14,7 +14,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** Names to suggest. */
+    /** Returns all names to suggest. */
     std::vector<std::string> known_names(const int dimension)
     {
       std::vector<std::string> names;
@@ -33,7 +33,7 @@ namespace Voussoir
       return names;
     }
 
-    /** Successive groups of one kind. */
+    /** Line of the table: successive groups of the same kind. */
     struct Row
     {
       int         dimension, first_id, last_id;
@@ -43,6 +43,7 @@ namespace Voussoir
       std::size_t n = 0; ///< hexahedra or faces
     };
 
+    /** Returns true if the group belongs to the line @p row. */
     bool continues(const Row &row, const int dimension, const int id, const std::string &zone,
                    const bool named)
     {
@@ -51,6 +52,7 @@ namespace Voussoir
       return dimension == 3 ? is_monolith(id) : is_joint_side(row.last_id);
     }
 
+    /** Returns the meaning of the groups of a line. */
     std::string role(const Row &row)
     {
       const std::string first = physical_name(row.dimension, row.first_id),
@@ -62,8 +64,7 @@ namespace Voussoir
              zone;
     }
 
-    /** Successive groups of the mesh as rows: volumes without zone, then those of each zone, then surfaces.
-     */
+    /** Returns the lines of the table: volumes without zone, volumes of each zone, surfaces. */
     std::vector<Row> rows_of(const HexMesh &mesh)
     {
       using Key = std::tuple<int, bool, unsigned int, int>; // surface?, rock?, zone, id
@@ -98,12 +99,11 @@ namespace Voussoir
     const std::string kind = dimension == 3 ? "volume" : "surface";
     return "the physical " + kind + " '" + name + "' (id " + std::to_string(tag) +
            ") has an unknown name. Did you mean '" + nearest_name(known_names(dimension), name) + "'? " +
-           (dimension == 3 ? "Volumes are 'monolith 1', 'monolith 2', ... and 'rock', with the name of a "
-                             "zone behind it ('monolith 1 heel', 'rock weak layer') where they have several "
-                             "materials"
+           (dimension == 3 ? "Volumes are 'monolith 1', 'monolith 2', ... and 'rock'. With several materials "
+                             "the name of a zone follows ('monolith 1 heel', 'rock weak layer')"
                            : "Surfaces are 'base', 'upstream', 'downstream', 'crest', 'free surface', "
                              "'artificial boundary', 'joint 1 side 1', 'joint 1 side 2' and so on") +
-           ". Rename or remove it: ids count for groups without names only.";
+           ". Rename or remove the group. Ids are used only for groups without names.";
   }
 
   std::string group_table(const HexMesh &mesh)
@@ -146,10 +146,9 @@ namespace Voussoir
       if (!inside && is_monolith(mesh.cells[entries[i].cell].volume) && grouped.count(entries[i].key) == 0 &&
           n++ == 0)
         text << " outer faces of the dam, the first at " << place(centre(mesh, entries[i].key))
-             << ", are in no physical surface: they are free, and get no water. Leave it if they are walls "
-                "of a "
-                "gallery or a free face; else put them into \"upstream\", \"downstream\", \"crest\" or "
-                "\"base\".";
+             << ", are in no physical surface. They are free and have no water pressure. This is correct for "
+                "the walls of a gallery and other free faces. Put all others into \"upstream\", "
+                "\"downstream\", \"crest\" or \"base\".";
     }
     return n == 0 ? "" : std::to_string(n) + text.str();
   }
@@ -167,7 +166,7 @@ namespace Voussoir
     };
     while (next() && line != "$PhysicalNames")
       if (line == "$Nodes" || line == "$Entities" || line == "$Elements")
-        return; // names come before them, and what follows may be binary
+        return; // the names come first; the rest may be binary
     std::set<std::pair<int, std::string>> names;
     std::size_t                           n = 0;
     if (!in || !next())
@@ -178,16 +177,15 @@ namespace Voussoir
       static const std::regex form("\\s*([0-3])\\s+([0-9]+)\\s+\"([^\"]+)\"");
       std::smatch             parts;
       if (!std::regex_match(line, parts, form))
-        throw InputError(
-            "mesh " + file + ": the line '" + line.substr(0, 80) +
-            "' of $PhysicalNames is not DIMENSION ID \"NAME\", with a name in quotes. Mend it, or "
-            "remove it: the id counts for groups without a name.");
+        throw InputError("mesh " + file + ": the line '" + line.substr(0, 80) +
+                         "' of $PhysicalNames is not DIMENSION ID \"NAME\", with a name in quotes. Correct "
+                         "or remove the line. For a group without a name the id is used.");
       if (parts[3].str().compare(0, 4, "rock") != 0 && !names.emplace(std::stoi(parts[1]), parts[3]).second)
         throw InputError("mesh " + file + ": two physical groups have the name '" + parts[3].str() +
                          "'. Give each a name of its own.");
     }
     if (count != std::to_string(n))
-      throw InputError("mesh " + file + ": $PhysicalNames says that it has " + count.substr(0, 20) +
-                       " names, and has " + std::to_string(n) + ". Write the file again.");
+      throw InputError("mesh " + file + ": $PhysicalNames announces " + count.substr(0, 20) +
+                       " names, but has " + std::to_string(n) + ". Write the file again.");
   }
 } // namespace Voussoir

@@ -16,7 +16,7 @@ namespace Voussoir
   {
     using Vector = std::array<double, 3>;
 
-    constexpr double coincidence = 1e-4; ///< of the shortest edge of the joint's faces at the node
+    constexpr double coincidence = 1e-4; ///< relative to the shortest edge of the joint faces at the node
 
     double distance(const Vector &a, const Vector &b)
     {
@@ -28,7 +28,7 @@ namespace Voussoir
       throw InputError("mesh: joint " + std::to_string(joint) + ": " + text);
     }
 
-    /** Nodes to be merged: each set of them is known by its smallest number. */
+    /** Sets of nodes to merge. The smallest number of a set identifies it. */
     class UnionFind
     {
     public:
@@ -52,7 +52,7 @@ namespace Voussoir
       std::vector<unsigned int> parent;
     };
 
-    /** Nodes of one side of a joint, and the shortest edge of the side's faces at each [m]. */
+    /** Nodes of one side of a joint, each with the shortest edge of the adjacent faces of the side [m]. */
     using Side = std::map<unsigned int, double>;
 
     void add_face(const HexMesh &mesh, const HexMesh::Face &face, Side &side)
@@ -69,7 +69,8 @@ namespace Voussoir
       }
     }
 
-    /** Unites every node of @p side with the one of @p other in the same place. */
+    /** Unites every node of @p side with the coincident node of @p other. Throws InputError if
+     * there is none. */
     void match(const HexMesh &mesh, const int joint, const int side_number, const Side &side,
                const Side &other, UnionFind &merged)
     {
@@ -94,12 +95,12 @@ namespace Voussoir
         std::ostringstream text;
         text << "the node of side " << side_number << " at " << place(point) << " has no partner on side "
              << 3 - side_number << ", whose nearest node is " << partner.distance << " m away (" << tolerance
-             << " m are allowed). Mesh both sides alike, with their nodes in the same places.";
+             << " m are allowed). Use the same mesh on both sides, with nodes at the same positions.";
         fail(joint, text.str());
       }
     }
 
-    /** The faces in joint surfaces that are not yet between two cells. */
+    /** Returns the faces in joint surfaces that belong to one cell only. */
     std::vector<HexMesh::Face> doubled_faces(const HexMesh &mesh)
     {
       const FaceTable            table(mesh);
@@ -131,7 +132,7 @@ namespace Voussoir
         for (const int s : {0, 1})
           if (sides[s].empty())
             fail(joint.first, "it has a side " + std::to_string(2 - s) + " but no side " +
-                                  std::to_string(s + 1) + ". Put the faces opposite into the surface '" +
+                                  std::to_string(s + 1) + ". Put the opposite faces into the surface '" +
                                   physical_name(2, 100 * (s + 1) + joint.first) + "'.");
         match(mesh, joint.first, 1, sides[0], sides[1], merged);
         match(mesh, joint.first, 2, sides[1], sides[0], merged);
@@ -139,7 +140,7 @@ namespace Voussoir
       return merged;
     }
 
-    /** The faces @p doubled (with merged nodes) must now lie between two monoliths. */
+    /** Throws InputError unless all faces @p doubled, after merging, lie between two monoliths. */
     void check_closed(const HexMesh &mesh, const std::vector<HexMesh::Face> &doubled)
     {
       const FaceTable table(mesh);
@@ -150,15 +151,16 @@ namespace Voussoir
         const std::string where =
             "the face of side " + std::to_string(joint.second) + " at " + place(centre(mesh, face.nodes));
         if (owners.first == nullptr || owners.second == nullptr)
-          fail(joint.first, where + " has no face opposite on the other side. Mesh both sides alike.");
+          fail(joint.first,
+               where + " has no opposite face on the other side. Use the same mesh on both sides.");
         if (mesh.cells[owners.first->cell].volume == mesh.cells[owners.second->cell].volume)
           fail(joint.first,
                where + " has the same volume, '" + physical_name(3, mesh.cells[owners.first->cell].volume) +
-                   "', on its other side. Joints lie between two monoliths: make them two volumes.");
+                   "', on its other side. A joint must lie between two monoliths. Divide this volume.");
       }
     }
 
-    /** The contacts of monoliths in a conforming mesh, numbered. */
+    /** Returns the joint number of each pair of adjacent monoliths in a conforming mesh. */
     std::map<std::pair<int, int>, int> number_joints(const HexMesh &mesh, const FaceTable &table)
     {
       std::map<std::pair<int, int>, int> joints;
@@ -178,13 +180,12 @@ namespace Voussoir
           throw InputError("mesh: the contact of monoliths " + std::to_string(sides.first) + " and " +
                            std::to_string(sides.second) + " would be joint " + std::to_string(joint.second) +
                            ", but joints are numbered up to " + std::to_string(PhysicalId::max_joints) +
-                           " only. Unite monoliths, or number neighbours one after the other.");
+                           " only. Merge monoliths, or give adjacent monoliths successive numbers.");
       }
       return joints;
     }
 
-    /** Gives each monolith its own copy of the nodes that it shares with others, but for those of the rock.
-     */
+    /** Copies each shared node for every monolith except the first. Nodes of the rock stay shared. */
     class Splitter
     {
     public:
@@ -207,10 +208,10 @@ namespace Voussoir
       }
 
     private:
-      static constexpr int rock = 0; // less than every monolith
+      static constexpr int rock = 0; // less than the number of every monolith
 
       HexMesh                                             &mesh;
-      std::vector<int>                                     keeper; // the volume that keeps the node
+      std::vector<int>                                     keeper; // volume that keeps the original node
       std::map<std::pair<unsigned int, int>, unsigned int> copies;
     };
   } // namespace
@@ -277,7 +278,7 @@ namespace Voussoir
       const auto joint = joints.find({owner[0], owner[1]});
       if (joint == joints.end() ||
           std::is_permutation(sides[0].nodes.begin(), sides[0].nodes.end(), sides[1].nodes.begin()))
-        continue; // inside a volume, at the rock, or with all corners tied by the rock
+        continue; // inside a volume, at the rock, or all corners on the rock
       for (const unsigned int s : {0, 1})
       {
         sides[s].surface = (s == 0 ? PhysicalId::joint_side_1 : PhysicalId::joint_side_2) + joint->second;
@@ -299,7 +300,7 @@ namespace Voussoir
     for (const HexMesh::Face &face : mesh.faces)
       if (face.surface != PhysicalId::free_surface && face.surface != PhysicalId::artificial)
         result.faces.push_back(face);
-    normalize(result); // drops the rock's nodes
+    normalize(result); // removes the nodes of the rock
     return result;
   }
 

@@ -49,7 +49,7 @@ namespace Voussoir
     {
       for (const auto &element : elements)
         for (const unsigned int node : element.nodes)
-          if (node >= mesh.nodes.size()) // a library gone wild
+          if (node >= mesh.nodes.size()) // data of a corrupted process
             throw PipeReader::End();
     };
     check(mesh.cells);

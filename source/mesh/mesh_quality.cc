@@ -12,7 +12,7 @@ namespace Voussoir
   {
     using Vector = std::array<double, 3>;
 
-    /** The three corners that edges join to each corner, so that their edges are right-handed. */
+    /** Three neighbours of each corner along edges, in right-handed order. */
     constexpr unsigned int neighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
                                                {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
 

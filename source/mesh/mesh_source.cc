@@ -25,10 +25,10 @@ namespace Voussoir
       const std::string letter = word.substr(is_signed ? 1 : 0);
       const std::size_t coordinate = letter.size() == 1 ? std::string("xyz").find(letter) : std::string::npos;
       if (n == 3 || coordinate == std::string::npos || used[coordinate])
-        throw InputError(
-            "Mesh: 'Axes' is '" + text + "'. Give the file's axes that point downstream, to the " +
-            "left bank and up: each of x, y and z once, with a minus sign if it points the other " +
-            "way, as in 'y -x z'.");
+        throw InputError("Mesh: 'Axes' is '" + text +
+                         "'. Give the axes of the file that point downstream, to the " +
+                         "left bank and up: each of x, y and z once, with a minus sign for the opposite " +
+                         "direction, as in 'y -x z'.");
       used[coordinate] = true;
       axes[n] = {static_cast<unsigned int>(coordinate), word[0] == '-' ? -1. : 1.};
     }
@@ -49,28 +49,26 @@ namespace Voussoir
     using namespace dealii::Patterns;
     prm.enter_subsection("Mesh");
     prm.add_parameter("Source", source,
-                      "Where the mesh comes from: the built-in dam 'arch210', or a gmsh 'file'.",
+                      "Source of the mesh. arch210: built-in dam. file: the mesh file of the entry \"File\".",
                       Selection("arch210|file"));
     prm.add_parameter(
         "File", file,
-        "The mesh, relative to the directory of this file: gmsh (MSH 4.1 or 2.2) of hexahedra, or .inp of "
-        "Abaqus and "
-        "CalculiX, .med of Salome and others through the Python package meshio (doc/mesh.md). "
-        "Its physical volumes are 'monolith 1', 'monolith 2', ... and 'rock ...'; its physical "
-        "surfaces 'base', 'upstream', 'downstream', 'crest', and with rock 'free surface' and "
-        "'artificial boundary'. The joints may be conforming, or doubled with their sides in 'joint 1 "
-        "side 1', 'joint 1 side 2' and so on.",
+        "Mesh file with hexahedra, relative to the directory of the input file. Formats: gmsh (MSH 4.1 or "
+        "2.2), and with the Python package meshio .inp of Abaqus and CalculiX and .med of Salome "
+        "(doc/mesh.md). The physical volumes are 'monolith 1', 'monolith 2', ... and 'rock ...'. The "
+        "physical surfaces are 'base', 'upstream', 'downstream' and 'crest', and with rock 'free surface' "
+        "and 'artificial boundary'. The mesh may be conforming at the joints. With doubled nodes, the sides "
+        "of the joints are the surfaces 'joint 1 side 1', 'joint 1 side 2' and so on.",
         Anything());
     prm.add_parameter(
         "Axes", axes,
-        "The axes of the mesh file that point downstream, to the left bank and up: each of x, y and z "
-        "once, with a minus sign if the file's axis points the other way. For example 'y -x z' for a "
-        "file with x to the right bank, y downstream and z up. A left-handed choice mirrors the dam.",
+        "Axes of the mesh file that point downstream, to the left bank and up: each of x, y and z once. A "
+        "minus sign means the opposite direction. Example: 'y -x z' for a file with x to the right bank, y "
+        "downstream and z up. A left-handed choice mirrors the dam.",
         Anything());
     prm.add_parameter("Subdivide", subdivide,
-                      "Divide all cells of the file at their middles, so that wedges are allowed: each "
-                      "becomes six hexahedra, each "
-                      "hexahedron eight.");
+                      "true: all cells of the file are divided at their midpoints. A hexahedron becomes "
+                      "eight hexahedra, a wedge six. Required for a mesh with wedges.");
     prm.add_parameter("Length unit", length_unit, "Unit of the coordinates in the mesh file.",
                       Selection("m|cm|mm|km|ft|in"));
     prm.leave_subsection();
@@ -87,9 +85,8 @@ namespace Voussoir
       arch210_rock.check();
     }
     else if (file.empty())
-      throw InputError(
-          "Mesh: 'Source' is 'file', but the entry 'File' is empty. Give the path of a gmsh mesh, "
-          "relative to the directory of the scene file.");
+      throw InputError("Mesh: 'Source' is 'file', but the entry 'File' is empty. Give the path of a gmsh "
+                       "mesh, relative to the directory of the input file.");
   }
 
   HexMesh make_mesh(const MeshParameters &parameters, const std::string &scene_directory)
@@ -104,7 +101,7 @@ namespace Voussoir
       return mesh;
     }
 
-    // The operator / of a path leaves absolute files as they are.
+    // The operator / of a path does not change absolute paths.
     const std::string file = (std::filesystem::path(scene_directory) / parameters.file).string();
     HexMesh           mesh = is_foreign_mesh(file) ? read_foreign_mesh(file, parameters.subdivide)
                                                    : read_gmsh(file, parameters.subdivide);

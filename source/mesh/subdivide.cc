@@ -8,7 +8,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** A corner with its three neighbours along edges, counter-clockwise seen from inside the cell. */
+    /** Corner with its three neighbours along edges, counter-clockwise seen from inside the cell. */
     using Corner = std::array<unsigned int, 4>;
 
     const std::vector<Corner> hexahedron = {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7},
@@ -21,7 +21,7 @@ namespace Voussoir
     const std::vector<std::vector<unsigned int>> wedge_faces = {
         {0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
 
-    /** The nodes in the middle of edges, faces and cells, by the nodes around them. */
+    /** Nodes at the midpoints of edges, faces and cells, by their corner nodes. */
     class Middles
     {
     public:
@@ -47,7 +47,7 @@ namespace Voussoir
       std::map<std::vector<unsigned int>, unsigned int> number;
     };
 
-    /** The nodes of the face of a cell that has these three corners. */
+    /** Returns the nodes of the face of a cell that has the corners @p a, @p b and @p c. */
     std::vector<unsigned int> face_with(const std::vector<unsigned int> &cell, const unsigned int a,
                                         const unsigned int b, const unsigned int c)
     {
@@ -67,8 +67,8 @@ namespace Voussoir
 
   std::vector<unsigned int> without_double_corners(const std::vector<unsigned int> &h)
   {
-    // The two faces at the ends of shrunk edges become triangles; the edges are e and its opposite of that
-    // face.
+    // Faces at the ends of the collapsed edges become triangles. The collapsed edge of each face starts at
+    // its corner e.
     const unsigned int ends[3][2][4] = {
         {{0, 1, 2, 3}, {4, 5, 6, 7}}, {{0, 4, 5, 1}, {3, 7, 6, 2}}, {{0, 3, 7, 4}, {1, 2, 6, 5}}};
     if (h.size() != 8) // a wedge already

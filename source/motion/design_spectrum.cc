@@ -16,14 +16,14 @@ namespace Voussoir
       if (code == "NB35047-2015")
         return 0.6;
       throw InputError("Motion/Spectrum: there is no design spectrum '" + code +
-                       "'; choose DL5073-2000 or NB35047-2015.");
+                       "'. Choose DL5073-2000 or NB35047-2015.");
     }
   } // namespace
 
   double design_beta(const DesignSpectrum &spectrum, double period)
   {
     constexpr double plateau_begin = 0.1; // [s]
-    constexpr double floor = 0.2;         // of the plateau
+    constexpr double floor = 0.2;         // relative to the plateau
 
     const double gamma = descent_exponent(spectrum.code);
     const double beta = spectrum.maximum_beta;

@@ -20,7 +20,7 @@ namespace Voussoir
   std::array<double, 3> GroundMotion::at(double t) const
   {
     std::array<double, 3> a = {{0., 0., 0.}};
-    // Times are often sums of time steps: rounding must not lose the last sample.
+    // Times are often sums of time steps: the last sample is valid in spite of round-off.
     const double position = t / dt, last = double(acceleration.size()) - 1., rounding = 1e-9 * last;
     if (!(position >= 0.) || position > last + rounding)
       return a;

@@ -11,7 +11,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** Nothing that is not a number, or beyond all earthquakes, gets into a run or a file. */
+    /** Throws InputError if a sample is not finite or exceeds 1000 g. */
     void check_samples(const GroundMotion &motion)
     {
       constexpr double limit = 1000. * standard_gravity;
@@ -20,11 +20,10 @@ namespace Voussoir
           if (!(std::abs(a) <= limit))
           {
             std::ostringstream message;
-            message
-                << "The acceleration of the ground motion at " << k * motion.dt << " s is " << a << " m/s^2, "
-                << a / standard_gravity
-                << " g; more than 1000 g is no earthquake. Check the entries Motion/Unit, Factor, Scale x, "
-                   "y, z and Peak acceleration.";
+            message << "The acceleration of the ground motion at " << k * motion.dt << " s is " << a
+                    << " m/s^2, " << a / standard_gravity
+                    << " g. The limit is 1000 g. Check the entries Motion/Unit, Factor, Scale x, y, z and "
+                       "Peak acceleration.";
             throw InputError(message.str());
           }
     }
@@ -44,7 +43,8 @@ namespace Voussoir
       motion.dt = parameters.time_step;
       motion.acceleration.resize(parameters.n_steps() + 1, {{0., 0., 0.}});
     }
-    const double factor = parameters.source == "artificial" ? parameters.factor : 1.; // records have it
+    const double factor =
+        parameters.source == "artificial" ? parameters.factor : 1.; // read_motion() includes it for records
     for (auto &sample : motion.acceleration)
       for (unsigned int d = 0; d < 3; ++d)
         sample[d] *= factor * parameters.scale[d];

@@ -14,9 +14,9 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double longest_period = 20.; // of the series [s]
+    constexpr double longest_period = 20.; // longest period of the series [s]
 
-    /** Sum_k c_k exp(2 pi i j k / n), j = 0..n-1, n a power of two (radix 2, in place). */
+    /** Computes sum_k c_k exp(2 pi i j k / n) for j = 0..n-1 in place (radix 2). n is a power of two. */
     void fourier_sum(std::vector<std::complex<double>> &c)
     {
       const std::size_t n = c.size();
@@ -44,13 +44,15 @@ namespace Voussoir
       }
     }
 
-    /** Uniform in [0, 1), the same on every platform (std::uniform_real_distribution is not). */
+    /** Returns a uniform random number in [0, 1), identical on all platforms. The standard does not guarantee
+     * this for std::uniform_real_distribution. */
     double uniform(std::mt19937_64 &generator)
     {
       return (generator() >> 11) * 0x1p-53;
     }
 
-    /** Rise as t^2, one, exponential decay, and in the last twentieth a cosine to zero. */
+    /** Returns the envelope at time @p t: rise with t^2, 1, exponential decay. In the last twentieth of the
+     * duration, a cosine taper to zero multiplies it. */
     double envelope_at(const MotionParameters &parameters, double t)
     {
       const double         duration = parameters.length();
@@ -62,8 +64,11 @@ namespace Voussoir
       return end * std::exp(-envelope.decay_rate * std::max(t - envelope.decay_begin, 0.));
     }
 
-    /** Power spectral density of acceleration that belongs to a pseudo-acceleration (Kaul 1978):
-     *  S(w) = - zeta / (pi w) Sa^2 / ln(-pi / (w T_d) ln(1 - p)), with probability p of exceedance. */
+    /** Returns the power spectral density of the acceleration for a pseudo-acceleration Sa (Kaul 1978):
+     *
+     *     S(w) = - zeta / (pi w) Sa^2 / ln(-pi / (w T_d) ln(1 - p))
+     *
+     * p is the probability of exceedance, T_d the duration. */
     double power_spectrum(double w, double pseudo_acceleration, double damping, double duration)
     {
       constexpr double p = 0.1;
@@ -72,7 +77,8 @@ namespace Voussoir
              std::log(std::min(crossing, 0.5));
     }
 
-    /** Linear interpolation of y over the logarithms of increasing x, constant beyond the ends. */
+    /** Returns y at the value @p at by linear interpolation over the logarithm of x. The values x increase.
+     * The result is constant beyond the ends. */
     double interpolate(const std::vector<double> &x, const std::vector<double> &y, double at)
     {
       const std::size_t i = std::lower_bound(x.begin(), x.end(), at) - x.begin();
@@ -83,11 +89,11 @@ namespace Voussoir
       return y[i - 1] + (y[i] - y[i - 1]) * std::log(at / x[i - 1]) / std::log(x[i] / x[i - 1]);
     }
 
-    /** The series sum_k A_k cos(w_k t + phi_k) under the envelope. */
+    /** Trigonometric series sum_k A_k cos(w_k t + phi_k), multiplied by an envelope. */
     struct Series
     {
       std::vector<double> frequencies, amplitudes, phases; // [Hz], [m/s^2], [rad], for k = 1, 2, ...
-      std::size_t         n_points;                        // of one period of the series, a power of two
+      std::size_t         n_points;                        // points per period of the series, a power of two
 
       std::vector<double> evaluate(const std::vector<double> &envelope) const
       {
@@ -126,8 +132,8 @@ namespace Voussoir
       return series;
     }
 
-    /** 100 periods in a decade where the motion is to match, and a few longer ones, which keep the
-     *  displacement reasonable. */
+    /** Returns the target: 100 periods per decade in the range to match, and some longer periods, which limit
+     * the displacement. */
     SpectralTarget make_target(const MotionParameters &parameters, unsigned int direction)
     {
       using namespace MotionCriteria;
@@ -144,7 +150,7 @@ namespace Voussoir
       return target;
     }
 
-    /** Amplitudes times target over computed spectrum, a few times. */
+    /** Multiplies the amplitudes by the ratio of the target to the computed spectrum, in six passes. */
     void correct_amplitudes(Series &series, double dt, const std::vector<double> &envelope,
                             const SpectralTarget &target)
     {
@@ -159,7 +165,8 @@ namespace Voussoir
       }
     }
 
-    /** At most 1 when a component, and its correlation with those before it, meets all criteria. */
+    /** Returns the largest ratio of an error to its limit in MotionCriteria, for a component and its
+     * correlation with earlier components. It is at most 1 if all criteria are satisfied. */
     double misfit(const MotionReport &report, unsigned int direction)
     {
       using namespace MotionCriteria;
@@ -183,7 +190,8 @@ namespace Voussoir
     Series               series = make_series(parameters, direction, attempt);
     correct_amplitudes(series, parameters.time_step, envelope, target);
     return match_spectrum(series.evaluate(envelope), parameters.time_step, envelope, target,
-                          0.75 * MotionCriteria::maximum_error, // leaves room between the matched periods
+                          0.75 *
+                              MotionCriteria::maximum_error, // margin for periods between those of the target
                           parameters.matching_iterations);
   }
 

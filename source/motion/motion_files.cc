@@ -16,7 +16,7 @@ namespace Voussoir
     struct Source
     {
       std::string  path;
-      unsigned int first; ///< component of the motion that the record's first one is
+      unsigned int first; ///< component of the motion for the first one of the record
       MotionRecord record;
     };
 
@@ -28,13 +28,13 @@ namespace Voussoir
         const std::string path = (std::filesystem::path(scene_directory) / name).string();
         sources.push_back({path, first, read_motion_record(path, n_components)});
         if (const std::string unit = sources.back().record.unit; !unit.empty() && unit != parameters.unit)
-          throw InputError("The ground motion file '" + name + "' has headings that say " + unit +
+          throw InputError("The ground motion file '" + name + "' has headings with the unit " + unit +
                            ", but Motion/Unit is " + parameters.unit + ". Set Motion/Unit = " + unit +
-                           ", or mend the headings.");
+                           ", or correct the headings.");
         const double start = sources.back().record.start, expected = sources.front().record.start;
         if (std::abs(start - expected) > 1e-6)
           throw InputError("The ground motion file '" + name + "' starts at " + std::to_string(start) +
-                           " s, the component before it at " + std::to_string(expected) +
+                           " s, but the first component at " + std::to_string(expected) +
                            " s. Cut the records to the same first time.");
       };
       if (!parameters.file.empty())
@@ -45,13 +45,13 @@ namespace Voussoir
       return sources;
     }
 
-    /** Whole steps of @p dt in the record, but for the rounding of its times. */
+    /** Returns the number of whole steps of @p dt in the record, with a tolerance for rounded times. */
     double steps_in(const MotionRecord &record, const double dt)
     {
       return std::floor((record.duration() + 0.01 * record.dt) / dt);
     }
 
-    /** The number of time steps, and a note where it comes from the records. */
+    /** Returns the number of time steps. Adds a note if it is that of the records. */
     std::size_t find_n_steps(const MotionParameters &parameters, const std::vector<Source> &sources,
                              std::vector<std::string> &notes)
     {
@@ -66,16 +66,16 @@ namespace Voussoir
         message << "The ground motion file '" << shortest.path << "' lasts " << shortest.record.duration()
                 << " s, less than Motion/Duration, " << parameters.duration << " s. Set Duration to at most "
                 << shortest.record.duration()
-                << " s (a multiple of Time step), or to -1, which takes that of the shortest record, or give "
-                   "a longer record.";
+                << " s (a multiple of Time step), or to -1 (length of the shortest record), or give a longer "
+                   "record.";
         throw InputError(message.str());
       }
       const double n = steps_in(shortest.record, parameters.time_step);
       if (!(n >= 1. && n <= MotionParameters::most_steps))
       {
         message << "The ground motion file '" << shortest.path << "' lasts " << shortest.record.duration()
-                << " s, which is " << (n < 1. ? "less than one" : "more than ten million")
-                << " of Motion/Time step, " << parameters.time_step << " s. Correct the time step"
+                << " s, which is " << (n < 1. ? "less than one step" : "more than ten million steps")
+                << " (Motion/Time step is " << parameters.time_step << " s). Correct the time step"
                 << (n < 1. ? ", or give a longer record." : ".");
         throw InputError(message.str());
       }
@@ -129,16 +129,15 @@ namespace Voussoir
     }
     catch (const InputError &)
     {
-      return ""; // it is told where the motion is made
+      return ""; // make_motion() reports the error
     }
     if (peak == 0. || peak >= weak)
       return "";
     std::ostringstream text;
     text.precision(3);
-    text << "the largest number of the record is " << peak
-         << ", taken in m/s^2 since the scene has no Motion/Unit. If the file is in g, set Motion/Unit = g; "
-            "if it is in "
-            "m/s^2, say so.";
+    text << "the largest value of the record is " << peak
+         << ". The unit m/s^2 is assumed, because the input file has no Motion/Unit. If the record is in g, "
+            "set Motion/Unit = g. Otherwise set Motion/Unit = m/s^2.";
     return text.str();
   }
 } // namespace Voussoir

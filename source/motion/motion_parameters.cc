@@ -20,29 +20,27 @@ namespace Voussoir
   void MotionParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Motion");
-    prm.add_parameter(
-        "Source", source,
-        "Where the acceleration of the base comes from: 'artificial' makes three components that "
-        "match a design spectrum, 'file' reads records, 'none' leaves the base at rest.",
-        Patterns::Selection("artificial|file|none"));
+    prm.add_parameter("Source", source,
+                      "Source of the base acceleration. artificial: three components that match a design "
+                      "spectrum. file: records from files. none: the base is at rest.",
+                      Patterns::Selection("artificial|file|none"));
     prm.add_parameter(
         "Duration", duration,
-        "Length of the ground motion and of the run [s]. Longer records are cut, shorter ones refused. -1: "
-        "that "
-        "of the shortest record; 20.48 s of an artificial motion. On rock, -1 adds to the run the time that "
-        "the waves travel to the dam's base, in whole time steps of the motion.",
+        "Length of the ground motion and of the run [s]. Longer records are cut. Shorter records are an "
+        "error. -1: length of the shortest record, or 20.48 s for an artificial motion. On rock, -1 extends "
+        "the run by the travel time of the waves to the base of the dam, in whole time steps of the motion.",
         {0., 300.});
     prm.add_parameter(
         "Time step", time_step,
-        "Sampling interval of the motion [s]; Duration is a multiple of it. Records with a longer "
-        "interval are interpolated linearly, those with a shorter one filtered first, so that nothing above "
-        "0.5/Time step remains; each component may have its own interval.",
+        "Sampling interval of the ground motion [s]. Duration must be a multiple of it. Records with a "
+        "longer interval are interpolated linearly. Records with a shorter interval are low-pass filtered at "
+        "0.5/Time step before sampling. Each component may have another interval.",
         {1e-4, .05});
-    prm.add_parameter("Factor", factor, "Factor [-] on all components, whatever their source.");
+    prm.add_parameter("Factor", factor, "Factor of all components [-], for every source.");
     for (unsigned int d = 0; d < 3; ++d)
       prm.add_parameter(std::string("Scale ") + names[d], scale[d],
-                        std::string("Factor [-] on the component in ") + names[d] +
-                            ", whatever its source; 0 switches it off.");
+                        std::string("Factor [-] of the component in ") + names[d] +
+                            ", for every source. 0 switches the component off.");
     add_file_parameters(prm);
     add_artificial_parameters(prm);
     prm.leave_subsection();
@@ -50,77 +48,69 @@ namespace Voussoir
 
   void MotionParameters::add_file_parameters(Entries &prm)
   {
-    prm.add_parameter(
-        "File", file,
-        "Source = file: a table with the columns t [s], a_x, a_y, a_z, separated by blanks or commas; "
-        "lines may end in # comments. The path is relative to the scene file. Leave it empty to "
-        "give File x, File y, File z.",
-        Patterns::Anything());
+    prm.add_parameter("File", file,
+                      "Source = file: table with the columns t [s], a_x, a_y, a_z, separated by blanks or "
+                      "commas. The text after # is a comment. The path is relative to the input file. Empty: "
+                      "File x, File y and File z are used.",
+                      Patterns::Anything());
     for (unsigned int d = 0; d < 3; ++d)
       prm.add_parameter(
           std::string("File ") + names[d], component_files[d],
-          std::string("Source = file: the component in ") + names[d] +
-              ", a table with the columns t [s], a or a PEER AT2 file. If empty, this component is zero.",
+          std::string("Source = file: component in ") + names[d] +
+              ", as a table with the columns t [s], a, or as a PEER AT2 file. Empty: the component is zero.",
           Patterns::Anything());
-    prm.add_parameter(
-        "Unit", unit,
-        "Source = file: unit of acceleration in tables, 'g' = 9.80665 m/s^2, 'm/s^2' or 'cm/s^2'. AT2 "
-        "files are always in g.",
-        Patterns::Selection("g|m/s^2|cm/s^2"));
+    prm.add_parameter("Unit", unit,
+                      "Source = file: unit of the acceleration in tables: g (9.80665 m/s^2), m/s^2 or "
+                      "cm/s^2. AT2 files are always in g.",
+                      Patterns::Selection("g|m/s^2|cm/s^2"));
   }
 
   void MotionParameters::add_artificial_parameters(Entries &prm)
   {
-    prm.add_parameter(
-        "Spectrum", spectrum.code,
-        "Source = artificial: the standard design spectrum; beyond the characteristic period T_g "
-        "it descends with (T_g/T)^0.9 in DL5073-2000 and with (T_g/T)^0.6 in NB35047-2015.",
-        Patterns::Selection("DL5073-2000|NB35047-2015"));
-    prm.add_parameter(
-        "Characteristic period", spectrum.characteristic_period,
-        "Source = artificial: period T_g [s] of the site where the spectrum begins to descend; 0.2 "
-        "on rock.",
-        {.1, 2.});
-    prm.add_parameter(
-        "Maximum beta", spectrum.maximum_beta,
-        "Source = artificial: largest spectral acceleration over peak acceleration [-]; 2.5 for arch "
-        "dams.",
-        {1.5, 4.});
-    prm.add_parameter("Peak acceleration", peak_acceleration, "Source = artificial: in x and in y [g].",
-                      {.005, 2.});
+    prm.add_parameter("Spectrum", spectrum.code,
+                      "Source = artificial: standard design spectrum. Beyond the characteristic period T_g "
+                      "it decreases with (T_g/T)^0.9 (DL5073-2000) or (T_g/T)^0.6 (NB35047-2015).",
+                      Patterns::Selection("DL5073-2000|NB35047-2015"));
+    prm.add_parameter("Characteristic period", spectrum.characteristic_period,
+                      "Source = artificial: characteristic period T_g of the site [s], at which the descent "
+                      "of the spectrum begins. 0.2 s on rock.",
+                      {.1, 2.});
+    prm.add_parameter("Maximum beta", spectrum.maximum_beta,
+                      "Source = artificial: ratio of the largest spectral acceleration to the peak "
+                      "acceleration [-]. 2.5 for arch dams.",
+                      {1.5, 4.});
+    prm.add_parameter("Peak acceleration", peak_acceleration,
+                      "Source = artificial: peak acceleration in x and in y [g].", {.005, 2.});
     prm.add_parameter("Vertical ratio", vertical_ratio,
-                      "Source = artificial: peak and spectrum in z over those in x and y [-].", {.2, 1.5});
-    prm.add_parameter(
-        "Damping", damping,
-        "Damping ratio [-] of the spectrum: of spectrum.csv, and with Source = artificial of the design "
-        "spectrum.",
-        {.005, .2});
+                      "Source = artificial: ratio of peak and spectrum in z to those in x and y [-].",
+                      {.2, 1.5});
+    prm.add_parameter("Damping", damping,
+                      "Damping ratio [-] of the response spectra in spectrum.csv, and with Source = "
+                      "artificial of the design spectrum.",
+                      {.005, .2});
     prm.add_parameter(
         "Seed", seed,
-        "Source = artificial: number [-] that selects the random phases; equal seeds give equal "
-        "motions.",
+        "Source = artificial: number [-] that selects the random phases. Equal seeds give equal motions.",
         Patterns::Integer(0));
-    prm.add_parameter(
-        "Rise end", rise_end,
-        "Source = artificial: the envelope rises as t^2 until this time [s]. -1: 2.5 s, or Duration/6 "
-        "where the usual envelope does not fit into the duration.");
-    prm.add_parameter(
-        "Decay begin", decay_begin,
-        "Source = artificial: the envelope is constant until this time [s]. -1: 11 s, or 11/15 of "
-        "Duration where that is longer than the motion.");
+    prm.add_parameter("Rise end", rise_end,
+                      "Source = artificial: time [s] until which the envelope increases with t^2. -1: 2.5 s, "
+                      "or Duration/6 if the standard envelope does not fit into Duration.");
+    prm.add_parameter("Decay begin", decay_begin,
+                      "Source = artificial: time [s] until which the envelope is constant. -1: 11 s, or "
+                      "11/15 of Duration if the standard envelope does not fit into Duration.");
     prm.add_parameter(
         "Decay rate", decay_rate,
-        "Source = artificial: c [1/s] of the envelope's decay exp(-c (t - Decay begin)). -1: 0.25, "
-        "or 3.75/Duration where the usual envelope does not fit.");
-    prm.add_parameter(
-        "Matching iterations", matching_iterations,
-        "Source = artificial: largest number [-] of corrections in the time domain; they end earlier "
-        "when the spectrum matches.",
-        Patterns::Integer(0, 1000));
+        "Source = artificial: rate c [1/s] of the decay exp(-c (t - Decay begin)) of the envelope. -1: 0.25, "
+        "or 3.75/Duration if the standard envelope does not fit into Duration.");
+    prm.add_parameter("Matching iterations", matching_iterations,
+                      "Source = artificial: largest number [-] of corrections in the time domain. They end "
+                      "earlier if the spectrum matches.",
+                      Patterns::Integer(0, 1000));
   }
 
   namespace
   {
+    /** Throws InputError "Motion/ENTRY is VALUE; RULE." unless @p condition is true. */
     void require(bool condition, const std::string &entry, double value, const std::string &rule)
     {
       if (condition)
@@ -130,7 +120,7 @@ namespace Voussoir
       throw InputError(message.str());
     }
 
-    /** Also false for a value that is not a number. */
+    /** Throws InputError unless @p value is from @p low to @p high, also if it is not a number. */
     void require_between(double low, double high, const std::string &entry, double value,
                          const std::string &unit)
     {
@@ -144,25 +134,23 @@ namespace Voussoir
       const bool components_given =
           !(p.component_files[0] + p.component_files[1] + p.component_files[2]).empty();
       if (p.source == "file" && p.file.empty() && !components_given)
-        throw InputError(
-            "Motion/Source is file, but no file is given: set Motion/File (columns t, a_x, a_y, a_z) "
-            "or Motion/File x, File y, File z.");
+        throw InputError("Motion/Source is file, but no file is given: set Motion/File (columns t, a_x, a_y, "
+                         "a_z) or Motion/File x, File y, File z.");
       if (p.source == "file" && !p.file.empty() && components_given)
         throw InputError("Motion/File and Motion/File x, y, z are both given: keep either the file with all "
                          "components or the files with one each.");
       if (p.source == "artificial" && (!p.file.empty() || components_given))
-        throw InputError(
-            "A file is given in section Motion, but Motion/Source is artificial: set Source = file, "
-            "or remove the file.");
+        throw InputError("A file is given in section Motion, but Motion/Source is artificial: set Source = "
+                         "file, or remove the file.");
     }
 
     void check_artificial(const MotionParameters &p)
     {
-      constexpr double most_steps = 2e5; // the matching keeps 230 vectors of that length
+      constexpr double most_steps = 2e5; // match_spectrum() stores 230 vectors of that length
       require(p.time_step <= 0.02, "Time step", p.time_step, "artificial motions need 0.02 s or less");
       require(p.length() >= 0.2, "Duration", p.length(), "artificial motions need 0.2 s or more");
       require(p.length() / p.time_step <= most_steps, "Duration", p.length(),
-              "artificial motions have at most 200,000 time steps: shorten it, or enlarge Time step");
+              "artificial motions have at most 200,000 time steps: reduce it, or increase Time step");
 
       using Parameters = MotionParameters;
       for (const auto &entry : {std::make_pair("Rise end", p.rise_end), {"Decay begin", p.decay_begin}})
@@ -190,12 +178,13 @@ namespace Voussoir
   {
     require(time_step > 0. && time_step <= 1e3, "Time step", time_step,
             "it must be positive, at most 1000 s");
-    if (source != "none" && (!duration_is_automatic() || source != "file")) // else of the records
+    if (source != "none" &&
+        (!duration_is_automatic() || source != "file")) // otherwise the records determine it
     {
       require(length() >= time_step, "Duration", length(),
               "it must be at least one Time step, or -1: automatic");
       require(length() / time_step <= most_steps, "Time step", time_step,
-              "more than ten million steps: enlarge it");
+              "the motion would have more than ten million steps: increase it");
       require(std::abs(length() / time_step - n_steps()) < 1e-6 * n_steps(), "Duration", length(),
               "it must be a multiple of Time step");
     }
@@ -225,7 +214,7 @@ namespace Voussoir
     MotionEnvelope result = scaled(1.);
     if (!fits(result))
       result = scaled(std::min(1., length() / 15.));
-    if (!fits(result) && decay_begin == automatic) // after a late end of the rise
+    if (!fits(result) && decay_begin == automatic) // rise_end is given and late
       result.decay_begin = .5 * (result.rise_end + length());
     return result;
   }

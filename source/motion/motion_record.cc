@@ -16,6 +16,7 @@ namespace Voussoir
 {
   namespace
   {
+    /** Line of a file with at least one word. */
     struct Line
     {
       std::size_t              number;
@@ -30,7 +31,7 @@ namespace Voussoir
     constexpr std::uintmax_t largest_file = 100000000; // bytes
     constexpr std::size_t    longest_line = 1000000;
 
-    /** The whole file. A pipe or a device may never end: only regular files are read. */
+    /** Returns the content of a file. Throws InputError for pipes and devices, which may have no end. */
     std::string read_text(const std::string &file)
     {
       namespace fs = std::filesystem;
@@ -38,24 +39,24 @@ namespace Voussoir
       const auto      status = fs::status(file, error);
       if (fs::exists(status) && !fs::is_regular_file(status))
         throw InputError("The ground motion file '" + file + "' is " +
-                         (fs::is_directory(status) ? "a directory" : "a pipe or a device, no regular file") +
-                         ". Give a file.");
+                         (fs::is_directory(status) ? "a directory" : "a pipe or a device") +
+                         ". Give a regular file.");
       std::ifstream in(file, std::ios::binary);
       if (!in)
         throw InputError("The ground motion file '" + file +
-                         "' cannot be opened. Paths in section Motion are relative to the scene file.");
+                         "' cannot be opened. Paths in section Motion are relative to the input file.");
       const std::uintmax_t size = fs::file_size(file, error);
       if (error || size > largest_file)
         throw InputError("The ground motion file '" + file +
-                         "' is larger than 100 MB: this is no record of acceleration. Is it the right file?");
+                         "' is larger than 100 MB and cannot be an acceleration record. Check the path.");
       std::string text(size, ' ');
       in.read(text.data(), size);
       if (in.gcount() != static_cast<std::streamsize>(size))
-        throw InputError("The ground motion file '" + file + "' cannot be read to its end.");
+        throw InputError("The ground motion file '" + file + "' cannot be read completely. Check the disk.");
       return text;
     }
 
-    /** Its words, without comments. */
+    /** Returns the words of a line, without its comment. */
     std::vector<std::string> split(std::string text)
     {
       const char *separators = " \t\r,;=";
@@ -70,8 +71,8 @@ namespace Voussoir
       return words;
     }
 
-    /** True if the whole word is a number, infinite ones and NaN included. Accepts +1., -.64E-02, 1.0D-3;
-     *  the decimal sign is a point in every locale. */
+    /** Returns true if the whole word is a number, and stores it in @p number. Infinity and NaN are numbers
+     * here. Accepts +1., -.64E-02 and 1.0D-3. The decimal sign is a point in every locale. */
     bool to_number(std::string word, double &number)
     {
       std::replace_if(
@@ -81,7 +82,7 @@ namespace Voussoir
         ++begin;
       const auto result = std::from_chars(begin, end, number);
       if (result.ec == std::errc::result_out_of_range && word.find("e-") != std::string::npos)
-        number = 0.; // smaller than the smallest
+        number = 0.; // smaller than the smallest number
       else if (result.ec != std::errc())
         return false;
       return result.ptr == end;
@@ -93,8 +94,9 @@ namespace Voussoir
       return to_number(word, ignored);
     }
 
-    /** The unit of acceleration that a text of headings states, as Motion/Unit has it: "a_x [cm/s2]", "X
-     * (g)"; empty if it states none or several. "g" counts in brackets only. */
+    /** Returns the unit of acceleration in headings such as "a_x [cm/s2]" or "X (g)", in the form of
+     * Motion/Unit. The letter g is a unit in parentheses only. Returns an empty string for no unit and for
+     * several units. */
     std::string unit_in(std::string text)
     {
       std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -120,15 +122,15 @@ namespace Voussoir
       return found.size() == 1 ? *found.begin() : "";
     }
 
-    /** All lines that hold words. They end in LF, CR LF or CR. @p headings: what stands before the first
-     * number. */
+    /** Returns all lines with words. Lines end in LF, CR LF or CR. @p headings receives the text before the
+     * first number. */
     std::vector<Line> read_lines(const std::string &file, std::string &headings)
     {
       const std::string text = read_text(file);
       const std::size_t first = text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0; // byte order mark
       if (text.find('\0') != std::string::npos)
         throw InputError("The ground motion file '" + file +
-                         "' is no plain text (it has zero bytes). Save it as text, in ASCII or UTF-8.");
+                         "' is not plain text (it has zero bytes). Save it as text, in ASCII or UTF-8.");
       std::vector<Line> lines;
       std::size_t       number = 0;
       for (std::size_t begin = first, end; begin < text.size(); begin = end + 1)
@@ -136,7 +138,8 @@ namespace Voussoir
         end = std::min(text.find_first_of("\r\n", begin), text.size());
         ++number;
         if (end - begin > longest_line)
-          fail(file, number, "longer than a million characters: this is no record. Is it the right file?");
+          fail(file, number,
+               "the line has more than a million characters, so the file is not a record. Check the path.");
         Line line{number, split(text.substr(begin, end - begin))};
         if (lines.empty() || std::none_of(lines.back().words.begin(), lines.back().words.end(), is_number))
           headings += text.substr(begin, end - begin) + "\n";
@@ -161,8 +164,8 @@ namespace Voussoir
       return std::find(line.words.begin(), line.words.end(), word) != line.words.end();
     }
 
-    /** The line of an AT2 header, its fourth in practice, that states number and interval of the samples;
-     *  lines.end() in a table. */
+    /** Returns the line of an AT2 header (usually the fourth) with the number and the interval of the
+     * samples. Returns lines.end() for a table. */
     std::vector<Line>::const_iterator find_at2_header(const std::vector<Line> &lines)
     {
       for (auto line = lines.begin(); line != lines.end() && line - lines.begin() < 8; ++line)
@@ -171,17 +174,16 @@ namespace Voussoir
       return lines.end();
     }
 
-    /** A header "... IN UNITS OF G" is what the samples are taken for; another unit is refused. */
+    /** Throws InputError if a line of an AT2 header states another unit than "UNITS OF G". */
     void check_at2_unit(const std::string &file, const Line &line)
     {
       for (std::size_t k = 2; k < line.words.size(); ++k)
         if (line.words[k - 2] == "UNITS" && line.words[k - 1] == "OF" && line.words[k] != "G" &&
             line.words[k] != "g")
           fail(file, line.number,
-               "the header says \"UNITS OF " + line.words[k] +
-                   "\", but samples of AT2 files are taken in g. Correct the header; or give a table of t "
-                   "and a, "
-                   "and its unit as Motion/Unit.");
+               "the header states \"UNITS OF " + line.words[k] +
+                   "\", but AT2 files are read in g. Correct the header, or give a table of t and a with its "
+                   "unit in Motion/Unit.");
     }
 
     MotionRecord read_at2(const std::string &file, const std::vector<Line> &lines,
@@ -218,7 +220,8 @@ namespace Voussoir
       return record;
     }
 
-    /** The interval of times that differ from equal steps by no more than their rounding. */
+    /** Returns the time step of @p times [s]. Throws InputError if the steps differ by more than the rounding
+     * of the times. */
     double equal_step(const std::string &file, const std::vector<double> &times,
                       const std::vector<std::size_t> &lines)
     {
@@ -262,13 +265,12 @@ namespace Voussoir
         if (line->words.size() != n_components + 1)
           fail(file, line->number,
                std::to_string(line->words.size()) + " columns. " +
-                   (n_components == 1
-                        ? "Expected two, t and a, or an AT2 file; a file with t, a_x, a_y, a_z "
-                          "belongs to the entry Motion/File. "
-                        : "Motion/File expects four, t, a_x, a_y, a_z; files with one component belong "
-                          "to the entries File x, File y, File z. ") +
-                   "One line of headings without numbers may come first; put # before other text. "
-                   "Decimals have a point, not a comma.");
+                   (n_components == 1 ? "Expected two, t and a, or an AT2 file; a file with t, a_x, a_y, a_z "
+                                        "belongs to the entry Motion/File. "
+                                      : "Motion/File expects four, t, a_x, a_y, a_z; files with one "
+                                        "component belong to the entries File x, File y, File z. ") +
+                   "One line of headings without numbers may come first; put # before other text. Decimals "
+                   "have a point, not a comma.");
         times.push_back(read_number(file, *line, line->words[0]));
         numbers.push_back(line->number);
         for (unsigned int c = 0; c < n_components; ++c)

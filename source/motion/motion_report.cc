@@ -14,7 +14,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** Pearson's coefficient; zero if either is constant. */
+    /** Returns the correlation coefficient of Pearson. It is zero if a vector is constant. */
     double correlation(const std::vector<double> &a, const std::vector<double> &b)
     {
       double mean_a = 0., mean_b = 0.;
@@ -33,7 +33,7 @@ namespace Voussoir
       return aa * bb > 0. ? ab / std::sqrt(aa * bb) : 0.;
     }
 
-    /** Of the component @p d with the accelerations @p a. */
+    /** Returns the measures of the component @p d with the accelerations @p a [m/s^2]. */
     MotionReport::Component measure(const std::vector<double> &a, const double dt,
                                     const MotionIntegrals &integrals, const unsigned int d)
     {
@@ -104,8 +104,8 @@ namespace Voussoir
           continue;
         std::ostringstream text;
         text << std::fixed << std::setprecision(1) << "the spectrum of "
-             << "xyz"[d] << " is off by up to " << 100. * c.maximum_error << " % (" << 100. * c.mean_error
-             << " % on average); accepted are 10 % (5 %). Try more \"Matching"
+             << "xyz"[d] << " has an error of up to " << 100. * c.maximum_error << " % ("
+             << 100. * c.mean_error << " % on average); the limits are 10 % (5 %). Try more \"Matching"
              << " iterations\", another \"Seed\", a longer \"Duration\" or a smaller \"Time step\".";
         warnings.push_back(text.str());
       }
@@ -115,7 +115,7 @@ namespace Voussoir
         {
           std::ostringstream text;
           text << std::fixed << std::setprecision(3) << "the correlation of " << pairs[i] << " is "
-               << report.correlations[i] << "; accepted is 0.3. Try another \"Seed\".";
+               << report.correlations[i] << "; the limit is 0.3. Try another \"Seed\".";
           warnings.push_back(text.str());
         }
     }
@@ -149,8 +149,8 @@ namespace Voussoir
       text << "the peak acceleration of the motion is " << peak
            << " g; usual is 0.005 to 2 g. Check Motion/Unit, Motion/Factor and Motion/Scale x, y, z.";
     else if (velocity > fastest || displacement > farthest)
-      text << "the motion moves at " << velocity << " m/s, by " << displacement << " m; usual is at most "
-           << fastest << " m/s and " << farthest
+      text << "the motion has a peak velocity of " << velocity << " m/s and a peak displacement of "
+           << displacement << " m; usual is at most " << fastest << " m/s and " << farthest
            << " m. Check the times and the unit of the record (Motion/Unit), and Motion/Time step.";
     return text.str();
   }
@@ -172,9 +172,8 @@ namespace Voussoir
     }
     if (text.tellp() == 0)
       return "";
-    return "the motion does not end at rest in its place: " + text.str() +
-           " (warned of above 20 % and 10 %). Correct the baseline of the record, or let the motion last "
-           "until "
+    return "the motion does not end at rest in its initial position: " + text.str() +
+           " (limits: 20 % and 10 %). Correct the baseline of the record, or increase Motion/Duration until "
            "the record is at rest.";
   }
 

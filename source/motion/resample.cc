@@ -8,12 +8,14 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double pass_end = .8;     ///< of the pass band, of the new Nyquist frequency
-    constexpr double attenuation = 80.; ///< in the stop band, which begins there [dB]
+    constexpr double pass_end = .8;     ///< end of the pass band, relative to the new Nyquist frequency
+    constexpr double attenuation = 80.; ///< in the stop band, above the new Nyquist frequency [dB]
     constexpr double kaiser = .1102 * (attenuation - 8.7);
     constexpr double half_width =
-        .5 * (attenuation - 7.95) / (2.285 * M_PI * (1. - pass_end)); ///< in new steps
+        .5 * (attenuation - 7.95) /
+        (2.285 * M_PI * (1. - pass_end)); ///< half width of the window, in new steps
 
+    /** Returns the record at @p position (in samples) by linear interpolation. */
     double linear(const std::vector<double> &a, const double position)
     {
       const std::size_t k = std::min<std::size_t>(position, a.size() - 2);
@@ -21,7 +23,7 @@ namespace Voussoir
       return (1. - x) * a[k] + x * a[k + 1];
     }
 
-    /** Sample @p k of the record continued by reflection through its end points. */
+    /** Returns sample @p k of the record, continued by point reflection at its ends. */
     double continued(const std::vector<double> &a, long k)
     {
       const long last = static_cast<long>(a.size()) - 1;
@@ -35,7 +37,7 @@ namespace Voussoir
       return offset + sign * a[k];
     }
 
-    /** The filter's impulse response, @p x in new steps, but for a factor. */
+    /** Returns the impulse response of the filter up to a factor. @p x: time in new steps. */
     double response(const double x)
     {
       const double place = x / half_width;

@@ -22,8 +22,8 @@ namespace Voussoir
     a[1][0] = -w * w * s;
     a[1][1] = c - damping * w * s;
 
-    // Under the acceleration p + q t the particular solution is u = -(p + q t) / w^2 + 2 zeta q / w^3;
-    // the rest is free vibration.
+    // For the acceleration p + q t the particular solution is u = -(p + q t) / w^2 + 2 zeta q / w^3.
+    // The remainder is free vibration.
     const auto forced = [&](double p, double q) -> std::array<double, 2>
     {
       const double v = -q / (w * w);
@@ -34,8 +34,8 @@ namespace Voussoir
     finish = forced(0., 1. / h);
   }
 
-  /** Of @p n oscillators with the same number of substeps: their chains of sums do not wait for each other.
-   */
+  /** Computes the peaks of @p n oscillators with the same number of substeps. Independent sums for several
+   * oscillators keep the processor busy. */
   template <unsigned int n>
   void Oscillator::find_peaks(const Oscillator *oscillator, const std::vector<double> &acceleration,
                               Peak *peak)

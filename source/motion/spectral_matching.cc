@@ -15,7 +15,7 @@ namespace Voussoir
 
     double dot(const Vector &a, const Vector &b)
     {
-      // Four sums, which do not wait for each other.
+      // Four independent sums, for speed.
       double            sum[4] = {0., 0., 0., 0.};
       const std::size_t n = a.size() / 4 * 4;
       for (std::size_t i = 0; i < n; i += 4)
@@ -26,7 +26,8 @@ namespace Voussoir
       return (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
 
-    /** dot() of a and four others, the same sums: each number of a is read once. */
+    /** Returns dot() of @p a and each of four vectors, bitwise identical to dot(). The values of @p a are
+     * read only once. */
     std::array<double, 4> dots(const Vector &a, const Vector *b)
     {
       double            sum[4][4] = {};
@@ -45,8 +46,8 @@ namespace Voussoir
       return result;
     }
 
-    /** Solve A x = b by Cholesky's method; A is symmetric positive (semi)definite with a diagonal near one,
-     * and its lower triangle is given. */
+    /** Solves A x = b by Cholesky's method. A is symmetric positive (semi)definite with a diagonal near one.
+     * Only its lower triangle is used. */
     Vector solve(std::vector<Vector> A, Vector b)
     {
       const std::size_t n = b.size();
@@ -72,7 +73,7 @@ namespace Voussoir
       return b;
     }
 
-    /** Linear conditions on the change of a record: gradient . change = value, to within a slack. */
+    /** Linear conditions on the change of a record: gradient . change = value, within a slack. */
     class Conditions
     {
     public:
@@ -82,7 +83,8 @@ namespace Voussoir
           root_weight.push_back(std::sqrt(value));
       }
 
-      /** The slack is relative to the condition's own stiffness; it keeps similar conditions compatible. */
+      /** Adds a condition. @p slack: relative to the diagonal entry of the condition. It keeps similar
+       * conditions compatible. */
       void add(Vector gradient, double value, double slack)
       {
         for (std::size_t k = 0; k < gradient.size(); ++k)
@@ -97,7 +99,7 @@ namespace Voussoir
         slacks.push_back(slack);
       }
 
-      /** The least change, weighted by 1/envelope, that satisfies them. */
+      /** Returns the smallest change, in the norm weighted by 1/envelope, that satisfies the conditions. */
       Vector least_change() const
       {
         std::vector<Vector> gram(gradients.size(), Vector(gradients.size()));
@@ -132,7 +134,8 @@ namespace Voussoir
 
     constexpr double exactly = 1e-12; // slack of conditions that must hold
 
-    /** End velocity and end displacement are to become zero: integrals of the piecewise linear record. */
+    /** Adds the conditions that the end velocity and the end displacement are zero. Both are integrals of the
+     * piecewise linear record. */
     void add_baseline(Conditions &conditions, const Vector &acceleration)
     {
       const std::size_t last = acceleration.size() - 1;
@@ -148,7 +151,7 @@ namespace Voussoir
       conditions.add(std::move(displacement), -end_displacement, exactly);
     }
 
-    /** The largest sample, and all others that exceed the peak, are to become the peak. */
+    /** Adds the conditions that the largest sample, and all others above @p peak, become the peak. */
     void add_peak(Conditions &conditions, const Vector &acceleration, double peak)
     {
       const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
@@ -168,7 +171,8 @@ namespace Voussoir
         acceleration[k] += change[k];
     }
 
-    /** Baseline and peak made exact, as one sample cut may lift another above the peak. */
+    /** Corrects baseline and peak exactly. The passes are repeated because the reduction of one sample may
+     * raise another above the peak. */
     void finish(Vector &acceleration, const Vector &envelope, double peak)
     {
       for (unsigned int pass = 0; pass < 8; ++pass)
@@ -182,7 +186,7 @@ namespace Voussoir
 
     using Peaks = std::vector<Oscillator::Peak>;
 
-    /** Of the oscillators of all periods. */
+    /** Returns the peaks of the oscillators of all periods. */
     Peaks peaks_of(const Vector &acceleration, const double dt, const SpectralTarget &target)
     {
       std::vector<Oscillator> oscillators;
@@ -191,12 +195,13 @@ namespace Voussoir
       return Oscillator::peaks(oscillators, acceleration);
     }
 
-    /** The @p peak of each oscillator is to become the target. Programs that look at the samples alone see
-     *  less of short periods: what they see and the true peak are put on either side of the target. */
+    /** Adds the condition for each oscillator that its response reaches the target. Programs that evaluate
+     * the samples only obtain smaller peaks at short periods. The mean of this peak and of the true peak is
+     * therefore set to the target. */
     void add_spectrum(Conditions &conditions, const Peaks &peak, const std::size_t n_samples, const double dt,
                       const SpectralTarget &target)
     {
-      constexpr double slack = 0.01; // neighbours with peaks at different times cannot both be exact
+      constexpr double slack = 0.01; // adjacent periods with peaks at different times are incompatible
       for (std::size_t i = 0; i < peak.size(); ++i)
       {
         const Oscillator oscillator(target.periods[i], target.damping, dt);

@@ -15,16 +15,16 @@ namespace Voussoir
 
     using Levels = Overstress::Levels;
 
-    /** Demand over capacity on one face. */
+    /** Demand-capacity ratios and overstress of one face. */
     struct Demand
     {
-      double ratio = 0.; ///< the largest
-      Levels duration{}; ///< the longest at a node above each level [s]
-      Levels share{};    ///< of the face ever above each level
-      double area = 0.;  ///< of the nodes' shares of the face [m^2]
+      double ratio = 0.; ///< largest demand-capacity ratio [-]
+      Levels duration{}; ///< longest duration above each level at a node [s]
+      Levels share{};    ///< share of the face that exceeds each level [-]
+      double area = 0.;  ///< sum of the nodal areas [m^2]
     };
 
-    /** @p near_base: whether nodes near the base count, too. */
+    /** Returns the values of one face. @p near_base: nodes near the base are included. */
     Demand demand_on(const SolidModel &model, const int surface, const StressesOfRun &stresses,
                      const double strength, const bool near_base)
     {
@@ -52,7 +52,7 @@ namespace Voussoir
       return demand;
     }
 
-    /** The worse face of two. */
+    /** Replaces the values of @p worst by larger ones of @p demand. */
     void take_worst(Demand &worst, const Demand &demand)
     {
       worst.ratio = std::max(worst.ratio, demand.ratio);
@@ -171,7 +171,7 @@ namespace Voussoir
     {
       const Demand all = demand_on(model, surface, stresses, limits.tensile_strength, true),
                    away = demand_on(model, surface, stresses, limits.tensile_strength, false);
-      if (all.area == 0. || away.area == 0.) // the other one may be the worse
+      if (all.area == 0. || away.area == 0.) // then the largest value is unknown
         without = all.area == 0. ? no_face(name) : nothing_away(name);
       if (all.area == 0.)
         continue;
@@ -194,7 +194,7 @@ namespace Voussoir
     hold("demand_capacity", "", worst.ratio, limits.demand_capacity, with_base.ratio);
     hold("overstressed_share", "", worst.share[0], limits.overstress_share, with_base.share[0]);
     if (!stresses.envelope.overstress.has_lasted())
-      leave("overstress_duration", limits.overstress_seconds, "the stresses are of one time only");
+      leave("overstress_duration", limits.overstress_seconds, "the stresses are recorded at one time only");
     else
       add_duration(worst.duration, with_base.duration);
   }
@@ -203,7 +203,7 @@ namespace Voussoir
   {
     if (!(limits.overstress_seconds > 0.))
       return;
-    // The level at which the duration is farthest above what is allowed there.
+    // Level with the largest ratio of duration and allowed duration.
     Verdict verdict{"overstress_duration", "s", worst[0], limits.overstress_seconds, false, with_base[0]};
     for (unsigned int k = 1; k < Overstress::n_levels; ++k)
     {
@@ -243,8 +243,7 @@ namespace Voussoir
     if (blocks == nullptr)
       leave("sliding_safety", limits.sliding_safety, "Output/Block forces is false");
     else if (!blocks->has_safety())
-      leave("sliding_safety", limits.sliding_safety,
-            "there is neither Limits/Base friction nor Limits/Base cohesion");
+      leave("sliding_safety", limits.sliding_safety, "Limits/Base friction and Limits/Base cohesion are 0");
     else if (limits.sliding_safety > 0.)
       verdicts.push_back({"sliding_safety", "", blocks->least_safety().value, limits.sliding_safety, true});
   }
@@ -304,7 +303,7 @@ namespace Voussoir
 
   namespace
   {
-    /** "tension upstream 3.1 of 2 MPa (4.5 with the base)". */
+    /** Returns a text such as "tension upstream 3.1 of 2 MPa (4.5 with the base)". */
     std::string sentence(const Verdict &verdict)
     {
       std::string name = verdict.name;

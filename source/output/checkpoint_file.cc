@@ -19,7 +19,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** CRC-64 of ECMA-182: no change of up to 64 neighbouring bits passes. */
+    /** CRC-64 of ECMA-182. It detects all changes of up to 64 adjacent bits. */
     using Checksum = boost::crc_optimal<64, 0x42F0E1EBA9EA3693u, 0, 0, false, false>;
 
     std::string hexadecimal(const Checksum &c)
@@ -38,7 +38,7 @@ namespace Voussoir
       return format + std::to_string(payload.size()) + " " + hexadecimal(c) + "\n";
     }
 
-    /** The payload, or why there is none. */
+    /** Returns the payload of a file, or sets the reason @p why it cannot be used. */
     std::string unsealed(const std::string &file, std::string &why)
     {
       std::error_code error;
@@ -62,12 +62,12 @@ namespace Voussoir
       return why.empty() ? payload : "";
     }
 
-    /** Forces what is in a file, or the entries of a directory, to the disk. */
+    /** Writes the buffered contents of a file or directory to the disk. */
     void synchronize(const std::string &file)
     {
       const int  descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
       const bool done =
-          descriptor >= 0 && (fsync(descriptor) == 0 || errno == EINVAL); // EINVAL: no such thing
+          descriptor >= 0 && (fsync(descriptor) == 0 || errno == EINVAL); // EINVAL: not supported
       const int reason = errno;
       if (descriptor >= 0)
         close(descriptor);
@@ -114,7 +114,7 @@ namespace Voussoir
     }
     catch (const WriteError &)
     {
-      std::filesystem::remove(fresh, error); // what is not whole would only fill the disk
+      std::filesystem::remove(fresh, error); // incomplete file
       throw;
     }
     if (std::filesystem::exists(file, error))
@@ -132,17 +132,16 @@ namespace Voussoir
       return payload;
     payload = unsealed(file + ".before", why_before);
     if (!why_before.empty())
-      throw InputError("The checkpoint " + file + " cannot be used: " + why +
-                       "; nor can the one before it, " + file + ".before: " + why_before +
-                       ". Run without --resume.");
+      throw InputError("The checkpoint " + file + " cannot be used: " + why + ". The previous one, " + file +
+                       ".before, cannot be used either: " + why_before + ". Run without --resume.");
     warning =
-        "the checkpoint " + file + " cannot be used: " + why + "; the run goes on from the one before it";
+        "the checkpoint " + file + " cannot be used: " + why + ". The run continues from the previous one";
     return payload;
   }
 
   namespace
   {
-    /** Numbers as they are, however they are written. */
+    /** Returns numbers in a unique format, other text unchanged. */
     std::string normal(const std::string &value)
     {
       char        *end = nullptr, text[40];
@@ -161,7 +160,7 @@ namespace Voussoir
     Provenance               entries;
     std::istringstream       in(scene_text);
     std::string              line, path;
-    std::vector<std::size_t> lengths; // of the path, outside each subsection
+    std::vector<std::size_t> lengths; // length of the path outside each subsection
     const auto               trimmed = [](const std::string &s)
     {
       const auto first = s.find_first_not_of(" \t"), last = s.find_last_not_of(" \t");
@@ -209,6 +208,6 @@ namespace Voussoir
         differences += (differences.empty() ? "" : "; ") + entry.first + " was " + a + " and is " + b;
     if (!differences.empty())
       throw InputError("The checkpoint " + checkpoint + " belongs to another scene: " + differences +
-                       ". Undo that to go on, or run without --resume.");
+                       ". Restore these values to continue, or run without --resume.");
   }
 } // namespace Voussoir

@@ -15,10 +15,11 @@ namespace Voussoir
       return;
     std::ostringstream message;
     message.precision(2);
-    message << "The energies of the " << (of_rock ? "rock" : "dam") << " do not balance: they are off by "
-            << (of_rock ? rock : dam) << " of the largest one, and should be by less than " << allowed
-            << ". The results are written, in " << directory << ", but are not to be trusted: column \""
-            << (of_rock ? "rock_balance" : "balance") << "\" of energy.csv there shows when it began. Take a "
+    message << "The energies of the " << (of_rock ? "rock" : "dam") << " do not balance: their error is "
+            << (of_rock ? rock : dam) << " of the largest energy, the limit is " << allowed
+            << ". Do not use the results in " << directory << ". Column \""
+            << (of_rock ? "rock_balance" : "balance")
+            << "\" of energy.csv shows when the error begins. Use a "
             << "smaller time step (\"Dynamics/Steps per sample\") or a smaller \"Contact/Tolerance\" (now "
             << scene.contact.tolerance << ")";
     if (of_rock)

@@ -13,7 +13,7 @@ namespace Voussoir
 
   namespace
   {
-    /** The share of each node in the area of a surface [m^2]. */
+    /** Returns the area of each node of a surface [m^2]. */
     std::map<unsigned int, double> areas(const SolidModel &model, const int surface)
     {
       std::map<unsigned int, double> result;

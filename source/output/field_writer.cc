@@ -24,7 +24,7 @@ namespace Voussoir
     DoFHandler<3>              vector_handler(model.triangulation);
     Vector<float>              displacement;
     std::vector<Vector<float>> scalars;
-    DataOut<3>                 data_out;                // last: it refers to the others
+    DataOut<3>                 data_out;                // declared last, because it refers to the others
     data_out.attach_triangulation(model.triangulation); // before any data
     scalars.reserve(fields.size());
     for (const NodalField &field : fields)
@@ -63,7 +63,7 @@ namespace Voussoir
     {
       data_out.write_vtu(out);
     }
-    catch (const ExceptionBase &) // deal.II has noticed
+    catch (const ExceptionBase &) // thrown by deal.II
     {
       throw WriteError::of(file);
     }

@@ -13,7 +13,7 @@ namespace Voussoir
   {
     const std::filesystem::path script = find_script("figures.py");
     if (script.empty())
-      return "the script figures.py was not found; the environment variable VOUSSOIR_SCRIPTS may name its "
+      return "the script figures.py was not found. Set the environment variable VOUSSOIR_SCRIPTS to its "
              "directory";
     for (const std::string &python : python_interpreters())
     {
@@ -22,11 +22,11 @@ namespace Voussoir
       if (status == 0)
         return "";
       if (status == -1)
-        return python + " cannot be started, or did not end by itself; see " + log_file;
+        return python + " cannot be started, or was stopped; see " + log_file;
       if (status != no_matplotlib)
         return "see " + log_file;
     }
-    return "no python3 with numpy and matplotlib was found (on Debian: apt-get install python3-matplotlib); "
-           "the environment variable VOUSSOIR_PYTHON may name one";
+    return "no python3 with numpy and matplotlib was found. Install it (on Debian: apt-get install "
+           "python3-matplotlib), or set the environment variable VOUSSOIR_PYTHON";
   }
 } // namespace Voussoir

@@ -31,7 +31,7 @@ namespace Voussoir
       : pairs(pairs), rims(n_joints), now(pairs.size(), Vector3{}), opening(pairs.size(), 0.),
         slip(pairs.size(), 0.)
   {
-    std::map<unsigned int, unsigned int> pair_of; // equation of a node of side 1 -> pair
+    std::map<unsigned int, unsigned int> pair_of; // pair by equation of its node on side 1
     for (unsigned int p = 0; p < pairs.size(); ++p)
       if (pairs[p].node_1 != rigid_ground)
         pair_of[pairs[p].node_1] = p;
@@ -57,7 +57,7 @@ namespace Voussoir
     find_waterstops(depth);
   }
 
-  /** Of a point from a joint's edge on the upstream face [m]; infinite where there is none. */
+  /** Returns the distance of a point from the edge of a joint on the upstream face [m], or infinity. */
   double JointPoints::distance(const Vector3 &p, const unsigned int joint) const
   {
     double nearest = endless;
@@ -72,7 +72,7 @@ namespace Voussoir
     return nearest;
   }
 
-  /** Where the edges of the joint's quadrilaterals cross the depth; those along the face do not. */
+  /** Finds the points of the quadrilateral edges at the given depth. Edges along the face have none. */
   void JointPoints::find_waterstops(const double at)
   {
     std::set<std::pair<unsigned int, unsigned int>> known;
@@ -107,7 +107,7 @@ namespace Voussoir
     std::pair<double, unsigned int> worst(0., 0);
     for (unsigned int j = 0; j < rims.size(); ++j)
     {
-      constexpr double of_crest = .02; // which need not be level
+      constexpr double of_crest = .02; // tolerance, because the crest may be inclined
       const double     missing = top[j] - std::max(highest[j], bottom[j]);
       if (top[j] > bottom[j] && missing > of_crest * (top[j] - bottom[j]) && missing > worst.first)
         worst = {missing, j + 1};

@@ -18,7 +18,7 @@ namespace Voussoir
         "joint", "displacement", "displacement", "displacement", "opening",      "slip",       "slip",
         "slip",  "pressure",     "shear_stress", "shear_stress", "shear_stress", "joint_state"};
 
-    /** The values of a pair, in the order of the names. */
+    /** Returns the values of a pair, in the order of @p names. */
     std::vector<double> values_of(const unsigned int p, const Structure &structure, const Newmark &newmark,
                                   const PairState state)
     {
@@ -43,7 +43,7 @@ namespace Voussoir
   void write_joint_surfaces(const std::string &file, const SolidModel &model, const Structure &structure,
                             const Newmark &newmark, const std::vector<PairState> &states)
   {
-    std::map<unsigned int, unsigned int> pair_of; // equation of a node of side 1 -> pair
+    std::map<unsigned int, unsigned int> pair_of; // pair by equation of its node on side 1
     for (unsigned int p = 0; p < structure.pairs.size(); ++p)
       if (structure.pairs[p].node_1 != rigid_ground)
         pair_of[structure.pairs[p].node_1] = p;
@@ -57,10 +57,10 @@ namespace Voussoir
         patch.patch_index = patches.size();
         for (unsigned int k = 0; k < 4; ++k)
         {
-          const unsigned int node = quad.nodes[k < 2 ? k : 5 - k]; // lexicographic, not around it
+          const unsigned int node = quad.nodes[k < 2 ? k : 5 - k]; // lexicographic order
           const auto         found = pair_of.find(model.equation[node]);
           patch.vertices[k] = model.points[node];
-          if (found == pair_of.end()) // held, at the foot: neither opens nor slips
+          if (found == pair_of.end()) // fixed base node
           {
             patch.data(0, k) = j + 1.;
             patch.data(names.size() - 1, k) = -1.;
@@ -82,7 +82,7 @@ namespace Voussoir
     {
       DataOutBase::write_vtu(patches, names, vectors, DataOutBase::VtkFlags(), out);
     }
-    catch (const ExceptionBase &) // deal.II has noticed
+    catch (const ExceptionBase &) // thrown by deal.II
     {
       throw WriteError::of(file);
     }

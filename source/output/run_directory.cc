@@ -20,7 +20,7 @@ namespace Voussoir
   {
     constexpr const char *marker = ".voussoir";
 
-    /** Is this what a run writes at this place below its directory? */
+    /** Returns true if a run writes a file of this path, relative to its directory. */
     bool is_result(const fs::path &relative)
     {
       const std::string name = relative.filename().string(), folder = relative.parent_path().string();
@@ -35,17 +35,14 @@ namespace Voussoir
       if (folder == "contact/static" || folder == "contact/shaking")
         return std::regex_match(name, std::regex("problem-[0-9]{6}\\.hdf5"));
       static const std::regex result(
-          "scene\\.prm|log\\.txt|summary\\.json|(history|energy|stages|blocks|joints|joint_"
-          "history|joint_points|joint_cells|joint_pressures|spectrum|faces|faces_cells)\\."
-          "csv|"
-          "envelope\\.vtu|solution\\.pvd|(solution|joints)-[0-9]{5,}\\.vtu|"
-          "report\\.(html|pdf)|figures\\.log|checkpoint\\.txt|"
+          "scene\\.prm|log\\.txt|summary\\.json|(history|energy|stages|blocks|joints|joint_history|joint_"
+          "points|joint_cells|joint_pressures|spectrum|faces|faces_cells)\\.csv|envelope\\.vtu|solution\\."
+          "pvd|(solution|joints)-[0-9]{5,}\\.vtu|report\\.(html|pdf)|figures\\.log|checkpoint\\.txt|"
           "checkpoint\\.bin(\\.before|\\.new)?|\\.voussoir");
       return folder.empty() && std::regex_match(name, result);
     }
 
-    /** A directory or a device where a result belongs (as /dev/full, for tests): to write there fails, or
-     * harms nobody. */
+    /** Returns true for a directory or a device in the place of a result, such as /dev/full in tests. */
     bool is_in_the_way(const fs::path &place)
     {
       std::error_code error;
@@ -53,8 +50,8 @@ namespace Voussoir
       return type == fs::file_type::directory || type == fs::file_type::character;
     }
 
-    /** What is in a run's directory, relative to it; folders that no run makes, and links to folders, are
-     * entries themselves. */
+    /** Returns the entries of an output directory, relative to it. Folders that a run does not create, and
+     * links to folders, are entries. */
     std::vector<fs::path> entries_of(const fs::path &directory)
     {
       std::vector<fs::path> entries;
@@ -91,7 +88,7 @@ namespace Voussoir
       if (marked)
         fs::remove(fs::path(path) / marker, ignored);
       for (auto made = created.rbegin(); made != created.rend(); ++made)
-        fs::remove(*made, ignored); // only if it is empty
+        fs::remove(*made, ignored); // if it is empty
     }
     if (descriptor >= 0)
       close(descriptor);
@@ -110,11 +107,11 @@ namespace Voussoir
                          " cannot be written to. Choose another one with --output.");
       const bool  locked = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
       struct stat opened = {}, there = {};
-      if (!locked && errno == EWOULDBLOCK) // where a file system has no locks, go on without
+      if (!locked && errno == EWOULDBLOCK) // file systems without locks are accepted
       {
         close(descriptor);
         descriptor = -1;
-        marked = false; // it is the other run's
+        marked = false; // marker of the other run
         std::string   owner;
         std::ifstream in(file);
         std::getline(in, owner);
@@ -124,14 +121,14 @@ namespace Voussoir
       if (fstat(descriptor, &opened) == 0 && stat(file.c_str(), &there) == 0 &&
           opened.st_ino == there.st_ino && opened.st_dev == there.st_dev)
         break;
-      close(descriptor); // another run has removed it since
+      close(descriptor); // another run removed it in the meantime
       descriptor = -1;
     }
     const std::string owner = "output of voussoir, process " + std::to_string(getpid()) + "\n";
     if (ftruncate(descriptor, 0) != 0 ||
         write(descriptor, owner.data(), owner.size()) != static_cast<ssize_t>(owner.size()))
       throw InputError("The file " + file +
-                       " cannot be written: is the disk full? Choose another directory with --output.");
+                       " cannot be written. Free disk space, or choose another directory with --output.");
   }
 
   void RunDirectory::claim(const bool resume, const bool overwrite, const std::vector<std::string> &inputs)
@@ -144,7 +141,7 @@ namespace Voussoir
     fs::create_directories(path, error);
     if (error || !fs::is_directory(path, error))
       throw InputError("The output directory " + path +
-                       " cannot be made or written to. Choose another one with --output.");
+                       " cannot be created or written to. Choose another one with --output.");
     lock();
     const auto has = [&](const char *name) { return fs::exists(fs::path(path) / name, error); };
     ours = !marked || (has("scene.prm") && has("log.txt")); // version 0.1 left no marker
@@ -156,7 +153,7 @@ namespace Voussoir
     if (!resume)
       for (const std::string &input : inputs)
       {
-        const fs::path file = fs::weakly_canonical(input, error); // where links lead
+        const fs::path file = fs::weakly_canonical(input, error); // resolves links
         if (is_result(file.filename()) && fs::equivalent(file.parent_path(), path, error))
           throw InputError("The run would overwrite its own input " + input + " in the output directory " +
                            path + ". Choose another one with --output.");
@@ -165,15 +162,16 @@ namespace Voussoir
       return;
     for (const char *name : {"checkpoint.bin", "checkpoint.bin.before"})
       if (ours && has(name))
-        throw InputError("The output directory " + path +
-                         " holds the checkpoint of a run that has not ended. Go on with --resume, replace it "
-                         "with --overwrite, or choose another directory with --output.");
+        throw InputError(
+            "The output directory " + path +
+            " holds the checkpoint of a run that has not ended. Continue it with --resume, replace it "
+            "with --overwrite, or choose another directory with --output.");
     if (!foreign.empty())
       throw InputError(
           "The output directory " + path + " holds files that no run of this program wrote there: " +
           foreign[0] + (foreign.size() > 1 ? " and " + std::to_string(foreign.size() - 1) + " more" : "") +
-          ". Choose another directory with --output, or give --overwrite to put the results beside them, in "
-          "place of files of the same names.");
+          ". Choose another directory with --output, or use --overwrite. It keeps these files, except those "
+          "with the name of a result.");
   }
 
   void RunDirectory::begin(const bool resume, const bool keep_problems)
@@ -185,8 +183,7 @@ namespace Voussoir
     {
       const fs::path place = path / entry;
       const bool     is_problem = !entry.parent_path().empty() && *entry.begin() == "contact";
-      // In a directory of others only what would be taken for this run's; files are replaced as they are
-      // written.
+      // In a directory of another program only checkpoints are removed. Other files are replaced.
       const bool      removed = ours ? is_result(entry) && !(keep_problems && is_problem)
                                      : is_result(entry) && entry.string().compare(0, 10, "checkpoint") == 0;
       std::error_code error;

@@ -55,8 +55,7 @@ namespace Voussoir
     dam.foundation->watch(motion, {velocity_rock, displacement_rock, strain});
   }
 
-  std::string StabilityWatch::trouble(const Newmark &newmark, const JointRecorder &joints,
-                                      const unsigned int step, const bool last) const
+  std::string StabilityWatch::trouble(const Newmark &newmark, const unsigned int step, const bool last) const
   {
     constexpr unsigned int interval = 10;
     if (step == 0)
@@ -69,7 +68,7 @@ namespace Voussoir
         what = of_dam(newmark.state());
     }
     if (what.empty())
-      what = of_joints(joints);
+      what = of_joints(newmark);
     if (what.empty())
       return "";
     std::ostringstream text;
@@ -78,9 +77,14 @@ namespace Voussoir
     return text.str();
   }
 
-  std::string StabilityWatch::of_joints(const JointRecorder &joints) const
+  std::string StabilityWatch::of_joints(const Newmark &newmark) const
   {
-    const Extreme &moved = joints.opening.value > joints.slip.value ? joints.opening : joints.slip;
+    Extreme moved;
+    for (unsigned int p = 0; p < dam.structure.pairs.size(); ++p)
+    {
+      const Vector3 d = newmark.opening_and_slip(p);
+      moved.raise(std::max(d[0], std::hypot(d[1], d[2])), newmark.state().time, dam.structure.pairs[p].place);
+    }
     if (moved.value <= largest_joint_share * dam.size)
       return "";
     std::ostringstream text;

@@ -20,7 +20,8 @@ namespace Voussoir
 
   void ArtificialBoundary::keep(const std::vector<bool> &)
   {
-    throw InputError("This artificial boundary knows one rank only: start the program without mpirun.");
+    throw InputError(
+        "This artificial boundary supports one MPI process only: start the program without mpirun.");
   }
 
   std::vector<unsigned int> all_of(const std::size_t n)
@@ -64,7 +65,7 @@ namespace Voussoir
       }
       sums[k] = {{sum, lost, external}};
     }
-    for (int k = 0; k < n; ++k) // in their order whatever the threads
+    for (int k = 0; k < n; ++k) // in sequence for any number of threads
     {
       step.add_work(kind, nodes[kept[k]], factor * sums[k][0]);
       step.add_work(lost_in_damping, nodes[kept[k]], sums[k][1]);

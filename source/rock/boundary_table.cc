@@ -36,14 +36,14 @@ namespace Voussoir
   {
     static const std::vector<BoundaryRow> table = {
         {"mtf1", "Multi-Transmitting Formula of order 1", transmitting<mtf1>},
-        {"mtf2", "that of order 2", transmitting<mtf2>},
-        {"mtf3", "of order 3", transmitting<mtf3>},
-        {"mtf4", "of order 4", transmitting<mtf4>},
-        {"mtf2-plain", "of order 2 with one speed and without geometric spreading: drifts",
+        {"mtf2", "order 2", transmitting<mtf2>},
+        {"mtf3", "order 3", transmitting<mtf3>},
+        {"mtf4", "order 4", transmitting<mtf4>},
+        {"mtf2-plain", "order 2 with one wave speed and without geometric spreading: drifts",
          transmitting<mtf2_plain>},
         {"viscous-spring", "dashpots and springs", viscous_spring},
-        {"viscous", "Lysmer's dashpots", viscous},
-        {"fixed", "moves with the free field, and throws the dam's waves back", fixed}};
+        {"viscous", "dashpots of Lysmer", viscous},
+        {"fixed", "moves with the free field, and reflects the waves of the dam", fixed}};
     return table;
   }
 

@@ -11,9 +11,9 @@ namespace Voussoir
 {
   namespace
   {
-    /** By Lanczos' method, of D K D with D = M^(-1/2): its estimate of the square comes from below, so the
-     * residual is added (Zhou and Li 2011, Linear Algebra Appl. 435, 480-493). It ends with a residual of
-     * 1e-5 of the square. */
+    /** Returns the largest circular frequency by Lanczos' method for D K D with D = M^(-1/2). The estimate of
+     * its square is a lower bound, so the residual is added (Zhou and Li 2011, Linear Algebra Appl. 435,
+     * 480-493). The iteration ends with a residual of 1e-5 of the square. */
     template <class Matrix> double lanczos(const Matrix &stiffness, const std::vector<double> &mass)
     {
       constexpr unsigned int most = 1000, interval = 10;
@@ -171,8 +171,8 @@ namespace Voussoir
 
   void ExplicitRegion::move_prescribed(const Unknowns &u_new, const Unknowns &v_new)
   {
-    // The displacement y whose backward difference gives the predicted stress: y + b0 (y - y_old)/dt = u + b0
-    // v.
+    // The displacement y whose backward difference gives the predicted stress: y + b0 (y - y_old)/dt = u +
+    // b0 v. b0: stiffness damping.
     const double ratio = damping.stiffness / dt;
     for (std::size_t i = 0; i < prescribed.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
@@ -287,11 +287,12 @@ namespace Voussoir
     constexpr unsigned int n_kept = 2 + n_region_works;
     account.assign(n_kept * (work.size() / n_region_works), 0.);
     for (std::size_t c = 0; c < work.size() / n_region_works;
-         ++c) // until now; what follows belongs to the next
+         ++c) // works until now; later ones belong to the next step
       std::copy_n(work.begin() + n_region_works * c, +n_region_works, account.begin() + n_kept * c + 2);
     for (int p = 0; p < n; ++p)
     {
-      const std::size_t c = pieces[p].first / per_chunk; // whole where it is this rank's own
+      const std::size_t c =
+          pieces[p].first / per_chunk; // a piece is a complete chunk if this process owns it
       account[n_kept * c] += sums[p][0];
       account[n_kept * c + 1] += sums[p][1];
       work[n_region_works * c + lost_in_damping] += .5 * dt * sums[p][2];
@@ -334,7 +335,7 @@ namespace Voussoir
     const int n = v.size();
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < n; ++i)
-      if (inverse_mass[i] != 0.) // half a step back, by the acceleration a: w = w_before + dt a
+      if (inverse_mass[i] != 0.) // half a step back by the acceleration a: w = w_before + dt a
       {
         const double f = (force.empty() ? 0. : force[i]) - K_x[i];
         const double before = (w[i] - dt * inverse_mass[i] * f) / (1. - dt * damping.mass);

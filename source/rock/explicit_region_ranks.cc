@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// A region of which each of several ranks steps a part.
+// ExplicitRegion distributed over several MPI processes.
 
 #include <voussoir/base/excess.h>
 #include <voussoir/rock/explicit_region.h>

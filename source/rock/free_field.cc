@@ -17,8 +17,8 @@ namespace Voussoir
     RockModel                       model;
     std::unique_ptr<ExplicitRegion> region;
     unsigned int                    direction;
-    double                          plane; ///< place along the direction [m]
-    std::unique_ptr<PointFinder>    nodes; ///< projected along it
+    double                          plane; ///< coordinate along the direction [m]
+    std::unique_ptr<PointFinder>    nodes; ///< nodes projected along the direction
 
     std::array<double, 3> projected(std::array<double, 3> place) const
     {
@@ -54,7 +54,7 @@ namespace Voussoir
     for (const RockColumn &column : model.columns)
       lowest = std::min(lowest, entrance(column));
 
-    std::vector<unsigned int> different; // of the model's columns
+    std::vector<unsigned int> different; // columns of the model
     for (unsigned int c = 0; c < model.columns.size(); ++c)
     {
       const RockColumn &column = model.columns[c];
@@ -204,7 +204,7 @@ namespace Voussoir
   void FreeField::find_partners()
   {
     const unsigned int       n = n_columns(), me = Ranks::rank();
-    std::vector<double>      is_used(std::size_t(n) * Ranks::size(), 0.); // by each rank
+    std::vector<double>      is_used(std::size_t(n) * Ranks::size(), 0.); // by each process
     std::vector<std::size_t> parts;
     for (unsigned int r = 0; r <= Ranks::size(); ++r)
       parts.push_back(std::size_t(n) * r);

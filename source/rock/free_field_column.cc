@@ -8,8 +8,8 @@ namespace Voussoir
 {
   namespace
   {
-    /** Cells after which nothing comes back within so many steps; the front's forerunners decay like those
-     * of an Airy function, over (number of cells)^(1/3). */
+    /** Returns the number of cells for which no reflection returns within @p n_steps steps. The forerunners
+     * of the front decay like those of an Airy function, over (number of cells)^(1/3). */
     unsigned int endless_length(const Vector3 &courant, const unsigned int n_steps)
     {
       const double path = .5 * n_steps * *std::max_element(courant.begin(), courant.end());

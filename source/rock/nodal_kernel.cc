@@ -15,7 +15,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** Corners in turn along edges. */
+    /** Returns the corner of a step; consecutive corners share an edge. */
     constexpr unsigned int corner_at(const unsigned int step)
     {
       return step ^ (step >> 1);
@@ -33,9 +33,9 @@ namespace Voussoir
       return std::max(std::max(step_at(w), step_at(w ^ 1)), std::max(step_at(w ^ 2), step_at(w ^ 4)));
     }
 #define VOUSSOIR_INLINE __attribute__((always_inline)) inline
-    // In each of the following: load() brings values at n_wide nodes from node by node to component by
-    // component; add() brings values back and adds them node after node, as two cells of a pack may have a
-    // node in common.
+    // Each of the following namespaces has load() and add(). load() sorts the values at n_wide nodes by
+    // component. add() sorts forces by node and adds them node after node, because two cells of a pack may
+    // share a node.
 
     namespace Plain
     {
@@ -87,7 +87,7 @@ namespace Voussoir
 
       VOUSSOIR_INLINE void load_half(const double *nodes, const std::uint16_t *at, Vectors &a)
       {
-        Lanes even[2], odd[2]; // components 0 and 2, and 1, of two nodes
+        Lanes even[2], odd[2]; // components 0 and 2, and component 1, of two nodes
         for (unsigned int k = 0; k < 2; ++k)
         {
           const auto &p = *reinterpret_cast<const Lanes *>(nodes + 2 * std::size_t(at[2 * k])),
@@ -134,7 +134,7 @@ namespace Voussoir
 
       VOUSSOIR_INLINE void load(const double *nodes, const std::uint16_t *at, Vectors &x, Vectors &u)
       {
-        Lanes even[4], odd[4]; // of two nodes: components 0, 2 and 1 of x and u
+        Lanes even[4], odd[4]; // two nodes: components 0, 2 and 1 of x and u
         for (unsigned int k = 0; k < 4; ++k)
         {
           const auto &p = *reinterpret_cast<const Lanes *>(nodes + 2 * std::size_t(at[2 * k])),
@@ -142,7 +142,7 @@ namespace Voussoir
           even[k] = __builtin_shufflevector(p, q, 0, 8, 2, 10, 4, 12, 6, 14);
           odd[k] = __builtin_shufflevector(p, q, 1, 9, 3, 11, 5, 13, 7, 15);
         }
-        Lanes first[2], second[2], third[2]; // components of four nodes, those of x and u in turn
+        Lanes first[2], second[2], third[2]; // components of four nodes, x and u alternating
         for (unsigned int k = 0; k < 2; ++k)
         {
           const Lanes &p = even[2 * k], &q = even[2 * k + 1];
@@ -187,7 +187,7 @@ namespace Voussoir
       bool        can_run;
     };
 
-    /** The fastest first. */
+    /** Returns all kernels, the fastest first. */
     std::vector<Row> rows()
     {
       std::vector<Row> result;

@@ -1,8 +1,7 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// The kernel of nodal_kernel.h. Included several times by nodal_kernel.cc, each time in a namespace of its
-// own where the compiler may use other instructions, and which has Lanes, a vector of n_wide doubles, and
-// load() and add(). Vectors are handed on by reference to functions that are always inlined: no convention of
-// calls matters.
+// Kernel of nodal_kernel.h. nodal_kernel.cc includes this file several times, each time in a namespace for
+// another instruction set. The namespace supplies Lanes (a vector of n_wide doubles), load() and add().
+// Vectors are passed by reference to functions that are always inlined, so calling conventions
+// have no effect.
 
 VOUSSOIR_INLINE void cross(const Vectors &a, const Vectors &b, Vectors &c)
 {
@@ -11,13 +10,13 @@ VOUSSOIR_INLINE void cross(const Vectors &a, const Vectors &b, Vectors &c)
   c.c[2] = a.c[0] * b.c[1] - a.c[1] * b.c[0];
 }
 
-/** The edge along direction d of a cell at a corner: 4 d and the corner's two other bits. */
+/** Returns the edge of a cell along direction d at a corner: 4 d plus the remaining two bits of the corner. */
 constexpr unsigned int edge_of(const unsigned int corner, const unsigned int d)
 {
   return 4 * d + (corner & ((1u << d) - 1u)) + ((corner >> (d + 1)) << d);
 }
 
-/** Adds to the forces @p f of the edges what the quadrature point at one corner gives. */
+/** Adds the contribution of the quadrature point at one corner to the forces @p f of the edges. */
 VOUSSOIR_INLINE void add_corner(const Vectors *const *x, const Vectors *const *u, const Lanes &lambda,
                                 const Lanes &mu, Vectors *const *f)
 {
@@ -42,9 +41,9 @@ VOUSSOIR_INLINE void add_corner(const Vectors *const *x, const Vectors *const *u
   }
 }
 
-/** n_wide cells of a pack. Nodes are loaded just before the first quadrature point that needs them, and get
- * their force right after the last one, so that the processor can do both beside the arithmetic of other
- * points. */
+/** Adds the forces of n_wide cells of a pack. Nodes are loaded before the first quadrature point that needs
+ * them and receive their force after the last one. The processor overlaps both with the arithmetic
+ * of other points. */
 VOUSSOIR_INLINE void add_cells(const NodalPacks &packs, const std::uint16_t *node, const double *lame)
 {
   Vectors place[8], displacement[8], x[12], u[12], f[12];

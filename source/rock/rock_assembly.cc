@@ -19,7 +19,8 @@ namespace Voussoir
 
   namespace
   {
-    /** Nodal quadrature does not couple the two ends of a cell's diagonal. */
+    /** Returns whether two corners are coupled: nodal quadrature does not couple the ends of a diagonal
+     * of a cell. */
     bool are_coupled(const unsigned int v, const unsigned int w, const Integration kind)
     {
       return kind != Integration::nodal || w != (v ^ 7u);
@@ -56,12 +57,12 @@ namespace Voussoir
 
   namespace
   {
-    /** Of the given @p rows; the others are empty. */
+    /** Returns the sparsity pattern of the given @p rows; other rows are empty. */
     BlockSparseMatrix pattern(const Corners &cells, const std::vector<Integration> &kind,
                               const std::vector<bool> &rows)
     {
       const long                n = static_cast<long>(rows.size());
-      std::vector<unsigned int> first(n + 1, 0), corner; // of each node: where it is one, of all cells'
+      std::vector<unsigned int> first(n + 1, 0), corner; // per node: its corners among those of all cells
       for (const auto &cell : cells)
         for (const unsigned int i : cell)
           first[i + 1] += rows[i];
@@ -119,14 +120,14 @@ namespace Voussoir
       matrix.value.resize(to);
     }
 
-    /** Element matrices of some cells, one behind the other. */
+    /** Element matrices of consecutive cells. */
     struct Chunk
     {
       static constexpr unsigned int most = 256; // cells
 
       std::vector<RockGrid::Cell> cells;
-      std::vector<Matrix3>        stiffness; ///< 64 of each
-      std::vector<double>         mass;      ///< 8 of each
+      std::vector<Matrix3>        stiffness; ///< 64 per cell
+      std::vector<double>         mass;      ///< 8 per cell
 
       void integrate(const RockGrid &grid, const std::map<int, Material> &materials,
                      const std::vector<Integration> &kind)
@@ -169,12 +170,12 @@ namespace Voussoir
     };
   } // namespace
 
-  /** Threads integrate some chunks of cells at a time, which are added in the cells' order: sums do not
-   * depend on the number of threads. */
+  /** Threads integrate several chunks of cells at a time. The chunks are added in the order of the cells, so
+   * that sums do not depend on the number of threads. */
   void assemble_rock(const RockGrid &grid, const Corners &cells, const std::vector<Integration> &kind,
                      const RockParameters &parameters, const std::vector<bool> &rows, RockModel &model)
   {
-    std::vector<bool> with_neighbours = rows; // for the transposes
+    std::vector<bool> with_neighbours = rows; // for the transposed entries
     add_layers(cells, 1, with_neighbours);
     model.stiffness = pattern(cells, kind, with_neighbours);
     model.mass.assign(grid.n_nodes(), 0.);

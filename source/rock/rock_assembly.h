@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// How a RockModel and its stiffness are put together, for rock_model.cc and rock_part.cc.
+// Assembly of a RockModel and its stiffness matrix, for rock_model.cc and rock_part.cc.
 #ifndef voussoir_rock_assembly_h
 #define voussoir_rock_assembly_h
 
@@ -10,31 +9,34 @@
 
 namespace Voussoir
 {
-  using Corners = std::vector<std::array<unsigned int, 8>>; ///< nodes of the cells
+  using Corners = std::vector<std::array<unsigned int, 8>>; ///< nodes of each cell
 
+  /** Returns the nodes of all cells. */
   Corners corners_of(const RockGrid &grid);
 
-  /** The @p nodes, and those within so many layers of cells around them. */
+  /** Adds to @p nodes all nodes within @p n_layers layers of cells around them. */
   void add_layers(const Corners &cells, unsigned int n_layers, std::vector<bool> &nodes);
 
-  /** How the stiffness of a cell is integrated. */
+  /** Quadrature of the stiffness of a cell. */
   enum class Integration : unsigned char
   {
     nodal,
     gauss,
-    with_modes ///< as the dam's elements
+    with_modes ///< Gauss points and incompatible modes, as in the dam
   };
 
-  /** Stiffness and mass of the @p model. @p rows: of the stiffness; the others stay empty. */
+  /** Assembles stiffness and mass of the @p model. @p rows: rows of the stiffness matrix that are filled;
+   * other rows stay empty. */
   void assemble_rock(const RockGrid &grid, const Corners &cells, const std::vector<Integration> &kind,
                      const RockParameters &parameters, const std::vector<bool> &rows, RockModel &model);
 
-  /** Rows of the stiffness that are needed, by node. */
+  /** Returns per node whether its rows of the stiffness matrix are required. */
   using ChooseRows =
       std::function<std::vector<bool>(const RockGrid &, const Corners &, const std::vector<Integration> &,
                                       const std::vector<ArtificialFace> &)>;
 
-  /** make_rock_model() with these rows; without a choice, all. */
+  /** Creates the model as make_rock_model(), with the rows that @p choose returns, or with all rows if
+   * @p choose is empty. */
   RockModel make_model_with_rows(const HexMesh &mesh, const RockParameters &parameters,
                                  const std::vector<unsigned int> &master, const ChooseRows &choose);
 } // namespace Voussoir

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// The parts of a region's stiffness that several ranks have, and the forces that go between them.
+// Parts of the stiffness operator of a region on several MPI processes, and the exchange of their forces.
 
 #include "rock_numbering.h"
 
@@ -21,7 +20,7 @@ namespace Voussoir
     std::sort(by_place.begin(), by_place.end(),
               [&](const unsigned int a, const unsigned int b)
               { return std::make_pair(sum[a] / count[a], a) < std::make_pair(sum[b] / count[b], b); });
-    std::vector<std::size_t> until(n_ranks, 0); // nodes of cells that this and lower ranks own
+    std::vector<std::size_t> until(n_ranks, 0); // nodes with nodal cells that this and lower processes own
     for (unsigned int i = 0; i < kind.size(); ++i)
       if (kind[i] != of_matrix)
         ++until[split.owner(i)];
@@ -70,7 +69,7 @@ namespace Voussoir
     }
   }
 
-  /** The forces of this rank's cells on nodes that others step. */
+  /** Packs the forces of the cells of this process on nodes that others integrate. */
   void RockOperator::pack_forces(const double *y, std::vector<Ranks::Message> &messages) const
   {
     const std::size_t n = 3 * std::size_t(n_nodes);
@@ -86,7 +85,7 @@ namespace Voussoir
     }
   }
 
-  /** Those of other ranks' cells on the nodes that this one steps. */
+  /** Adds the forces of the cells of other processes on the nodes of this process. */
   void RockOperator::unpack_forces(double *y) const
   {
     const std::size_t n = 3 * std::size_t(n_nodes);

@@ -44,7 +44,7 @@ namespace Voussoir
 
   std::vector<ArtificialFace> artificial_faces(const RockGrid &grid)
   {
-    constexpr unsigned int      around[4] = {0, 1, 3, 2}; // a face, seen against its axis
+    constexpr unsigned int      around[4] = {0, 1, 3, 2}; // corners of a face, seen against its axis
     FEFaceValues<3>             values(grid.fe, QGauss<2>(2), update_normal_vectors | update_JxW_values);
     std::vector<ArtificialFace> faces;
     for (const RockGrid::Cell &cell : grid.dof_handler.active_cell_iterators())
@@ -58,7 +58,7 @@ namespace Voussoir
           ArtificialFace face{cell, f, {}, {}, area.norm()};
           for (unsigned int d = 0; d < 3; ++d)
             face.normal[d] = area[d] / face.area;
-          const bool is_lower = f % 2 == 0; // its axis points inward
+          const bool is_lower = f % 2 == 0; // the axis points inward
           for (unsigned int i = 0; i < 4; ++i)
             face.corners[is_lower ? 3 - i : i] = GeometryInfo<3>::face_to_cell_vertices(f, around[i]);
           faces.push_back(face);
@@ -76,7 +76,7 @@ namespace Voussoir
     InwardLine     line{{grid.node(cell, v)}, {cell->vertex(v)}, {}};
     while (line.nodes.size() < n)
     {
-      v ^= 1u << f / 2; // the other end of the edge that leaves the face
+      v ^= 1u << f / 2; // other end of the edge that leaves the face
       line.nodes.push_back(grid.node(cell, v));
       line.places.push_back(cell->vertex(v));
       line.cells.push_back(cell);
@@ -93,8 +93,8 @@ namespace Voussoir
 
   namespace
   {
-    /** Of each active cell: does it lie within @p n_layers of cells about the vertices that are @p reached?
-     */
+    /** Returns for each active cell whether it lies within @p n_layers layers of cells around the vertices
+     * that are @p reached. */
     std::vector<bool> cells_about(const RockGrid &grid, std::vector<bool> reached,
                                   const unsigned int n_layers)
     {
@@ -113,7 +113,7 @@ namespace Voussoir
               reached[cell->vertex_index(v)] = true;
           }
         if (reached == before)
-          break; // there are no more
+          break; // no more layers
       }
       return found;
     }

@@ -9,7 +9,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** Of all cells; counts in the @p model those at the dam. */
+    /** Returns the quadrature of all cells. Sets the numbers of cells at the dam in @p model. */
     std::vector<Integration> integrations(const RockGrid &grid, const std::vector<ArtificialFace> &faces,
                                           const RockParameters &parameters, RockModel &model)
     {
@@ -29,7 +29,7 @@ namespace Voussoir
       return kind;
     }
 
-    /** Which cells need no matrix. */
+    /** Sorts the cells with nodal quadrature, which need no matrix, into nodal_cells of the @p model. */
     void sort_cells(const RockGrid &grid, const Corners &cells, const std::vector<Integration> &kind,
                     const RockParameters &parameters, RockModel &model)
     {
@@ -41,7 +41,8 @@ namespace Voussoir
         bool        is_plain = kind[cell->active_cell_index()] == Integration::nodal;
         for (unsigned int v = 0; v < 8; ++v)
           for (unsigned int c = 0; c < 3; ++c)
-            is_plain = is_plain && grid.points[nodes[v]][c] == cell->vertex(v)[c]; // else tied to another
+            is_plain =
+                is_plain && grid.points[nodes[v]][c] == cell->vertex(v)[c]; // otherwise tied to another node
         if (is_plain)
         {
           const Material &m = parameters.materials.at(cell->material_id());
@@ -55,10 +56,11 @@ namespace Voussoir
       }
     }
 
-    /** Rocks side by side, with the areas of their cells [m^2]. */
+    /** Rocks that meet at a line, with the areas of their faces [m^2]. */
     using Rocks = std::vector<std::pair<Material, double>>;
 
-    /** That of several rocks which move together: moduli and density by area. */
+    /** Returns the material of several rocks that move together: means of moduli and density,
+     * weighted by area. */
     Material mean(const Rocks &materials)
     {
       const Material &first = materials[0].first;
@@ -88,7 +90,7 @@ namespace Voussoir
     {
       constexpr std::size_t     longest = 9; // nodes, for order 4
       std::vector<unsigned int> line_of(grid.n_nodes(), no_node);
-      std::vector<Rocks>        rocks; // around each line
+      std::vector<Rocks>        rocks; // rocks around each line
       const dealii::Point<3>    centre(parameters.centre[0], parameters.centre[1], parameters.centre[2]);
       for (const ArtificialFace &face : faces)
         for (const unsigned int corner : face.corners)
@@ -121,11 +123,11 @@ namespace Voussoir
       }
     }
 
-    /** A stack of cells on a face of the bottom, seen at one of its lines. */
+    /** Stack of cells on a face of the bottom, with one of its vertical lines. */
     struct Stack
     {
       InwardLine line;
-      double     area; ///< of the face [m^2]
+      double     area; ///< area of the face [m^2]
     };
 
     RockColumn column_of(const std::vector<Stack> &stacks, const RockParameters &parameters)
@@ -150,7 +152,7 @@ namespace Voussoir
       return column;
     }
 
-    /** Columns at the feet of the side faces; one anywhere if there are no side faces. */
+    /** Sets the columns: on the lower edges of the side faces, or one anywhere if there are no side faces. */
     void find_columns(const RockGrid &grid, const std::vector<ArtificialFace> &faces,
                       const RockParameters &parameters, RockModel &model)
     {
@@ -161,7 +163,7 @@ namespace Voussoir
           for (const unsigned int corner : face.corners)
             side[grid.node(face.cell, corner)] = has_sides = true;
       std::vector<std::vector<Stack>>      columns;
-      std::map<unsigned int, unsigned int> column_at; // foot
+      std::map<unsigned int, unsigned int> column_at; // lowest node -> column
       for (const ArtificialFace &face : faces)
         if (face.rank() == 2)
           for (const unsigned int corner : face.corners)

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// What the parts of RockOperator's construction tell each other.
+// Data that the steps of the construction of RockOperator share.
 #ifndef voussoir_rock_numbering_h
 #define voussoir_rock_numbering_h
 
@@ -18,15 +17,17 @@ namespace Voussoir
       shared,
       of_matrix
     };
-    std::vector<std::pair<unsigned int, unsigned int>> in_block; ///< nodes and their blocks, ascending
-    std::vector<unsigned int>                          rank;     ///< of the blocks
-    std::map<std::pair<unsigned int, unsigned int>, unsigned int> place; ///< of shared nodes' forces
-    std::vector<Kind>                                             kind;  ///< of the region's nodes
-    std::vector<unsigned int>                                     local; ///< number in the block at hand
+    std::vector<std::pair<unsigned int, unsigned int>> in_block; ///< pairs of node and block, ascending
+    std::vector<unsigned int>                          rank;     ///< process of each block
+    std::map<std::pair<unsigned int, unsigned int>, unsigned int>
+                              place; ///< index of the force of a shared node, by node and block
+    std::vector<Kind>         kind;  ///< per node of the region
+    std::vector<unsigned int> local; ///< per node: number in the current block
 
-    std::map<std::array<double, 2 * NodalPacks::n_lanes>, unsigned int> lame; ///< places of the sets
+    std::map<std::array<double, 2 * NodalPacks::n_lanes>, unsigned int>
+        lame; ///< index of each set of constants
 
-    /** Kinds from the blocks that nodes are in. */
+    /** Sets the kind of each node from the blocks that contain it. */
     Numbering(const std::vector<NodalCell> &cells, const std::vector<unsigned int> &order,
               const std::vector<std::size_t> &ends, const std::vector<bool> &has_row)
         : kind(has_row.size(), own), local(has_row.size())
@@ -51,8 +52,8 @@ namespace Voussoir
           kind[i] = of_matrix;
     }
 
-    /** Blocks in the order of their nodes' numbers; each rank gets as many cells as it has of the nodes
-     * whose forces come from cells. */
+    /** Distributes the blocks in the order of their node numbers. The share of cells of a process is its
+     * share of the nodes whose forces are computed from cells. */
     void share_blocks(const std::vector<std::size_t> &ends, const RockSplit &split);
   };
 } // namespace Voussoir

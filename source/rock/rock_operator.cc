@@ -17,8 +17,8 @@ namespace Voussoir
   {
     constexpr unsigned int n_lanes = NodalPacks::n_lanes;
 
-    /** Of so many cells: blocks of 2048, whose nodes and forces take some 240 kB; in small regions there are
-     * more and smaller ones, for several threads. */
+    /** Returns the number of blocks for @p n_cells cells. A block has 2048 cells; its nodes and forces take
+     * about 240 kB. Small regions have smaller blocks, to supply several threads. */
     std::size_t number_of_blocks(const std::size_t n_cells)
     {
       constexpr std::size_t most_cells = 2048, least_cells = 256, enough = 16;
@@ -27,8 +27,8 @@ namespace Voussoir
       return std::max(blocks_of(most_cells), std::min(blocks_of(least_cells), enough));
     }
 
-    /** Sorts @p cells from @p begin to @p end into @p n_blocks boxes of full packs, by halving the longest
-     * side, and adds the ends of these. */
+    /** Sorts @p cells from @p begin to @p end into @p n_blocks boxes of full packs, by repeated bisection of
+     * the longest side. Appends the ends of the boxes. */
     void sort_into_blocks(const std::vector<Vector3> &centre, std::vector<unsigned int> &cells,
                           const std::size_t begin, const std::size_t end, const std::size_t n_blocks,
                           std::vector<std::size_t> &ends)
@@ -81,7 +81,7 @@ namespace Voussoir
   {
     const std::vector<bool>   has_row = kernel ? keeps_row : std::vector<bool>(n_nodes, true);
     std::vector<unsigned int> order;
-    std::vector<Vector3>      centre(cells.size(), Vector3{}); // times eight
+    std::vector<Vector3>      centre(cells.size(), Vector3{}); // sum of eight corners
     for (unsigned int k = 0; k < cells.size(); ++k)
     {
       const auto &nodes = cells[k].nodes;
@@ -154,8 +154,8 @@ namespace Voussoir
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     if (4 * nodes.size() > 65536) // NodalPacks::corner has 16 bits; cells of a mesh share their nodes
-      throw ComputationError("The rock's cells share too few nodes for the kernel of nodal cells: set the "
-                             "environment variable VOUSSOIR_KERNEL to matrix.");
+      throw ComputationError("The cells of the rock share too few nodes for the fast kernel of nodal "
+                             "quadrature: set the environment variable VOUSSOIR_KERNEL to matrix.");
     std::stable_sort(nodes.begin(), nodes.end(),
                      [&](const unsigned int i, const unsigned int j) { return kind[i] < kind[j]; });
     const auto count = [&](const Numbering::Kind wanted) -> unsigned int
@@ -224,7 +224,7 @@ namespace Voussoir
           places[{i, b}] = next++;
       shared_force.resize(3 * std::size_t(next));
     }
-    for (const auto &[of, at] : places) // by node, in the order of the blocks
+    for (const auto &[of, at] : places) // by node, then by block
     {
       const unsigned int i = of.first;
       if (shared_node.empty() || shared_node.back() != i)
@@ -257,7 +257,7 @@ namespace Voussoir
     const Vector3      *places = place.data() + block.first_node;
     double             *force = scratch[most_nodes].value,
            *shared = shared_force.data() + 3 * std::size_t(block.first_shared);
-    constexpr unsigned int ahead = 24; // nodes whose displacements are on their way
+    constexpr unsigned int ahead = 24; // distance of the prefetch [nodes]
     for (unsigned int i = 0; i < block.n_nodes; ++i)
     {
       __builtin_prefetch(x + 3 * std::size_t(nodes[std::min(i + ahead, block.n_nodes - 1)]));

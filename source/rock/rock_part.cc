@@ -12,7 +12,7 @@ namespace Voussoir
         nodes[i] = nodes[i] || more[i];
     }
 
-    /** Those rows of the stiffness that make_rock_part() promises. */
+    /** Returns per node whether make_rock_part() fills its rows of the stiffness matrix. */
     std::vector<bool> needed_rows(const RockGrid &grid, const Corners &cells,
                                   const std::vector<Integration>    &kind,
                                   const std::vector<ArtificialFace> &faces,

@@ -22,12 +22,11 @@ namespace Voussoir
     for (unsigned int i = 0; i < n_rows; ++i)
     {
       AssertThrow(model.stiffness.start[node[i]] < model.stiffness.start[node[i] + 1],
-                  dealii::ExcInternalError()); // a part: has it the row?
+                  dealii::ExcInternalError()); // in a part of the model, is the row filled?
       if (on_boundary[node[i]])
-        throw InputError(
-            "The dam's base is fewer than " + std::to_string(n_steps) +
-            " layers of rock elements from the artificial boundary, which is too near for as many "
-            "sub-steps: make the rock larger, or take fewer \"Foundation/Substeps\".");
+        throw InputError("The base of the dam is fewer than " + std::to_string(n_steps) +
+                         " layers of rock elements from the artificial boundary, which is too near for this "
+                         "number of substeps. Make the rock larger, or reduce \"Foundation/Substeps\".");
       inverse_mass.push_back(1. / model.mass[node[i]]);
     }
     std::vector<unsigned int> number(model.points.size(), no_node);
@@ -67,7 +66,8 @@ namespace Voussoir
     }
   }
 
-  /** A step of ExplicitRegion, of nodes within @p n_left layers; @p force: on the feet, or null. */
+  /** Advances the nodes within @p n_left layers by one step of ExplicitRegion. @p force: on the base nodes
+   * [N], or nullptr. */
   void RockPatch::step(const unsigned int n_left, const double *force, Unknowns &u, Unknowns &w,
                        Unknowns &x) const
   {
@@ -121,7 +121,8 @@ namespace Voussoir
     return feet_of(u_here, w_here);
   }
 
-  /** For each foot those whose places its force changes within @p n_steps: up to n_steps - 1 layers away. */
+  /** Returns for each base node the base nodes that its force moves within @p n_steps steps: those up to
+   * n_steps - 1 layers away. */
   std::vector<std::vector<unsigned int>> RockPatch::reach(const unsigned int n_steps) const
   {
     std::vector<std::vector<unsigned int>> result(n_feet());
@@ -151,7 +152,7 @@ namespace Voussoir
     {
       if (done[first])
         continue;
-      std::vector<unsigned int> together; // feet whose forces reach different ones
+      std::vector<unsigned int> together; // base nodes whose forces move disjoint sets of base nodes
       std::vector<bool>         taken(n_feet(), false);
       for (unsigned int foot = first; foot < n_feet(); ++foot)
         if (!done[foot] && std::none_of(reached[foot].begin(), reached[foot].end(),

@@ -82,7 +82,7 @@ namespace Voussoir
 
   namespace
   {
-    /** The nodes that a rank steps, and their neighbours. */
+    /** Returns the nodes that a process integrates, and their neighbours. */
     std::vector<bool> stepped_or_near(const RockModel &model, const RockSplit &split, const unsigned int rank)
     {
       std::vector<bool> result(model.points.size());
@@ -91,7 +91,7 @@ namespace Voussoir
       for (const NodalCell &cell : model.nodal_cells)
         for (unsigned int v = 0; v < 8; ++v)
           for (unsigned int w = 0; w < 8 && split.is_stepped(cell.nodes[v], rank); ++w)
-            if (w != (v ^ 7u)) // the ends of its diagonals do not feel each other
+            if (w != (v ^ 7u)) // the ends of a diagonal are not coupled
               result[cell.nodes[w]] = true;
       const BlockSparseMatrix &K = model.stiffness;
       for (unsigned int i = 0; i < result.size(); ++i)
@@ -101,7 +101,8 @@ namespace Voussoir
       return result;
     }
 
-    /** A rank steps what its nodes of the @p model, and their neighbours, see of the section. */
+    /** Returns the distribution of a section. A process integrates the section at the nodes of @p model that
+     * it integrates, and at their neighbours. */
     RockSplit split_of_section(const RockModel &slice, const unsigned int direction, const RockModel &model,
                                const RockSplit &split)
     {
@@ -116,7 +117,7 @@ namespace Voussoir
         size = std::max(size, std::abs(p[2] - places.front()[2]));
       }
       const PointFinder         finder(places, 1e-6 * size);
-      std::vector<unsigned int> on_slice; // node of each of the model's
+      std::vector<unsigned int> on_slice; // node of the section per node of the model
       for (auto p : model.points)
       {
         p[direction] = 0.;
@@ -147,10 +148,10 @@ namespace Voussoir
         if (section.cells.empty())
           continue;
         RockRegionParameters plane = of_sections(parameters);
-        plane.rock.centre[0] = section.nodes[0][0]; // its waves come from its own middle
+        plane.rock.centre[0] = section.nodes[0][0]; // the section has its own source point
         RockModel slice = make_rock_model(section, plane.rock, tie_layer(section, 0));
         auto      motion = make_region(slice, plane, split_of_section(slice, 0, model, split));
-        shake(*motion, slice, plane, wave, n_steps); // has no such faces itself
+        shake(*motion, slice, plane, wave, n_steps); // without sections of its own
         field->add_section(std::move(slice), std::move(motion), 0);
       }
     else if (parameters.free_field != "columns")

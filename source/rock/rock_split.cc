@@ -13,7 +13,7 @@ namespace Voussoir
     if (n_ranks == 1)
       return;
     const std::size_t   n_chunks = (n + per_chunk - 1) / per_chunk;
-    std::vector<double> before(1, 0.); // work of the chunks before
+    std::vector<double> before(1, 0.); // cumulative work of the chunks
     for (std::size_t c = 0; c < n_chunks; ++c)
       before.push_back(std::accumulate(work.begin() + c * per_chunk,
                                        work.begin() + std::min<std::size_t>(n, (c + 1) * per_chunk),
@@ -56,7 +56,7 @@ namespace Voussoir
   void RockSplit::follow_lines()
   {
     for (auto &of_rank : steps)
-      for (bool more = true; more;) // lines begin on lines of other faces
+      for (bool more = true; more;) // a line may begin on a line of another face
       {
         more = false;
         for (const auto &line : lines)
@@ -105,7 +105,7 @@ namespace Voussoir
   {
     if (is_trivial() || data.empty())
       return;
-    // In the order of the owners, so that each one's part is in one piece.
+    // In the order of the owners, so that the items of each process are contiguous.
     std::vector<std::vector<std::size_t>> items(Ranks::size());
     for (std::size_t i = 0; i < node.size(); ++i)
       items[owner(node[i])].push_back(i);

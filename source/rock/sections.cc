@@ -17,7 +17,7 @@ namespace Voussoir
       for (unsigned int v = 0; v < 8; ++v)
         for (const unsigned int w : {v / 4 * 4 + (v + 1) % 4, (v + 4) % 8})
         {
-          // The edge that is most nearly along the direction joins the two copies.
+          // The edge closest to the direction joins the two copies.
           const unsigned int a = cell.nodes[v], b = cell.nodes[w];
           const Vector3      d = mesh.nodes[b] - mesh.nodes[a];
           if (std::abs(d[direction]) > .99 * norm(d))
@@ -38,7 +38,7 @@ namespace Voussoir
       }
 
     HexMesh                              section;
-    std::map<unsigned int, unsigned int> copy; // node -> its place in the section, in pairs
+    std::map<unsigned int, unsigned int> copy; // node -> index in the section, in pairs
     for (const BoundaryFace &face : cut)
       for (const unsigned int node : face.nodes)
         if (copy.try_emplace(node, section.nodes.size()).second)
@@ -57,7 +57,7 @@ namespace Voussoir
       }
       section.cells.push_back(cell);
     }
-    // Edges of the cut that other artificial faces share.
+    // Edges of the section on other artificial faces.
     std::set<std::pair<unsigned int, unsigned int>> edges;
     for (const BoundaryFace &face : model.faces)
       if (sense * face.normal[direction] <= .7)

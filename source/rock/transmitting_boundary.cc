@@ -55,31 +55,32 @@ namespace Voussoir
       return text;
     }
 
-    /** At the dam they are, if anywhere. */
+    /** Returns true if cells have Gauss points: in that case the layers at the dam have them. */
     bool has_gauss_points(const RockParameters &rock)
     {
       return !rock.nodal_everywhere || rock.layers_at_dam > 0;
     }
 
-    /** Gauss points at a transmitting boundary; tests/boundary_stability.cc shows how they explode. */
+    /** Throws InputError for Gauss points at a transmitting boundary, which
+     * are unstable (tests/boundary_stability.cc). */
     void check_quadrature(const RockRegionParameters &p, const unsigned int layers)
     {
       const double damping = .2 * p.dt;
       if (has_gauss_points(p.rock) && p.rock.nodal_layers < layers && p.damping.stiffness < .99 * damping)
         throw InputError("Gauss points within " + std::to_string(layers) +
                          " layers of the transmitting boundary " + p.boundary +
-                         " make it explode: set \"Foundation/Nodal layers\" to " + std::to_string(layers) +
-                         " (now " + std::to_string(p.rock.nodal_layers) +
-                         ") or more, \"Foundation/Nodal quadrature everywhere\" to true, or "
-                         "\"Foundation/Stiffness damping\" to 0.2 of the rock's time step, here " +
+                         " make it unstable. Set \"Foundation/Nodal layers\" to at least " +
+                         std::to_string(layers) + " (now " + std::to_string(p.rock.nodal_layers) +
+                         "), \"Foundation/Nodal quadrature everywhere\" to true, or "
+                         "\"Foundation/Stiffness damping\" to at least 0.2 rock time steps, here " +
                          number(damping) + " s.");
     }
 
-    constexpr double near_critical = .9; ///< of the critical time step
+    constexpr double near_critical = .9; ///< share of the critical time step [-]
 
-    /** Returns the stiffness damping, over the rock's time step, that orders from 2 on need for a high
-     * Poisson's ratio, more near the critical time step: with Gauss points at the dam, or where free faces
-     * cut the boundary. Measured, see doc/boundary.md and tests/boundary_stability.cc. */
+    /** Returns the stiffness damping that orders from 2 on require for a high Poisson's ratio, divided by the
+     * rock time step. Near the critical time step it is larger, for Gauss points at the dam or free faces
+     * that cut the boundary. The values are measured: doc/boundary.md and tests/boundary_stability.cc. */
     double needed_damping(const double poisson, const bool is_near)
     {
       if (poisson < (is_near ? .3 : .31))
@@ -87,8 +88,8 @@ namespace Voussoir
       return is_near ? (poisson > .32 ? .02 : .01) : (poisson > .4 ? .01 : .005);
     }
 
-    /** InputError for rock of high Poisson's ratio that has not the damping it needs.
-     * @p critical: time step [s]. */
+    /** Throws InputError if rock with a high Poisson's ratio has less damping than it requires. @p critical:
+     * critical time step [s]. */
     void check_poisson(const RockRegionParameters &p, const double critical)
     {
       double poisson = 0.;
@@ -100,15 +101,17 @@ namespace Voussoir
         return;
       throw InputError(
           "The transmitting boundary " + p.boundary +
-          " grows without bound in rock with so little damping whose Poisson's ratio is " + number(poisson) +
+          " is unstable with this damping in rock whose Poisson's ratio is " + number(poisson) +
           " (the largest of \"Foundation/Poisson's ratio\" and \"Foundation/Zones\"; the time step "
           "of the rock is " +
-          number(p.dt / critical) + " of the critical one): set \"Foundation/Stiffness damping\" to " +
-          number(share) + " of the rock's time step or more, here " + number(share * p.dt) +
-          (is_near ? " s, or to " + number(needed_damping(poisson, false)) + " of a time step of at most " +
-                         number(near_critical) + " of the critical one"
+          number(p.dt / critical) +
+          " of the critical one). Set \"Foundation/Stiffness damping\" to at least " + number(share) +
+          " rock time steps, here " + number(share * p.dt) +
+          (is_near ? " s, or to " + number(needed_damping(poisson, false)) +
+                         " time steps with a time step of at most " + number(near_critical) +
+                         " of the critical one"
                    : " s") +
-          ", or \"Foundation/Boundary\" to viscous-spring.");
+          ", or set \"Foundation/Boundary\" to viscous-spring.");
     }
   } // namespace
 
@@ -133,7 +136,7 @@ namespace Voussoir
 
   std::string TransmittingBoundary::warning(const RockRegionParameters &p) const
   {
-    // Needed without damping: n_layers(); without layers a stiffness damping of 0.2 dt (boxes of 12 cells).
+    // Stable boxes of 12 cells need n_layers() layers, or a stiffness damping of 0.2 dt without layers.
     constexpr double enough_damping = .2;
     std::string      text;
     if (has_gauss_points(p.rock) && p.rock.nodal_layers < n_layers() &&
@@ -141,12 +144,10 @@ namespace Voussoir
       text = "the transmitting boundary will be unstable: use nodal quadrature in " +
              std::to_string(n_layers()) +
              " layers of rock at the artificial boundary, or stiffness-proportional damping of at least 0.2 "
-             "time "
-             "steps";
+             "time steps";
     if (text.empty() && formula.order() > 2 && !p.rock.nodal_everywhere)
       text = "a transmitting boundary of order 3 or 4 becomes unstable in large boxes of rock with Gauss "
-             "points: "
-             "use nodal quadrature everywhere, or mtf2";
+             "points: use nodal quadrature everywhere, or mtf2";
     const auto rigid = [](const TransmittingFactor &factor)
     { return factor.gamma_p <= 0. && factor.gamma_s <= 0.; };
     if (formula.order() > 1 && std::all_of(formula.factors.begin(), formula.factors.end(), rigid))
@@ -189,7 +190,7 @@ namespace Voussoir
     const bool         incident = !free_field.empty();
     const int          lines = static_cast<int>(kept.size());
     const unsigned int n = known == 0 ? n_points : known;
-    constexpr int      ahead = 4; // lines whose displacements are on their way
+    constexpr int      ahead = 4; // distance of the prefetch [lines]
 #pragma omp parallel for schedule(static)
     for (int l = 0; l < lines; ++l)
     {
@@ -220,7 +221,7 @@ namespace Voussoir
 
   void TransmittingBoundary::advance(const RegionStep &step)
   {
-    if (n_points == 7) // of the default
+    if (n_points == 7) // number of points of the default, mtf3
       move_nodes<7>(step);
     else
       move_nodes<0>(step);

@@ -9,7 +9,7 @@ namespace Voussoir
   {
     using Interpolation = TransmittingFormula::Interpolation;
 
-    /** Lagrange's weights of nodes first .. first + n - 1 at @p x. */
+    /** Returns Lagrange's weights of the nodes first ... first + n - 1 at @p x [m]. */
     std::vector<double> lagrange(const std::vector<double> &position, const unsigned int first,
                                  const unsigned int n, const double x)
     {
@@ -21,7 +21,7 @@ namespace Voussoir
       return weight;
     }
 
-    /** The values interpolated at @p step inward of where the @p weights take them. */
+    /** Returns the @p weights shifted inward by @p step [m], by interpolation. */
     std::vector<double> shifted(const std::vector<double> &weights, const std::vector<double> &position,
                                 const double step, const unsigned int n)
     {
@@ -37,7 +37,7 @@ namespace Voussoir
       return result;
     }
 
-    /** Interpolation at the distance @p x from the boundary with the three nodes about it. */
+    /** Returns the weights of the three nodes around the distance @p x from the boundary [m]. */
     std::vector<double> direct(const std::vector<double> &position, const double x)
     {
       unsigned int first = 0;
@@ -49,7 +49,7 @@ namespace Voussoir
       return result;
     }
 
-    /** Of the shear wave's: Rayleigh waves; between S and P. */
+    /** Artificial wave speeds, divided by that of S waves: Rayleigh waves; between S and P. */
     constexpr double surface = .92, middle = 1.35;
 
     TransmittingFormula formula(const std::vector<TransmittingFactor> &factors)
@@ -94,7 +94,7 @@ namespace Voussoir
   {
     const unsigned int               order = courant.size(), n = position.size();
     std::vector<std::vector<double>> weights(order, std::vector<double>(n, 0.));
-    for (unsigned int subset = 1; subset < (1u << order); ++subset) // the terms of the product
+    for (unsigned int subset = 1; subset < (1u << order); ++subset) // terms of the product
     {
       std::vector<double> term(n, 0.);
       term[0] = 1.;

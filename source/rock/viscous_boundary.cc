@@ -130,7 +130,7 @@ namespace Voussoir
     Unknowns              &w = step.w;
     const int              n = kept.size();
     const bool with_energy = !K_u.empty(), loaded = !force.empty(), incident = !step.field.empty();
-    std::vector<std::array<double, 3>> sums(n); // transmitted, lost, work of forces
+    std::vector<std::array<double, 3>> sums(n); // radiated energy, damping losses, work of forces
 #pragma omp parallel for schedule(static)
     for (int k = 0; k < n; ++k)
     {
@@ -168,7 +168,7 @@ namespace Voussoir
         external += loaded ? .5 * dt * force[k] * w[k] : 0.;
       }
     }
-    for (int k = 0; with_energy && k < n; ++k) // in their order whatever the threads
+    for (int k = 0; with_energy && k < n; ++k) // in sequence for any number of threads
     {
       step.add_work(gone_through_boundary, node[kept[k]], sums[k][0]);
       step.add_work(lost_in_damping, node[kept[k]], sums[k][1]);

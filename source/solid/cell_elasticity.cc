@@ -66,7 +66,7 @@ namespace Voussoir
         for (unsigned int j = 0; j <= i; ++j)
         {
           const Tensor<1, 3> &g = gradient[i], &h = gradient[j];
-          if (g == zero || h == zero) // most are at nodes
+          if (g == zero || h == zero) // most products vanish with nodal quadrature
             continue;
           const double gh = mu * (g * h);
           for (unsigned int a = 0; a < 3; ++a)
@@ -118,7 +118,7 @@ namespace Voussoir
   {
     stress_values.reinit(cell);
     const unsigned int n = fe.n_dofs_per_cell();
-    // Stress of a displacement gradient: column c of the displacement, derivative d.
+    // Adds the stress of a displacement gradient g of the displacement component c.
     const auto stress = [&](const Tensor<1, 3> &g, const unsigned int c, std::array<double, 18> &s)
     {
       for (unsigned int k = 0; k < 3; ++k)

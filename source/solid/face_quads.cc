@@ -16,7 +16,7 @@ namespace Voussoir
         if (cell->face(f)->at_boundary() && static_cast<int>(cell->face(f)->boundary_id()) == surface)
         {
           cell->get_dof_indices(dofs);
-          // the face's nodes by their two tangential reference coordinates
+          // Nodes of the face by their two tangential reference coordinates.
           const unsigned int normal = f / 2, t0 = (normal + 1) % 3, t1 = (normal + 2) % 3;
           for (unsigned int i = 0; i < dofs.size(); ++i)
             if (model.fe.has_support_on_face(i, f))

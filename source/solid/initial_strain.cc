@@ -12,7 +12,8 @@ namespace Voussoir
 
   namespace
   {
-    /** Weight of Gauss point q of QGauss<3>(2) in the trilinear extrapolation to a point of the unit cell. */
+    /** Returns the weight of a Gauss point of QGauss<3>(2) in the trilinear extrapolation to a point of
+     * the unit cell. */
     double extrapolated(const Point<3> &to, const Point<3> &gauss)
     {
       double weight = 1.;
@@ -50,7 +51,7 @@ namespace Voussoir
         for (unsigned int c = 0; c < 3; ++c)
           of_modes[3 * m + c] += s * mode_gradient(values, q, m)[c];
     }
-    if (modes) // they are free to follow the strain
+    if (modes) // the modes follow the strain
     {
       mode_of_force.vmult(modes_of_strain, of_modes);
       for (unsigned int k = 0; k < 3 * n; ++k)

@@ -15,8 +15,8 @@ namespace Voussoir
     using Cell = DoFHandler<3>::active_cell_iterator;
     using Dofs = std::vector<types::global_dof_index>;
 
-    /** The change of the stress at a node (6 x 6) by what a stress adds to the traction on the one of its
-     * planes that the vector @p outward points through. */
+    /** Returns the change of the nodal stress (6 x 6) due to a stress that adds its traction on one of the
+     * planes of the node. That plane is the one whose normal is closest to @p outward. */
     std::array<double, 36> by_traction(const double poisson, const std::vector<Vector3> &normals,
                                        const Tensor<1, 3> &outward)
     {
@@ -75,7 +75,7 @@ namespace Voussoir
     for (const Cell &cell : model.dof_handler.active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
       {
-        const unsigned int d = f / 2, opposite = f ^ 1u; // direction of the element's height
+        const unsigned int d = f / 2, opposite = f ^ 1u; // direction of the element height
         if (!cell->face(f)->at_boundary() || cell->face(f)->boundary_id() != PhysicalId::base ||
             cell->at_boundary(opposite))
           continue;

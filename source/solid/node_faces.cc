@@ -14,7 +14,7 @@ namespace Voussoir
 
   namespace
   {
-    /** Adds the area vector of an element face to the face of that surface that it belongs to. */
+    /** Adds the area vector of an element face to the matching face of the node, or adds a new face. */
     void add_face(std::vector<NodeFace> &faces, const unsigned int node, const int surface,
                   const Vector3 &area)
     {
@@ -25,10 +25,10 @@ namespace Voussoir
       faces.push_back({node, surface, area});
     }
 
-    /** Those of the surface "base", or those of all others. */
+    /** Returns the faces of the surface "base", or those of all other surfaces. */
     std::vector<NodeFace> find_faces(const SolidModel &model, const bool of_base)
     {
-      std::vector<Point<2>> places; // of the nodes of a face
+      std::vector<Point<2>> places; // nodes of a face
       for (unsigned int i = 0; i < model.fe.n_dofs_per_face(); ++i)
         places.push_back(model.fe.unit_face_support_point(i));
       FEFaceValues<3> values(model.fe, Quadrature<2>(places), update_values | update_boundary_forms);
@@ -42,7 +42,7 @@ namespace Voussoir
             cell->get_dof_indices(dofs);
             for (unsigned int i = 0; i < dofs.size(); ++i)
               for (const unsigned int q : values.quadrature_point_indices())
-                if (values.shape_value(i, q) > .5) // this node is there
+                if (values.shape_value(i, q) > .5) // node of this point
                 {
                   const Tensor<1, 3> &area = values.boundary_form(q);
                   add_face(at_node[dofs[i]], dofs[i], cell->face(f)->boundary_id(),

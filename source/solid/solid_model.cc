@@ -37,7 +37,7 @@ namespace Voussoir
     number_equations(fixed, master);
   }
 
-  /** Places, bodies and surfaces of the nodes. */
+  /** Determines position, body and surfaces of each node. */
   void SolidModel::find_nodes()
   {
     dof_handler.distribute_dofs(fe);
@@ -99,7 +99,7 @@ namespace Voussoir
 
   namespace
   {
-    /** The bodies of a model, their stiffness zero as yet. */
+    /** Returns the bodies of a model with zero stiffness matrices. */
     std::vector<Body> empty_bodies(const SolidModel &model)
     {
       std::vector<std::vector<std::vector<unsigned int>>> columns(model.n_bodies());
@@ -164,9 +164,8 @@ namespace Voussoir
       body.stiffness.symmetrise();
     for (std::size_t i = 0; i < structure.mass.size(); ++i)
       if (!(structure.mass[i][0] > 0.))
-        throw InputError(
-            "An element of the mesh is so distorted that a node of it has no positive mass. Improve the "
-            "shape of the elements, or use degree 1.");
+        throw InputError("An element of the mesh is so distorted that the mass of one of its nodes is not "
+                         "positive. Improve the shape of the elements, or set \"Elements/Degree\" to 1.");
     return structure;
   }
 } // namespace Voussoir

@@ -73,7 +73,7 @@ namespace Voussoir
     return blocks[std::lower_bound(begin, end, free_node) - column.begin()];
   }
 
-  /** The mean of the cells around each node. */
+  /** Adds the mean over the cells around each node. */
   void StressRecovery::add_cells(const SolidModel &model, const std::vector<Material> &materials,
                                  const bool incompatible_modes, const NodalMean &mean)
   {
@@ -108,7 +108,7 @@ namespace Voussoir
     }
   }
 
-  /** Replaces the rows of nodes with known tractions by those of TractionCondition. */
+  /** Replaces the rows of nodes with known tractions by the result of TractionCondition. */
   void StressRecovery::condition(const std::vector<NodeFace> &faces, const NodalMean &mean)
   {
     for (std::size_t f = 0; f < faces.size(); f = node_of_face.size())
@@ -147,7 +147,7 @@ namespace Voussoir
 #pragma omp parallel for schedule(static)
     for (std::size_t i = first; i < last; ++i)
     {
-      // By displacement component: 18 independent sums are what a vector unit likes.
+      // 18 independent sums, by displacement component, suit the vector unit.
       float sum[18] = {};
       for (std::size_t k = start[i]; k < start[i + 1]; ++k)
       {

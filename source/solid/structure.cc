@@ -22,7 +22,7 @@ namespace Voussoir
         if (in_pair[body.first_node + i])
           body.interface.push_back(i);
     }
-    std::vector<double> work; // a sweep through the factor, and its joints' dense blocks
+    std::vector<double> work; // estimate: substitution with the factor, dense blocks of its joints
     for (const Body &body : bodies)
       work.push_back(60. * std::pow(body.n_nodes(), 4. / 3.) + std::pow(body.interface.size(), 2.));
     share = Shares(work);

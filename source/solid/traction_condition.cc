@@ -10,10 +10,11 @@ namespace Voussoir
 
   namespace
   {
-    constexpr unsigned int component[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}; // of the stress
-    constexpr double smallest = .02; ///< of the largest: two planes that are within about 10 degrees are one
+    constexpr unsigned int component[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}; // stress component
+    /** Smallest relative singular value; planes within about 10 degrees count as one. */
+    constexpr double smallest = .02;
 
-    /** C A^T, C for a shear modulus of 1/2. */
+    /** Returns C A^T, with C for a shear modulus of 1/2. */
     FullMatrix<double> stiff_transpose(const FullMatrix<double> &A, const double poisson)
     {
       FullMatrix<double> result(6, A.m());

@@ -15,7 +15,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** "24 GPa 0.2 2400" -> "24 GPa", "0.2", "2400": each value begins with a number. */
+    /** Splits "24 GPa 0.2 2400" into "24 GPa", "0.2", "2400". Each value begins with a number. */
     std::vector<std::string> values_in(const std::string &text)
     {
       std::vector<std::string> values;
@@ -32,7 +32,7 @@ namespace Voussoir
       return values;
     }
 
-    /** A number in the unit @p unit; NaN if it is none. */
+    /** Returns a number in the unit @p unit, or NaN for invalid text. */
     double number(const std::string &value, const std::string &unit, const std::string &what)
     {
       const std::string text = in_declared_unit(value, unit, what);
@@ -79,15 +79,15 @@ namespace Voussoir
       const std::string name = zone_name(zone.first),
                         what = "Entry \"" + entry + "\": zone \"" + zone.first + "\"";
       if (!is_plain(zone.first))
-        throw InputError(what +
-                         " has letters that no zone can have. Use a to z, digits, blanks, '_' and '-', in "
-                         "the mesh and in the scene.");
+        throw InputError(what + " contains letters that are not allowed in the name of a zone. Use a to z, "
+                                "digits, blanks, '_' and '-', in the mesh and in the input file.");
       if (name.empty())
         throw InputError(what +
-                         " has no name. Give it as in \"heel: 24e9 0.2 2400\"; the volumes of the zone are "
-                         "called by it in the mesh, \"monolith 3 heel\" or \"rock heel\".");
+                         " has no name. Write it as in \"heel: 24e9 0.2 2400\". The volumes of the zone have "
+                         "this name in the mesh, as in \"monolith 3 heel\" or \"rock heel\".");
       if (!materials.emplace(name, material_from(zone.second, largest_poisson, what)).second)
-        throw InputError(what + " is named twice: case, blanks, '_' and '-' do not count. Leave one.");
+        throw InputError(what +
+                         " is listed twice (case, blanks, '_' and '-' are ignored). Remove one of the two.");
     }
     return materials;
   }
@@ -109,7 +109,7 @@ namespace Voussoir
   {
     const std::vector<Material> materials = materials_of(mesh.zones, own, listed);
     std::vector<double>         volume(mesh.zones.size(), 0.);
-    HexMesh                     part = mesh; // whose volumes are zones
+    HexMesh                     part = mesh; // the volumes of part are the zones
     part.cells.clear();
     for (HexMesh::Cell cell : mesh.cells)
       if (is_monolith(cell.volume) != of_rock)

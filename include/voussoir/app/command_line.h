@@ -7,11 +7,11 @@
 
 namespace Voussoir
 {
-  /** Does what the words of the command line (without the program's name) say. Returns the exit status 0;
-   * everything else leaves by InputError (status 2) or ComputationError (status 1). */
+  /** Runs the command of the command line @p words, without the program name. Returns the exit status 0.
+   * Throws InputError (status 2) or ComputationError (status 1). */
   int run_command(const std::vector<std::string> &words);
 
-  /** Do the words ask for the run of a scene, which several ranks do together? False for bad words, too. */
+  /** Returns true if the command is a run, which can use several ranks. Returns false for invalid words. */
   bool runs_scene(const std::vector<std::string> &words);
 } // namespace Voussoir
 

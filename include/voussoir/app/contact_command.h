@@ -8,29 +8,32 @@
 
 namespace Voussoir
 {
+  /** Solution of a frictional contact problem. */
   struct FrictionSolution
   {
     ContactResult
-             result; ///< residual: Siconos' full relative natural-map error, mean diagonal of W scaled to 1
-    Unknowns force, gap;
-    std::string solver; ///< what it took: "newton", "newton+sweeps", ...
+        result; ///< residual: relative natural-map error of Siconos, with the mean diagonal of W scaled to 1
+    Unknowns    force, gap; ///< three values per contact
+    std::string solver;     ///< solvers in use, such as "newton+sweeps"
   };
 
-  /** Solves a friction problem from zero forces. @p equations: of the contacts. Pairs that are coupled in
-   *  groups, like those of the joints of an arch, are solved joint by joint, others directly. */
+  /** Solves a friction problem, starting from zero forces. Groups of coupled contacts, like the joints of an
+   * arch, are solved joint by joint. Other problems are solved directly. @p equations: their form. */
   FrictionSolution solve_friction_problem(const FrictionProblem &problem, const ContactParameters &parameters,
                                           Equations equations);
 
+  /** Options of `voussoir contact`. */
   struct ContactOptions
   {
     std::string tolerance = "1e-12", solver = "newton", max_seconds = "10"; ///< as on the command line
-    std::string solutions;                                                  ///< directory, may be empty
+    std::string solutions;                                                  ///< output directory, or empty
   };
 
-  /** `voussoir contact`: solves the FCLib problems @p files and prints a JSON object for each. Of several
-   * files, one that cannot be read is named on stderr and the others are solved. Throws InputError for
-   * unknown solvers, and at the end if a file cannot be read; ComputationError at the end if problems did not
-   * converge. */
+  /** Runs `voussoir contact`: solves the FCLib problems @p files and prints one JSON object for each. A file
+   * that cannot be read is reported on stderr, and the other files are solved.
+   *
+   * Throws InputError for an unknown solver, and after all problems if a file cannot be read. Throws
+   * ComputationError after all problems if a problem did not converge. */
   void run_contact(const std::vector<std::string> &files, const ContactOptions &options);
 } // namespace Voussoir
 

@@ -13,33 +13,37 @@ namespace dealii
 
 namespace Voussoir
 {
-  /** An entry of a scene as it is declared. */
+  /** Declaration of an entry of the input file. */
   struct DeclaredEntry
   {
     std::vector<std::string> path; ///< subsections, then the entry
     std::string              default_value, documentation;
-    std::string              pattern; ///< deal.II's description of what is allowed
+    std::string              pattern; ///< deal.II's description of the allowed values
 
-    std::string name() const; ///< "Section/Subsection/Entry"
+    /** Returns "Section/Subsection/Entry". */
+    std::string name() const;
 
-    /** The first unit in square brackets in the documentation ("Pa", "-"), empty if there is none. */
+    /** Returns the first unit in square brackets in the documentation, such as "Pa", or "". */
     std::string unit() const;
   };
 
+  /** Returns all entries, in the order of declaration. */
   std::vector<DeclaredEntry> declared_entries(const dealii::ParameterHandler &prm);
 
-  /** The path as text: "Section/Subsection/Entry". */
+  /** Returns the path as text: "Section/Subsection/Entry". */
   std::string joined(const std::vector<std::string> &path);
 
-  /** A pattern in words: "a number of at least 0", "an integer from 1 to 2", "one of: tied, FJA, FJB". */
+  /** Returns a pattern in words, such as "a number of at least 0" or "one of: tied, FJA, FJB". */
   std::string pattern_in_words(const std::string &pattern);
 
-  /** The separator of the entries of a map or a list with this pattern, else 0. */
+  /** Returns the separator of a map or a list with this pattern, or 0. */
   char separator_of(const std::string &pattern);
 
-  /** Prints the entries in @p section ("Joints/Keys", or a single entry; empty: all) as @p format "prm",
-   * "json" or "markdown" (a table). Throws InputError for another format, and for an unknown section with the
-   *  nearest known one. */
+  /** Prints entries. Throws InputError for an unknown format or section.
+   * @param prm all declarations
+   * @param format "prm", "json" or "markdown"
+   * @param section such as "Joints/Keys", or a single entry; empty: all
+   * @param out stream */
   void print_entries(const dealii::ParameterHandler &prm, const std::string &format,
                      const std::string &section, std::ostream &out);
 } // namespace Voussoir

@@ -6,20 +6,22 @@
 
 namespace Voussoir
 {
-  /** What a run needs [bytes], to a fifth. From counts of the mesh: neither matrices nor factors are made.
-   * With several ranks: what the first one needs, which finds the static state of rock for all. */
+  /** Estimated memory of a run [bytes], with an error of about 20 %. It follows from the mesh, without
+   * matrices or factors. */
   struct MemoryNeed
   {
-    double run = 0.;         ///< at its peak, if no step is halved
-    double halved_step = 0.; ///< more for each size of halved steps: factors and joint operator
-    double of_others = 0.;   ///< run, for the other ranks
+    double run = 0.;         ///< peak of the first rank, without reduced time steps
+    double halved_step = 0.; ///< additional memory for each size of reduced time steps
+    double of_others = 0.;   ///< peak of the other ranks
   };
+
+  /** Returns the estimated memory of a run. */
   MemoryNeed memory_need(const Scene &scene, const HexMesh &mesh);
 
-  /** "about 1.2 GiB, and 0.4 GiB more ..."; of each rank. */
+  /** Returns a text such as "about 1.2 GiB, and 0.4 GiB more ...", for each rank. */
   std::string in_words(const MemoryNeed &need);
 
-  /** What to tell when there was not enough memory for the run of a scene; makes its mesh again. */
+  /** Returns the message for a run without enough memory. Creates the mesh again. */
   std::string not_enough_memory(const Scene &scene);
 } // namespace Voussoir
 

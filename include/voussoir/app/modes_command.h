@@ -6,9 +6,14 @@
 
 namespace Voussoir
 {
-  /** `voussoir modes`: the natural frequencies of the tied dam on standard output; in @p directory, where it
-   * is not empty, modes.csv with participation factors and effective masses, mode-NN.vtu, and figures.
-   * InputError for a count that is none, and for rock with mass. */
+  /** Runs `voussoir modes`: prints the natural frequencies of the tied dam.
+   *
+   * @param scene input file
+   * @param count number of modes
+   * @param directory for modes.csv with participation factors and effective masses, mode-NN.vtu, and figures;
+   * empty: none
+   *
+   * Throws InputError for an invalid count, and for rock with mass. */
   void print_modes(const Scene &scene, const std::string &count, const std::string &directory);
 } // namespace Voussoir
 

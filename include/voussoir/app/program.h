@@ -7,9 +7,8 @@
 
 namespace Voussoir
 {
-  /** The program with the command line @p words (without its own name): runs the command, prints the messages
-   * of errors on stderr and returns the exit status: 0 done; 1 the computation failed or was stopped; 2 bad
-   * input, or more than one rank. Anything else that is thrown is a bug and says so (status 1). */
+  /** Runs the command of the command line @p words, without the program name. Prints error messages on
+   * stderr. Returns the exit status: 0 success, 1 failed or stopped, or internal error, 2 invalid input. */
   int run_program(const std::vector<std::string> &words);
 } // namespace Voussoir
 

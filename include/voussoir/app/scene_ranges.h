@@ -8,31 +8,30 @@
 
 namespace Voussoir
 {
-  /** An entry that the user gave, in a scene or by --set. */
+  /** Entry in the input file or on the command line (--set). */
   struct WrittenEntry
   {
     DeclaredEntry declared;
     std::string   value; ///< in the declared unit
-    std::string   place; ///< "scene.prm, line 7"
+    std::string   place; ///< such as "scene.prm, line 7"
   };
 
-  /** A number that the computation uses, from an entry, a table or the material of a zone. */
+  /** Number from an entry, a table or the material of a zone. */
   struct UsedValue
   {
-    std::string what;  ///< for messages: "Concrete/Density (scene.prm, line 7)"
-    std::string range; ///< entry whose usual range holds for it
+    std::string what;  ///< text for messages: "Concrete/Density (scene.prm, line 7)"
+    std::string range; ///< entry with the usual range of the number
     std::string unit;
-    double      value; ///< in that unit
+    double      value; ///< value in @p unit
   };
 
+  /** Returns the number of an entry. */
   UsedValue used_value(const WrittenEntry &entry);
 
-  /** The numbers that do not come from entries of one number each: materials of zones, temperatures of a
-   * table. Reads the table. */
+  /** Returns the numbers of entries with several numbers: materials of zones, temperature table. */
   std::vector<UsedValue> values_of_sources(const Scene &scene);
 
-  /** A sentence about a value outside of the usual range of its entry; empty if it is inside, or no range is
-   * declared. */
+  /** Returns a warning about a value outside of its range in @p usual. Empty: plausible, or no range. */
   std::string implausible(const UsedValue &value, const UsualRanges &usual);
 } // namespace Voussoir
 

@@ -7,8 +7,7 @@
 
 namespace Voussoir
 {
-  /** Sentences about entries that are plausible one by one, but not together. @p entries: those that the user
-   * wrote. */
+  /** Returns warnings about implausible combinations of entries. @p entries: entries in the input file. */
   std::vector<std::string> odd_relations(const Scene &scene, const std::vector<WrittenEntry> &entries);
 } // namespace Voussoir
 

@@ -7,12 +7,12 @@
 
 namespace Voussoir
 {
-  /** Sentences about those entries that have no effect, because of what the others say, and about those whose
-   *  value is outside of its usual range. Entries that repeat the default are not spoken of. */
+  /** Returns warnings about @p entries without effect because of other entries, and about values outside of
+   * their @p usual range. Entries with their default value are not reported. */
   std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<WrittenEntry> &entries,
                                           const UsualRanges &usual);
 
-  /** The entries and sections ("Joints/Keys/") that the tables behind scene_warnings() name, for tests. */
+  /** Returns all entries and sections ("Joints/Keys/") with such warnings, for tests. */
   std::vector<std::string> entries_with_warnings();
 } // namespace Voussoir
 

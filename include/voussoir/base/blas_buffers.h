@@ -4,9 +4,10 @@
 
 namespace Voussoir
 {
-  /** Lets OpenBLAS take the buffers of all threads (up to 128 MB of addresses each, by the processor) while
-   * there is memory, if the process has a limit of it (RLIMIT_AS): where OpenBLAS gets none it tries for
-   * ever. Throws std::bad_alloc. */
+  /** Allocates the OpenBLAS buffers of all OpenMP threads (up to 128 MB of address space each, depending on
+   * the processor). The function has an effect with OpenBLAS and a limit of the address space (RLIMIT_AS)
+   * only. Under such a limit the buffers must be allocated early: OpenBLAS retries a failed allocation
+   * indefinitely. Throws std::bad_alloc if the buffers do not fit. */
   void take_blas_buffers();
 } // namespace Voussoir
 

@@ -9,16 +9,16 @@
 
 namespace Voussoir
 {
-  /** Values of a number that occur in practice, in the declared unit; others produce a warning. */
+  /** Usual values of a number, in the declared unit. Other values produce a warning. */
   struct UsualRange
   {
     double low, high;
-    bool   or_zero = false; ///< zero switches something off
+    bool   or_zero = false; ///< true: zero is usual as well, such as for a load that is switched off
   };
 
   using UsualRanges = std::map<std::string, UsualRange>; ///< by "Section/Entry"
 
-  /** Declarations of entries, some with a usual range. */
+  /** ParameterHandler with usual ranges of the entries. */
   class Entries : public dealii::ParameterHandler
   {
   public:
@@ -35,22 +35,25 @@ namespace Voussoir
       usual[section + name] = range;
     }
 
+    /** Enters a subsection, as in ParameterHandler. */
     void enter_subsection(const std::string &name)
     {
       dealii::ParameterHandler::enter_subsection(name);
       section += name + "/";
     }
 
+    /** Leaves the subsection. */
     void leave_subsection()
     {
       dealii::ParameterHandler::leave_subsection();
       section.erase(section.rfind('/', section.size() - 2) + 1);
     }
 
+    /** Returns the usual ranges of all declared entries. */
     const UsualRanges &usual_ranges() const { return usual; }
 
   private:
-    std::string section; ///< "Section/Subsection/", where entries are declared now
+    std::string section; ///< current section: "Section/Subsection/"
     UsualRanges usual;
   };
 } // namespace Voussoir

@@ -7,15 +7,16 @@
 
 namespace Voussoir
 {
-  /** Bad input: what() is one paragraph that says what is wrong, where (entry, file, line, mesh name)
-   *  and how to mend it. The program prints it after "voussoir: error: " and ends with status 2. */
+  /** Error in the input. The message what() is one paragraph: what is wrong, where (entry, file, line, mesh
+   * name) and what to do. The program prints it after "voussoir: error: " and exits with status 2. */
   class InputError : public std::runtime_error
   {
   public:
     using std::runtime_error::runtime_error;
   };
 
-  /** The computation failed (no convergence, not a number): says at which step and why. Exit status 1. */
+  /** Failure of the computation, such as no convergence or a value that is not finite. The message states the
+   * time step and the cause. The program prints it after "voussoir: failed: " and exits with status 1. */
   class ComputationError : public std::runtime_error
   {
   public:

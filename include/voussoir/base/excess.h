@@ -8,11 +8,12 @@
 
 namespace Voussoir
 {
-  /** How many of the @p n numbers are larger than @p bound in size, or no numbers? */
+  /** Returns how many of the @p n values of @p x are not finite or exceed @p bound in absolute value. */
   std::size_t count_excess(const double *x, std::size_t n, double bound);
 
-  /** Index of the component of @p x of largest size if that exceeds @p bound, of the first that is not a
-   * number before all others; else x.size(). */
+  /** Returns the index of the component of @p x with the largest absolute value if that exceeds @p bound.
+   * Returns the index of the first component that is not finite if there is one, and x.size() if all
+   * components are within the bound. */
   std::size_t find_excess(const Unknowns &x, double bound);
 } // namespace Voussoir
 

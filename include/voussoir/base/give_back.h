@@ -4,8 +4,9 @@
 
 namespace Voussoir
 {
-  /** Memory that was freed goes back to the system, where the C library knows how to (glibc). It keeps what
-   * lies between things in use, and does not find all of it again. To be called when much has been freed. */
+  /** Returns freed memory to the operating system (malloc_trim() of glibc; no effect with other C
+   * libraries). Blocks between allocations that are in use remain with the process. Call the function
+   * after large deallocations. */
   void give_back_memory();
 } // namespace Voussoir
 

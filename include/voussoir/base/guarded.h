@@ -11,13 +11,14 @@
 
 namespace Voussoir
 {
-  /** The writing end between two processes of one program: plain numbers, vectors of them, texts. */
+  /** Writing end of a pipe between two processes of the same program. Transfers numbers, vectors of
+   * numbers and strings. */
   class PipeWriter
   {
   public:
     explicit PipeWriter(const int descriptor) : descriptor(descriptor) {}
 
-    /** Throws std::runtime_error if nobody reads any more. */
+    /** Writes @p n bytes. Throws std::runtime_error if the reading end is closed. */
     void put(const void *bytes, std::size_t n);
 
     template <typename Number> void put(const Number number)
@@ -41,19 +42,22 @@ namespace Voussoir
     const int descriptor;
   };
 
-  /** The reading end: in the order in which it was written. Throws PipeReader::End where it ends too early.
-   */
+  /** Reading end of a pipe. Values must be read in the order in which they were written. All get() functions
+   * throw PipeReader::End if the data end too early or the time limit is exceeded. */
   class PipeReader
   {
   public:
+    /** Exception: the writer ended before all data had arrived, or the time limit was exceeded. */
     struct End : std::runtime_error
     {
       End() : std::runtime_error("the other process ended too early") {}
     };
 
-    /** @p seconds: how long to wait for the other process, altogether. */
+    /** @param descriptor file descriptor of the pipe, not owned
+     * @param seconds time limit for all reads together [s] */
     PipeReader(int descriptor, double seconds);
 
+    /** Reads @p n bytes. */
     void get(void *bytes, std::size_t n);
 
     template <typename Number> void get(Number &number)
@@ -69,7 +73,8 @@ namespace Voussoir
     void get(std::string &text) { get_sized(text); }
 
   private:
-    /** Grows in pieces: a size that the other process, gone wild, made up is not believed. */
+    /** Reads a size and the entries after it. The container grows in pieces, since a crashing writer may send
+     * a wrong size. */
     template <typename Container> void get_sized(Container &container)
     {
       constexpr std::size_t piece = 1 << 20;
@@ -88,26 +93,31 @@ namespace Voussoir
     }
 
     const int    descriptor;
-    const double deadline; ///< of the steady clock [s]
+    const double deadline; ///< time limit, on the steady clock [s]
   };
 
-  /** What a child process may use. */
+  /** Resource limits of a child process. */
   struct GuardLimits
   {
-    double cpu_seconds; ///< CPU time [s]; ten times that by the clock on the wall
-    double memory;      ///< beyond what the program has when the child starts [byte]
+    double cpu_seconds; ///< CPU time [s]; the elapsed time may be ten times as long
+    double memory; ///< address space in addition to that of the program at the start of the child [bytes]
   };
 
-  /** Limits for reading a file of @p size bytes by a library: 10 s and 5 s per MB, 4 GB and 100 bytes per
-   * byte. */
+  /** Returns the limits for reading a file of @p size bytes with a library: 10 s + 5 s per MB, and 4 GB + 100
+   * bytes per byte. */
   GuardLimits limits_for_file(double size);
 
-  /** Runs @p work in a child process, for libraries that crash, end the program or never end on bad files:
-   *  whatever happens to the child does not touch the program. Then @p send, in the child, puts the results
-   * into a pipe, and @p receive, here, gets them out of it in the same order. The child's output (stdout,
-   * stderr) is dropped. An InputError or ComputationError of @p work is thrown here again. If
-   * the child dies, ends by itself, or exceeds its limits, throws InputError: "@p problem: " and the reason.
-   *  @p work must not use threads: only the calling one exists in the child. */
+  /** Runs @p work in an isolated child process. A library that crashes, exits or does not end on a damaged
+   * file then leaves the program intact. The child's stdout and stderr are discarded.
+   *
+   * @param problem beginning of the message of an error
+   * @param limits CPU time and memory of the child
+   * @param work task of the child; it must not use threads, because the child has only the calling one
+   * @param send writes the results into a pipe, in the child
+   * @param receive reads the results from the pipe in the same order, in this process
+   *
+   * Throws the InputError or ComputationError of @p work in this process. Throws InputError ("@p problem: "
+   * and the reason) if the child crashes, exits or exceeds its limits, or on another exception of @p work. */
   void run_guarded(const std::string &problem, const GuardLimits &limits, const std::function<void()> &work,
                    const std::function<void(PipeWriter &)> &send,
                    const std::function<void(PipeReader &)> &receive);

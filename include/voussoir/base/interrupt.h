@@ -8,16 +8,18 @@
 
 namespace Voussoir
 {
-  /** The user, or the machine's scheduler, has asked the program to stop. */
+  /** Exception: the user or the job scheduler has requested the program to stop. The program prints the
+   * message after "voussoir: stopped: " and exits with status 1. */
   class Interrupted : public ComputationError
   {
   public:
     using ComputationError::ComputationError;
   };
 
-  /** While an object of this class lives, the first SIGINT, SIGTERM or SIGHUP is only noted, so that the work
-   * can be put away, and one line on stderr says so; a second one ends the program at once. A signal that the
-   * program was started to ignore (nohup) stays ignored. At most one may live at a time. */
+  /** Handler of SIGINT, SIGTERM and SIGHUP during the life of the object. The first signal is recorded, so
+   * that the program can save its state, and a line is printed to stderr. A second signal ends the program
+   * immediately. A signal that was ignored at the start of the program (nohup) remains ignored. At most one
+   * object may exist at a time. */
   class InterruptGuard
   {
   public:
@@ -26,13 +28,13 @@ namespace Voussoir
     InterruptGuard(const InterruptGuard &) = delete;
     InterruptGuard &operator=(const InterruptGuard &) = delete;
 
-    static bool lives(); ///< is there one?
+    static bool lives(); ///< returns whether an object exists
 
-    /** "SIGINT", "SIGTERM" or "SIGHUP" if one has come, else a null pointer. */
+    /** Returns "SIGINT", "SIGTERM" or "SIGHUP" if that signal was received, else a null pointer. */
     const char *received() const;
 
   private:
-    std::array<void (*)(int), 3> before; ///< the handlers
+    std::array<void (*)(int), 3> before; ///< handlers that the destructor restores
   };
 } // namespace Voussoir
 

@@ -12,20 +12,24 @@
 
 namespace Voussoir
 {
-  /** What the user reads: each line goes to the screen (unless quiet) and to a file once there is one. */
+  /** Log of a run. Each line is printed to stdout (unless quiet) and appended to a file after open(). */
   class Log
   {
   public:
     explicit Log(bool quiet) : quiet(quiet) {}
 
-    /** Also write to this file from now on, with all lines so far. @p append: keep what is in it. Throws
-     * WriteError, as line() does when there is a file. */
+    /** Opens the log file and writes all earlier lines to it.
+     * @param file name of the file
+     * @param append whether to keep the present content of the file
+     *
+     * Throws WriteError. After open(), line() throws it as well. */
     void open(const std::string &file, bool append);
 
-    /** printf-style line. */
+    /** Adds a line. The arguments are those of printf, without the newline. */
     void line(const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-    /** What the lines "warning: ..." have said, each once. */
+    /** Returns the texts of the lines that begin with "warning: ", without this word
+     * and without repetition. */
     const std::vector<std::string> &warnings() const { return warned; }
 
   private:
@@ -35,7 +39,7 @@ namespace Voussoir
     std::unique_ptr<OutputFile> file;
   };
 
-  /** Wall clock. */
+  /** Elapsed time since construction. */
   class Stopwatch
   {
   public:
@@ -49,22 +53,29 @@ namespace Voussoir
     std::chrono::steady_clock::time_point start;
   };
 
-  /** "1:02:03" or "2:03". */
+  /** Returns the time as "1:02:03" (hours, minutes, seconds) or "2:03".
+   * @param seconds time [s] */
   std::string clock_time(double seconds);
 
-  /** A JSON object under construction, in the order of the calls. */
+  /** JSON object under construction. The members keep the order of the calls. Numbers that are not finite are
+   * written as null. */
   class Json
   {
   public:
+    /** Adds a member: a string, a number or an object. All functions return the object itself. */
     Json &add(const std::string &key, const std::string &text);
     Json &add(const std::string &key, const char *text) { return add(key, std::string(text)); }
     Json &add(const std::string &key, double number);
+
+    /** Adds true or false. */
     Json &add_flag(const std::string &key, const bool value)
     {
       return add_raw(key, value ? "true" : "false");
     }
     Json &add(const std::string &key, const Json &object);
-    Json &add_texts(const std::string &key, const std::vector<std::string> &texts); ///< a list
+    Json &add_texts(const std::string &key, const std::vector<std::string> &texts); ///< adds a list
+
+    /** Adds a list of numbers. */
     template <class Numbers> Json &add_list(const std::string &key, const Numbers &numbers)
     {
       std::string list;
@@ -73,8 +84,8 @@ namespace Voussoir
       return add_raw(key, "[" + list + "]");
     }
 
-    std::string text() const;
-    std::string line() const; ///< the same on one line; no objects inside
+    std::string text() const; ///< returns the object with one member per line
+    std::string line() const; ///< returns the object on one line; it must not contain other objects
 
   private:
     static std::string number_text(double number);

@@ -12,13 +12,13 @@
 
 namespace Voussoir
 {
-  /** The values of an enumeration and the names that scenes and results give them. */
+  /** Values of an enumeration with their names in input and output files. */
   template <typename T> using Names = std::vector<std::pair<const char *, T>>;
 
-  /** Entries by their names, "Section/Entry"; a name that ends in a slash stands for all below it. */
+  /** Names of entries, "Section/Entry". A name with a slash at the end means all entries of a section. */
   using EntryNames = std::vector<std::string>;
 
-  /** Do the names include the entry? */
+  /** Returns whether @p names include the entry. */
   inline bool includes(const EntryNames &names, const std::string &entry)
   {
     return std::any_of(names.begin(), names.end(),
@@ -26,9 +26,9 @@ namespace Voussoir
                        { return name.back() == '/' ? entry.rfind(name, 0) == 0 : entry == name; });
   }
 
-  // Tables have rows {name, doc, ...}, whose order is that of all lists.
+  // Tables have rows {name, doc, ...}. All lists keep the order of the rows.
 
-  /** The names in a table: "rigid|rock|massless", as a ParameterHandler selection. */
+  /** Returns the names in a table as a ParameterHandler selection, such as "rigid|rock|massless". */
   template <class Rows> std::string names_of(const Rows &rows, const std::string &separator = "|")
   {
     std::string list;
@@ -37,7 +37,8 @@ namespace Voussoir
     return list;
   }
 
-  /** What the rows of a table are: "rigid: the base moves as the ground motion says; rock: ...". */
+  /** Returns names and descriptions of a table, such as "rigid: the base moves as the ground
+   * motion; rock: ...". */
   template <class Rows> std::string docs_of(const Rows &rows)
   {
     std::string list;
@@ -46,8 +47,8 @@ namespace Voussoir
     return list;
   }
 
-  /** The row of that name in a table. Throws InputError, "There @p is_no "name". @p they_are ...", for an
-   * unknown one. */
+  /** Returns the row with the given @p name. For an unknown name it throws InputError with the text "There
+   * @p is_no "name". @p they_are rigid|rock|massless." */
   template <class Row, std::size_t n>
   const Row &row_of(const Row (&rows)[n], const std::string &name, const std::string &is_no,
                     const std::string &they_are)
@@ -58,7 +59,7 @@ namespace Voussoir
     throw InputError("There " + is_no + " \"" + name + "\". " + they_are + " " + names_of(rows) + ".");
   }
 
-  /** All names as a ParameterHandler selection: "newton|sweeps|...". */
+  /** Returns all names as a ParameterHandler selection, such as "newton|sweeps|...". */
   template <typename T> std::string selection(const Names<T> &names)
   {
     std::string list;
@@ -67,8 +68,8 @@ namespace Voussoir
     return list;
   }
 
-  /** The value of that name. Throws InputError, "There @p is_no "name". The @p kind are: ...", for an unknown
-   *  one. */
+  /** Returns the value with the given @p name. For an unknown name it throws InputError with the text "There
+   * @p is_no "name". The @p kind are: ..." */
   template <typename T>
   T value_of(const Names<T> &names, const std::string &name, const std::string &is_no,
              const std::string &kind)

@@ -7,10 +7,11 @@
 
 namespace Voussoir
 {
-  /** Number of letters to change, add or remove to make @p a from @p b; case does not count. */
+  /** Returns the number of letters to change, add or remove to transform @p b into @p a. Case is ignored. */
   unsigned int edit_distance(const std::string &a, const std::string &b);
 
-  /** The one of @p names with the smallest edit_distance(), the first of equals. */
+  /** Returns the element of @p names with the smallest edit_distance() to @p name, the first of several.
+   * Returns an empty string if @p names is empty. */
   std::string nearest_name(const std::vector<std::string> &names, const std::string &name);
 } // namespace Voussoir
 

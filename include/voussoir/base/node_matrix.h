@@ -8,29 +8,29 @@
 
 namespace Voussoir
 {
-  /** Sparse symmetric matrix of 3x3 blocks, a block row per node; all blocks are stored. */
+  /** Sparse symmetric matrix of 3x3 blocks with one block row per node. Both triangles are stored. */
   class BlockSparseMatrix
   {
   public:
     BlockSparseMatrix() = default;
 
-    /** Pattern: sorted column nodes of every row, the diagonal included. All entries zero. */
+    /** Creates a zero matrix. @p columns: for each row the sorted column nodes, with the diagonal. */
     explicit BlockSparseMatrix(const std::vector<std::vector<unsigned int>> &columns);
 
-    /** A(row, column) += block; the entry must be in the pattern. */
+    /** Adds @p block to the entry A(row, column), which must be in the sparsity pattern. */
     void add(unsigned int row, unsigned int column, const Matrix3 &block);
 
-    /** y = A x; both arrays have 3 n_rows() entries. */
+    /** Computes y = A x. Both arrays have 3 n_rows() entries. */
     void multiply(const double *x, double *y) const;
 
-    /** Replace the matrix by (A + A^T)/2: removes the round-off of assembly. */
+    /** Replaces the matrix by (A + A^T)/2, which removes the round-off of the assembly. */
     void symmetrise();
 
     unsigned int n_rows() const { return start.empty() ? 0 : static_cast<unsigned int>(start.size() - 1); }
 
-    std::vector<std::size_t>  start; ///< of each row in column and value
-    std::vector<unsigned int> column;
-    std::vector<Matrix3>      value;
+    std::vector<std::size_t>  start;  ///< first entry of each row in column and value, and the end
+    std::vector<unsigned int> column; ///< column node of each block
+    std::vector<Matrix3>      value;  ///< blocks, row by row
   };
 } // namespace Voussoir
 

@@ -9,24 +9,25 @@
 
 namespace Voussoir
 {
-  /** A file cannot be written: the disk is full, a directory is in the way, or permission is missing. */
+  /** Error of writing a file: the disk is full, a directory has the same name, or the
+   * permission is missing. */
   class WriteError : public ComputationError
   {
   public:
     using ComputationError::ComputationError;
 
-    /** "The file FILE cannot be written: REASON. ...", the reason as the system gave it last. */
+    /** Returns the error "The file FILE cannot be written: REASON" with the reason of the last failed
+     * system call (errno). */
     static WriteError of(const std::string &file);
   };
 
-  /** A file that is being written. Not to be able to is a WriteError, from the constructor and from check().
-   */
+  /** File opened for writing. The constructor throws WriteError if the file cannot be opened. */
   class OutputFile : public std::ofstream
   {
   public:
     explicit OutputFile(const std::string &file, std::ios::openmode mode = std::ios::out);
 
-    /** Hands everything to the system. */
+    /** Flushes the file. Throws WriteError if any output so far could not be written. */
     void check();
 
   private:

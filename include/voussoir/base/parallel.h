@@ -8,9 +8,10 @@
 
 namespace Voussoir
 {
-  /** action(i) for i = 0 .. n - 1 by all threads, in any order, one at a time each. An exception must not
-   * leave a region of OpenMP, which would end the process: the first one is thrown again when all threads are
-   * done. For work that is worth a thread's while (a body, a joint, a column), not for loops over nodes. */
+  /** Calls @p action(i) for i = 0 ... n - 1 with all threads, in any order; each thread takes one i at a
+   * time. An exception must not leave an OpenMP region, since that would end the process. The first exception
+   * is therefore thrown again after all calls. Meant for large tasks (a body, a joint, a column), not for
+   * loops over nodes. */
   template <class Action> void for_each_parallel(const int n, const Action &action)
   {
     std::exception_ptr failure;
@@ -30,7 +31,8 @@ namespace Voussoir
       std::rethrow_exception(failure);
   }
 
-  /** The same for small work (a pair of nodes), in chunks. */
+  /** Calls @p action(i) for i = 0 ... n - 1 with all threads, in chunks of 128. Meant for small tasks (a
+   * pair of nodes). */
   template <class Action> void for_each_in_chunks(const std::size_t n, const Action &action)
   {
     constexpr std::size_t chunk = 128;

@@ -8,20 +8,22 @@
 
 namespace Voussoir
 {
-  /** The program's own script @p name: in the directory $VOUSSOIR_SCRIPTS, else where the program's build or
-   * its installation has it; empty if it is nowhere. */
+  /** Returns the path of the script @p name of this program. The script is searched in the directory
+   * $VOUSSOIR_SCRIPTS if that is set, else in the build and installation directories. Returns an empty path
+   * if there is no such script. */
   std::filesystem::path find_script(const std::string &name);
 
-  /** $VOUSSOIR_PYTHON, else each python3 of the PATH and of /usr/bin, without repetition. */
+  /** Returns $VOUSSOIR_PYTHON if that is set. Otherwise returns each python3 in PATH and
+   * /usr/bin, without repetition. */
   std::vector<std::string> python_interpreters();
 
-  /** Runs a program, no shell involved, with what it prints in the file @p output. Returns its exit status,
-   * -1 if it could not be started or did not end by itself. */
+  /** Runs a program without a shell and writes its stdout and stderr to the file @p output. Returns the exit
+   * status, or -1 if the program could not be started or was ended by a signal. */
   int run_process(const std::vector<std::string> &arguments, const std::string &output);
 
-  /** Goes on as the script @p name, in place of this program: signals, terminal and exit status are the
-   * script's. It is started with @p arguments and finds this program in the environment variable
-   * VOUSSOIR_PROGRAM. InputError if the script is missing, or a python3 with numpy and matplotlib. */
+  /** Replaces this process by the script @p name with @p arguments. Signals, terminal and exit status then
+   * belong to the script. The script finds this program in the environment variable VOUSSOIR_PROGRAM. Throws
+   * InputError if the script, or a python3 with numpy and matplotlib, is missing. */
   [[noreturn]] void become_script(const std::string &name, const std::vector<std::string> &arguments);
 } // namespace Voussoir
 

@@ -10,100 +10,104 @@
 
 namespace Voussoir
 {
-  /** The processes of one run, as mpirun starts them: rank 0 speaks and writes the files, all make the same
-   *  decisions. Each does its share of the work, and what it has made is copied to the others, never added
-   * up over ranks: so results do not depend on their number, to the last bit. A program that was started
-   * alone is rank 0 of 1; then nothing here calls MPI. */
+  /** MPI processes (ranks) of one run. Rank 0 prints and writes the files; all ranks take the same decisions.
+   * Each rank computes a part, and its results are copied to the others without sums over ranks. Results are
+   * therefore bitwise identical for any number of ranks. A program started without mpirun is rank 0 of 1 and
+   * makes no MPI calls. */
   namespace Ranks
   {
-    unsigned int rank();
-    unsigned int size();
+    unsigned int rank(); ///< returns the number of this process
+    unsigned int size(); ///< returns the number of processes
     inline bool  is_first()
     {
       return rank() == 0;
     }
 
-    /** Makes this process one of @p n, by MPI; others than the first lose their screen. InputError if MPI
-     * does not know of so many. */
+    /** Initialises MPI for @p n processes. Ranks above 0 print nothing from then on. Throws InputError if MPI
+     * reports another number of processes. */
     void start(unsigned int n);
 
-    /** To be called once at the end by all. With status 0 it waits for all others. With an error, that ranks
-     * meet at the same place or one alone does, it waits for some seconds: then @p message is told, if this
-     * is the only rank to tell it, and all others are ended. Returns the largest status. */
+    /** Ends MPI. All ranks call it once, at the end. With status 0 it waits for all other ranks. With an
+     * error it waits 20 s for ranks that fail with the same error. If a rank is still missing then, rank > 0
+     * prints @p message and all ranks are ended. Returns the largest status of all ranks. */
     int finish(int status, const std::string &message);
 
-    /** @p data from begin[r] to begin[r + 1] is what rank r has made: all get all of it. */
+    /** Distributes an array of which each rank has computed a part. Entries begin[r] to begin[r+1] - 1 of
+     * @p data are those of rank r. All ranks receive all entries. */
     void gather(double *data, const std::vector<std::size_t> &begin);
     void gather(float *data, const std::vector<std::size_t> &begin);
-    void gather(float *a, float *b, const std::vector<std::size_t> &begin); ///< of two in one message
+    void gather(float *a, float *b, const std::vector<std::size_t> &begin); ///< two arrays in one message
     void gather(unsigned int *data, const std::vector<std::size_t> &begin);
 
+    /** Copies the @p n entries of @p data from rank @p root to all ranks. */
     void broadcast(double *data, std::size_t n, unsigned int root);
     void broadcast(float *data, std::size_t n, unsigned int root);
 
-    /** The or of all ranks' @p bits. */
+    /** Returns the bitwise or of @p bits over all ranks. */
     unsigned int any(unsigned int bits);
 
-    /** Have all ranks the same @p text? */
+    /** Returns whether @p text is equal on all ranks (compared by a hash). */
     bool have_same(const std::string &text);
 
-    /** Messages of this process so far; one call counts once. */
+    /** Returns the number of messages (MPI calls) of this process so far. */
     std::size_t n_messages();
 
-    /** Processor time of this process so far, but for that in messages, which is mostly waiting [s]. */
+    /** Returns the CPU time of this process so far, without the time in messages, which is
+     * mostly waiting [s]. */
     double work();
 
-    /** @p value of each rank. */
+    /** Returns the @p value of each rank. */
     std::vector<double> of_all(double value);
 
-    /** The first rank has ended with an error: no message is due from here. */
+    /** Exception on ranks above 0 after a failure of rank 0. Rank 0 prints the message. */
     class FailedElsewhere : public std::exception
     {
     public:
       const char *what() const noexcept override { return "another process has failed"; }
     };
 
-    /** @p action by the first rank; its exceptions end the others, too. To be called by all at once. */
+    /** Runs @p action on rank 0 while the other ranks wait. All ranks must call it. Rank 0 throws the
+     * exception of @p action again; the other ranks then throw FailedElsewhere. */
     void on_first(const std::function<void()> &action);
 
-    /** Parts of a value that moves between two ranks. */
+    /** Part of an array that moves from one rank to another. */
     struct Transfer
     {
-      unsigned int item; ///< whose part it is, for those who ask
-      std::size_t  first, n;
-      unsigned int from, to;
+      unsigned int item;     ///< number of the item in the part; for the caller only
+      std::size_t  first, n; ///< first entry and number of entries of the part
+      unsigned int from, to; ///< ranks
     };
 
-    /** To and from another rank. */
+    /** Data that this rank sends to and receives from another rank. */
     struct Message
     {
-      unsigned int  rank;
+      unsigned int  rank; ///< the other rank
       const double *out;
-      std::size_t   n_out;
+      std::size_t   n_out; ///< number of values sent
       double       *in;
-      std::size_t   n_in;
+      std::size_t   n_in; ///< number of values received
     };
 
-    /** All at once; both sides must name each other. */
+    /** Sends and receives all messages of @p list. Both ranks of a message must list each other. */
     void exchange(const std::vector<Message> &list);
 
-    /** @p list: the same on all ranks; those who are concerned move their parts of @p data. */
+    /** Moves the parts of @p data in @p list between their ranks. The list must be the same on all ranks. */
     void exchange(float *data, const std::vector<Transfer> &list);
   } // namespace Ranks
 
-  /** Who makes what: items in contiguous parts, one of each rank. */
+  /** Distribution of items over the ranks. Each rank owns a contiguous range of items. */
   class Shares
   {
   public:
     Shares() = default;
 
-    /** Parts of about the same sum of @p weight, of each item. */
+    /** Distributes items so that each rank has about the same sum of @p weight (one value per item). */
     explicit Shares(const std::vector<double> &weight);
 
-    /** With the owner of each item, which must ascend. */
+    /** Returns the distribution with the given @p owner of each item. The owners must ascend. */
     static Shares of_owners(const std::vector<unsigned int> &owner);
 
-    /** All items are everybody's: nothing is shared. */
+    /** Returns whether there is a single rank, which owns all items. */
     bool         are_trivial() const { return owners.empty(); }
     unsigned int owner(const unsigned int item) const
     {
@@ -111,7 +115,8 @@ namespace Voussoir
     }
     bool is_mine(const unsigned int item) const { return owner(item) == Ranks::rank(); }
 
-    /** Where the parts begin in an array that has @p offset of the items. */
+    /** Returns the beginning of each rank's part, and the end, in an array. @p offset: beginning of each item
+     * in that array, and the end. */
     template <class Offsets> std::vector<std::size_t> parts(const Offsets &offset) const
     {
       std::vector<std::size_t> result;
@@ -121,8 +126,8 @@ namespace Voussoir
     }
 
   private:
-    std::vector<unsigned int> owners; ///< of the items; empty with one rank
-    std::vector<unsigned int> first;  ///< item of each rank
+    std::vector<unsigned int> owners; ///< rank of each item; empty with one rank
+    std::vector<unsigned int> first;  ///< first item of each rank, and the end
   };
 } // namespace Voussoir
 

@@ -33,7 +33,7 @@ namespace Voussoir
     return {{a[0], a[3], a[6], a[1], a[4], a[7], a[2], a[5], a[8]}};
   }
 
-  /** a + factor * b. */
+  /** Returns a + factor b. */
   inline Matrix3 sum(const Matrix3 &a, const double factor, const Matrix3 &b)
   {
     Matrix3 c;
@@ -68,7 +68,7 @@ namespace Voussoir
     return std::sqrt(dot(x, x));
   }
 
-  /** Of a vector in the plane. */
+  /** Returns the length of the vector (x, y). */
   inline double length(const double x, const double y)
   {
     return std::sqrt(x * x + y * y);
@@ -79,26 +79,27 @@ namespace Voussoir
     return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
   }
 
-  /** y += x. */
+  /** Adds @p x to @p y. */
   inline void add(Vector3 &y, const Vector3 &x)
   {
     for (unsigned int c = 0; c < 3; ++c)
       y[c] += x[c];
   }
 
-  /** a^T x. */
+  /** Returns a^T x. */
   inline Vector3 transpose_times(const Matrix3 &a, const Vector3 &x)
   {
     return {{a[0] * x[0] + a[3] * x[1] + a[6] * x[2], a[1] * x[0] + a[4] * x[1] + a[7] * x[2],
              a[2] * x[0] + a[5] * x[1] + a[8] * x[2]}};
   }
 
-  /** The three components of node or pair @p i. */
+  /** Returns the three components of node or pair @p i. */
   inline Vector3 get(const Unknowns &x, const std::size_t i)
   {
     return {{x[3 * i], x[3 * i + 1], x[3 * i + 2]}};
   }
 
+  /** Sets the three components of node or pair @p i. */
   inline void set(Unknowns &x, const std::size_t i, const Vector3 &value)
   {
     std::copy(value.begin(), value.end(), x.begin() + 3 * i);

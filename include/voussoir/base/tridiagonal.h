@@ -6,17 +6,17 @@
 
 namespace Voussoir
 {
-  /** The symmetric matrix that Lanczos' method makes of a large one. Its largest eigenvalue comes near that
-   * of the large one from below. */
+  /** Symmetric tridiagonal matrix of the Lanczos method for a large symmetric matrix. Its largest eigenvalue
+   * approaches that of the large matrix from below. */
   struct Tridiagonal
   {
-    std::vector<double> diagonal, beside; ///< beside: at least as many as diagonal, less one
+    std::vector<double> diagonal, beside; ///< beside: secondary diagonal, at least n - 1 values
 
-    /** Of at least one row. */
+    /** Returns the largest eigenvalue. The matrix must have at least one row. */
     double largest_eigenvalue() const;
 
-    /** Returns the residual that an @p eigenvalue of this matrix has in the large one: the large matrix has
-     * an eigenvalue within that distance. Needs as many values in #beside as in #diagonal. */
+    /** Returns the residual of an @p eigenvalue of this matrix in the large one. The large matrix has an
+     * eigenvalue within that distance. Requires as many values in #beside as in #diagonal. */
     double residual(double eigenvalue) const;
   };
 } // namespace Voussoir

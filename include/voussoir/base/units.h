@@ -6,10 +6,13 @@
 
 namespace Voussoir
 {
-  /** A value that a user wrote, "21 GPa", in the unit of its entry, "Pa": "21000000000". What has no unit, or
-   * is no number, is returned as it is. @p declared: the unit that the entry's documentation declares; "-" or
-   *  empty if it has none. Throws InputError, beginning with @p what, for a unit that is unknown, of another
-   *  dimension, or on an entry without unit. */
+  /** Converts a value with a unit to the unit of its entry: "21 GPa" to "21000000000" for an entry in "Pa".
+   * Text without a number or without a unit is returned unchanged.
+   * @param value text of the input file
+   * @param declared unit of the entry; "-" or empty: none
+   * @param what beginning of the message of an error
+   *
+   * Throws InputError for an unknown unit, a unit of another dimension, or a unit on an entry without one. */
   std::string in_declared_unit(const std::string &value, const std::string &declared,
                                const std::string &what);
 } // namespace Voussoir

@@ -9,25 +9,30 @@
 
 namespace Voussoir
 {
-  /** Law cohesive: a bonded joint, grouted or cast, whose tensile strength is lost as it opens; then FJA.
+  /** Makes the law cohesive: a grouted or cast joint with tensile strength, which becomes FJA when the
+   * bond is lost.
    *
-   *  Bonded, the pair is tied, whatever its shear. It cracks where the tensile stress reaches the strength
-   * f_t; from then on the stress across it falls with the opening w, f_t (1 - w/w_c), w_c = 2 G_f/f_t (linear
-   * softening; Hillerborg, Modeer and Petersson 1976), in a straight line to the origin and back where it
-   * closes meanwhile, and there is no shear but friction where it is closed. The bond is lost at w_c; at once
-   * where the fracture energy G_f is 0.
+   * A bonded pair is tied, also under shear. It cracks when the tensile stress reaches the strength f_t. From
+   * then on the tensile stress falls linearly with the opening w, f_t (1 - w/w_c), with w_c = 2 G_f/f_t
+   * (linear softening; Hillerborg, Modeer and Petersson 1976). Unloading and reloading follow a straight line
+   * to the origin. A cracked pair has friction when it is closed, and no shear stress when it is open. The
+   * bond is lost at w = w_c, or immediately if the fracture energy G_f is 0.
    *
-   *  Memory: {bonded 0, cracked 1 or lost 2; largest opening since it cracked [m]}. A pair that cracks and is
-   * relieved by others in the same step, before it moves, is bonded again; one that slid without opening
-   * counts as opened by 1e-8 w_c. Where the time integration takes means over the step, so does the
-   * softening: its work is the fracture energy, to round-off.
+   * History variables: {0 bonded, 1 cracked, 2 lost; largest opening since it cracked [m]}. A pair that
+   * cracks, and is unloaded by other cracks in the same step before it moves, is bonded again. A pair
+   * that slipped without opening counts as opened by 1e-8 w_c. If the joint force is a mean over the
+   * step, the softening stress is a mean as well. The work of softening then equals the fracture energy
+   * up to round-off.
    *
-   *  Elements longer than E G_f/f_t^2 store more energy than the crack takes: there the softening is a drop.
-   * Edges where planes of a joint meet are not known to this law. InputError for negative values and other
-   * equations. */
+   * Elements longer than E G_f/f_t^2 store more energy than the crack dissipates; the stress then drops
+   * suddenly. The law does not support edges where planes of a joint meet.
+   *
+   * Throws InputError for a negative strength or fracture energy, and for equations
+   * other than "alart-curnier". */
   std::unique_ptr<JointLaw> make_cohesive_law(const LawParameters &parameters);
 
-  std::string cohesive_law_warning(const LawParameters &parameters); ///< see joint_law_warning()
+  /** Returns the warning of joint_law_warning(). */
+  std::string cohesive_law_warning(const LawParameters &parameters);
 } // namespace Voussoir
 
 #endif

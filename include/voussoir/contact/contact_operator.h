@@ -9,49 +9,60 @@
 
 namespace Voussoir
 {
-  /** The linear systems of Newton's method: J = d_force + d_gap W, one 3x3 block of both per pair. */
+  /** Linear systems of Newton's method with the matrix J = d_force + d_gap W. Both factors have one 3x3 block
+   * per pair, see PairEquations. */
   class ContactJacobian
   {
   public:
     virtual ~ContactJacobian() = default;
 
-    /** A new problem: what it kept of those before would let a solution depend on where a run was resumed. */
+    /** Starts a new contact problem and discards the data of earlier ones. Otherwise results would depend on
+     * the step at which a run was resumed. */
     virtual void begin() {}
 
-    /** The pairs will feel each other from afar, as in statics: solve() may prepare for that. */
+    /** Announces a problem in which distant pairs are coupled, as in statics. solve() may then
+     * choose another preconditioner. */
     virtual void expect_far_coupling() {}
 
-    /** Take new equations, one per pair, which must outlive the solutions; factorise what needs it. Returns
-     *  the number of factorisations. */
+    /** Sets the linearised equations, one per pair, and factorises what solve() requires. The equations must
+     * remain valid until the next call. Returns the number of factorisations. */
     virtual unsigned int update(const std::vector<PairEquations> &equations) = 0;
 
-    /** step = -J^-1 residual, to @p tolerance relative to the residual; d_gap = W step, both in the precision
-     *  of the solver. Returns its iterations. */
+    /** Computes step = -J^-1 residual and d_gap = W step in the precision of the solver.
+     * @param tolerance relative residual of the linear system
+     * @param step change of the forces, three values per pair [N]
+     * @param d_gap change of the gaps, three values per pair [m]
+     *
+     * Returns the number of iterations. */
     virtual unsigned int solve(double tolerance, Unknowns &step, Unknowns &d_gap) = 0;
   };
 
-  /** The linear operator of the contact problem gap = W force + b, three unknowns per pair. */
+  /** Linear operator W of the contact problem gap = W force + b [m/N], with three unknowns per pair. */
   class ContactOperator
   {
   public:
-    /** The force at a pair whose gap would be @p b without it. */
+    /** Returns the force of one pair [N]. @p H: diagonal block of W; @p b: gap of the pair without
+     * its force [m]. */
     using PairSolver = std::function<Vector3(unsigned int pair, const Matrix3 &H, const Vector3 &b)>;
 
     virtual ~ContactOperator() = default;
-    virtual unsigned int n_pairs() const = 0;
-    virtual Matrix3      diagonal(unsigned int pair) const = 0;
-    virtual void         multiply(const Unknowns &x, Unknowns &y) const = 0; ///< y = W x
+    virtual unsigned int n_pairs() const = 0;                   ///< returns the number of pairs
+    virtual Matrix3      diagonal(unsigned int pair) const = 0; ///< returns the 3x3 block of a pair
+    virtual void         multiply(const Unknowns &x, Unknowns &y) const = 0; ///< computes y = W x
 
-    /** One Gauss-Seidel sweep over the pairs; @p gap = W force + b before and after, if is_in_blocks(). */
+    /** Performs one Gauss-Seidel iteration over the pairs. It keeps @p gap = W force + b if
+     * is_in_blocks() is true. */
     virtual void sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const = 0;
 
-    /** After a sweep by several ranks: all get what the solver of the pairs has left elsewhere, @p begin[p]
-     * to begin[p + 1] of @p values for pair p. */
+    /** Distributes @p values that the pair solver has written on several ranks in sweep(). Entries begin[p]
+     * to begin[p+1] - 1 belong to pair p. */
     virtual void gather_pairs(Unknowns & /*values*/, const std::vector<std::size_t> & /*begin*/) const {}
 
-    /** Does sweep() know all of W? Else its gaps are to be made afresh. */
+    /** Returns whether sweep() uses all entries of W. If not, the gap must be computed
+     * again after sweep(). */
     virtual bool is_in_blocks() const { return true; }
 
+    /** Returns a solver for the linear systems of Newton's method. It holds a reference to this operator. */
     virtual std::unique_ptr<ContactJacobian> make_jacobian() const = 0;
   };
 } // namespace Voussoir

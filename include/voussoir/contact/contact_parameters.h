@@ -12,21 +12,21 @@ namespace dealii
 
 namespace Voussoir
 {
-  /** Section "Contact" of a scene: the solver of the joint conditions. */
+  /** Parameters of the contact solver: subsection "Contact" of the input file. */
   struct ContactParameters
   {
-    double       tolerance = 1e-10;    ///< relative residual that is accepted
-    unsigned int max_iterations = 500; ///< Newton steps in all
-    unsigned int sweeps = 4;           ///< Gauss-Seidel sweeps before the first Newton step
+    double       tolerance = 1e-10;    ///< relative residual at which a solution is accepted [-]
+    unsigned int max_iterations = 500; ///< largest number of Newton steps of a problem
+    unsigned int sweeps = 4;           ///< Gauss-Seidel iterations before the first Newton step
     std::string  method = "newton";    ///< newton (with its fallbacks), proximal, sweeps
-    double       max_seconds = std::numeric_limits<double>::infinity(); ///< of CPU time
-    bool         write_problems = false;                                ///< in FCLib's format
-    unsigned int first_problem = 0;  ///< numbers of the files begin after it
-    unsigned int write_interval = 1; ///< of the problems
-    std::string  write_directory;    ///< not an entry: set by the run
+    double       max_seconds = std::numeric_limits<double>::infinity(); ///< limit of CPU time per problem [s]
+    bool         write_problems = false;                                ///< whether to write FCLib files
+    unsigned int first_problem = 0;  ///< problems solved before a resumed run
+    unsigned int write_interval = 1; ///< one of this many problems is written
+    std::string  write_directory;    ///< set by the run, not an entry
 
     void               add_parameters(dealii::ParameterHandler &prm);
-    static std::string method_names(); ///< as a ParameterHandler selection
+    static std::string method_names(); ///< ParameterHandler selection
   };
 } // namespace Voussoir
 

@@ -4,34 +4,35 @@
 
 namespace Voussoir
 {
-  /** What a solution took, in the order in which the solver tries. */
+  /** Stage of the contact solver that found the solution, in the order of use. */
   enum class ContactPath : unsigned char
   {
-    newton,      ///< Newton's method alone, or nothing at all
-    sweeps,      ///< it stalled; Gauss-Seidel sweeps settled the states
-    proximal,    ///< it stalled again: proximal point method
-    smaller_step ///< that failed, too: the time step was halved
+    newton,      ///< Newton's method alone, or the initial guess is a solution
+    sweeps,      ///< Newton stalled; more Gauss-Seidel iterations, then Newton
+    proximal,    ///< Newton stalled again: proximal point method
+    smaller_step ///< the proximal point method failed, too: reduced time step
   };
 
-  const char *name(ContactPath path); ///< as in the enumeration
+  const char *name(ContactPath path); ///< returns the name of the enumerator
 
+  /** Residual and effort of the solution of a contact problem. */
   struct ContactResult
   {
     bool         converged = false;
-    double       residual = 0.; ///< natural map over forces, load or gap, the largest: see ContactSolver
-    double       residual_over_load = 0.; ///< the same over the load
-    unsigned int iterations = 0;          ///< Newton steps
-    unsigned int krylov = 0;              ///< iterations of the linear solver
-    unsigned int factorisations = 0;      ///< of joints
-    unsigned int sweeps = 0;              ///< Gauss-Seidel sweeps
+    double       residual = 0.;           ///< relative residual, see ContactSolver [-]
+    double       residual_over_load = 0.; ///< error relative to the load |b|/w only [-]
+    unsigned int iterations = 0;          ///< number of Newton steps
+    unsigned int krylov = 0;              ///< number of iterations of the linear solver
+    unsigned int factorisations = 0;      ///< number of factorisations of joints
+    unsigned int sweeps = 0;              ///< number of Gauss-Seidel iterations
     ContactPath  path = ContactPath::newton;
-    double       force_over_load = 0.; ///< sizes, in forces; where no solution exists it grows without bound
+    double force_over_load = 0.; ///< |force|/(|b|/w) [-]; a problem without a solution has very large values
 
-    /** Add the iterations, factorisations and sweeps of another solution. */
+    /** Adds the numbers of iterations and factorisations of another solution. */
     void add_work(const ContactResult &other);
 
-    /** This and another solution together: their work, the worse residual and the longer path; converged if
-     *  both are. */
+    /** Combines two solutions: sums of the numbers, the larger residual and the later stage. The result is
+     * converged if both solutions are. */
     ContactResult &operator+=(const ContactResult &other);
   };
 } // namespace Voussoir

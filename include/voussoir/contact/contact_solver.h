@@ -9,56 +9,64 @@
 
 namespace Voussoir
 {
-  /** Finds the forces at all pairs: gap = W force + b, with a joint law at each pair.
+  /** Solver of the contact problem gap = W force + b with a joint law at each pair.
    *
-   *  Semismooth Newton with a nonmonotone line search (Grippo, Lampariello and Lucidi 1986), its linear
-   *  systems solved to the accuracy that Newton can use (Eisenstat and Walker 1996). A few Gauss-Seidel
-   *  sweeps with the exact solution of each pair settle the states before the first Newton step. When Newton
-   *  stalls, more sweeps follow; when it stalls again, the proximal point method, whose regularised problems
-   *  W + alpha D, alpha falling with the residual, Newton solves (Rockafellar 1976; for friction: Acary,
+   * The main stage is a semismooth Newton method with a nonmonotone line search (Grippo, Lampariello and
+   * Lucidi 1986) and inexact linear solutions (Eisenstat and Walker 1996). A few Gauss-Seidel iterations with
+   * the exact solution of each pair precede the first Newton step. If Newton stalls, more Gauss-Seidel
+   * iterations follow. If Newton stalls again, the proximal point method follows: Newton solves regularised
+   * problems with W + alpha D, where alpha falls with the residual (Rockafellar 1976; for friction: Acary,
    * Bremond and Huber 2018).
    *
-   *  Pairs that touch on several surfaces (SurfacesLaw) bring the forces of these as further unknowns, which
-   *  are eliminated pair by pair (PairSurfaces). Where their seats are rigid the problem is solved with a
-   * small compliance, 1e-3 of the pair's own flexibility, around the forces of the solution before, until
-   * these stay.
+   * Pairs that touch on several surfaces (SurfacesLaw) have the forces of the secondary surfaces as
+   * additional unknowns. PairSurfaces eliminates them pair by pair. Rigid flanks are solved with a small
+   * contact compliance, 1e-3 of the flexibility of the pair, around the forces of the previous solution. This
+   * is repeated until the forces no longer change.
    *
-   *  Convergence: |error|/max(|force|, |b|/w, |gap|/w) <= tolerance, in 2-norms, w: mean diagonal of W. For
-   *  Coulomb's law this is the full relative natural-map error of Siconos on the problem scaled to mean
-   *  diagonal 1. And |error|/(|b|/w) <= tolerance, or |error| <= 4 eps |W| |force|/w, the round-off of
-   *  W force: a problem without a solution, whose forces grow without bound, does not converge. Both do not
-   *  depend on units. */
+   * Convergence requires two conditions, both independent of units. Norms are 2-norms; w is the mean
+   * diagonal of W.
+   * 1. |error|/max(|force|, |b|/w, |gap|/w) <= tolerance. For Coulomb's law this is the full relative
+   *    natural-map error of Siconos on the problem scaled to mean diagonal 1.
+   * 2. |error|/(|b|/w) <= tolerance, or |error| <= 4 eps |W| |force|/w, which is the round-off of W force. A
+   *    problem without a solution, whose forces grow without bound, therefore does not converge. */
   class ContactSolver
   {
   public:
-    /** @p laws: one per pair; they and @p W must outlive the solver. */
+    /** Prepares the solver for problems with the operator @p W.
+     * @param W operator; must outlive the solver
+     * @param laws joint law of each pair; must outlive the solver
+     * @param parameters tolerance, limits and method */
     ContactSolver(const ContactOperator &W, std::vector<const JointLaw *> laws,
                   const ContactParameters &parameters);
     ~ContactSolver();
 
-    /** @p past: one per pair; @p force: the initial guess, then the solution; @p gap: receives W force + b.
-     * All but
-     *  @p past have three entries per pair. Not converged: the best found. */
+    /** Solves a contact problem. If the solver does not converge, @p force and @p gap are the best iterate.
+     * @param b gaps without joint forces, three values per pair [m]
+     * @param past history of each pair
+     * @param force receives the solution, three values per pair [N]; its initial value is the initial guess
+     * @param gap receives W force + b, three values per pair [m] */
     ContactResult solve(const Unknowns &b, const std::vector<PairPast> &past, Unknowns &force, Unknowns &gap);
 
-    /** The same for laws without memory. @p start: gap at the start of the step, three entries per pair. */
+    /** Solves a contact problem with laws without history variables. @p start: gap at the start of the step,
+     * three values per pair [m]. */
     ContactResult solve(const Unknowns &b, const Unknowns &start, Unknowns &force, Unknowns &gap);
 
-    /** The forces at which the gaps would stay as they are, W force + b = 0, nearly: a first guess for a
-     * static state. */
+    /** Computes an initial guess for a static state: forces that keep all gaps at zero, W force + b = 0,
+     * approximately. @p force receives three values per pair [N]. */
     void guess_bonded(const Unknowns &b, Unknowns &force);
 
-    const std::vector<PairState>     &states() const { return state; }   ///< of the last solution
-    const std::vector<unsigned char> &touching() const { return touch; } ///< surfaces, as in PairEquations
+    const std::vector<PairState>     &states() const { return state; }   ///< returns the state of each pair
+    const std::vector<unsigned char> &touching() const { return touch; } ///< see PairEquations
 
-    /** Smallest W_nn/|W_nt| of a pair: friction beyond it may jam (Klarbring 1990). */
+    /** Returns the smallest ratio W_nn/|W_nt| of a pair. Pairs with more friction may
+     * jam (Klarbring 1990). */
     double critical_friction() const;
 
   private:
     struct Iterate
     {
       Unknowns force, gap;
-      Unknowns beside; ///< forces of the surfaces beside the face, of all pairs that have them
+      Unknowns beside; ///< forces of the secondary surfaces of all pairs [N]
     };
     struct Proximal ///< regularisation: gap + alpha D (force - centre)
     {
@@ -72,7 +80,7 @@ namespace Voussoir
     };
     struct WithSurfaces ///< a pair that touches on several surfaces
     {
-      std::size_t        pair, begin; ///< begin: of its forces in Iterate::beside
+      std::size_t        pair, begin; ///< begin: first value in Iterate::beside
       const SurfacesLaw *law;
       PairSurfaces       surfaces;
     };
@@ -87,7 +95,7 @@ namespace Voussoir
     double       forcing_term(double now, double previous, double target, bool stalls) const;
     void         refresh_gap(Iterate &x);
     void         set_force(Iterate &x, const Best &from);
-    double       remember(const Iterate &x); ///< if it is the best; its residual
+    double       remember(const Iterate &x); ///< stores x if it is the best; returns its residual
     bool         newton(double target, unsigned int max_steps, unsigned int patience, Iterate &x);
     double       newton_step(double forcing, double bound, Iterate &x);
     double       line_search(double bound, const Iterate &step, Iterate &x);
@@ -102,28 +110,28 @@ namespace Voussoir
     const std::vector<const JointLaw *> law;
     const ContactParameters             parameters;
     std::unique_ptr<ContactJacobian>    jacobian;
-    std::vector<double>                 rho;            ///< per pair [N/m]
-    double                              mean_rho;       ///< of the measure of convergence [N/m]
-    double                              norm_of_W = 0.; ///< [m/N]
+    std::vector<double>                 rho;            ///< scaling of the equations of each pair [N/m]
+    double                              mean_rho;       ///< 1/w, scaling of the error [N/m]
+    double                              norm_of_W = 0.; ///< 2-norm [m/N]
     std::vector<PairEquations>          equations;
     std::vector<WithSurfaces>           with_surfaces;
-    std::vector<std::size_t>            number; ///< of each pair in with_surfaces, or none
-    std::vector<std::size_t>   beside_of_pair;  ///< where its part of Iterate::beside begins, and the end
+    std::vector<std::size_t>            number; ///< index of each pair in with_surfaces, or no_surfaces
+    std::vector<std::size_t>   beside_of_pair;  ///< first value of each pair in Iterate::beside, and the end
     std::vector<PairState>     state;
     std::vector<unsigned char> touch;
     std::vector<double>        of_pair; ///< work space
 
     Unknowns                     multiplied, product; ///< product = W multiplied, of the last refresh
-    const Unknowns              *b = nullptr;         ///< of the present problem, as the next
+    const Unknowns              *b = nullptr;         ///< load of the present problem
     const std::vector<PairPast> *past = nullptr;
-    double                       scale = 0.;          ///< of the last residual [N]
-    double                       tolerance = 0.;      ///< of the present stage
-    double        beside_merit = 0., seat_alpha = 0.; ///< compliance of rigid seats, relative to the pair's
-    double        drift = 0.; ///< of gap from W force + b, by single precision; relative, as the residual
-    Proximal      proximal;
-    Best          best;
-    ContactResult result;
-    double        deadline = 0.;
+    double                       scale = 0.;                         ///< divisor of the last residual [N]
+    double                       tolerance = 0.;                     ///< of the present stage
+    double                       beside_merit = 0., seat_alpha = 0.; ///< seat_alpha: see rigid_seats()
+    double                       drift = 0.; ///< error of gap by single precision, relative like the residual
+    Proximal                     proximal;
+    Best                         best;
+    ContactResult                result;
+    double                       deadline = 0.;
   };
 } // namespace Voussoir
 

@@ -9,7 +9,7 @@
 
 namespace Voussoir
 {
-  /** Law FJA: a flat joint that opens and slides with Coulomb friction. */
+  /** Makes the law FJA: a flat joint that opens and slips with Coulomb friction. */
   std::unique_ptr<JointLaw> make_fja_law(const LawParameters &parameters);
 } // namespace Voussoir
 

@@ -9,7 +9,7 @@
 
 namespace Voussoir
 {
-  /** Law FJB: a flat joint that opens and does not slip, open or closed. */
+  /** Makes the law FJB: a flat joint that opens and has no slip, whether it is open or closed. */
   std::unique_ptr<JointLaw> make_fjb_law(const LawParameters &parameters);
 } // namespace Voussoir
 

@@ -8,7 +8,7 @@
 
 namespace Voussoir
 {
-  /** No force whatever the gap: a joint that is not grouted yet. Not a choice of scenes. */
+  /** Makes the law of a joint that is not grouted yet: no force for any gap. Input files cannot select it. */
   std::unique_ptr<JointLaw> make_free_law();
 } // namespace Voussoir
 

@@ -6,6 +6,7 @@
 
 namespace Voussoir
 {
+  /** Contact state of a pair. */
   enum class PairState : unsigned char
   {
     open,
@@ -13,107 +14,138 @@ namespace Voussoir
     slip
   };
 
-  /** The equations of a pair, zero exactly when its conditions hold, with one element of the generalized
-   * Jacobian. */
+  /** Equations of a pair and one element of their generalised Jacobian. The residual is zero if and only if
+   * the conditions of the joint law are satisfied. */
   struct PairEquations
   {
-    Vector3   residual; ///< [N]
-    Matrix3   d_force;  ///< d residual / d force [-]
-    Matrix3   d_gap;    ///< d residual / d gap [N/m]
-    PairState state;    ///< that the equations stand for
+    Vector3   residual; ///< residual [N]
+    Matrix3   d_force;  ///< derivative of the residual by the force [-]
+    Matrix3   d_gap;    ///< derivative of the residual by the gap [N/m]
+    PairState state;    ///< contact state that the equations correspond to
     unsigned char
-        touching; ///< surfaces of the law that touch, one bit each, if any carries force; bit 0: the face
+        touching; ///< active surfaces, one bit per surface, bit 0: the face; 0 if no surface carries force
   };
 
-  /** What a law knows of its pair besides force and gap. */
+  /** Data of a pair that a joint law requires besides force and gap. */
   struct PairPast
   {
     PairPast(const Vector3 &start = {}) : start(start) {}
 
-    Vector3 start; ///< the gap at the start of the step [m]
+    Vector3 start; ///< gap at the start of the step [m]
 
-    /** What the force is to be divided by for a stress [m^2]: the tributary area; twice that where the force
-     * is twice the mean over the step (Newmark with the rule mean-force), whose stress is then the mean. */
+    /** Divisor that converts the force to a stress [m^2]. It is the tributary area, or twice that
+     * area if the force is twice the mean over the step (impact rule mean-force). The quotient is
+     * then the mean stress. */
     double area = 1.;
-    bool   is_mean = false; ///< is the stress the mean over the step, or that at its end?
+    bool   is_mean =
+        false; ///< JointLaw::n_memory() history variables of the pair: those at the start of the step,
+               ///< changed by the events of this step. Laws without history variables ignore the pointer.
 
-    /** JointLaw::n_memory() values: those committed at the start of the step, with the events of this one. */
+    /** JointLaw::n_memory() history variables of the pair: those at the start of the step, changed by the
+     * events of this step. Null if the law has none. */
     const double *memory = nullptr;
   };
 
   class SurfacesLaw;
 
-  /** The conditions between the two faces of a joint at one pair, in the frame (n,a,b).
+  /** Conditions between the two faces of a joint at one pair, in the frame (n, a, b) of the pair.
    *
-   *  force: of side 1 on side 2 [N]; force[0] > 0 is compression. gap: displacement of side 2 against side 1
-   *  since the joint was closed [m]; gap[0]: opening, >= 0. start: the gap at the start of the step; friction
-   *  opposes gap - start: force_t = -mu force_n slip/|slip|. (The paper's P_tau has the opposite sign.)
+   * - force: force of side 1 on side 2 [N]; force[0] > 0 is compression.
+   * - gap: displacement of side 2 relative to side 1 since grouting [m]; gap[0] >= 0 is the opening.
+   * - start: gap at the start of the step [m]. The slip of the step is the tangential part of gap - start.
+   *   Friction acts against it: force_t = -mu force_n slip/|slip|. (The paper's P_tau has the opposite sign.)
    *
-   *  A law is one object for all pairs of a joint and does not change. What it must remember of a pair lies
-   * in the pair's memory, n_memory() values in the state that the time integration carries (halved steps,
-   * checkpoints, statics); commit() brings it up to date when a step is accepted. */
+   * One constant object serves all pairs of a joint. Values that change are history variables, n_memory() per
+   * pair. They are part of the state of the time integration, as for reduced time steps and checkpoints.
+   * commit() updates them when a step is accepted.
+   *
+   * For each time step the solver calls evaluate(), error() and solve() until the pairs converge. Then it
+   * calls excess(), and release() at pairs that fail; in that case the step is solved again. Finally commit()
+   * is called once per pair. */
   class JointLaw
   {
   public:
     virtual ~JointLaw() = default;
 
-    /** The non-smooth equations of the pair, in forces. @p rho [N/m] makes them independent of units; any
-     *  positive value has the same solution. */
+    /** Computes the equations of a pair and their derivatives.
+     * @param force force at the end of the step, or its mean [N]
+     * @param gap gap at the end of the step [m]
+     * @param past data of the pair
+     * @param rho positive scaling factor [N/m]; the solution does not depend on it
+     * @param equations receives the result */
     virtual void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, double rho,
                           PairEquations &equations) const = 0;
 
-    /** What the pair misses, in forces: the measure of convergence, the same for all formulations of a law.
-     *  For Coulomb's law the natural map (De Saxce and Feng 1998). */
+    /** Returns the error of a force and a gap [N], by which the solver measures convergence. It does not
+     * depend on the formulation of the law. For Coulomb's law it is the natural map (De Saxce and Feng 1998).
+     * The default is the residual of evaluate(). */
     virtual Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &past, double rho) const;
 
-    /** Exact solution for one pair alone: the force with gap = H force + b. */
+    /** Returns the exact force of a pair alone [N], for gap = H force + b.
+     * @param H flexibility of the pair [m/N], positive definite
+     * @param b gap without the force [m]
+     * @param past data of the pair */
     virtual Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const = 0;
 
-    /** The impulse [N s] that the law allows when the velocity without it is @p v [m/s] and the surfaces
-     *  @p touching touch; @p H: inverse mass [1/kg]; @p past: the same as in the equations of the step. */
+    /** Returns the impulse that the law allows in an impact [N s]. The velocity after the impact is H
+     * impulse + v.
+     * @param H inverse mass of the pair [1/kg]
+     * @param v relative velocity without the impulse [m/s]
+     * @param past data of the pair, as in evaluate()
+     * @param touching active surfaces, see PairEquations */
     virtual Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &past,
                                   unsigned char touching) const = 0;
 
-    /** As solve_impulse(), but the impulse @p spent stays, and only the velocity @p v normal to the touching
-     *  surfaces is removed: never gives energy. */
+    /** Returns the impulse of a step after a correction that never adds energy [N s]. The correction removes
+     * only the velocity normal to the active surfaces.
+     * @param H inverse mass of the pair [1/kg]
+     * @param v relative velocity at the end of the step [m/s]
+     * @param spent impulse of the step so far [N s]
+     * @param touching active surfaces, see PairEquations */
     virtual Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
                                 unsigned char touching) const;
 
-    /** The contact force that goes with the acceleration @p b, given the velocity @p slip_velocity of side 2.
-     */
+    /** Returns the contact force for given accelerations [N].
+     * @param H inverse mass of the pair [1/kg]
+     * @param b relative acceleration without the force [m/s^2]
+     * @param slip_velocity velocity of side 2 relative to side 1 [m/s]
+     * @param still speed up to which a pair does not slip [m/s]
+     * @param past data of the pair
+     * @param touching active surfaces, see PairEquations */
     virtual Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
                                        double still, const PairPast &past, unsigned char touching) const;
 
-    /** Are the tangential conditions those of a tie, whether the faces touch or not? */
+    /** Returns whether slip is zero for open and closed pairs. */
     virtual bool is_tangentially_tied() const { return false; }
 
-    /** Values that the law remembers of a pair; zeros at first. */
+    /** Returns the number of history variables of a pair. Their initial values are zero. */
     virtual unsigned int n_memory() const { return 0; }
 
-    /** Must the force be the mean over the step (Newmark with the rule mean-force)? */
+    /** Returns whether the law requires forces that are means over the step (impact rule mean-force). */
     virtual bool needs_mean_force() const { return false; }
 
-    /** How far a solution with this force and gap is beyond what the pair can carry, such as its tension over
-     *  its strength: above 1 the pair, if it is among the worst, is released, and the step is solved again.
-     */
+    /** Returns the utilisation of a pair for a force and a gap, such as tensile stress over strength [-]. A
+     * converged solution with values above 1 is not accepted: the pairs with the largest values get an event,
+     * see release(), and the step is solved again. */
     virtual double excess(const Vector3 &, const Vector3 &, const PairPast &) const { return 0.; }
 
-    /** Puts the event (a bond that breaks, a key that meets its flank) into @p memory. */
+    /** Stores an event of the step (a crack, a key that meets its flank) in the history variables. */
     virtual void release(double *) const {}
 
-    /** The step is accepted with this force and gap: bring @p memory up to date, to which past.memory points.
-     */
+    /** Updates the history variables after a step is accepted with this force and gap. The last argument
+     * points to the same values as past.memory. */
     virtual void commit(const Vector3 &, const Vector3 &, const PairPast &, double *) const {}
 
-    /** Energy that the bond holds and has lost (or the seats of keys hold), at a gap and a committed memory
-     * [J]. @p area: tributary [m^2]. */
+    /** Returns the energy of a pair for a gap, the tributary area [m^2] and the history variables at the same
+     * time [J]. It is the energy that the bond stores and has dissipated, or the energy stored by the contact
+     * compliance of key flanks. */
     virtual double bond_energy(const Vector3 &, double, const double *) const { return 0.; }
 
-    /** The same law, if its pairs touch on several surfaces, each with a force of its own: the solver takes
-     *  these, see PairSurfaces. */
+    /** Returns this object if its pairs touch on several surfaces with separate forces, else a null pointer.
+     * The solver then uses these forces as unknowns, see PairSurfaces. */
     virtual const SurfacesLaw *surfaces_law() const { return nullptr; }
 
-    /** Coefficient of friction if the law is Coulomb's on one flat face, -1 otherwise. */
+    /** Returns the coefficient of friction if the law is Coulomb's law on one flat face, else -1. */
     virtual double flat_friction() const { return -1.; }
   };
 } // namespace Voussoir

@@ -8,32 +8,33 @@ namespace Voussoir
 {
   class Entries;
 
-  /** The equations that stand for a law. */
+  /** Formulation of the equations of a joint law. */
   enum class Equations
   {
-    alart_curnier,     ///< the paper's, with the angle of the trial force: a projection, Lipschitz everywhere
-    paper,             ///< the paper's own (2b), (3b), (4b): the angle of the force, undefined where it is 0
-    fischer_burmeister ///< on second-order cones; smooth merit
+    alart_curnier, ///< as in the paper, with the angle of the trial force: a projection, Lipschitz continuous
+    paper,         ///< (2b), (3b), (4b) of the paper, with the angle of the force, undefined for zero force
+    fischer_burmeister ///< complementarity on second-order cones, with a smooth merit function
   };
 
   Equations   equations_from_name(const std::string &name); ///< throws InputError for an unknown name
-  std::string equations_names(); ///< as a ParameterHandler selection: "alart-curnier|paper|..."
+  std::string equations_names(); ///< ParameterHandler selection "alart-curnier|paper|..."
 
-  /** Shear keys: trapezoidal, on a flat face that opens and slides (law KSM). Subsection "Joints/Keys". */
+  /** Trapezoidal shear keys on a flat face that opens and slips (law KSM). Subsection "Joints/Keys". */
   struct KeyParameters
   {
-    double      height = .2;          ///< of the keys [m]: an opening beyond it frees them
-    double      clearance = 0.;       ///< of each flank, normal to it [m]
-    double      flank_angle = 0.;     ///< of the flanks to the joint's normal [degrees]; 0: rectangular
-    std::string direction = "both";   ///< of slip that is restrained: radial, vertical, both
-    double      friction = -1.;       ///< of the flanks [-]; -1: that of the face
-    double      seat_compliance = 0.; ///< of the flanks, per area of the joint [m/Pa]; 0: rigid
+    double      height = .2;          ///< height of the keys [m]; a larger opening disengages them
+    double      clearance = 0.;       ///< clearance of each flank, normal to the flank [m]
+    double      flank_angle = 0.;     ///< angle between flank and joint normal [degrees]; 0: rectangular
+    std::string direction = "both";   ///< slip that the keys restrain: radial, vertical, both
+    double      friction = -1.;       ///< coefficient of friction of the flanks [-]; -1: as the face
+    double      seat_compliance = 0.; ///< contact compliance of the flanks per joint area [m/Pa]; 0: rigid
 
+    /** Declares the entries of the subsection. */
     void add_parameters(Entries &prm);
   };
 
-  /** What makes a joint law of its name. Section "Joints" of a scene. A new law adds its parameters here, and
-   * their entries in law_table.cc. */
+  /** Parameters of all joint laws. Section "Joints" of the input file. A new law adds its parameters here,
+   * and their entries in law_table.cc. */
   struct LawParameters
   {
     LawParameters(const double friction = .8, const Equations equations = Equations::alart_curnier,
@@ -42,12 +43,13 @@ namespace Voussoir
     {
     }
 
-    double        friction; ///< of the flat face [-]
+    double        friction; ///< coefficient of friction of the face [-]
     Equations     equations;
     KeyParameters keys;
-    double        strength = 0., fracture_energy = 0.; ///< of the bond of law cohesive [Pa], [N/m]
+    double        strength = 0., fracture_energy = 0.; ///< of law cohesive [Pa], [N/m]
 
-    void add_parameters(Entries &prm); ///< but Equations and Keys
+    /** Declares the entries of the section, without "Equations" and the subsection "Keys". */
+    void add_parameters(Entries &prm);
   };
 } // namespace Voussoir
 

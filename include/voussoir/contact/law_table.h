@@ -10,11 +10,11 @@
 
 namespace Voussoir
 {
-  /** The law of that name: tied, FJA, FJB, KSM, cohesive. Throws InputError for an unknown name, and for
-   * equations that the law does not have. */
+  /** Makes the joint law with the given @p name: tied, FJA, FJB, KSM or cohesive. Throws InputError for an
+   * unknown name, for equations that the law does not have, and for invalid parameters. */
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters);
 
-  /** The same, in words. */
+  /** Makes a joint law from single parameters. */
   inline std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const double friction,
                                                   const Equations      equations,
                                                   const KeyParameters &keys = KeyParameters())
@@ -22,23 +22,24 @@ namespace Voussoir
     return make_joint_law(name, LawParameters(friction, equations, keys));
   }
 
-  /** Does the law use the entry ("Joints/Friction")? Also true of laws that are not in the table. */
+  /** Returns whether the law uses the entry, such as "Joints/Friction". Also true if the law is not in the
+   * table. */
   bool joint_law_reads(const std::string &name, const std::string &entry);
 
-  /** The names of the laws that list the entry, "FJA, KSM"; empty if none does. */
+  /** Returns the names of the laws that declare the entry, such as "FJA, KSM". Empty if there is none. */
   std::string joint_laws_with(const std::string &entry);
 
-  /** A sentence about parameters of the law that are plausible one by one, but not together; empty if there
-   * is nothing to say, and of laws that are not in the table. */
+  /** Returns a warning about parameters of the law that are plausible alone, but not in combination. Empty if
+   * there is none, or if the law is not in the table. */
   std::string joint_law_warning(const std::string &name, const LawParameters &parameters);
 
-  /** The laws that may need mean forces: "cohesive and KSM (with a compliance of its seats)". */
+  /** Returns the laws that may require mean forces: "cohesive and KSM (with a seat compliance)". */
   std::string joint_laws_of_mean_force();
 
-  /** The names of the laws as a ParameterHandler selection: "tied|FJA|FJB|KSM|cohesive". */
+  /** Returns the names of the laws as a ParameterHandler selection: "tied|FJA|FJB|KSM|cohesive". */
   std::string joint_law_names();
 
-  /** What the laws are, a sentence each, for the entry that selects one. */
+  /** Returns names and short descriptions of the laws, for the help of the entry "Joints/Model". */
   std::string joint_law_docs();
 } // namespace Voussoir
 

@@ -6,31 +6,40 @@
 
 namespace Voussoir
 {
-  // What joint laws are made of: the equations of single conditions, and exact solutions of one pair.
+  // Components of joint laws: the equations of single conditions and exact solutions of one pair. Equation
+  // numbers refer to the paper of 2008.
 
-  /** Alart and Curnier's form of the normal condition, equation (2b): force_n = max(0, force_n - rho gap_n).
-   *  Returns whether it is closed. */
+  /** Computes the normal condition in the form of Alart and Curnier, equation (2b): force_n = max(0, force_n
+   * - rho gap_n). Returns whether the pair is closed. */
   bool normal_condition(double force, double opening, double rho, PairEquations &equations);
 
-  /** The same by Fischer and Burmeister: a + b = sqrt(a^2 + b^2). */
+  /** Computes the normal condition with the Fischer-Burmeister function: a + b = sqrt(a^2 + b^2), where a =
+   * force_n and b = rho gap_n. */
   void smooth_normal_condition(double force, double opening, double rho, PairEquations &equations);
 
-  /** No slip: equations (5) and (6). */
+  /** Computes the equations of a pair without slip, (5) and (6). */
   void no_slip(double slip_a, double slip_b, double rho, PairEquations &equations);
 
-  /** Alart and Curnier's equations of Coulomb's law; @p slip: tangential displacement of the step. */
+  /** Computes the equations of Coulomb's law by Alart and Curnier.
+   * @param force force of the pair [N]
+   * @param opening opening [m]
+   * @param slip tangential displacement of the step [m]
+   * @param friction coefficient of friction [-]
+   * @param rho scaling factor [N/m]
+   * @param equations receives the result */
   void alart_curnier(const Vector3 &force, double opening, const std::array<double, 2> &slip, double friction,
                      double rho, PairEquations &equations);
 
-  /** What a surface misses of Coulomb's law, the natural map of De Saxce: r - P(r - rho (u + mu |u_t| n)), P:
-   *  projection on the cone of friction, u: opening and slip. */
+  /** Returns the error of Coulomb's law, the natural map of De Saxce [N]: r - P(r - rho (u + mu |u_t| n)). P
+   * is the projection onto the friction cone, and u (@p moved) consists of opening and slip [m]. */
   Vector3 natural_map(const Vector3 &force, const Vector3 &moved, double friction, double rho);
 
-  /** Exact solution of Coulomb's law at one pair: gap = H force + b, gap_n >= 0, friction against the
-   *  tangential gap. @p H symmetric positive definite. */
+  /** Returns the exact solution of Coulomb's law at one pair [N]: gap = H force + b, gap_n >= 0, friction
+   * against the tangential gap. @p H must be symmetric positive definite. */
   Vector3 solve_coulomb(const Matrix3 &H, const Vector3 &b, double friction);
 
-  /** Forces that make the marked components of H f + b zero; the other components carry none. */
+  /** Returns the forces that make the marked components of H f + b zero. The other components of the
+   * force are zero. */
   Vector3 tie_rows(Matrix3 H, Vector3 b, const std::array<bool, 3> &tied);
 } // namespace Voussoir
 

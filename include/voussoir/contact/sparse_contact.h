@@ -7,8 +7,8 @@
 
 namespace Voussoir
 {
-  /** Any W, in 3x3 blocks, symmetric or not, of any rank: the operator of problems whose structure is not
-   *  known. Its Newton systems are solved directly, dense or sparse. */
+  /** Contact operator W given as a sparse matrix of 3x3 blocks. W may be nonsymmetric or singular. Newton's
+   * linear systems are solved directly, with a dense or a sparse factorisation. */
   class SparseContactOperator : public ContactOperator
   {
   public:
@@ -26,7 +26,7 @@ namespace Voussoir
     const BlockSparseMatrix W;
   };
 
-  /** Is W equal to its transpose, to round-off? */
+  /** Returns whether W is symmetric up to round-off. */
   bool is_symmetric(const BlockSparseMatrix &W);
 } // namespace Voussoir
 

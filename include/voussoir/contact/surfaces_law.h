@@ -6,36 +6,40 @@
 
 namespace Voussoir
 {
-  /** A pair that touches on several flat surfaces, with Coulomb friction on each: shear keys by law (KSM),
-   * and the edges of meshed ones. The solver takes the surfaces one by one (PairSurfaces); what is here of
-   * the pair as a whole is for single pairs: impacts, and tests.
+  /** Law of a pair that touches on several flat surfaces with Coulomb friction: shear keys (KSM) and the
+   * edges of keys that are part of the mesh. The contact solver uses the surfaces one by one, see
+   * PairSurfaces. The functions for the pair as a whole serve impacts and tests.
    *
-   *  What Coulomb's law itself leaves open remains so: where the face has more friction than a flank needs to
-   *  ride (above tan(90 degrees - a + friction angle of the flank), such as 0.8 beside smooth flanks of
-   *  60 degrees), a pair may stay before the flank or ride on it; and keys jam where the flanks' friction is
-   *  above tan a. */
+   * Coulomb's law can have several solutions. With much friction on the face a pair may either stop at a
+   * flank or ride up on it. This requires a coefficient above tan(90 degrees - a + friction angle of the
+   * flank), for the flank angle a; an example is 0.8 with smooth flanks of 60 degrees. Keys jam if the
+   * friction of the flanks exceeds tan a. */
   class SurfacesLaw : public JointLaw
   {
   public:
-    /** @p surfaces: at most 8; the first is the joint's face. */
+    /** @param surfaces at most 8; the first is the face of the joint */
     explicit SurfacesLaw(std::vector<ContactSurface> surfaces);
 
-    /** The surfaces that can touch in a step, with the state of their seats. */
+    /** Returns the surfaces that can touch in a step, with the reference forces of
+     * their contact compliances. */
     virtual PresentSurfaces present(const PairPast &past) const;
 
-    /** How many, beside the face, there can be. */
+    /** Returns the largest number of secondary surfaces. */
     std::size_t n_beside() const { return surfaces.size() - 1; }
 
     const SurfacesLaw *surfaces_law() const override { return this; }
 
-    /** Difference between the energy that friction takes in a step and the work of the force along the joint
-     * [N m]. Friction takes the work of each surface's force along that surface, less what an elastic seat
-     * stores of it; the rest is work normal to the surfaces.
-     * @p force: of the pair at the end of the step [N]; @p gap: there [m]. */
+    /** Returns a correction of the friction energy of a step [J]. Without it, the friction energy is the work
+     * of the pair's force along the joint, with changed sign. In fact friction dissipates the work of each
+     * surface's force along that surface, minus the energy stored by its contact compliance. The remaining
+     * work is normal to the surfaces.
+     * @param force force of the pair at the end of the step [N]
+     * @param gap gap at the end of the step [m]
+     * @param past data of the pair */
     double friction_correction(const Vector3 &force, const Vector3 &gap, const PairPast &past) const;
 
-    /** The forces beside the face are those that go with the gap, rigid seats having the compliance 1e-3/rho.
-     */
+    /** Computes the condensed equations for the secondary forces that correspond to the gap. Rigid flanks get
+     * the compliance 1e-3/rho. */
     void    evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, double rho,
                      PairEquations &equations) const override;
     Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const override;
@@ -47,19 +51,26 @@ namespace Voussoir
                                const PairPast &past, unsigned char touching) const override;
 
   private:
-    /** Forces of the surfaces beside the face that go with a solution, 3 per surface [N]. */
+    /** Returns the forces of the secondary surfaces for a solution, three values per surface [N]. */
     static std::vector<double> forces_beside(const PresentSurfaces &now, const Vector3 &force,
                                              const Vector3 &gap);
 
   protected:
+    /** Returns the active surfaces, rigid and without clearance, for an impact. */
     PresentSurfaces touching_surfaces(unsigned char touching, bool frictionless) const;
 
     const std::vector<ContactSurface> surfaces;
-    const std::unique_ptr<JointLaw>   face; ///< the law where nothing but the joint's face touches
+    const std::unique_ptr<JointLaw>   face; ///< the law if only the face touches
   };
 
-  /** Solves gap = H sum_k Q_k^T r_k + b for one pair, rigid seats by proximal points from zero forces, which
-   *  choose among forces that are not unique. @p beside: receives the forces beside the face, if any. */
+  /** Solves one pair with several surfaces: gap = H sum_k Q_k^T r_k + b. Rigid flanks are solved by the
+   * proximal point method. If the forces are not unique, its start from zero forces selects one solution.
+   * @param present surfaces that can touch
+   * @param H flexibility of the pair [m/N]
+   * @param b gap without the forces [m]
+   * @param beside receives the secondary forces [N]; may be null
+   *
+   * Returns the force of the pair [N]. */
   Vector3 solve_surfaces(PresentSurfaces present, const Matrix3 &H, const Vector3 &b,
                          std::vector<double> *beside = nullptr);
 } // namespace Voussoir

@@ -9,7 +9,7 @@
 
 namespace Voussoir
 {
-  /** Law tied: both directions bilateral, the monolithic dam. */
+  /** Makes the law tied: no opening and no slip, as in a monolithic dam. */
   std::unique_ptr<JointLaw> make_tied_law(const LawParameters &parameters);
 } // namespace Voussoir
 

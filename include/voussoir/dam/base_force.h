@@ -6,67 +6,74 @@
 
 namespace Voussoir
 {
-  using Wrench = std::array<double, 6>; ///< force along x, y, z [N], moment about them [N m]
+  using Wrench = std::array<double, 6>; ///< force along x, y, z [N], moment about these axes [N m]
 
-  /** The base of a monolith, in its mean plane. */
+  /** Base of a monolith, projected on its mean plane. */
   struct BlockBase
   {
-    int                    monolith = 0; ///< its number
-    double                 area = 0.;    ///< of its projection on the mean plane [m^2]
-    double                 uplift = 0.;  ///< of the water under it along the inward normal, or 0 [N]
-    Vector3                centroid{};   ///< the moments are about it [m]
-    std::array<Vector3, 3> axes{}; ///< downstream in the plane; along the arch, to the left bank; inward
-                                   ///< normal (upward). Right-handed
+    int                    monolith = 0; ///< number of the monolith
+    double                 area = 0.;    ///< of the projection on the mean plane [m^2]
+    double                 uplift = 0.;  ///< uplift along the inward normal, or 0 [N]
+    Vector3                centroid{};   ///< reference point of the moments [m]
+    std::array<Vector3, 3> axes{}; ///< downstream in the plane; to the left bank; inward (upward) normal
   };
 
-  /** What the foundation does to a base: the wrench in its axes. */
+  /** Forces and moments of the foundation on a base, in the axes of the base. */
   struct BaseResultants
   {
     double  normal = 0.; ///< tension > 0 [N]
     double  shear[2];    ///< on the monolith, downstream and to the left bank [N]
     Vector3 moment{};    ///< about the three axes through the centroid [N m]
   };
+
+  /** Returns the components of a wrench about the centroid in the axes of the base. */
   BaseResultants resultants(const BlockBase &base, const Wrench &wrench);
 
-  /** (cohesion A + friction (compression - uplift)) / shear; where no compression is left only the cohesion
-   * holds. Infinite without shear. */
+  /** Returns the safety against sliding (cohesion A + friction (compression - uplift)) / shear [-]. The
+   * difference compression - uplift is not negative. Without shear the result is infinite.
+   *
+   * @param base, force base and its resultants
+   * @param friction tan(phi) [-]
+   * @param cohesion [Pa] */
   double sliding_safety(const BlockBase &base, const BaseResultants &force, double friction, double cohesion);
 
-  /** A step of the dam; at rest where dt is 0. */
+  /** Time step of the dam. dt = 0: static state. */
   struct StepOfDam
   {
-    const Unknowns &before, &after;  ///< displacements at its ends [m]
-    const Unknowns &acceleration;    ///< mean, of the base, too [m/s^2]; unused at rest
-    const Unknowns &joint_force;     ///< mean, 3 per pair [N]
-    Vector3         ground{};        ///< mean acceleration of nodes that are held [m/s^2]
-    Vector3         base_velocity{}; ///< mean: DynamicState::base_velocity [m/s]
-    double          dt = 0.;         ///< [s]
+    const Unknowns &before, &after;  ///< displacements at the start and the end of the step [m]
+    const Unknowns &acceleration;    ///< mean absolute acceleration [m/s^2]; unused if dt = 0
+    const Unknowns &joint_force;     ///< mean joint forces, three values per pair [N]
+    Vector3         ground{};        ///< mean acceleration of fixed nodes [m/s^2]
+    Vector3         base_velocity{}; ///< mean of DynamicState::base_velocity [m/s]
+    double          dt = 0.;         ///< length of the step [s]
   };
 
-  /** The forces of the foundation on the bases of the monoliths, from the equations of motion of the nodes
-   *  there: what the monolith's own cells, its mass, its damping and its share of the loads leave. Exact for
-   * the discrete system, as means over a step (those of a step that was halved but for its curvature), for
-   * any foundation, and whether the joints are tied or not; the foot of a joint, where two monoliths share a
-   * node of the foundation, has each one's part. The mass-proportional damping counts as a load on the
-   * concrete. The weight of monoliths that were staged is theirs alone. Nothing is solved: six sums over the
-   * nodes of the lowest cells. */
+  /** Forces of the foundation on the bases of the monoliths. They are the residuals of the equations of
+   * motion at the base nodes, with the elements, masses, damping and loads of one monolith. The results are
+   * means over a time step and exact for the discrete system. In a step with reduced time step they are exact
+   * except for its curvature. They are available for every foundation and for tied joints. A base node of two
+   * monoliths contributes to each of them. Mass-proportional damping is a load on the concrete. The staged
+   * weight of a monolith acts on its base. */
   class BaseForces
   {
   public:
-    /** @p joint_water: pressure in each pair [Pa], or empty. */
+    /** Computes the coefficients of the sums. @p joint_water: pressure in each pair [Pa], or empty. */
     explicit BaseForces(Dam &dam, const std::vector<double> &joint_water = {});
 
-    const std::vector<BlockBase> &bases() const { return of_block; } ///< ascending in their numbers
-    std::vector<Wrench>           of(const StepOfDam &step) const;   ///< about the centroids, one for each
+    /** Returns the bases by ascending number of the monolith. */
+    const std::vector<BlockBase> &bases() const { return of_block; }
+
+    /** Returns the wrench on each base, about its centroid. */
+    std::vector<Wrench> of(const StepOfDam &step) const;
 
   private:
-    /** Force and moment, linear in what is given at some nodes. */
+    /** Wrench as a linear function of the values at some nodes. */
     struct NodalSum
     {
-      std::vector<unsigned int>           node; ///< free node
-      std::vector<std::array<double, 18>> part; ///< 6 x 3
+      std::vector<unsigned int>           node; ///< free nodes
+      std::vector<std::array<double, 18>> part; ///< 6 x 3 coefficients of each node
     };
-    /** A pair of which one side alone stands on the foundation: its force goes straight there. */
+    /** Pair with one side on the foundation. Its force acts on the foundation. */
     struct LonePair
     {
       unsigned int pair, block;
@@ -85,12 +92,12 @@ namespace Voussoir
     SolidModel                         &model;
     std::vector<BlockBase>              of_block;
     std::vector<NodalSum>               stiffness, mass;
-    std::vector<std::array<double, 18>> held_mass; ///< of nodes that are held
+    std::vector<std::array<double, 18>> held_mass; ///< of fixed nodes
     std::vector<Wrench>                 constant;  ///< of the loads
-    std::vector<unsigned int>           equation;  ///< of the nodes of the model, as the dam has them
-    std::vector<unsigned int> block; ///< per node of the model: whose support it is, or rigid_ground
-    std::vector<LonePair>     lone;
-    std::vector<double>       water; ///< force of the water in each lone pair [N]
+    std::vector<unsigned int>           equation;  ///< of the nodes of the model in the dam
+    std::vector<unsigned int>           block;     ///< base of each node of the model, or rigid_ground
+    std::vector<LonePair>               lone;
+    std::vector<double>                 water; ///< force of the water in each lone pair [N]
   };
 } // namespace Voussoir
 

@@ -9,20 +9,25 @@
 
 namespace Voussoir
 {
-  /** Head of the water under the base [m] at the place @p s of the thickness from upstream, @p heel and @p
-   * toe those at its ends: linear, with drains at the position d linear in two parts, lowered there to toe +
-   * (1 - efficiency) (1 - d) (heel - toe) (U.S. Army Corps of Engineers, EM 1110-2-2200, section 3-3, with
-   * the drains' outlet at the level of the tail water). */
+  /** Returns the head of the water under the base [m], or its pressure [Pa]. It is linear from heel to toe.
+   * With drains at d it is linear in two parts, with the value toe + (1 - efficiency) (1 - d) (heel - toe) at
+   * the drains (U.S. Army Corps of Engineers, EM 1110-2-2200, section 3-3, drains at the level of the tail
+   * water).
+   *
+   * @param s position in the thickness, 0 upstream, 1 downstream [-]
+   * @param heel value at the upstream end
+   * @param toe value at the downstream end
+   * @param uplift position d and efficiency of the drains */
   double uplift_head(double s, double heel, double toe, const UpliftParameters &uplift);
 
-  /** Uplift on the surface "base": the part of its compression that the water carries. */
+  /** Uplift on the surface "base": the part of the base compression that is water pressure. */
   struct BaseUplift
   {
-    Unknowns               force; ///< on all nodes of the model, also those that are held: 3 per node [N]
-    std::map<int, Vector3> of_monolith; ///< resultants by number [N]
+    Unknowns               force;       ///< three values per node of the model, including fixed nodes [N]
+    std::map<int, Vector3> of_monolith; ///< resultant of each monolith, by number [N]
   };
 
-  /** By uplift_head(), with the factors of the combination. */
+  /** Returns the uplift by uplift_head(), with the factors of the load combination. */
   BaseUplift base_uplift(const Scene &scene, const SolidModel &model);
 } // namespace Voussoir
 

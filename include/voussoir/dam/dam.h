@@ -15,30 +15,32 @@
 
 namespace Voussoir
 {
-  /** The dam of a scene, ready to compute: mesh, structure, joints, loads. Displacements count from the
-   * grouted state, in which the monoliths carry their own weight; that weight's stress is kept apart and
-   * added to all others. */
+  /** Dam of an input file: mesh, structure, joints, foundation and static loads. Displacements are relative
+   * to the grouted state, in which the monoliths carry their own weight. The stress of this weight is an
+   * initial stress. */
   class Dam
   {
   public:
-    /** @p tie_all: the monolithic dam, whatever the joint models say (for natural frequencies). */
+    /** Reads the mesh and assembles the dam. @p tie_all: all joints are tied, for natural frequencies. The @p
+     * scene must outlive the object. Throws InputError if mesh and input file do not fit. */
     explicit Dam(const Scene &scene, bool tie_all = false);
 
-    /** Must monoliths on massless rock be one body (FoundationSite::one_body)? @p tied: are all joints? */
+    /** Returns FoundationSite::one_body. @p tied: all joints are tied. */
     static bool is_one_body(const Scene &scene, bool tied);
 
-    bool base_is_held() const { return lowest_base.empty(); } ///< does the dam stand on rigid ground?
+    /** Returns true if the base nodes are fixed. */
+    bool base_is_held() const { return lowest_base.empty(); }
 
-    /** Mean displacement of the lowest part of the base, zero where it is held [m]. */
+    /** Returns the mean displacement of the lowest base nodes [m], or zero if the base is fixed. */
     Vector3 base_motion(const Unknowns &u) const;
 
     const Scene          &scene;
     std::vector<Material> materials;                  ///< of the concrete, by zone of the mesh
-    std::vector<Zone>     concrete_zones, rock_zones; ///< those that the mesh has
-    std::string           groups;                     ///< table of the mesh's groups: group_table()
+    std::vector<Zone>     concrete_zones, rock_zones; ///< zones of the mesh
+    std::string           groups;                     ///< table of the mesh groups: group_table()
     std::string           ungrouped;                  ///< faces_without_group()
 
-    std::vector<std::string> mesh_warnings; ///< a sentence for each limit of the mesh that the scene exceeds
+    std::vector<std::string> mesh_warnings; ///< see Voussoir::mesh_warnings()
     std::size_t              n_cells = 0;
     unsigned int             n_monoliths = 0, n_joints = 0;
     double volume = 0., crest_length = 0., size = 0.; ///< [m^3], [m], diagonal of the bounding box [m]
@@ -48,12 +50,12 @@ namespace Voussoir
     std::unique_ptr<DamGeometry> geometry;
     std::unique_ptr<Foundation>  foundation;
     std::vector<StaticLoad>      loads;
-    std::array<Unknowns, 3>      inertia;         ///< load per unit base acceleration
+    std::array<Unknowns, 3>      inertia;         ///< load per unit base acceleration [N s^2/m]
     double                       added_mass = 0.; ///< for motion along x [kg]
-    std::vector<Stress>          initial_stress;  ///< of staged weight and temperature, per node of the model
-    Vector3                      self_weight_crown = {{0., 0., 0.}}; ///< displacement of the crown by it [m]
-    bool                         has_water = false; ///< does the water reach the upstream face?
-    bool                         tied = false;      ///< all joints: there are no pairs
+    std::vector<Stress>          initial_stress;  ///< per node of the model [Pa]
+    Vector3 self_weight_crown = {{0., 0., 0.}};   ///< crown displacement of staged weight [m]
+    bool    has_water = false;                    ///< true: water on the upstream face
+    bool    tied = false;                         ///< true: all joints are tied, without pairs
 
   private:
     HexMesh open_monoliths(const HexMesh &mesh, const std::string &source);
@@ -62,13 +64,13 @@ namespace Voussoir
     void    tie_feet();
     void    remove_feet(std::vector<Pair> &pairs) const;
 
-    std::set<unsigned int> nodes_of_base() const; ///< their equations
+    std::set<unsigned int> nodes_of_base() const; ///< equation numbers
     void                   add_loads();
     void                   check_water_level();
     void                   stage_self_weight();
     void                   find_lowest_base();
 
-    std::vector<unsigned int> lowest_base; ///< free nodes there
+    std::vector<unsigned int> lowest_base; ///< free nodes at the lowest height of the base
   };
 } // namespace Voussoir
 

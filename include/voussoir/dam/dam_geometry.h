@@ -6,45 +6,47 @@
 
 namespace Voussoir
 {
-  /** The places of a dam that engineers look at. */
+  /** Crest, crown and upper ends of the joints, for results. */
   class DamGeometry
   {
   public:
-    /** Throws InputError when the mesh has no surface "crest". */
+    /** Finds these points. Throws InputError if the surfaces "crest" and "upstream" have no common edge. */
     DamGeometry(const SolidModel &model, const std::vector<Pair> &pairs, unsigned int n_joints);
 
-    /** Arc length along the upstream edge of the crest, zero in its middle, positive to the left bank, of the
-     * point of that edge that is nearest in plan [m]. */
+    /** Returns the arc length along the upstream edge of the crest [m], for the point of the edge that is
+     * nearest to
+     * @p p in plan. It is zero in the middle and positive towards the left bank. */
     double arc_length(const dealii::Point<3> &p) const;
 
-    /** Node of the crest's upstream edge that is nearest to its middle. At equal distances: the node towards
-     * the right bank. Where a joint ends there: the node of the monolith towards the right bank. */
+    /** Node of the upstream edge of the crest nearest to the middle. With equal distances, or at a joint, it
+     * is the node towards the right bank. */
     unsigned int crown;
-    unsigned int crown_left; ///< node on the other side of a joint that ends at the crown, else crown
+    unsigned int crown_left; ///< node on the other side of a joint at the crown, otherwise @p crown
 
+    /** Highest pairs of a joint. */
     struct CrestPairs
     {
       unsigned int upstream = rigid_ground,
-                   downstream = rigid_ground; ///< pairs; rigid_ground if the joint has none
-      double arc_length = 0.;
+                   downstream = rigid_ground; ///< pair numbers; rigid_ground: the joint has no pairs
+      double arc_length = 0.;                 ///< of the upstream pair [m]
     };
-    std::vector<CrestPairs> joints;
+    std::vector<CrestPairs> joints; ///< one entry per joint
 
   private:
     void find_crown(const SolidModel &model, const std::vector<unsigned int> &nodes);
 
-    std::vector<dealii::Point<3>> edge; ///< upstream edge of the crest from the right bank to the left
-    std::vector<double>           at;   ///< its arc length
+    std::vector<dealii::Point<3>> edge; ///< upstream edge of the crest, from the right bank
+    std::vector<double>           at;   ///< arc length at the points of @p edge [m]
   };
 
-  /** The node nearest to a point. */
+  /** Returns the node nearest to a point. */
   unsigned int nearest_node(const SolidModel &model, const dealii::Point<3> &p);
 
-  /** The node nearest to the probe @p name at @p p. Throws InputError if it is farther away than the elements
-   *  there are large (the longest distance from that node to another one of its elements). */
+  /** Returns the node nearest to the probe @p name at @p p. Throws InputError if the distance exceeds the
+   * element size, which is the largest distance of this node to the other nodes of its elements. */
   unsigned int probe_node(const SolidModel &model, const std::string &name, const dealii::Point<3> &p);
 
-  /** The same for @p what, as messages name it: "Entry ... : probe ...". */
+  /** Returns the same for @p what, the begin of the message: "Entry ... : probe ...". */
   unsigned int node_at(const SolidModel &model, const std::string &what, const dealii::Point<3> &p);
 } // namespace Voussoir
 

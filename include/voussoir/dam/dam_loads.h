@@ -6,10 +6,10 @@
 
 namespace Voussoir
 {
-  /** Weight of the concrete: the lumped masses times @p gravity, downwards [N]. */
+  /** Adds the weight of the concrete to @p load: lumped mass times @p gravity [m/s^2], downwards [N]. */
   void add_weight(const Structure &structure, double gravity, Unknowns &load);
 
-  /** Inertial load of a unit acceleration of the base along each axis: -M iota [N s^2/m]. */
+  /** Returns the inertia loads for a unit acceleration of the base along each axis, -M iota [N s^2/m]. */
   std::array<Unknowns, 3> inertial_loads(const Structure &structure);
 } // namespace Voussoir
 

@@ -6,10 +6,10 @@
 
 namespace Voussoir
 {
-  /** Place of each node of the model through the thickness: its distance to the surface "upstream" over the
-   * sum of those to "upstream" and "downstream", 0 upstream, 1 downstream. The faces of the cells are taken
-   * as four triangles around their middle. Throws InputError, naming @p entry, where the mesh lacks one of
-   * the surfaces. */
+  /** Returns the relative position of each node of the model in the thickness, from 0 upstream to 1
+   * downstream. It is the distance to the surface "upstream" divided by the sum of the distances to
+   * "upstream" and "downstream". Each element face is approximated by four triangles. Throws InputError, with
+   * the @p entry, if the mesh lacks one of the surfaces. */
   std::vector<double> places_in_thickness(const SolidModel &model, const std::string &entry);
 } // namespace Voussoir
 

@@ -9,20 +9,22 @@
 
 namespace Voussoir
 {
-  /** Adds the forces of a traction [Pa] on the faces of a surface [N]: with 8 x 8 points per face, since
-   * levels cut through faces. */
+  /** Adds the nodal forces [N] of a traction [Pa] on the faces of a surface. Each face has 8 x 8 quadrature
+   * points, because a level may cut through a face. */
   void add_traction(const SolidModel &model, int surface,
                     const std::function<Vector3(double z, const Vector3 &normal)> &traction, Unknowns &load);
 
-  // Tractions of loads, times a factor, at the height z of a face whose outward normal is given [Pa].
+  // Tractions of loads times a factor [Pa]. @p z: height of the point [m]; @p normal: outward normal.
 
+  /** Returns the hydrostatic pressure of the reservoir. */
   Vector3 water_traction(const Scene &scene, double factor, double z, const Vector3 &normal);
 
+  /** Returns the hydrostatic pressure of the tail water. */
   Vector3 tail_water_traction(const Scene &scene, double factor, double z, const Vector3 &normal);
 
-  /** Sediment: at the depth h its vertical pressure is p = density gravity h, its horizontal one K p. It
-   * pushes with K p the horizontal part of a face, and rests with p on what looks up; under what leans over
-   * it, it bears nothing. K: SiltParameters::pressure_coefficient(). */
+  /** Returns the traction of the sediment. At the depth h the vertical pressure is p = density gravity h and
+   * the horizontal pressure K p, with K = SiltParameters::pressure_coefficient(). The horizontal pressure
+   * acts on all faces, the vertical pressure only on faces with an upward normal. */
   Vector3 silt_traction(const Scene &scene, double factor, double z, const Vector3 &normal);
 } // namespace Voussoir
 

@@ -7,12 +7,13 @@
 
 namespace Voussoir
 {
-  /** When the condition holds, the entries have no effect, but for the exceptions. */
+  /** Entries without effect under a condition. */
   struct IdleEntries
   {
-    const char *reason;
-    bool (*holds)(const Scene &);
-    EntryNames entries, exceptions = {};
+    const char *reason;           ///< condition, for the message
+    bool (*holds)(const Scene &); ///< condition
+    EntryNames entries;           ///< entries without effect
+    EntryNames exceptions = {};   ///< those among @p entries with an effect
   };
 } // namespace Voussoir
 

@@ -9,30 +9,32 @@
 
 namespace Voussoir
 {
-  /** Water in the joints: it enters an open pair from the upstream face, or from a neighbour in the joint
-   * that is wet (in the same face of an element), and stays. */
+  /** Water pressure in open joints. Water enters an open pair from the upstream face, or from a pair under
+   * water pressure on the same element face. It does not leave the pair again. */
   class JointWater
   {
   public:
+    /** Finds the neighbours of all pairs. No pair is under water pressure. */
     JointWater(const SolidModel &model, const Structure &structure);
 
-    /** Lets the water into all pairs that it reaches, where the pressure is above zero; were there any new
-     * ones? @p pressure: at a height z [Pa]. */
+    /** Lets water into all open pairs that it can reach, if the pressure is positive. Returns true if there
+     * are new pairs under water pressure. @p pressure: pressure at the height z [Pa]. */
     bool spread(const std::vector<PairState> &states, const std::function<double(double)> &pressure);
 
-    /** The forces on both sides of the wet pairs, pressure times area, that press them apart [N]. */
+    /** Adds the forces of the water on both sides of the pairs, pressure times area, to @p load [N]. */
     void add_forces(const std::function<double(double)> &pressure, Unknowns &load) const;
 
-    /** In each pair [Pa]. */
+    /** Returns the pressure in each pair [Pa]. */
     std::vector<double> pressures(const std::function<double(double)> &pressure) const;
 
+    /** Returns the number of pairs under water pressure. */
     unsigned int n_wet() const;
 
   private:
     const Structure                       &structure;
-    std::vector<bool>                      at_upstream; ///< pairs on the upstream face
+    std::vector<bool>                      at_upstream; ///< true: pair on the upstream face
     std::vector<std::vector<unsigned int>> neighbours;  ///< of each pair
-    std::vector<bool>                      wet;
+    std::vector<bool>                      wet;         ///< true: pair under water pressure
   };
 } // namespace Voussoir
 

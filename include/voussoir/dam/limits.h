@@ -6,25 +6,26 @@ namespace Voussoir
 {
   class Entries;
 
-  /** Section "Limits" of a scene: what the results are held against. Zero: no limit. */
+  /** Parameters of the subsection "Limits": limit values of the results. Zero: no limit. */
   struct LimitParameters
   {
-    double tensile_strength = 0.;  ///< f_t [Pa], of demand-capacity ratios and what follows from them
-    double demand_capacity = 0.;   ///< largest principal stress over f_t [-]
-    double overstress_seconds = 0; ///< allowed above f_t, falling in proportion to none above 2 f_t [s]
-    double overstress_share = 0.;  ///< of either face above f_t [-]
-    double tension = 0.;           ///< on the faces [Pa]
-    double compression = 0.;       ///< anywhere, its magnitude [Pa]
-    double opening = 0.;           ///< of a joint, anywhere [m]
-    double slip = 0.;              ///< [m]
-    double waterstop_depth = 1.;   ///< from the upstream face [m]
-    double waterstop_opening = 0.; ///< [m]
-    double waterstop_slip = 0.;    ///< [m]
-    double base_friction = 0.;     ///< tan(phi) of the monoliths on their bases [-]
-    double base_cohesion = 0.;     ///< of their bases [Pa]
-    double sliding_safety = 0.;    ///< the least that is asked for [-]
-    double key_shear_stress = 0.;  ///< of the keys of a joint, over its area [Pa]
+    double tensile_strength = 0.;  ///< f_t, reference of demand-capacity ratios and overstress [Pa]
+    double demand_capacity = 0.;   ///< largest principal stress divided by f_t [-]
+    double overstress_seconds = 0; ///< allowed duration above f_t, decreasing linearly to zero at 2 f_t [s]
+    double overstress_share = 0.;  ///< share of either face above f_t [-]
+    double tension = 0.;           ///< largest principal stress on the faces [Pa]
+    double compression = 0.;       ///< magnitude of the smallest principal stress [Pa]
+    double opening = 0.;           ///< largest opening of the joints [m]
+    double slip = 0.;              ///< largest slip of the joints [m]
+    double waterstop_depth = 1.;   ///< distance of the waterstops from the upstream face [m]
+    double waterstop_opening = 0.; ///< largest opening at the waterstops [m]
+    double waterstop_slip = 0.;    ///< largest slip at the waterstops [m]
+    double base_friction = 0.;     ///< tan(phi) between monoliths and foundation [-]
+    double base_cohesion = 0.;     ///< between monoliths and foundation [Pa]
+    double sliding_safety = 0.;    ///< smallest allowed safety against sliding [-]
+    double key_shear_stress = 0.;  ///< shear force of the keys of a joint, divided by its area [Pa]
 
+    /** Declares the entries of the subsection. */
     void add_parameters(Entries &prm);
 
   private:

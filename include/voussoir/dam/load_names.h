@@ -10,9 +10,15 @@ namespace Voussoir
   struct LoadParameters;
 
   // From the rows of load_table.cc.
-  std::string static_load_names(); ///< of combinations: "weight, water, tail water"
-  std::string static_load_docs();  ///< the same with what their help adds
-  void        add_load_parameters(LoadParameters &loads, Entries &prm); ///< their subsections of "Loads"
+
+  /** Returns the names of all static loads, as in combinations: "weight, water, tail water". */
+  std::string static_load_names();
+
+  /** Returns the names with their help texts: "weight, water (with its added mass)". */
+  std::string static_load_docs();
+
+  /** Declares the entries of all static loads in subsections of "Loads". */
+  void add_load_parameters(LoadParameters &loads, Entries &prm);
 } // namespace Voussoir
 
 #endif

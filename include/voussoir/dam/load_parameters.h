@@ -77,8 +77,9 @@ namespace Voussoir
     void add_parameters(Entries &prm);
     void check() const; ///< throws InputError for entries that cannot be read
 
-    /** Factor of a load of static_load_names() or of "earthquake" in the combination that is chosen, 1 if
-     * none is. What a combination does not name has 0. */
+    /** Returns the factor of a load in the chosen combination [-]; 1 if no combination is chosen, 0 if the
+     * combination does not contain the load.
+     * @param load name of static_load_names(), or "earthquake" */
     double factor(const std::string &load) const;
 
     std::map<std::string, PointLoad> point_loads() const; ///< throws InputError for malformed ones

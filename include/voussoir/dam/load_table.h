@@ -8,65 +8,67 @@
 
 namespace Voussoir
 {
-  /** Where static loads act. */
+  /** Model on which static loads act. */
   struct LoadSite
   {
     const SolidModel            &model;
     const Structure             &structure;
-    const std::vector<Material> &materials;
+    const std::vector<Material> &materials; ///< of the concrete, by zone
   };
 
   /** One static load of a dam. */
   struct StaticLoad
   {
     std::string         name;
-    bool                is_raised; ///< in the increments of the water; or there from the first
-    double              factor;    ///< of the combination, in force and stress [-]
-    Unknowns            force;     ///< on the free nodes [N]
-    std::vector<Stress> stress;    ///< that comes to the recovered one, per node of the model [Pa]; or empty
+    bool                is_raised; ///< true: applied in the water increments; false: constant
+    double              factor;    ///< of the load combination, included in force and stress [-]
+    Unknowns            force;     ///< three values per free node [N]
+    std::vector<Stress> stress;    ///< initial stress per node of the model [Pa], or empty
 
-    Vector3 resultant() const; ///< [N]
+    /** Returns the sum of all forces [N]. */
+    Vector3 resultant() const;
   };
 
-  /** A static load that a scene can have. */
+  /** Static load of an input file. */
   struct LoadRow
   {
-    const char  *name;           ///< in combinations
-    unsigned int order;          ///< in the sum of the loads, and of their subsections of "Loads"
-    bool (*acts)(const Scene &); ///< whatever the combination says
+    const char  *name;           ///< name in load combinations
+    unsigned int order;          ///< order in the sum of the loads, and of their subsections of "Loads"
+    bool (*acts)(const Scene &); ///< true if the input file defines the load, in any combination
 
-    /** Its subsection of "Loads"; null: it has none. */
+    /** Declares the subsection of "Loads"; null: no subsection. */
     void (*declare)(LoadParameters &, Entries &) = nullptr;
 
-    const char *help = "";             ///< what the help of combinations adds to the name
-    const char *defined_by = nullptr;  ///< entries of "Loads" without which it does not act
+    const char *help = "";             ///< addition to the name in the help of combinations
+    const char *defined_by = nullptr;  ///< entries of "Loads" that define the load; null: none
     bool        is_raised = true;      ///< see StaticLoad
-    bool        is_reversible = false; ///< are negative factors plausible?
-    bool        is_by_gravity = false; ///< does it depend on "Statics/Gravity"?
+    bool        is_reversible = false; ///< true: negative factors are plausible
+    bool        is_by_gravity = false; ///< true: the load depends on "Statics/Gravity"
 
-    /** Its surface, which must not be above the dam [m], the entry, and what is wrong with one above the
-     * reservoir; null: none. */
+    /** Returns the level of the load [m], which must not be above the dam; null: no level. */
     double (*level)(const Scene &) = nullptr;
-    const char *level_entry = nullptr, *above_reservoir = nullptr;
+    const char *level_entry = nullptr;     ///< entry of the level
+    const char *above_reservoir = nullptr; ///< warning if the level is above the reservoir; null: none
 
-    /** Adds its force and stress without factor; null: it is its traction, or none of the whole dam. */
+    /** Adds force and stress without the load factor; null: the force follows from the traction, if any. */
     void (*add)(const Scene &, const LoadSite &, StaticLoad &load) = nullptr;
 
-    /** Returns the traction that it puts on a surface, times a factor, at the height z of a face whose
-     * outward normal is given [Pa]; null: none. */
+    /** Returns the traction on the surface times @p factor [Pa], at the height @p z [m] of a face with the
+     * outward normal @p normal; null: no traction. */
     Vector3 (*traction)(const Scene &, double factor, double z, const Vector3 &normal) = nullptr;
-    int surface = 0;
+    int surface = 0; ///< surface of the traction
 
-    std::vector<IdleEntries> idle = {}; ///< of its entries
+    std::vector<IdleEntries> idle = {}; ///< entries of the load without effect
   };
 
-  const std::vector<LoadRow> &load_table(); ///< in the order of help texts and messages
+  /** Returns the table of all static loads, in the order of help texts and messages. */
+  const std::vector<LoadRow> &load_table();
 
-  /** The static loads that a scene asks for, with the factors of its combination. */
+  /** Returns the active static loads of an input file, with the factors of its load combination. */
   std::vector<StaticLoad> static_loads(const Scene &scene, const LoadSite &site);
 
-  /** What all loads put on the faces, with the factors of the combination; the water that moves along with
-   * the dam is not in it [Pa]. @p scene must outlive the result. */
+  /** Returns the tractions of all loads on the faces [Pa], with the factors of the load combination and
+   * without the hydrodynamic added mass. @p scene must outlive the result. */
   KnownTraction known_traction(const Scene &scene);
 } // namespace Voussoir
 

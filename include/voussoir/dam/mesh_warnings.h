@@ -6,10 +6,11 @@
 
 namespace Voussoir
 {
-  /** Returns sentences about elements that are too distorted for their degree, or too long for the bond of
-   * the joints.
+  /** Returns warnings about elements that are too distorted for their degree, or too long for cohesive
+   * joints.
    * @param opened mesh of the dam with open joints
-   * @param zones of the concrete, all that the mesh has */
+   * @param scene input file
+   * @param zones all zones of the concrete in the mesh */
   std::vector<std::string> mesh_warnings(const HexMesh &opened, const Scene &scene,
                                          const std::vector<Zone> &zones);
 } // namespace Voussoir

@@ -7,13 +7,13 @@
 
 namespace Voussoir
 {
-  /** The forces "Loads/Concentrated" on the nodes nearest to their places, in equal parts where several nodes
-   * share the place, as at joints [N]. Throws InputError for a place farther from the dam than an element is
-   * large, and for one at the held base. */
+  /** Adds the forces of "Loads/Concentrated" to @p load [N]. Each force acts on the nearest node. Nodes at
+   * the same position, as at joints, receive equal parts. Throws InputError if the distance to the dam
+   * exceeds the element size, or if the node is fixed. */
   void add_concentrated(const SolidModel &model, const LoadParameters &loads, Unknowns &load);
 
-  /** The force per length "Loads/Crest line" along the edge of the crest with the surface "upstream" or
-   * "downstream" [N]. Throws InputError where the mesh has no such edge. */
+  /** Adds the force per length of "Loads/Crest line" to @p load [N]. It acts along the edge of the crest with
+   * the surface "upstream" or "downstream". Throws InputError if the mesh has no such edge. */
   void add_crest_line(const SolidModel &model, const LoadParameters &loads, Unknowns &load);
 } // namespace Voussoir
 

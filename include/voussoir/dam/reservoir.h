@@ -12,42 +12,47 @@ namespace Voussoir
 
   class SolidModel;
 
+  /** Parameters of the subsection "Reservoir". */
   struct ReservoirParameters
   {
-    double      level = 195.;               ///< z of the water surface [m]
+    double      level = 195.;               ///< height z of the water surface [m]
     double      density = 1000.;            ///< 0: empty reservoir [kg/m^3]
-    std::string added_mass = "Westergaard"; ///< or Westergaard-nodal, none
-    std::string depth = "global";           ///< or local
+    std::string added_mass = "Westergaard"; ///< Westergaard, Westergaard-nodal or none
+    std::string depth = "global";           ///< global or local
     double      factor = 1.;                ///< of the added mass [-]
 
+    /** Declares the entries of the subsection. */
     void add_parameters(Entries &prm);
   };
 
-  /** Hydrostatic pressure on the surface "upstream" below the water level [N]. */
+  /** Adds the hydrostatic pressure on the surface "upstream" to @p load [N]. @p gravity: [m/s^2]. */
   void add_water_pressure(const SolidModel &model, const ReservoirParameters &reservoir, double gravity,
                           Unknowns &load);
 
-  /** Westergaard's added mass 7/8 rho sqrt(H h) n n^T per area of the surface "upstream", integrated over its
-   * wet part and lumped to the nodes as 3x3 blocks in structure.mass and structure.added_mass; h: depth, H:
-   * depth of the reservoir (global: at its deepest point; local: in the same vertical section, Kuo 1982). The
-   * shares of the nodes are those of the shape functions, as in the lumped mass of the concrete. Returns the
-   * total added mass for horizontal motion along x [kg]. */
+  /** Adds Westergaard's added mass to structure.mass and structure.added_mass. Per area of the surface
+   * "upstream" it is 7/8 rho sqrt(H h) n n^T. h is the depth below the water level. H is the depth of the
+   * reservoir, global at its deepest point, or local in the same vertical section (Kuo 1982). The mass is
+   * integrated over the submerged part and lumped to the nodes by the shape functions. Returns the total for
+   * motion along x [kg]. */
   double add_westergaard_mass(const SolidModel &model, const ReservoirParameters &reservoir,
                               Structure &structure);
 
-  /** The same by the formula at the nodes and their areas alone. */
+  /** Adds Westergaard's added mass, evaluated at the nodes and multiplied by their areas. Returns the total
+   * for motion along x [kg]. */
   double add_nodal_westergaard_mass(const SolidModel &model, const ReservoirParameters &reservoir,
                                     Structure &structure);
 
-  /** The added mass of that name, in structure.mass and structure.added_mass. Returns the total for
-   * horizontal motion along x [kg]. */
+  /** Adds the added mass of ReservoirParameters::added_mass. Returns the total for motion along x [kg]. */
   double add_added_mass(const SolidModel &model, const ReservoirParameters &reservoir, Structure &structure);
 
-  /** The added mass per area of the surface "upstream" at the nodes of the model [kg/m^2]; empty: none. */
+  /** Returns the added mass per area of the surface "upstream" per node of the model [kg/m^2], or empty. */
   std::vector<double> added_mass_per_area(const SolidModel &model, const ReservoirParameters &reservoir);
 
-  std::string added_mass_names(); ///< as a ParameterHandler selection: "Westergaard|Westergaard-nodal|none"
-  std::string added_mass_docs();  ///< what they are
+  /** Returns the options as a selection of ParameterHandler: "Westergaard|Westergaard-nodal|none". */
+  std::string added_mass_names();
+
+  /** Returns the help texts of the options. */
+  std::string added_mass_docs();
 } // namespace Voussoir
 
 #endif

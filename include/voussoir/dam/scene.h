@@ -16,14 +16,18 @@
 
 namespace Voussoir
 {
+  // Each struct has the entries of one subsection of the input file. add_parameters() declares the entries,
+  // check() throws InputError for invalid values.
+
+  /** Parameters of the subsection "Elements". */
   struct ElementParameters
   {
-    unsigned int degree = 1;
-    bool         incompatible_modes = true;
+    unsigned int degree = 1;                ///< 1: 8 nodes, 2: 27 nodes
+    bool         incompatible_modes = true; ///< in elements of degree 1
     void         add_parameters(Entries &prm);
   };
 
-  /** Rayleigh damping C = a0 M + a1 K with the damping ratio at two frequencies. */
+  /** Rayleigh damping C = a0 M + a1 K with a damping ratio at two frequencies. */
   struct DampingParameters
   {
     double ratio = .05, frequency_1 = 1.2, frequency_2 = 6.; ///< [-], [Hz], [Hz]
@@ -33,20 +37,24 @@ namespace Voussoir
     double stiffness_factor() const; ///< a1 [s]
   };
 
-  /** Section "Joints": the laws of the joints and their parameters. */
+  /** Parameters of the subsection "Joints": joint laws and their parameters. */
   struct JointParameters : LawParameters
   {
     JointParameters() { keys.seat_compliance = -1.; } ///< [m/Pa]; -1: 20 height/E
 
-    std::string                         model = "FJA";
-    std::string                         equations_name = "alart-curnier";
-    std::map<unsigned int, std::string> overrides; ///< joint number -> model
+    std::string                         model = "FJA";                    ///< joint law
+    std::string                         equations_name = "alart-curnier"; ///< form of the joint equations
+    std::map<unsigned int, std::string> overrides;                        ///< model by joint number
     void                                add_parameters(Entries &prm);
     void                                check() const;
-    /** @p young: modulus of the concrete [Pa]. */
+
+    /** Returns the parameters of the joint laws. @p young: Young's modulus of the concrete [Pa]. */
     LawParameters law(double young) const;
-    /** Does the law of any joint use the entry ("Joints/Friction")? */
-    bool               any_reads(const std::string &entry) const;
+
+    /** Returns true if the law of any joint uses the @p entry, such as "Joints/Friction". */
+    bool any_reads(const std::string &entry) const;
+
+    /** Returns the model of a joint, numbered from 1. */
     const std::string &model_of(const unsigned int joint) const
     {
       const auto found = overrides.find(joint);
@@ -54,42 +62,48 @@ namespace Voussoir
     }
   };
 
+  /** Parameters of the subsection "Statics". */
   struct StaticParameters
   {
-    std::string  self_weight = "staged"; ///< or monolithic, none
-    unsigned int water_increments = 1;
-    double       gravity = 9.81; ///< [m/s^2]
-    std::string  stages;         ///< before the water is raised to its level: static_stages()
+    std::string  self_weight = "staged"; ///< staged, monolithic or none
+    unsigned int water_increments = 1;   ///< steps per stage
+    double       gravity = 9.81;         ///< [m/s^2]
+    std::string  stages;                 ///< stages before the final water level: static_stages()
     void         add_parameters(Entries &prm);
   };
 
+  /** Parameters of the subsection "Output". */
   struct OutputParameters
   {
-    std::map<std::string, std::string> probes;                    ///< name -> "x y z" [m]
-    unsigned int                       envelope_interval = 1;     ///< [steps], 0: none
-    unsigned int                       solution_interval = 0;     ///< [steps], 0: none
-    unsigned int                       checkpoint_interval = 500; ///< [steps], 0: none
-    unsigned int                       progress_interval = 64;    ///< [steps]
-    bool                               figures = true;
-    bool                               block_forces = true;           ///< blocks.csv
-    std::string                        stress_recovery = "tractions"; ///< or elements
+    std::map<std::string, std::string> probes;                        ///< positions "x y z" [m] by name
+    unsigned int                       envelope_interval = 1;         ///< [steps], 0: none
+    unsigned int                       solution_interval = 0;         ///< [steps], 0: none
+    unsigned int                       checkpoint_interval = 500;     ///< [steps], 0: none
+    unsigned int                       progress_interval = 64;        ///< [steps]
+    bool                               figures = true;                ///< draw figures
+    bool                               block_forces = true;           ///< write blocks.csv
+    std::string                        stress_recovery = "tractions"; ///< tractions or elements
     double                             tensile_strength = 0.;         ///< [Pa], 0: none
     void                               add_parameters(Entries &prm);
     void                               check() const;
-    bool knows_tractions() const { return stress_recovery == "tractions"; } ///< do stresses take them?
-    std::map<std::string, Vector3> probe_places() const; ///< throws InputError for a malformed one
+
+    /** Returns true if the stress recovery uses the known tractions. */
+    bool knows_tractions() const { return stress_recovery == "tractions"; }
+
+    /** Returns the positions of the probes by name [m]. Throws InputError for a malformed probe. */
+    std::map<std::string, Vector3> probe_places() const;
   };
 
-  /** All entries of a scene file. */
+  /** All entries of an input file. */
   struct Scene
   {
-    std::string          name;      ///< of the file, without directory and .prm
-    std::string          directory; ///< of the file: paths in it are relative to this
-    std::string          impact_rule = "mean-force";
-    std::string          factors = "double"; ///< precision in which those of steps are kept
+    std::string          name;                       ///< of the file, without directory and .prm
+    std::string          directory;                  ///< of the file; paths in the file are relative to it
+    std::string          impact_rule = "mean-force"; ///< "Dynamics/Impact"
+    std::string          factors = "double";         ///< precision of the matrix factors of time steps
     MeshParameters       mesh;
     ElementParameters    elements;
-    Material             concrete; ///< where no zone says otherwise
+    Material             concrete; ///< of volumes without an entry in @p concrete_zones
     ZoneEntry            concrete_zones;
     DampingParameters    damping;
     ReservoirParameters  reservoir;
@@ -98,41 +112,50 @@ namespace Voussoir
     StaticParameters     statics;
     LoadParameters       loads;
     FoundationParameters foundation;
-    unsigned int         steps_per_sample = 1;   ///< of the ground motion
-    bool                 error_estimate = false; ///< of the time step
+    unsigned int         steps_per_sample = 1;   ///< time steps per sample of the ground motion
+    bool                 error_estimate = false; ///< estimate the time discretisation error
     MotionParameters     motion;
     LimitParameters      limits;
     OutputParameters     output;
 
+    /** Returns true if the matrix factors are in single precision. */
     bool has_single_factors() const { return factors == "single"; }
 
-    /** Of the area of the faces where tension is above it: Output/Tensile strength, else that of the limits;
-     * 0: none [Pa]. */
+    /** Returns the strength for the share of the faces with larger tension [Pa]: "Output/Tensile strength",
+     * or if it is zero "Limits/Tensile strength". 0: none. */
     double strength_of_area() const
     {
       return output.tensile_strength > 0. ? output.tensile_strength : limits.tensile_strength;
     }
 
-    std::vector<std::string> warnings; ///< of read_scene(), about entries that the user wrote
+    std::vector<std::string> warnings; ///< of read_scene()
 
+    /** Declares all entries. */
     void add_parameters(Entries &prm);
+
+    /** Checks all entries. Throws InputError for invalid values or combinations of values. */
     void check() const;
 
-    std::vector<std::string> sources; ///< the scene file and the files that it includes
+    std::vector<std::string> sources; ///< input file and included files
 
-    /** Meshes and motions that it names: entry and path. */
+    /** Returns entry and path of the mesh, motion and temperature files. */
     std::vector<std::pair<std::string, std::string>> input_files() const;
 
-    /** Throws InputError if @p file, which a command is to write, is one that the scene is made of, or has no
-     * directory. */
+    /** Throws InputError if the output @p file of a command is an input of the scene, or if its directory
+     * does not exist. */
     void check_output(const std::string &file) const;
   };
 
-  /** Reads a scene file with its includes (relative to the including file), then applies @p overrides, each
-   *  "Section/Subsection/Entry=value". Values may carry a unit, see in_declared_unit(). Throws InputError
-   * with file, line and entry; for an unknown entry it names the nearest known one. Entries without effect
-   * and implausible values go to Scene::warnings. @p prm: receives the declarations and values, for printing.
-   */
+  /** Reads an input file with its included files. Entries without effect and implausible values are reported
+   * in Scene::warnings.
+   *
+   * @param file path of the input file. Paths of included files are relative to the including file.
+   * @param overrides assignments "Section/Subsection/Entry=value", applied after the file. Values may have
+   * units: in_declared_unit().
+   * @param scene result
+   * @param prm receives declarations and values, for printing
+   *
+   * Throws InputError with file, line and entry. For an unknown entry it names the most similar one. */
   void read_scene(const std::string &file, const std::vector<std::string> &overrides, Scene &scene,
                   Entries &prm);
 } // namespace Voussoir

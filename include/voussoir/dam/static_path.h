@@ -6,34 +6,47 @@
 
 namespace Voussoir
 {
-  /** A part of the static history: loads that are raised from those before to its own, with the joints
-   * grouted up to a height. */
+  /** Stage of the static load history. The loads change linearly from those of the previous stage to those of
+   * this stage. The joints are grouted up to a height. */
   struct StaticPart
   {
-    std::string name;         ///< "fill 100"
+    std::string name;         ///< such as "fill 100"
     double      level = 0.;   ///< of the reservoir [m]
-    double      grouted = 0.; ///< z up to which the joints carry forces [m]
-    Unknowns    raised;       ///< the loads that are raised, at its end [N]
+    double      grouted = 0.; ///< height up to which the joints carry forces [m]
+    Unknowns    raised;       ///< loads with StaticLoad::is_raised at the end of the stage [N]
   };
 
-  /** The way to the static state: Statics/Stages, then the scene's level and temperature; each part in
-   *  "Statics/Water increments" steps. */
+  /** Static load history: the stages of "Statics/Stages", then the final water level and temperature. Each
+   * stage has "Statics/Water increments" steps. */
   class StaticPath
   {
   public:
-    /** Throws InputError for levels above the dam, days that the table of temperatures does not have, and
-     * stages without effect. */
+    /** Creates the stages. Throws InputError for levels above the dam, days outside of the temperature table,
+     * and stages without effect. */
     explicit StaticPath(const Dam &dam);
 
-    unsigned int      n_steps() const { return increments * parts.size(); }
-    std::size_t       n_parts() const { return parts.size(); }
-    unsigned int      number(const unsigned int step) const { return step / increments + 1; } ///< of its part
-    const StaticPart &part(const unsigned int step) const { return parts[step / increments]; }
-    double            share(const unsigned int step) const; ///< of its part that is reached, up to 1
-    bool              ends_part(const unsigned int step) const { return step % increments + 1 == increments; }
-    Unknowns          load(unsigned int step) const; ///< of all static loads at its end [N]
+    /** Returns the number of steps. Steps are counted from 0. */
+    unsigned int n_steps() const { return increments * parts.size(); }
 
-    /** Pressure of the reservoir at the height @p z at the end of a step [Pa]. */
+    /** Returns the number of stages. */
+    std::size_t n_parts() const { return parts.size(); }
+
+    /** Returns the number of the stage of a step, from 1. */
+    unsigned int number(const unsigned int step) const { return step / increments + 1; }
+
+    /** Returns the stage of a step. */
+    const StaticPart &part(const unsigned int step) const { return parts[step / increments]; }
+
+    /** Returns the share of the stage that is reached at the end of a step, up to 1 [-]. */
+    double share(const unsigned int step) const;
+
+    /** Returns true if a step is the last one of its stage. */
+    bool ends_part(const unsigned int step) const { return step % increments + 1 == increments; }
+
+    /** Returns the sum of all static loads at the end of a step, three values per node [N]. */
+    Unknowns load(unsigned int step) const;
+
+    /** Returns the pressure of the reservoir at the height @p z at the end of a step [Pa]. */
     double water_pressure(unsigned int step, double z) const;
 
   private:
@@ -46,8 +59,8 @@ namespace Voussoir
     std::vector<StaticPart> parts;
   };
 
-  /** The laws of the pairs up to the height @p grouted; those above carry nothing, by the law @p free. Feet
-   * of joints that are tied to the ground stay so. */
+  /** Returns the joint laws of a partly grouted dam. Pairs above the height @p grouted [m] have the law @p
+   * free and carry no forces. Tied pairs keep their law. */
   PairLaws laws_up_to(double grouted, const Dam &dam, const JointLaw &free);
 } // namespace Voussoir
 

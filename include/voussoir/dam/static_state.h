@@ -19,7 +19,7 @@ namespace Voussoir
     double       share = 1.;                        ///< of the loads of the stage that are applied, up to 1
     double       level = 0.;                        ///< of the reservoir [m]
     Vector3      crown{};                           ///< displacement of the crest against the base [m]
-    unsigned int n_open = 0, n_slip = 0, n_wet = 0; ///< pairs that are open, slip, are open with water
+    unsigned int n_open = 0, n_slip = 0, n_wet = 0; ///< pairs: open, slipping, under water pressure
     double       opening = 0.;                      ///< largest, of joints that are grouted [m]
     double       overlap = 0.;                      ///< largest, of joints that are not grouted [m]
   };
@@ -35,23 +35,27 @@ namespace Voussoir
     Unknowns                closed;      ///< jumps at which the joints were grouted, 3 per pair [m]
     std::vector<double>     joint_water; ///< pressure in each pair [Pa], or empty
     std::vector<PairState>  pairs;
-    ContactResult           contact; ///< of all steps together
+    ContactResult           contact; ///< sum over all steps
     unsigned int            n_open = 0;
     Vector3                 crown{}; ///< displacement of the crest against the base [m]
     std::vector<StaticStep> steps;
   };
 
-  /** Computes the static state of a @p dam along StaticPath: in each step the joint equations are solved, in
-   * open joints as often as water spreads in them.
-   * @p parameters of the contact solver; problems are written from full grouting on. @p log: a line per stage
-   * and one of the result. @p stop_if_asked: called before each solution; an exception of it ends the
-   * computation. Throws ComputationError if the joints do not converge, InputError for a state that no dam
-   * can have: the crest has moved by more than a hundredth of the dam's size (under all loads or under its
-   * weight), or a joint by more than largest_joint_share of it. */
+  /** Computes the static state along StaticPath. A step is solved again until water spreads to no further
+   * pair.
+   *
+   * @param dam dam with its foundation
+   * @param parameters of the contact solver. Problems are written from full grouting on.
+   * @param log receives one line per stage and one line with the result
+   * @param stop_if_asked called before each solution. An exception ends the computation.
+   *
+   * Throws ComputationError if the joints do not converge. Throws InputError for an implausible state: the
+   * crest displacement exceeds 1/100 of the size of the dam, or that of a joint exceeds largest_joint_share
+   * of it. */
   StaticState static_state(Dam &dam, const ContactParameters &parameters, Log &log,
                            const std::function<void()> &stop_if_asked);
 
-  /** Largest credible movement of a joint, of the dam's size. */
+  /** Largest plausible joint displacement, relative to the size of the dam [-]. */
   constexpr double largest_joint_share = .02;
 } // namespace Voussoir
 

@@ -11,53 +11,64 @@
 
 namespace Voussoir
 {
-  /** What loads put on a face at the height z, whose outward normal is given [Pa]. */
+  /** Returns the traction of the static loads on a face at the height z with the outward @p normal [Pa]. */
   using KnownTraction = std::function<Vector3(int surface, double z, const Vector3 &normal)>;
 
-  /** Of all nodes over a step of @p dt, from their velocities before and after it, and that of the base that
-   * they count from, at both times [m/s^2]. */
+  /** Returns the mean absolute acceleration of all nodes in a step, three values per node [m/s^2].
+   *
+   * @param v_before, v relative velocities at the start and the end of the step [m/s]
+   * @param dt length of the step [s]
+   * @param ground_before, ground acceleration of the base at both times [m/s^2] */
   Unknowns mean_acceleration(const Unknowns &v_before, const Unknowns &v, double dt,
                              const Vector3 &ground_before, const Vector3 &ground);
 
-  /** The tractions on the faces of a dam, at their nodes: the known ones of static loads on the faces
-   * upstream and downstream, that of the water that moves with the dam, the forces of the pairs over their
-   * areas at the joints with the pressure of water in them, none on all other faces. Tied joints are no
-   * faces; where planes of a joint meet at an edge the share of each is not known. */
+  /** Known tractions at the nodes of the faces of a dam:
+   *  - static loads and hydrodynamic pressure of the added mass on the faces upstream and downstream,
+   *  - pair forces divided by the pair areas, and the water pressure, on the joint faces,
+   *  - zero on all other faces.
+   *
+   * Tied joints have no faces. Pairs on several planes are excluded: the shares are unknown. */
   class Tractions
   {
   public:
-    /** @p initial: stresses that come to those of the displacements, one per node of the model, or empty:
-     * their part is taken away, so that it is the sum that has the tractions [Pa]. @p joint_water: pressure
-     * of the water in each pair [Pa], or empty. @p water_mass: of the water that moves with the dam, per
-     * area, one per node of the model [kg/m^2], or empty: added_mass_per_area(). */
+    /** Finds the faces with known tractions.
+     *
+     * @param model, structure mesh and pairs of the dam
+     * @param known traction of the static loads
+     * @param initial initial stress per node of the model [Pa], or empty. Its traction is subtracted, because
+     * it is added to the recovered stress.
+     * @param joint_water water pressure in each pair [Pa], or empty
+     * @param water_mass added mass per area at each node of the model: added_mass_per_area(), or empty */
     Tractions(const SolidModel &model, const Structure &structure, const KnownTraction &known,
               const std::vector<Stress> &initial = {}, std::vector<double> joint_water = {},
               const std::vector<double> &water_mass = {});
 
-    std::vector<NodeFace> faces; ///< those whose tractions are known, ascending in their nodes
+    std::vector<NodeFace> faces; ///< faces with known tractions, by ascending node
 
-    /** One for each of the faces, with the forces of the pairs @p force, 3 per pair [N], and @p acceleration
-     * of the free nodes, that of the base included, 3 per node [m/s^2], or empty: none; result [Pa]. */
+    /** Returns the traction of each face [Pa].
+     *
+     * @param force joint forces, three values per pair [N]
+     * @param acceleration absolute acceleration, three values per free node [m/s^2], or empty: none */
     const std::vector<Vector3> &at(const Unknowns &force, const Unknowns &acceleration = {});
 
   private:
     struct Edge
     {
-      unsigned int joint, other; ///< faces
+      unsigned int joint, other; ///< indices of the faces
     };
-    void add_moving_water(const Unknowns &acceleration);
-    void meet(const Edge &edge);
+    void add_moving_water(const Unknowns &acceleration); ///< adds the hydrodynamic pressure
+    void meet(const Edge &edge);                         ///< adapts the shear traction at an edge
 
     const Structure          &structure;
     JointTractions            joints;
-    std::vector<Edge>         edges; ///< where a joint and another face meet
-    std::vector<unsigned int> pair;  ///< of each face; rigid_ground: none
+    std::vector<Edge>         edges; ///< common edges of a joint face and another face
+    std::vector<unsigned int> pair;  ///< of each face; rigid_ground: no pair
     std::vector<double>       joint_water;
     std::vector<Vector3>      known;      ///< of the static loads
-    std::vector<double>       water_mass; ///< on each face [kg/m^2]
+    std::vector<double>       water_mass; ///< added mass of each face [kg/m^2]
     std::vector<unsigned int> free_node;  ///< of each face
-    std::vector<Vector3>      traction;
-    std::vector<Vector3>      initial; ///< of the initial stresses
+    std::vector<Vector3>      traction;   ///< of each face [Pa]
+    std::vector<Vector3>      initial;    ///< tractions of the initial stresses [Pa]
     std::vector<Vector3>      result;
   };
 } // namespace Voussoir

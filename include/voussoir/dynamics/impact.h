@@ -8,44 +8,57 @@
 
 namespace Voussoir
 {
-  /** What happens to velocity and acceleration where faces touch, after the displacements of a step are
-   * known. */
+  /** Rule that corrects the velocity of closed pairs after the displacements of a step are known. */
   enum class ImpactRule
   {
-    mean_force, ///< joint forces are means over the step; Coulomb's law for their impulse: the default
+    mean_force, ///< joint forces are means over the step; their impulses satisfy Coulomb's law; default
     impulse_consistent, ///< joint forces at the end of the step; Coulomb's law for impulse and acceleration
-    paper,              ///< Taylor and Papadopoulos: closed and sticking rows move together
-    none                ///< plain Newmark: oscillates, for comparison
+    paper, ///< Taylor and Papadopoulos: closed rows and sticking rows get the relative velocity zero
+    none   ///< no correction (plain Newmark); joint forces oscillate; for comparison
   };
 
-  ImpactRule  impact_rule(const std::string &name); ///< throws InputError for an unknown name
-  std::string impact_rule_names();                  ///< as a ParameterHandler selection
+  /** Returns the rule @p name. Throws InputError for an unknown name. */
+  ImpactRule impact_rule(const std::string &name);
 
-  /** Impact and release: velocity and acceleration that fit the displacements of a step, pair by pair;
-   *  without it, the force of a closed pair oscillates in every step (doc/failures.md, Plain Newmark). Lumped
-   * mass, one 3x3 block per node; a node may belong to one pair only. */
+  /** Returns the names of the rules as a Selection pattern. */
+  std::string impact_rule_names();
+
+  /** Velocity correction of a step. It computes velocities and accelerations that are consistent with the
+   * displacements, pair by pair. Without it, the force of a closed pair oscillates from step to step
+   * (doc/failures.md, Plain Newmark).
+   *
+   * The mass matrix is lumped with one 3x3 block per node. A node may belong to one pair only. The structure
+   * and the laws must outlive the object. */
   class Impact
   {
   public:
-    /** Throws InputError where a node belongs to two pairs. */
+    /** Inverts the masses. Throws InputError if a node belongs to two pairs. */
     Impact(const Structure &structure, const JointLaws &laws, ImpactRule rule);
 
-    /** @p system has solved the step, in which the jumps have changed by @p change, 3 per pair [m]; @p pasts:
-     *  those of the pairs in its equations. Corrects the velocity @p v at its end and the impulses of its
-     *  joint forces, 3 per pair [N s]. */
+    /** Corrects the velocities and impulses of all pairs at the end of a step.
+     * @param system joint system that has solved the step
+     * @param pasts data of the pairs in the equations of the step
+     * @param dt time step [s]
+     * @param change change of the jumps in the step, three values per pair [m]
+     * @param v velocity at the end of the step, three values per node [m/s]
+     * @param impulse impulses of the joint forces, three values per pair [N s] */
     void correct_velocity(const JointSystem &system, const std::vector<PairPast> &pasts, double dt,
                           const Unknowns &change, Unknowns &v, Unknowns &impulse) const;
 
-    /** The joint forces at the end of the step, 3 per pair [N], from the accelerations there, for the rules
-     *  that need them. @p force: those of the displacements, 3 per pair; @p v: the corrected velocity; @p
-     *  nodal_force: all forces on the nodes but the joints', 3 per node [N]. */
+    /** Returns the joint forces at the end of the step from the accelerations there, three values per pair
+     * [N]. For the rules paper and impulse_consistent.
+     * @param system joint system that has solved the step
+     * @param pasts data of the pairs in the equations of the step
+     * @param force joint forces of the displacements, three values per pair [N]
+     * @param v corrected velocity, three values per node [m/s]
+     * @param nodal_force all nodal forces except the joint forces, three values per node [N] */
     Unknowns end_force(const JointSystem &system, const std::vector<PairPast> &pasts, const Unknowns &force,
                        const Unknowns &v, const Unknowns &nodal_force) const;
 
   private:
     void correct_pair(const JointSystem &system, const PairPast &past, double dt, std::size_t p,
                       const Unknowns &change, Unknowns &v, Unknowns &impulse) const;
-    /** v += M^-1 G^T f of one pair. */
+    /** Adds M^-1 G^T f of one pair to the velocity @p v. */
     void add_kick(const Pair &pair, const Vector3 &f, Unknowns &v) const;
 
     const Structure     &structure;

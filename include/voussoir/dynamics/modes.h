@@ -6,23 +6,24 @@
 
 namespace Voussoir
 {
-  /** A natural mode of vibration. */
+  /** Natural mode of vibration. */
   struct NaturalMode
   {
     double   frequency; ///< [Hz]
-    Unknowns shape;     ///< phi, with phi^T M phi = 1 [1/sqrt(kg)]
+    Unknowns shape;     ///< mode shape phi with phi^T M phi = 1, three values per node [1/sqrt(kg)]
 
-    /** Participation factors phi^T M r of motion of the base along x, y and z [sqrt(kg)]; their squares are
-     * the effective masses, which over all modes add up to free_mass(). */
+    /** Returns the participation factors phi^T M r for base motion r along x, y and z [sqrt(kg)]. Their
+     * squares are the effective masses. The effective masses of all modes add up to free_mass(). */
     Vector3 participation(const Structure &structure) const;
   };
 
-  /** Mass of the free nodes, the water's with it, along x, y and z: r^T M r [kg]. */
+  /** Returns the mass of the free nodes along x, y and z, including the added mass: r^T M r [kg]. */
   Vector3 free_mass(const Structure &structure);
 
-  /** The lowest modes of a structure without pairs, by ascending frequency: K phi = omega^2 M phi by
-   * ARPACK, inverse iteration; by several ranks: modes_of_ranks(). Throws ComputationError when it does not
-   * converge. */
+  /** Returns the @p n_modes lowest modes of a structure without pairs, by ascending frequency. Solves
+   * K phi = omega^2 M phi by inverse iteration with ARPACK, or by modes_of_ranks() with several MPI
+   * processes. Throws InputError if the structure has too few unknowns, and ComputationError if the iteration
+   * does not converge. */
   std::vector<NaturalMode> natural_modes(const Structure &structure, unsigned int n_modes);
 
   /** The same by several ranks: Krylov and Schur's method of SLEPc, the factor of the stiffness by MUMPS,
@@ -30,7 +31,7 @@ namespace Voussoir
    * all get all modes. */
   std::vector<NaturalMode> modes_of_ranks(const Structure &structure, unsigned int n_modes);
 
-  /** The lowest natural frequencies alone [Hz]. */
+  /** Returns the @p n_modes lowest natural frequencies, ascending [Hz]. */
   std::vector<double> natural_frequencies(const Structure &structure, unsigned int n_modes);
 } // namespace Voussoir
 

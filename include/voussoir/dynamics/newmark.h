@@ -7,100 +7,145 @@
 
 namespace Voussoir
 {
-  /** Energies [J] since the start; those above the line are states, those below accumulate. */
+  /** Terms of the energy balance [J]. The kinetic energies, the strain energy and the joint energies are
+   * current values. The other terms are works since Newmark::start(). */
   struct Energy
   {
-    double kinetic = 0., added_mass = 0., strain = 0.;           // of concrete; of water; of concrete
-    double damping = 0., friction = 0., impact = 0., input = 0.; // input: work of all loads
-    double joint_stored = 0.;                                    ///< that the seats of keys hold now
-    double joint_fracture = 0.; ///< of bonds (law cohesive): held now, and lost so far
+    /** Kinetic energy of the concrete, kinetic energy of the added mass, strain energy of the concrete. */
+    double kinetic = 0., added_mass = 0., strain = 0.;
 
-    /** What the account misses: zero but for round-off in a correct run. */
+    /** Dissipation by Rayleigh damping, dissipation by friction, loss in the normal direction of the joints,
+     * and work of all loads and of the support. */
+    double damping = 0., friction = 0., impact = 0., input = 0.;
+    double joint_stored = 0.;   ///< current energy of the flank contacts of shear keys
+    double joint_fracture = 0.; ///< energy of bonds (cohesive law): current energy plus energy lost so far
+
+    /** Returns the error of the energy balance with respect to the state @p start [J]. It is zero up to
+     * round-off in a correct run. */
     double balance(const Energy &start) const;
   };
 
-  /** What a step with factors in single precision hands on to the next one; 3 per node, else empty. */
+  /** Data passed from one step to the next if the factors are in single precision. The vectors have three
+   * values per node; they are empty for double precision. */
   struct Carried
   {
-    Unknowns left;     ///< impulse that it owes [N s]
-    Unknowns moved;    ///< its displacement, to which the next one is an increment [m]
-    Unknowns resisted; ///< what its operator made of that [N]
-    double   dt = 0.;  ///< its length [s]
+    Unknowns left;     ///< residual impulse: dt/2 times the residual of the equation of motion [N s]
+    Unknowns moved;    ///< displacement increment of the last step [m]
+    Unknowns resisted; ///< operator of the step applied to moved [N]
+    double   dt = 0.;  ///< length of the last step [s]; 0: there was none
   };
 
-  /** Displacement and velocity, and joint forces, at one time; on a rigid base relative to it. */
+  /** State of the structure at one time. Displacements are relative to the base on a rigid or massless
+   * foundation, and absolute on explicit rock. */
   struct DynamicState
   {
-    double   time = 0.;
-    Unknowns u, v;   ///< [m], [m/s], 3 per node
-    Unknowns force;  ///< [N], 3 per pair, in the frame of the pair: mean over the last step, or at its end
-    Unknowns load;   ///< [N], that of this time
-    Unknowns Ku;     ///< stiffness times displacement [N]
-    Unknowns memory; ///< of the joint laws: JointLaws::initial_memory() at first
-    Carried  carried;
-    Vector3  base_velocity = {{0., 0., 0.}}; ///< see Newmark::advance() [m/s]
+    double   time = 0.; ///< [s]
+    Unknowns u, v;      ///< displacement [m] and velocity [m/s], three values per node
+    /** Joint forces, three values per pair in the frame of the pair [N]. With ImpactRule::mean_force they are
+     * means over the last step, otherwise values at this time. */
+    Unknowns force;
+    Unknowns load;    ///< nodal loads at this time [N]
+    Unknowns Ku;      ///< stiffness matrix times u [N]
+    Unknowns memory;  ///< history variables of all pairs; at first JointLaws::initial_memory()
+    Carried  carried; ///< for factors in single precision only
+    Vector3  base_velocity = {{0., 0., 0.}}; ///< velocity of the base, see Newmark::advance() [m/s]
     Energy   energy;
   };
 
-  /** Trapezoidal Newmark with joints: M a + C v + K u = load + G^T force.
+  /** Time integration of a structure with joints by the trapezoidal rule: M a + C v + K u = load + G^T force,
+   * with Rayleigh damping C.
    *
-   *  The displacements of a step satisfy the joint laws; then impact and release make velocity and
-   *  acceleration fit (Impact). */
+   * Each step has two parts: JointSystem computes the displacements and joint forces that satisfy the joint
+   * laws, then Impact corrects the velocities of closed pairs. See doc/method.md. The structure, the laws and
+   * the support must outlive the object. */
   class Newmark
   {
   public:
-    /** @p support: what the dam's feet stand on if that makes steps of its own, or null; it must outlive
-     * this. Steps are halved down to one of its own then, at most three times, and it is to be where the dam
-     * is at the start. @p single_factors: in single precision, which halves what a step reads, without a
-     * support; a step's displacement is then found as an increment to that of the step before, and what the
-     * equations of motion leave over is carried to the next one. InputError for laws, and a support, that
-     * need the rule mean-force without it. */
+    /** Condenses the bodies for time steps of length @p dt.
+     * @param structure masses, stiffness matrices, damping and pairs
+     * @param laws joint laws of the pairs
+     * @param parameters parameters of the contact solver
+     * @param dt time step [s]
+     * @param rule velocity correction of closed pairs
+     * @param support subcycled or massless foundation, or nullptr. Its displacement must equal that of the
+     * base nodes at start(). A step is not divided below one substep of the support.
+     * @param single_factors stores the factors in single precision, which halves the memory traffic of a
+     * step. The unknown is then an increment to the last step, and the residual is carried to the next step.
+     * Ignored with a @p support.
+     *
+     * Throws InputError if @p rule is not ImpactRule::mean_force but a law or the support requires it. */
     Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters, double dt,
             ImpactRule rule, Support *support = nullptr, bool single_factors = false);
 
-    /** Start from displacement @p u and velocity @p v with the joint forces @p force of that state under @p
-     * load; @p reference: jump of each pair, 3 per pair, at which it is closed and
-     * unslipped [m]; @p memory: of the joint laws, nothing has happened yet if empty. */
+    /** Sets the initial state at time 0.
+     * @param u displacement, three values per node [m]
+     * @param v velocity, three values per node [m/s]
+     * @param force joint forces of this state, three values per pair [N]
+     * @param load nodal loads of this state, three values per node [N]
+     * @param reference displacement jump of each pair at which the joint is closed and without slip, three
+     * values per pair [m]
+     * @param memory history variables of the pairs; empty: initial values */
     void start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
                const Unknowns &reference, const Unknowns &memory = {});
 
-    /** Go on from a saved state, with the energies of the start and the largest one so far. */
+    /** Restores a saved state.
+     * @param state state at the time of the checkpoint
+     * @param first energies at the start of the run
+     * @param largest_energy value of largest_energy() at the time of the checkpoint [J]
+     * @param reference as in start() */
     void resume(const DynamicState &state, const Energy &first, double largest_energy,
                 const Unknowns &reference);
 
-    /** One step to time + dt, under @p load there. When the joints do not converge, two steps of half the
-     *  size take its place, and so on down to dt/8; then throws ComputationError, in a state between two
-     *  steps. @p base_velocity: at that time, where the displacements are absolute: the mass-proportional
-     *  damping acts on the velocity relative to it, as on a rigid base [m/s]. */
+    /** Advances the state by one step to time + dt.
+     * @param load nodal loads at the end of the step [N]
+     * @param base_velocity velocity of the base at the end of the step if displacements are absolute [m/s].
+     * Mass-proportional damping acts on the velocity relative to it.
+     *
+     * If the joints do not converge, two steps of dt/2 replace the step, and so on down to dt/8. Throws
+     * ComputationError if these fail, too, or if displacements are not finite. After a failure to converge,
+     * the state is that of the last accepted part of a step. */
     ContactResult advance(const Unknowns &load, const Vector3 &base_velocity = {{0., 0., 0.}});
 
-    const DynamicState &state() const { return now; }
-    const Energy       &initial_energy() const { return first; }
-    double              largest_energy() const { return largest; } ///< that has gone through [J]
-    double              energy_error() const; ///< |balance| / largest energy that has gone through
+    const DynamicState &state() const { return now; }            ///< current state
+    const Energy       &initial_energy() const { return first; } ///< energies at the start
 
-    /** Opening and slip of a pair since @p reference, (n,a,b) [m]. */
+    /** Returns the maximum over time of the input, the kinetic energy, the change of strain energy and the
+     * damping [J]. */
+    double largest_energy() const { return largest; }
+
+    /** Returns |balance| divided by largest_energy(), or by 1e-6 of the initial strain energy if this is
+     * larger [-]. */
+    double energy_error() const;
+
+    /** Returns opening and slip of a pair relative to the reference of start(), in its frame (n,a,b) [m]. */
     Vector3 opening_and_slip(unsigned int pair) const;
 
-    /** Of the last step. */
+    /** Returns the contact states of the pairs in the last step, or in its last part. */
     const std::vector<PairState> &pair_states() const { return levels[last_level]->system.states(); }
-    const Unknowns               &impulses() const { return impulse; } ///< of the last step, 3 per pair [N s]
-    const JointSystem            &joint_system() const { return levels[0]->system; } ///< of whole steps
-    double memory() const; ///< of factors and joint operators, those of halved steps included [bytes]
+
+    /** Returns the impulses of the joint forces in the last step, three values per pair [N s]. */
+    const Unknowns &impulses() const { return impulse; }
+
+    /** Returns the joint system of the full time step. */
+    const JointSystem &joint_system() const { return levels[0]->system; }
+
+    /** Returns the memory consumption of the factors and joint operators of all step sizes [bytes]. */
+    double memory() const;
 
   private:
-    struct Work ///< of one step [J]
+    struct Work ///< works of one step [J]
     {
       double opening = 0., friction = 0., input = 0., damping = 0.;
     };
-    /** What belongs to the size of a step: whole, or halved once, twice, three times. All else is shared. */
+    /** Operators for one step size: full, or halved once, twice or three times. */
     struct Level
     {
       double       dt;
-      unsigned int n_substeps; ///< of the support
+      unsigned int n_substeps; ///< substeps of the support
       JointSystem  system;
     };
-    /** A step, or a part of it: the support's steps cannot be halved, so halves may differ by one of them. */
+    /** A step or a part of it. Halves may differ by one substep of the support, because substeps
+     * are not divided. */
     struct Part
     {
       double       dt;
@@ -135,16 +180,16 @@ namespace Voussoir
     const ContactParameters parameters;
     const ImpactRule        rule;
     Support *const          support;
-    const bool              is_single; ///< are the factors in single precision?
+    const bool              is_single; ///< factors in single precision
     Impact                  impact;
     Unknowns                reference, impulse, gap;
-    Unknowns                step_start, step_memory; ///< of the pairs, in the equations of the last step [m]
-    DynamicState            now;
-    Energy                  first; ///< at the start
-    double                  largest = 0.;
-    double                  of_friction = 0.;           ///< JointSystem::friction_correction()
-    std::vector<std::unique_ptr<Level>> levels;         ///< by number of halvings; made when they are needed
-    unsigned int                        last_level = 0; ///< of the last step, or its last part
+    Unknowns     step_start, step_memory; ///< gaps [m] and history variables at the start of the last step
+    DynamicState now;
+    Energy       first; ///< energies at the start
+    double       largest = 0.;
+    double       of_friction = 0.;              ///< JointSystem::friction_correction() of the last step [J]
+    std::vector<std::unique_ptr<Level>> levels; ///< one per step size, created on demand
+    unsigned int                        last_level = 0; ///< index of the last accepted step or part of a step
   };
 } // namespace Voussoir
 

@@ -6,29 +6,37 @@
 
 namespace Voussoir
 {
-  /** What a dam's feet stand on when that makes steps of its own, several in each of the dam: the forces
-   * between them are constant during a step of the dam, and such that the feet are where the support is at
-   * its end. So the coupling neither gives nor takes energy, whatever the steps: the work of these forces is
-   * the same on both sides (Gravouil and Combescure's macro-scale link, in displacements). */
+  /** Foundation under the base nodes that is integrated with smaller time steps (subcycling), or that is
+   * massless. The coupling forces are constant during a step of the dam. They are chosen such that the base
+   * nodes and the support have equal displacements at the end of the step.
+   *
+   * The work of these forces is the same on both sides, so the coupling conserves energy for any number of
+   * substeps (macro-scale link of Gravouil and Combescure, in displacements).
+   *
+   * Each step calls predict(), then advances the dam, then calls push(). */
   class Support
   {
   public:
     virtual ~Support() = default;
 
-    /** Nodes of the dam that stand on it, ascending. */
+    /** Returns the base nodes of the dam on the support, ascending. */
     virtual const std::vector<unsigned int> &feet() const = 0;
 
-    virtual unsigned int n_substeps() const = 0; ///< of its own in a whole step of the dam
+    virtual unsigned int n_substeps() const = 0; ///< returns the number of substeps in a full step of the dam
 
-    /** Displacement of the feet after @p n own steps for unit forces held at the feet [m/N]. */
+    /** Returns the displacement of the base nodes after @p n substeps for constant unit forces
+     * on them [m/N]. */
     virtual BlockSparseMatrix compliance(unsigned int n) const = 0;
 
-    /** Displacement of the feet, which are @p at now, after the next @p n own steps without forces [m];
-     * nothing moves. */
+    /** Returns the displacement of the base nodes after the next @p n substeps without coupling forces [m].
+     * @p at: current displacement of the base nodes [m]. The support does not advance. */
     virtual Unknowns predict(unsigned int n, const Unknowns &at) = 0;
 
-    /** Makes the @p n own steps of the last predict(); @p force: held, on the dam's feet [N]; @p place: where
-     * they are after that [m]; @p work: what that did on the dam [J]. */
+    /** Advances the support by the @p n substeps of the last predict().
+     * @param n number of substeps
+     * @param force constant coupling forces, on the base nodes of the dam, three values each [N]
+     * @param place displacement of the base nodes at the end of the step [m]
+     * @param work work of these forces on the dam [J] */
     virtual void push(unsigned int n, const Unknowns &force, const Unknowns &place, double work) = 0;
   };
 } // namespace Voussoir

@@ -4,16 +4,16 @@
 
 namespace Voussoir
 {
-  /** The steps of a run: those of the dam, and the smaller ones of explicit rock in each of them. */
+  /** Time steps of a run: steps of the dam, and substeps of explicit rock in each of them. */
   struct TimeGrid
   {
-    double       dt = 0.;      ///< of the dam [s]
-    unsigned int substeps = 1; ///< of the rock in one of the dam
-    unsigned int n = 0;        ///< steps of the dam
+    double       dt = 0.;      ///< time step of the dam [s]
+    unsigned int substeps = 1; ///< rock steps per step of the dam
+    unsigned int n = 0;        ///< number of steps of the dam
 
-    double       duration() const { return n * dt; }       ///< [s]
-    double       substep() const { return dt / substeps; } ///< time step of the rock [s]
-    unsigned int n_substeps() const { return substeps * n; }
+    double       duration() const { return n * dt; }         ///< duration of the run [s]
+    double       substep() const { return dt / substeps; }   ///< time step of the rock [s]
+    unsigned int n_substeps() const { return substeps * n; } ///< total number of rock steps
   };
 } // namespace Voussoir
 

@@ -8,20 +8,20 @@
 
 namespace Voussoir
 {
-  /** The equilibrium of aggregates of the rock, about: one cycle of the smoothed aggregation of Trilinos' ML,
-   * whose coarse spaces hold the six motions of a rigid body. By one process, for it is small: some hundredth
-   * of the unknowns, some tenth of the numbers.
+  /** Approximate solver for the coarse problem of RockStatics: one cycle of smoothed aggregation by Trilinos'
+   * ML. The coarse spaces contain the six rigid body motions. The problem has about 1/100 of the unknowns and
+   * 1/10 of the matrix entries of the rock, and runs on one process.
    *
-   * ML needs MPI, which is started here when nobody has, for this process alone, and ended with the program.
-   */
+   * ML needs MPI. The constructor initialises MPI for this process if necessary. */
   class CoarseRock
   {
   public:
-    /** Blocks of a row of @p stiffness are to stand together. Throws ComputationError where it cannot. */
+    /** Creates the levels. The blocks of a row of @p stiffness must be contiguous. Throws ComputationError if
+     * ML fails. */
     CoarseRock(const RockAggregates &aggregates, std::vector<CoarseBlock> &&stiffness);
     ~CoarseRock();
 
-    /** Motions for @p forces, six numbers of each aggregate. */
+    /** Computes the @p motions for the @p forces, six values per aggregate (RigidMotion). */
     void solve(const std::vector<double> &forces, std::vector<double> &motions) const;
 
   private:

@@ -8,24 +8,33 @@
 
 namespace Voussoir
 {
-  /** The stiffness of rock without mass, condensed to the nodes of the dam's base. */
+  /** Stiffness of massless rock, condensed to the base nodes of the dam. */
   struct CondensedRock
   {
-    std::vector<Foot>   feet;
-    std::vector<double> stiffness; ///< S, three rows and columns per foot, symmetric [N/m]
+    std::vector<Foot>   feet;      ///< base nodes
+    std::vector<double> stiffness; ///< S, three rows and columns per base node, symmetric [N/m]
 
-    BlockSparseMatrix matrix() const; ///< S
+    /** Returns S in blocks. */
+    BlockSparseMatrix matrix() const;
 
+    /** Returns the number of rows of S. */
     unsigned int n() const { return 3 * static_cast<unsigned int>(feet.size()); }
 
-    /** (S - springs)^-1 [m/N], @p springs on the diagonal, the same for the three components, per foot
-     * [N/m]. ComputationError where that is not positive definite. */
+    /** Returns (S - springs)^-1 [m/N]. @p springs: diagonal matrix, one value per base node for all three
+     * components [N/m]. Throws ComputationError if the difference is not positive definite. */
     BlockSparseMatrix compliance(const std::vector<double> &springs) const;
   };
 
-  /** That of the rock of @p mesh, fixed at its artificial boundary; @p dam: its base free; @p source names
-   * the mesh. By the first rank for all. Throws InputError where a node of the base has no rock,
-   * ComputationError where nothing holds the rock. */
+  /** Condenses the rock of a mesh, fixed at its artificial boundary. The first rank computes for all ranks.
+   *
+   * @param parameters materials of the rock
+   * @param mesh mesh of dam and rock
+   * @param dam model of the dam with free base nodes
+   * @param incompatible_modes of the rock elements
+   * @param source name of the mesh in messages
+   *
+   * Throws InputError if a base node has no rock node, or if the artificial boundary has no face. Throws
+   * ComputationError if the stiffness matrix of the rock cannot be factorised. */
   CondensedRock condense_rock(const FoundationParameters &parameters, const HexMesh &mesh,
                               const SolidModel &dam, bool incompatible_modes, const std::string &source);
 } // namespace Voussoir

@@ -9,32 +9,31 @@
 
 namespace Voussoir
 {
-  /** What the scene says of the rock; @p centre: of the dam's base [m], @p dt: of the rock [s]. */
+  /** Returns the rock parameters of the input file. @p centre: centre of the dam base [m]. @p dt: time step
+   * of the rock [s]. */
   RockRegionParameters region_parameters(const FoundationParameters &p, const std::array<double, 3> &centre,
                                          double dt);
 
-  /** InputError where the mesh has fewer layers of equal, straight elements than the artificial boundary
-   * needs. @p source names the mesh. */
+  /** Throws InputError if the mesh has fewer layers of equal, straight elements than the artificial boundary
+   * requires. @p source: name of the mesh in messages. */
   void check_boundary_layers(const FoundationParameters &parameters, const HexMesh &mesh,
                              const std::string &source);
 
-  /** The rock under and around the dam: explicit, in the element partition of Hughes and Liu (1978): the
-   * nodes of the dam's base are the dam's, with the rock's mass lumped to them; the rock's elements act on
-   * them with the forces of their predicted motion, u + dt v + dt^2/4 a. Displacements of the rock are those
-   * of the earthquake; the static state is superposed.
+  /** Elastic rock with mass and explicit time integration, coupled by the element partition of Hughes and Liu
+   * (1978). The base nodes belong to the dam and carry the lumped mass of the rock. The forces of the rock on
+   * these nodes follow from their predicted displacement u + dt v + dt^2/4 a. Displacements of the rock are
+   * those of the earthquake only. The static displacements are superposed.
    *
-   *  With m substeps (and "Foundation/Coupling" = partition; else: OwnStepRock) the rock makes m steps in one
-   * of the dam: the feet go evenly from one prediction to the next (Belytschko, Yen and Mullen 1979), and the
-   * dam feels the force at the end. Predictions over so long a step make feet unstable that are lighter than
-   * the rock's stiffness there asks; so for m > 1 each foot carries in addition the mass k dt^2/2, k bounding
-   * the rock's stiffness between the feet: an error in the order of dt^2, whose size is in doc/rock.md. For m
-   * > 2 slow growth is left, which stiffness-proportional damping of 0.15 steps of the rock suppresses;
-   * check() asks for it. */
+   * With "Foundation/Coupling" = partition the rock may have m substeps per time step of the dam. The base
+   * nodes then move linearly between two predictions (Belytschko, Yen and Mullen 1979). The force at the end
+   * of the last substep acts on the dam. For m > 1 each base node needs the additional mass k dt^2/2 for
+   * stability. k bounds the rock stiffness between the base nodes. The error of this mass is of order dt^2
+   * (doc/rock.md). For m > 2 a slow instability remains. Stiffness-proportional damping of 0.15 rock time
+   * steps suppresses it, and check() requires this damping. Other couplings: OwnStepRock. */
   class ExplicitRock : public Foundation
   {
   public:
-    /** @p site: with the mesh of dam and rock. Throws InputError for a mesh that the boundary or the program
-     * cannot use. */
+    /** Stores the parameters and the mesh of @p site. Throws InputError if the element degree is not 1. */
     explicit ExplicitRock(const FoundationSite &site);
 
     Base base() const override { return Base::tied; }
@@ -42,27 +41,36 @@ namespace Voussoir
     bool moves_base() const override { return false; }
     bool resumes_longer_only() const override { return true; }
 
-    void        add_stiffness(const SolidModel &dam, Structure &structure) override; ///< none: finds the feet
-    void        add_mass(Structure &structure) const override; ///< half of it each where two monoliths stand
+    /** Finds the base nodes, assembles the rock and computes the critical time step. The stiffness of the
+     * @p structure is unchanged. Throws InputError if the artificial boundary cannot use the mesh. */
+    void add_stiffness(const SolidModel &dam, Structure &structure) override;
+
+    /** Adds the rock mass of each base node, in equal parts to the dam nodes at its position. */
+    void add_mass(Structure &structure) const override;
+
     void        report(Log &log, const TimeGrid &grid) const override;
     std::string about_steps() const override;
     void        add_to_summary(Json &summary, const TimeGrid &grid) const override;
 
-    /** When the rising waves, S, S, P, are at the lowest foot, if they enter at t = 0 [s]. The P waves enter
-     * later by the difference. */
+    /** Returns the travel times of the S waves (x, y) and the P wave (z) from the bottom of the rock to the
+     * lowest base node [s]. The P wave enters later, so that all components arrive at the same time. */
     Vector3 arrival() const;
     double  delay() const override { return arrival()[0]; }
 
+    /** Returns the number of rock nodes. */
     unsigned int n_nodes() const { return static_cast<unsigned int>(model.points.size()); }
-    double       critical_time_step() const { return dt_critical; } ///< of the rock [s]
+
+    /** Returns the critical time step of the rock [s]. */
+    double critical_time_step() const { return dt_critical; }
 
     Unknowns      static_springs(const Structure &structure) const override;
     ContactResult settle(const DamSolve &solve, const Unknowns &springs, const Unknowns &u, Unknowns &load,
                          Log &log) override;
 
-    /** InputError for a step above the critical one, and for what would become unstable with the steps
-     * of the @p grid: an artificial boundary with lines too short, waves too fast, Gauss points, or too near
-     * the base; a high Poisson's ratio, or more than two substeps, without enough damping. */
+    /** Throws InputError in these cases:
+     *  - the time step of the rock exceeds the critical one,
+     *  - the artificial boundary would be unstable (ArtificialBoundary::check()) or is too close to the base,
+     *  - there are more than two substeps without the required damping. */
     void check(const TimeGrid &grid, unsigned int steps_per_sample) const override;
 
     double  add_interface_mass(Structure &structure, const TimeGrid &grid) const override;
@@ -84,52 +92,76 @@ namespace Voussoir
     std::string trouble_of_motion() const override;
     std::string remedies() const override;
 
-    /** Energies of the rock, half a step of its own before the dam's time, after start() [J]. */
+    /** Returns the energies of the rock, half a rock time step before the time of the dam [J]. Must be called
+     * after start(). */
     RegionEnergy energy() const { return region->energy(); }
 
-    /** Work of the rock on the feet so far, as the dam counts it, and of the feet on the rock [J]: they add
-     * up to what the coupling made. */
-    double         work_on_dam() const { return account[0]; }
+    /** Returns the work of the rock on the base nodes since start(), in the time integration of the dam [J].
+     * The sum of work_on_dam() and work_of_feet() is the energy error of the coupling. */
+    double work_on_dam() const { return account[0]; }
+
+    /** Returns the work of the base nodes on the rock since start(), in the time integration of the rock. */
     virtual double work_of_feet() const { return energy().prescribed; }
 
   protected:
-    /** @p near_feet: nodes that the rank which looks @p ahead asks for, besides the feet, which all do. */
-    void                      make_rock(const GroundMotion &outcrop, const TimeGrid &steps, double delay,
-                                        const std::vector<unsigned int> &near_feet = {});
-    void                      report_layers(Log &log, unsigned int nodal_layers) const;
-    void                      keep_account(double time);
-    std::vector<unsigned int> feet_of_rock() const; ///< nodes of the region
+    /** Creates the region at rest and its incident waves.
+     *
+     * @param outcrop ground motion at a free surface
+     * @param steps time steps
+     * @param delay delay of the incident waves [s]
+     * @param near_feet nodes near the base that rank @p ahead steps for its prediction. All ranks step the
+     * base nodes. */
+    void make_rock(const GroundMotion &outcrop, const TimeGrid &steps, double delay,
+                   const std::vector<unsigned int> &near_feet = {});
+
+    /** Writes the layers of nodal quadrature and the layers at the dam to the log, with warnings. */
+    void report_layers(Log &log, unsigned int nodal_layers) const;
+
+    /** Updates the largest energy and the largest imbalance at the end of a time step. */
+    void keep_account(double time);
+
+    /** Returns the node numbers of the base nodes in the rock. */
+    std::vector<unsigned int> feet_of_rock() const;
 
   private:
-    void     check_stability(const TimeGrid &grid) const;
-    void     solve_rock(const Unknowns &r, double part, Unknowns &u_base, Log &log);
+    /** Throws InputError if a stability condition of check() is violated. */
+    void check_stability(const TimeGrid &grid) const;
+
+    /** Computes the static displacements @p u_base of the base nodes [m] for the forces @p r on the rock,
+     * three values per node of the dam [N]. @p part: see RockStatics::solve(). */
+    void solve_rock(const Unknowns &r, double part, Unknowns &u_base, Log &log);
+
+    /** Returns the load of the dam on springs whose other end has the displacement @p base. @p r: forces on
+     * the rock of the previous iteration. */
     Unknowns with_springs(const Unknowns &external, const Unknowns &springs, const Unknowns &base,
                           const Unknowns &r) const;
-    double   add_slack(const Unknowns &springs, const Unknowns &u, const Unknowns &base, Unknowns &r) const;
+
+    /** Adds the spring forces to the forces @p r on the rock. Returns the largest spring elongation [m]. */
+    double add_slack(const Unknowns &springs, const Unknowns &u, const Unknowns &base, Unknowns &r) const;
 
   protected:
     const FoundationParameters      parameters;
     HexMesh                         mesh;
     const std::string               source;
     const bool                      incompatible_modes; ///< of the dam's elements
-    std::array<double, 3>           centre{}; ///< of the dam's base: scattered waves come from there [m]
+    std::array<double, 3>           centre{}; ///< of the dam base, assumed source of scattered waves [m]
     RockModel                       model;
-    std::vector<Foot>               foot;
-    std::unique_ptr<ExplicitRegion> region;
-    std::unique_ptr<RockStatics>    statics; ///< while the static state is looked for
-    unsigned int                    n_settled = 0;
-    unsigned int                    ahead = 0; ///< rank that has most nodes near the feet
+    std::vector<Foot>               foot;          ///< base nodes
+    std::unique_ptr<ExplicitRegion> region;        ///< after start()
+    std::unique_ptr<RockStatics>    statics;       ///< until start()
+    unsigned int                    n_settled = 0; ///< number of static solutions of the rock
+    unsigned int                    ahead = 0;     ///< rank that owns most nodes near the base
     TimeGrid                        grid;
-    double                          dt_critical = 0.;         ///< for the rock [s]
-    double                          seconds_advancing = 0.;   ///< of wall time [s]
-    double                          work_advancing = 0.;      ///< of processor time, without messages [s]
-    Unknowns                        rest;                     ///< of the feet [m]
-    Unknowns                        u_feet, v, a;             ///< of the feet
-    Unknowns                        force, force_before;      ///< of the rock's elements on them [N]
-    Unknowns                        u_predicted, v_predicted; ///< for the end of the step
+    double                          dt_critical = 0.;         ///< of the rock [s]
+    double                          seconds_advancing = 0.;   ///< wall time [s]
+    double                          work_advancing = 0.;      ///< CPU time, without messages [s]
+    Unknowns                        rest;                     ///< static displacement of the base nodes [m]
+    Unknowns                        u_feet, v, a;             ///< motion of the base nodes
+    Unknowns                        force, force_before;      ///< of the rock elements on the base nodes [N]
+    Unknowns                        u_predicted, v_predicted; ///< of the base nodes at the end of the step
     std::vector<double> account = {0., 0., 0.}; ///< work on the dam, largest energy, largest imbalance [J]
     WatchBounds         bounds;
-    double              energy_bound = 0.; ///< that the rock may take in [J]
+    double              energy_bound = 0.; ///< upper bound of the energy supplied to the rock [J]
   };
 } // namespace Voussoir
 

@@ -6,31 +6,33 @@
 
 namespace Voussoir
 {
-  /** One foot of the dam: a node of the rock and the free nodes of the dam that stand on it. */
+  /** Base node: one rock node and the free dam nodes at its position. */
   struct Foot
   {
-    unsigned int              rock;
-    std::vector<unsigned int> nodes; ///< equations of the dam
+    unsigned int              rock;  ///< node number in the rock
+    std::vector<unsigned int> nodes; ///< equation numbers in the dam
   };
 
-  /** The feet of the dam on the rock nodes at @p points; @p source names the mesh. Throws InputError where a
-   * node of the dam's base has no rock. */
+  /** Returns the base nodes of the @p dam, ascending by rock node. @p points: positions of the rock nodes
+   * [m].
+   * @p source: name of the mesh in messages. Throws InputError if a node of the dam base has no rock node. */
   std::vector<Foot> find_feet(const SolidModel &dam, const std::vector<std::array<double, 3>> &points,
                               const std::string &source);
 
-  /** The nodes of the dam that stand on feet, ascending, and the foot below each. */
+  /** Dam nodes on the foundation. */
   struct StandingNodes
   {
     StandingNodes() = default;
     explicit StandingNodes(const std::vector<Foot> &feet);
 
-    /** They become interface nodes of their bodies, if they were none. */
+    /** Marks the dam nodes as interface nodes of their bodies. */
     void mark(Structure &structure) const;
 
-    /** A matrix of the feet for them: those on one foot have the same rows and columns. */
+    /** Expands a matrix of the base nodes to the dam nodes. Dam nodes on the same base node have equal rows
+     * and columns. */
     BlockSparseMatrix matrix(const BlockSparseMatrix &of_feet) const;
 
-    std::vector<unsigned int> node, foot;
+    std::vector<unsigned int> node, foot; ///< equations of the dam, ascending; base node below each
   };
 } // namespace Voussoir
 

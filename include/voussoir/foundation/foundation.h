@@ -16,122 +16,173 @@ namespace Voussoir
 {
   struct GroundMotion;
 
-  /** Where a foundation is made. */
+  /** Input of the constructors of foundations. */
   struct FoundationSite
   {
     const FoundationParameters &parameters;
-    const HexMesh              &mesh;   ///< of dam and rock
-    std::string                 source; ///< of the mesh: arch210, or its file
-    unsigned int                degree = 1;
-    bool                        incompatible_modes = true;
-    bool one_body = false; ///< no joint opens, or the operator of the joints is asked for without a support
+    const HexMesh              &mesh;                      ///< of dam and rock
+    std::string                 source;                    ///< of the mesh: arch210 or the file name
+    unsigned int                degree = 1;                ///< of the elements
+    bool                        incompatible_modes = true; ///< in the elements of the dam
+
+    /** true: massless rock forms one body with the dam. This is required if all joints are tied, if the
+     * impact rule is not ImpactRule::mean_force, or if contact problems are written. */
+    bool one_body = false;
   };
 
-  /** What no earthquake does to the ground, see StabilityWatch. */
+  /** Upper bounds of the rock motion for StabilityWatch. */
   struct WatchBounds
   {
-    double velocity = 0., displacement = 0.; ///< [m/s], [m]
-    double strain = 0.;                      ///< energy of the dam's static state [J]
+    double velocity = 0., displacement = 0.; ///< of a rock node [m/s], [m]
+    double strain = 0.;                      ///< strain energy of dam and foundation in the static state [J]
   };
 
-  /** The static state of the dam under a load [N]. */
+  /** Solves for the static state of the dam under a load [N]. */
   using DamSolve = std::function<ContactResult(const Unknowns &load)>;
 
-  /** What the dam stands on. This class itself is the rigid ground, which moves as the ground motion says:
-   * displacements of the dam are relative to it. Others override what they do in another way; who runs the
-   * dam does not ask which one it has. */
+  /** Foundation of the dam. The base class is the rigid foundation with prescribed ground motion.
+   * Displacements of the dam are then relative to the ground. Derived classes are other foundations.
+   *
+   * Order of the calls:
+   *  1. assembly of the dam: base(), add_stiffness(), add_mass(),
+   *  2. before the run: delay(), check(), report(), about_steps(),
+   *  3. static state: static_springs(), static_feet(), and settle() for each load stage,
+   *  4. start of the dynamic analysis: start(), add_interface_mass(), support(), watch(),
+   *  5. time step: advance(), base_velocity(), step of the dam by Newmark, follow(),
+   *  6. after the time step: energies(), trouble_of_energy(), trouble_of_motion(). */
   class Foundation
   {
   public:
     virtual ~Foundation() = default;
 
-    /** What becomes of the nodes of the dam's base: held, without unknowns; shared by the monoliths that meet
-     * there; free, with the pairs of joints there tied; or led by the foundation, each by itself. */
+    /** Treatment of the base nodes. */
     enum class Base
     {
-      held,
-      shared,
-      tied,
-      led
+      held,   ///< fixed, without unknowns
+      shared, ///< free, one node for all monoliths that meet there
+      tied,   ///< free, one node per monolith, joint pairs at the base are tied
+      led     ///< free, one node per monolith, without joint pairs, coupled to the support()
     };
     virtual Base base() const { return Base::held; }
-    virtual bool uses_rock() const { return false; } ///< does it need the rock of the mesh?
-    virtual bool moves_base() const
-    {
-      return true;
-    } ///< else displacements are absolute, the dam has no inertia load
-    virtual bool resumes_longer_only() const { return false; } ///< what a checkpoint's motion may become
 
-    /** Before anything else; @p dam: its final nodes, the base as base() says. */
+    /** Returns true if the mesh must contain rock. */
+    virtual bool uses_rock() const { return false; }
+
+    /** Returns true if displacements are relative to the ground and the dam has an inertia load. Returns
+     * false if displacements are absolute. */
+    virtual bool moves_base() const { return true; }
+
+    /** Returns true if a run can be resumed only with the same or a longer ground motion. */
+    virtual bool resumes_longer_only() const { return false; }
+
+    /** Adds the stiffness of the foundation to the structure and stores the base nodes. The nodes of the dam
+     * are final and treated according to base(). */
     virtual void add_stiffness(const SolidModel &, Structure &) {}
-    virtual void add_mass(Structure &) const {} ///< the rock's at the base; after the inertia loads
 
-    virtual void   report(Log &, const TimeGrid &) const {} ///< what it is, and warnings
-    virtual double delay() const { return 0.; } ///< with which the ground motion is at the dam's base [s]
-    virtual std::string about_steps() const;    ///< what follows "Steps N of DT s" in the log
-    virtual void        add_to_summary(Json &, const TimeGrid &) const {}
+    /** Adds the rock mass of the base nodes to the structure, after the inertia loads were computed. */
+    virtual void add_mass(Structure &) const {}
 
-    /** InputError for what would become unstable with these steps, of which there are that many of the dam in
-     * a sample of the motion. */
+    /** Writes properties and warnings to the log. */
+    virtual void report(Log &, const TimeGrid &) const {}
+
+    /** Returns the time that the ground motion needs to the base of the dam [s]. */
+    virtual double delay() const { return 0.; }
+
+    /** Returns the text after "Steps N of DT s" in the log. */
+    virtual std::string about_steps() const;
+
+    /** Adds the results of the foundation to summary.json. */
+    virtual void add_to_summary(Json &, const TimeGrid &) const {}
+
+    /** Throws InputError if the time integration would be unstable. The second argument is the number of time
+     * steps of the dam per sample of the ground motion. */
     virtual void check(const TimeGrid &, unsigned int /*steps_per_sample*/) const {}
 
-    /** Springs between dam and foundation for the static iteration, per component of the dam [N/m], or empty.
-     */
+    /** Returns the auxiliary springs at the base nodes in the static solution, three values per node of the
+     * dam [N/m], or an empty vector. */
     virtual Unknowns static_springs(const Structure &) const { return {}; }
 
-    /** What the feet, with these springs, stand on where it gives way at once (compliance for forces), or
-     * null; marks them as interface of their bodies. */
+    /** Returns the base nodes and the static compliance of the foundation without static_springs(). Marks the
+     * base nodes as interface nodes of their bodies. Returns nullptr if the static solution does not
+     * eliminate the base nodes. */
     virtual std::unique_ptr<FootElimination::Feet> static_feet(Structure &) const { return nullptr; }
 
-    /** The static state: calls @p solve, which leaves the dam's displacement in @p u, on the @p springs,
-     * until the foundation follows; adds the foundation's forces to @p load [N]. */
+    /** Computes the static state of dam and foundation.
+     *
+     * @param solve computes the dam on the springs and stores its displacements in @p u
+     * @param springs auxiliary springs of static_springs() [N/m]
+     * @param u displacements of the dam, three values per node [m]
+     * @param load nodal loads of the dam [N]. Forces of the foundation are added.
+     * @param log receives the progress
+     *
+     * Throws ComputationError if dam and foundation do not converge. */
     virtual ContactResult settle(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
                                  Unknowns &load, Log &log);
 
-    /** Add the mass to the feet that substeps need; to be done before the dam's Newmark is made. Returns that
-     * mass [kg]. */
+    /** Adds the mass that substeps require at the base nodes. Returns the added mass [kg]. Must be called
+     * before the Newmark object of the dam is created. */
     virtual double add_interface_mass(Structure &, const TimeGrid &) const { return 0.; }
 
-    /** What leads the dam's base, or null; marks its feet as interface of their bodies. To be done before the
-     * dam's Newmark is made, after start(). */
+    /** Returns the support of the base nodes, or nullptr. Marks the base nodes as interface nodes of their
+     * bodies. Must be called after start(), and before the Newmark object of the dam is created. */
     virtual Support *support(Structure &) { return nullptr; }
 
-    /** Another one, for steps of the size @p dt [s]; or null. */
+    /** Returns a second support for the coarse-step comparison run (TimeErrorEstimate), or nullptr. The
+     * second argument is the time step of this run [s]. */
     virtual std::unique_ptr<Support> support_of_companion(const Structure &, double /*dt*/) const
     {
       return nullptr;
     }
 
-    /** Make ready for these steps from the static displacement of the dam, at rest. */
+    /** Prepares the time steps, from rest. The third argument is the static displacement of the dam, three
+     * values per node [m]. */
     virtual void start(const GroundMotion &, const TimeGrid &, const Unknowns & /*u*/) {}
 
-    virtual void advance(Unknowns &) {} ///< its part of the next step; adds its forces to the load [N]
-    virtual void follow(const DynamicState &) {} ///< the dam has made its step
+    /** Advances the foundation by one time step and adds its forces to the nodal loads [N]. */
+    virtual void advance(Unknowns &) {}
 
-    /** Mean velocity of the feet as predicted for the end of the step, after advance() [m/s]. */
+    /** Updates the base nodes from the state of the dam at the end of the time step. */
+    virtual void follow(const DynamicState &) {}
+
+    /** Returns the mean predicted velocity of the base nodes at the end of the time step [m/s]. Must be
+     * called after advance(). */
     virtual Vector3 base_velocity() const { return {}; }
-    /** Strain energy at the start of what moves with the dam at once [J]. */
+
+    /** Returns the strain energy of massless rock in the static state [J], otherwise zero. */
     virtual double strain_at_start() const { return 0.; }
 
-    virtual double seconds() const { return 0.; } ///< of wall time in advance()
-    virtual double work() const { return 0.; }    ///< of processor time there, but for messages [s]
+    /** Returns the wall time of the foundation in all time steps so far [s]. */
+    virtual double seconds() const { return 0.; }
 
-    /** Its energies and works now [J], with the names of their columns in energy.csv; after start() always
-     * the same names. */
+    /** Returns the CPU time of this rank in the same steps, without waiting for messages [s]. */
+    virtual double work() const { return 0.; }
+
+    /** Returns the current energies and works [J] with their column names in energy.csv. The names do not
+     * change after start(). */
     virtual std::vector<std::pair<std::string, double>> energies() const { return {}; }
-    virtual double balance_error() const { return 0.; } ///< of its energies, over the largest
-    virtual void   report_balance(Log &) const {}
 
-    virtual std::vector<std::vector<double> *> state() { return {}; } ///< for checkpoints, after start()
+    /** Returns the error of the energy balance of the foundation, relative to its largest energy [-]. */
+    virtual double balance_error() const { return 0.; }
 
-    /** With several ranks, by all: the first one's state() is the whole one after that. */
+    /** Writes balance_error() to the log. */
+    virtual void report_balance(Log &) const {}
+
+    /** Returns the arrays of a checkpoint. Must be called after start(). */
+    virtual std::vector<std::vector<double> *> state() { return {}; }
+
+    /** Completes state() on the first rank. Must be called by all ranks. */
     virtual void collect() {}
 
-    /** For StabilityWatch: bounds, what is wrong now (or empty), and what may help (empty: nothing of its
-     * own). */
-    virtual void        watch(const GroundMotion &, const WatchBounds &) {}
+    /** Stores the bounds of StabilityWatch. */
+    virtual void watch(const GroundMotion &, const WatchBounds &) {}
+
+    /** Returns a message if an energy exceeds its bound, otherwise an empty string. */
     virtual std::string trouble_of_energy() const { return {}; }
+
+    /** Returns a message if a velocity or a displacement exceeds its bound, otherwise an empty string. */
     virtual std::string trouble_of_motion() const { return {}; }
+
+    /** Returns what to change in the input file after an instability, or an empty string. */
     virtual std::string remedies() const { return {}; }
   };
 } // namespace Voussoir

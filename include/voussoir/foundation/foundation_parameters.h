@@ -11,37 +11,41 @@ namespace Voussoir
 {
   class Entries;
 
-  /** Subsection "Foundation". */
+  /** Parameters of the subsection "Foundation" of the input file. */
   struct FoundationParameters
   {
-    std::string  model = "rigid";        ///< or rock, massless
-    Material     rock{15e9, .25, 2700.}; ///< where no zone says otherwise
-    ZoneEntry    zones;
-    double       mass_damping = 0., stiffness_damping = 2e-5; ///< Rayleigh [1/s], [s]
-    std::string  boundary = "mtf3", free_field = "sections";
-    bool         nodal_everywhere = true;
-    unsigned int nodal_layers = 6;
-    unsigned int layers_at_dam = 3;
-    unsigned int substeps = 1;      ///< of the rock in each step of the dam
-    std::string  coupling = "auto"; ///< or mean traction, partition
+    std::string  model = "rigid";                             ///< rigid, rock or massless
+    Material     rock{15e9, .25, 2700.};                      ///< of volumes without an entry in @p zones
+    ZoneEntry    zones;                                       ///< materials of named rock volumes
+    double       mass_damping = 0., stiffness_damping = 2e-5; ///< Rayleigh damping [1/s], [s]
+    std::string  boundary = "mtf3", free_field = "sections";  ///< see boundary_table.h; sections or columns
+    bool         nodal_everywhere = true;                     ///< nodal quadrature, except at the dam
+    unsigned int nodal_layers = 6;  ///< element layers of nodal quadrature at the artificial boundary
+    unsigned int layers_at_dam = 3; ///< element layers with the dam's quadrature at the base
+    unsigned int substeps = 1;      ///< rock time steps per time step of the dam
+    std::string  coupling = "auto"; ///< auto, mean traction or partition
 
-    static constexpr double largest_poisson = .45; ///< of rock
+    static constexpr double largest_poisson = .45; ///< upper limit of Poisson's ratio of rock [-]
 
-    /** Does the rock make steps of its own, coupled by mean tractions? */
+    /** Returns true if the rock is subcycled with a constant force per time step of the dam (OwnStepRock). */
     bool has_own_steps() const { return coupling == "mean traction" || (coupling == "auto" && substeps > 1); }
 
+    /** Declares the entries of the subsection. */
     void add_parameters(Entries &prm);
 
-    /** Of the zones, by name. Throws InputError as zone_materials(). */
+    /** Returns the materials of the zones by name. Throws the InputErrors of Voussoir::zone_materials(). */
     std::map<std::string, Material> zone_materials() const;
 
-    /** Of the rock's volumes in the mesh of volumes_by_material(), by their ids. */
+    /** Returns the materials of the rock volumes in the mesh of volumes_by_material(), by volume id. */
     std::map<int, Material> materials_by_volume() const;
 
-    /** The mesh with one volume of rock for each material. */
+    /** Returns a copy of @p mesh with one rock volume per material. */
     HexMesh volumes_by_material(const HexMesh &mesh) const;
 
   private:
+    void add_materials(Entries &prm);
+
+    /** Returns the volume id of a zone. Zones of equal material have the same id. */
     int volume_of(const std::string &zone) const;
   };
 } // namespace Voussoir

@@ -9,8 +9,8 @@
 
 namespace Voussoir
 {
-  /** The foundation of the model that the parameters name: rigid, rock, massless. Throws InputError for an
-   * unknown name, and for a mesh that does not fit it. */
+  /** Creates the foundation of FoundationParameters::model. Throws InputError for an unknown name, for a mesh
+   * without the required rock, and the errors of the constructor of the foundation. */
   std::unique_ptr<Foundation> make_foundation(const FoundationSite &site);
 } // namespace Voussoir
 

@@ -8,13 +8,12 @@
 
 namespace Voussoir
 {
-  /** Rock without mass, the foundation of the standard method of Clough (1980). No waves; the earthquake
-   * moves its artificial boundary, and displacements are relative to that. The stiffness-proportional damping
-   * of the dam acts in the rock, too.
+  /** Creates massless rock, the foundation of the standard method of Clough (1980). There are no waves. The
+   * ground motion is prescribed at the outer boundary of the rock, and displacements are relative to this
+   * boundary. The stiffness-proportional damping of the dam acts in the rock, too.
    *
-   * The rock is a body of its own: the monoliths stand on its compliance, which the problem of the joints has
-   * eliminated (FootElimination). Where all joints are tied, and for what needs the operator of the joints
-   * whole (FoundationSite::one_body), the monoliths are one body that has the condensed stiffness. */
+   * The joint problem eliminates the compliance of the rock at the base nodes (FootElimination). With
+   * FoundationSite::one_body, dam and rock are one body with the condensed stiffness of the rock. */
   std::unique_ptr<Foundation> make_massless_rock(const FoundationSite &site);
 } // namespace Voussoir
 

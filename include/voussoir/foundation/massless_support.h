@@ -7,17 +7,22 @@
 
 namespace Voussoir
 {
-  /** Massless rock under the feet of the dam: S (u + b u') = - force, b its stiffness-proportional damping.
-   * It makes the steps of the dam by the same rule: the sum of that over both ends of a step,
+  /** Massless rock as support of the dam: S (u + b u') = - force, with stiffness-proportional damping b. The
+   * trapezoidal rule of the dam gives for one time step
    *
    *      (1 + 2 b / dt) S u_new = (2 b / dt - 1) S u_old - 2 force,
    *
-   * with the mean force of the step. So the result is that of dam and rock as one body, but for round-off.
-   * Steps can be halved three times. */
+   * with the mean force of the step. Up to round-off the result is that of dam and rock as one body. A time
+   * step can be halved three times. */
   class MasslessSupport : public Support
   {
   public:
-    /** @p rock and @p standing must outlive this; @p dt: of a whole step of the dam. */
+    /** Stores the references @p rock and @p standing, which must outlive the object.
+     *
+     * @param rock condensed stiffness of the rock
+     * @param standing dam nodes on the rock
+     * @param stiffness_damping damping factor b [s]
+     * @param dt time step of the dam, without reduction [s] */
     MasslessSupport(const CondensedRock &rock, const StandingNodes &standing, double stiffness_damping,
                     double dt);
 
@@ -27,31 +32,32 @@ namespace Voussoir
     Unknowns                         predict(unsigned int n, const Unknowns &at) override;
     void push(unsigned int n, const Unknowns &force, const Unknowns &place, double work) override;
 
-    /** Counts its energies from the state of rest of the dam with displacement @p u [m]. */
+    /** Sets the energies to those of the static state. @p u: displacements of the dam [m]. */
     void start_account(const Unknowns &u);
 
-    /** Strain energy now and at the start, what damping took, the work of the dam, and the largest of all
-     * that [J]; a state. */
+    /** Current strain energy, strain energy of the static state, damping, work of the dam, and largest of
+     * these energies [J]. Stored in checkpoints. Empty before start_account(). */
     std::vector<double> account;
 
-    double strain_at_start() const; ///< [J]
+    /** Returns the strain energy of the static state [J]. */
+    double strain_at_start() const;
 
-    /** For energy.csv, see Foundation::energies(). */
+    /** Returns the energies [J] with their column names in energy.csv: Foundation::energies(). */
     std::vector<std::pair<std::string, double>> energies() const;
 
-    /** What the account misses over the largest energy that has gone through. */
+    /** Returns the error of the energy balance, relative to the largest energy so far [-]. */
     double balance_error() const;
 
   private:
-    static constexpr unsigned int parts = 8; ///< that a step can be made of
-    double   ratio(const unsigned int n) const { return 2. * damping * parts / (dt * n); }
+    static constexpr unsigned int parts = 8; ///< of the full time step
+    double   ratio(const unsigned int n) const { return 2. * damping * parts / (dt * n); } ///< 2 b / dt [-]
     Unknowns of_rock(const Unknowns &of_nodes) const;
     double   energy(const Unknowns &a) const;
 
     const CondensedRock &rock;
     const StandingNodes &standing;
-    const double         damping, dt;
-    Unknowns             before; ///< the step
+    const double         damping, dt; ///< damping factor b [s], time step [s]
+    Unknowns             before;      ///< displacement at the start of the step [m]
   };
 } // namespace Voussoir
 

@@ -7,24 +7,27 @@
 
 namespace Voussoir
 {
-  /** The explicit rock at steps of its own, several in each of the dam. The feet of the dam are nodes of the
-   * rock like others, with their own mass; in each step of the dam a constant force acts between dam and
-   * rock, such that the feet of both are at the same place in the end (Support). The dam's time is half a
-   * step of the rock ahead of that of the rock's displacements: there u + dt w/2 is the place of a foot, and
-   * the force's work on the rock is force times the change of that place. Stable up to the rock's own
-   * critical step, for any number of sub-steps: see doc/rock.md. */
+  /** Subcycled explicit rock: several rock time steps per time step of the dam, coupled by Support. The base
+   * nodes are ordinary nodes of the rock with their own mass. In each time step of the dam a constant force
+   * acts between dam and rock. It makes the displacements of both equal at the end of the step.
+   *
+   * The time of the dam is half a rock time step later than the time of the rock displacements u. At the time
+   * of the dam a base node has the displacement u + dt w/2, with the velocity w half a step later. The work
+   * of the force on the rock is the force times the change of this displacement. The coupling is stable up to
+   * the critical time step of the rock, for any number of substeps (doc/rock.md). */
   class OwnStepRock : public ExplicitRock, public Support
   {
   public:
     using ExplicitRock::ExplicitRock;
 
     Base        base() const override { return Base::led; }
-    void        add_mass(Structure &) const override {} ///< the rock keeps its own
+    void        add_mass(Structure &) const override {} ///< none: the mass stays in the rock
     std::string about_steps() const override;
     double      add_interface_mass(Structure &, const TimeGrid &) const override { return 0.; }
     Support    *support(Structure &structure) override;
 
-    /** As ExplicitRock, and InputError where the artificial boundary is too near for as many sub-steps. */
+    /** Checks as ExplicitRock does. Throws InputError, too, if there are fewer element layers between base
+     * and artificial boundary than substeps. */
     void check(const TimeGrid &grid, unsigned int steps_per_sample) const override;
 
     void    start(const GroundMotion &outcrop, const TimeGrid &grid, const Unknowns &u) override;
@@ -43,14 +46,16 @@ namespace Voussoir
 
   private:
     RayleighDamping damping() const;
-    Unknowns        places() const;
 
-    std::unique_ptr<RockPatch> patch;
-    StandingNodes              standing;
-    Vector3                    predicted_velocity{};
+    /** Returns the displacements of the base nodes of the rock at the time of the dam [m]. */
+    Unknowns places() const;
+
+    std::unique_ptr<RockPatch> patch;                ///< rock near the base, for predict()
+    StandingNodes              standing;             ///< dam nodes on the rock
+    Vector3                    predicted_velocity{}; ///< mean of the base nodes [m/s]
   };
 
-  /** The one that the parameters choose: they say whether the rock has steps of its own. */
+  /** Creates OwnStepRock if FoundationParameters::has_own_steps(), otherwise ExplicitRock. */
   std::unique_ptr<Foundation> make_explicit_rock(const FoundationSite &site);
 } // namespace Voussoir
 

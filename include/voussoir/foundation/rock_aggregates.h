@@ -6,69 +6,76 @@
 
 namespace Voussoir
 {
-  /** Six motions of a rigid body: translations, then rotations times its size. Also forces and moments over
-   * the size. */
+  /** Rigid body motion: three translations, then three rotations times the size of the body. Also the dual
+   * quantity: three forces, then three moments divided by the size. */
   using RigidMotion = std::array<double, 6>;
 
-  /** Groups of neighbouring nodes that move as rigid bodies, a coarse space for the equilibrium of the rock:
-   * the tentative prolongation of smoothed aggregation (Vanek, Mandel and Brezina 1996, Computing 56). A node
-   * whose neighbours are in no group yet makes one of them all; who is left joins the neighbour to whom it is
-   * tied most. They follow from the mesh alone, not from the number of ranks. */
+  /** Groups of neighbouring nodes that move as rigid bodies: coarse space for the equilibrium of the rock. It
+   * is the tentative prolongation of smoothed aggregation (Vanek, Mandel and Brezina 1996, Computing 56). A
+   * node whose neighbours are in no group forms a group with all of them. Each remaining node joins the group
+   * of its most strongly coupled neighbour. The groups do not depend on the number of ranks. */
   class RockAggregates
   {
   public:
-    static constexpr unsigned int none = static_cast<unsigned int>(-1);
+    static constexpr unsigned int none = static_cast<unsigned int>(-1); ///< group of held nodes
 
-    /** Of the nodes of @p stiffness [N/m], at @p points [m], that are not @p held. */
+    /** Forms the groups of all nodes that are not @p held.
+     *
+     * @param stiffness stiffness matrix of the rock [N/m]
+     * @param points positions of the nodes [m]
+     * @param held nodes with zero displacement */
     RockAggregates(const BlockSparseMatrix &stiffness, const std::vector<Vector3> &points,
                    const std::vector<bool> &held);
 
+    /** Returns the number of aggregates. */
     unsigned int n() const { return static_cast<unsigned int>(members.size()); }
-    unsigned int of_node(const unsigned int node) const { return group[node]; } ///< none: it is held
 
-    /** Its nodes, ascending. */
+    /** Returns the aggregate of a node, or @p none if the node is held. */
+    unsigned int of_node(const unsigned int node) const { return group[node]; }
+
+    /** Returns the nodes of an aggregate, ascending. */
     const std::vector<unsigned int> &nodes(const unsigned int aggregate) const { return members[aggregate]; }
 
-    /** The node that it was made around: its nodes are neighbours of this one, or of its neighbours. */
+    /** Returns the central node of an aggregate. All its nodes are within two layers of neighbours. */
     unsigned int seed(const unsigned int aggregate) const { return seeds[aggregate]; }
 
-    /** Of a node, with its aggregate's @p motion. */
+    /** Returns the displacement of a node for the rigid body @p motion of its aggregate [m]. */
     Vector3 displacement(unsigned int node, const RigidMotion &motion) const;
 
-    /** The @p force on a node counts in its aggregate's @p sum. */
+    /** Adds the @p force on a node to the resultant @p sum of its aggregate. */
     void add_force(unsigned int node, const Vector3 &force, RigidMotion &sum) const;
 
-    /** All aggregates' motions when the whole moves as a rigid body in the way @p mode, about its centre. */
+    /** Returns the motions of all aggregates for a rigid body motion of the whole rock. @p mode: 0 to 2
+     * translations, 3 to 5 rotations about the centre. */
     std::vector<RigidMotion> rigid(unsigned int mode) const;
 
   private:
-    std::vector<unsigned int>              seeds;
-    std::vector<unsigned int>              group; ///< of each node
-    std::vector<std::vector<unsigned int>> members;
-    std::vector<Vector3>                   centre, arm; ///< of aggregates [m]; of nodes, over the size
-    std::vector<double>                    size;        ///< [m]
+    std::vector<unsigned int>              seeds;   ///< central node of each aggregate
+    std::vector<unsigned int>              group;   ///< aggregate of each node
+    std::vector<std::vector<unsigned int>> members; ///< nodes of each aggregate
+    std::vector<Vector3> centre, arm; ///< of the aggregates [m]; from centre to node, divided by the size [-]
+    std::vector<double>  size;        ///< largest distance of a node from the centre [m]
   };
 
-  /** What makes smooth motions of the aggregates: S = 1 - damping D^-1 K, with the blocks D of K's diagonal.
-   */
+  /** Prolongation smoother S = 1 - damping D^-1 K, with the diagonal blocks D of the stiffness matrix K. */
   struct RockSmoothing
   {
     const BlockSparseMatrix    &stiffness;
-    const std::vector<Matrix3> &inverse; ///< of the diagonal's blocks; zero where the rock is held [m/N]
-    double                      damping;
+    const std::vector<Matrix3> &inverse; ///< of the diagonal blocks, zero at held nodes [m/N]
+    double                      damping; ///< damping factor [-]
   };
 
-  /** Stiffness between two aggregates: as many bytes as 19 doubles, to be sent. Single precision, since it
-   * serves a preconditioner only, and the first rank has all of them. */
+  /** Stiffness between two aggregates, in single precision for a preconditioner. The size is that of 19
+   * doubles, because ranks exchange blocks as doubles. */
   struct alignas(double) CoarseBlock
   {
     unsigned int          row, column; ///< numbers of the aggregates
     std::array<float, 36> value;       ///< row by row
   };
 
-  /** Rows of P^T K P for the aggregates in @p wanted, where P is S times the motions of the aggregates.
-   * Each is computed alone, from the nodes around it: from rows of the stiffness within four layers of cells
-   * around the aggregate's seed. */
+  /** Returns the rows of P^T K P for the aggregates in @p wanted. P is the smoother S times the rigid body
+   * motions of the aggregates. A row requires the rows of the stiffness matrix within four layers of elements
+   * around the seed of the aggregate. */
   std::vector<CoarseBlock> coarse_rows(const RockAggregates &aggregates, const RockSmoothing &smoothing,
                                        const std::vector<unsigned int> &wanted);
 } // namespace Voussoir

@@ -8,61 +8,69 @@
 
 namespace Voussoir
 {
-  /** Static displacements of the rock: conjugate gradients, preconditioned by smoothed aggregation (Vanek,
-   * Mandel and Brezina 1996, Computing 56). On the nodes: products of RockOperator, and Chebyshev's
-   * polynomial as smoother; below, groups of nodes as rigid bodies (RockAggregates), and Trilinos' ML for
-   * them (CoarseRock). The number of iterations hardly depends on the size of the elements.
+  /** Solver for static displacements of the rock: conjugate gradients with smoothed aggregation (Vanek,
+   * Mandel and Brezina 1996, Computing 56). The finest level has RockOperator and a Chebyshev smoother. The
+   * first coarse level has groups of nodes as rigid bodies (RockAggregates). Trilinos' ML solves the coarse
+   * problem (CoarseRock). The number of iterations is nearly independent of the element size.
    *
-   * A solve begins with the A-orthogonal projection of its solution on the solutions so far (Fischer 1998,
-   * Comput. Methods Appl. Mech. Engrg. 163), since the loads of an iteration differ by less and less.
+   * The initial guess is the A-orthogonal projection of the solution on the previous solutions (Fischer 1998,
+   * Comput. Methods Appl. Mech. Engrg. 163).
    *
-   * With several ranks each has its share of the nodes, as in the steps of the rock (RockSplit), and of the
-   * aggregates; the first has ML. Aggregates do not know of ranks, and sums are taken by chunks of nodes in
-   * the order of the chunks: the same bits on any number of ranks, which ML by itself would not give, since
-   * its aggregates end where a rank does. */
+   * Nodes and aggregates are distributed to the ranks as in the time steps of the rock (RockSplit). ML runs
+   * on the first rank. Aggregates are independent of the ranks, and sums are formed over chunks of nodes in a
+   * fixed order. The results are therefore bitwise identical for any number of ranks. */
   class RockStatics
   {
   public:
-    /** The nodes of @p model that are @p held do not move. It is to live longer than this. Throws
-     * ComputationError where ML cannot make its levels. To be called by all ranks at once. */
+    /** Creates the multigrid levels. @p held: nodes of the @p model with zero displacement. The @p model must
+     * outlive the object. Throws ComputationError if the stiffness matrix is not positive definite, or if ML
+     * fails. Must be called by all ranks. */
     RockStatics(const RockModel &model, const std::vector<bool> &held);
     ~RockStatics();
 
+    /** Returns the number of unknowns. */
     unsigned int n_unknowns() const { return n_free; }
-    double       seconds_setup() const { return setup; }
 
-    /** Displacements @p x of all nodes [m] under the forces @p b [N], until the residual is less than
-     * @p tolerance times |b|, or @p part of what the solution before leaves of them; returns the number of
-     * iterations, few where the forces are much as they were before. Says where it stands in @p log every ten
-     * seconds. Throws ComputationError if it does not converge. */
+    /** Returns the wall time of the constructor [s]. */
+    double seconds_setup() const { return setup; }
+
+    /** Computes the displacements of all nodes. Must be called by all ranks.
+     *
+     * @param b nodal forces, three values per node [N]
+     * @param x displacements, three values per node [m]
+     * @param log receives a progress line every ten seconds
+     * @param tolerance largest residual, relative to |b| [-]
+     * @param part alternative tolerance, relative to the residual of the previous solution under @p b [-]
+     *
+     * Returns the number of iterations. Throws ComputationError if the iteration does not converge. */
     unsigned int solve(const Unknowns &b, Unknowns &x, Log &log, double tolerance = 1e-11, double part = 0.);
 
   private:
-    void         find_inverse(const RockModel &model);
-    double       largest_eigenvalue() const;
-    void         make_coarse(const RockModel &model);
-    void         multiply(const Unknowns &x, Unknowns &y) const; ///< y = K x where nothing is held
-    double       product(const Unknowns &a, const Unknowns &b) const;
+    void         find_inverse(const RockModel &model);                ///< of the diagonal blocks
+    double       largest_eigenvalue() const;                          ///< estimate for D^-1 K
+    void         make_coarse(const RockModel &model);                 ///< creates the coarse problem
+    void         multiply(const Unknowns &x, Unknowns &y) const;      ///< y = K x, zero at held nodes
+    double       product(const Unknowns &a, const Unknowns &b) const; ///< scalar product
     void         smooth(bool is_last, Unknowns &residual, Unknowns &z) const;
-    void         correct(Unknowns &residual, Unknowns &z) const;
-    void         precondition(const Unknowns &r, Unknowns &z) const;
+    void         correct(Unknowns &residual, Unknowns &z) const;     ///< coarse-grid correction
+    void         precondition(const Unknowns &r, Unknowns &z) const; ///< z = approximate K^-1 r
     unsigned int iterate(const Unknowns &b, Unknowns &x, Log &log, double tolerance, double goal) const;
-    void         keep(const Unknowns &guess, const Unknowns &x);
-    template <class Action> void everywhere(const Action &action) const; ///< that this rank steps
+    void         keep(const Unknowns &guess, const Unknowns &x); ///< stores the solution for later guesses
+    template <class Action> void everywhere(const Action &action) const; ///< for components of this rank
 
     RockAggregates                   aggregates;
-    unsigned int                     n_nodes, n_free = 0; ///< free: unknowns
+    unsigned int                     n_nodes, n_free = 0; ///< n_free: number of unknowns
     RockSplit                        split;
     std::unique_ptr<RockOperator>    stiffness;
-    std::vector<std::pair<int, int>> pieces;          ///< nodes that this rank steps, in ranges
-    std::vector<Matrix3>             inverse;         ///< of the diagonal's blocks [m/N]; zero where held
-    std::vector<unsigned int>        seeds;           ///< of each aggregate, whose owner has it
-    double                           eigenvalue = 0.; ///< above those of D^-1 K
-    std::unique_ptr<CoarseRock>      coarse;          ///< of the first rank
-    std::vector<std::vector<double>> solutions;       ///< at the pieces, about A-orthonormal
-    Unknowns                         last;            ///< solution
+    std::vector<std::pair<int, int>> pieces;  ///< ranges of nodes of this rank
+    std::vector<Matrix3>             inverse; ///< of the diagonal blocks [m/N], zero at held nodes
+    std::vector<unsigned int>        seeds;   ///< of the aggregates; the owner of the seed owns the aggregate
+    double                           eigenvalue = 0.; ///< upper bound of those of D^-1 K
+    std::unique_ptr<CoarseRock>      coarse;          ///< on the first rank only
+    std::vector<std::vector<double>> solutions;       ///< at @p pieces, nearly A-orthonormal
+    Unknowns                         last;            ///< previous solution
     mutable Unknowns                 correction, work, rest;
-    double                           setup = 0.; ///< [s]
+    double                           setup = 0.; ///< wall time of the constructor [s]
   };
 } // namespace Voussoir
 

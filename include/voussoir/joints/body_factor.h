@@ -9,46 +9,54 @@
 
 namespace Voussoir
 {
-  /** The operator A = mass_factor M + stiffness_factor K + dashpot_factor D + springs of a body, and its
-   * Cholesky factor by CHOLMOD. The interface is in natural order: component c of node i of body.interface is
-   * number 3 i + c. */
+  /** Operator A = mass_factor M + stiffness_factor K + dashpot_factor D + springs of a body, and its Cholesky
+   * factor L by CHOLMOD. The interface is in natural order: component c of node i of body.interface has the
+   * number 3 i + c.
+   *
+   * Call analyse(), then factorise(), then one of the functions that return parts of the factor. */
   class BodyFactor
   {
   public:
+    /** Order of elimination. */
     enum class Order
     {
-      any,           ///< whatever fills least
-      interface_last ///< then the trailing block of L is the factor of the condensed operator
+      any,           ///< order with the least fill-in
+      interface_last ///< interface last; the trailing block of L is the factor of the condensed operator
     };
 
-    /** @p springs: to the ground, per component of the structure [N/m], or empty. std::bad_alloc. */
+    /** Assembles A. @p springs: springs to the ground, per component of the structure [N/m]; empty: none.
+     * Throws std::bad_alloc. */
     BodyFactor(const Structure &structure, const Body &body, double mass_factor, double stiffness_factor,
                double dashpot_factor, const Unknowns &springs = Unknowns());
     ~BodyFactor();
     BodyFactor(const BodyFactor &) = delete;
 
-    /** Chooses an order and counts; a factor that was there before is gone. ComputationError for bodies whose
-     * factor is too large. */
+    /** Chooses the order and counts the entries of L. Discards an earlier factor. Throws ComputationError if
+     * the factor is too large. */
     void analyse(Order order);
 
-    /** A = L L^T in that order. ComputationError when A is not positive definite (a body that nothing holds,
-     * or bad elements), or, with the interface last, the body is not in one piece. */
+    /** Computes A = L L^T in the order of analyse(). Throws ComputationError if A is not positive definite
+     * (no support, or distorted elements), or, with the interface last, if the body is not connected. */
     void factorise();
 
-    double n_entries() const; ///< of L in leading columns (Order::interface_last) or all, once analysed
+    /** Returns the number of entries of L, after analyse(): those of the leading columns for
+     * Order::interface_last, else of all columns. */
+    double n_entries() const;
 
-    /** Those of n_entries(), kept in @p single precision or double. The factor is gone afterwards, but for
-     * its permutation. */
+    /** Returns the columns that n_entries() counts, in @p single or double precision. Only the permutation
+     * remains in this object. */
     PackedFactor take_leading_columns(bool single);
 
-    /** Unknown of the body at each row of L. */
+    /** Returns the unknown of the body for each row of L. */
     std::vector<unsigned int> permutation() const;
 
-    /** The condensed operator S, by column [N/m], and S^-1 [m/N], both symmetric; Order::interface_last. */
+    /** Returns the condensed operator S by column [N/m]. S is symmetric. Requires Order::interface_last. */
     std::vector<double> condensed_stiffness() const;
+    /** Returns S^-1 by column [m/N]. Requires Order::interface_last. */
     std::vector<double> flexibility() const;
 
-    unsigned int n() const { return 3 * body.n_nodes(); }
+    unsigned int n() const { return 3 * body.n_nodes(); } ///< number of unknowns of the body
+    /** Returns the number of unknowns of the interface. */
     unsigned int n_interface() const { return 3 * body.interface.size(); }
 
   private:
@@ -62,22 +70,25 @@ namespace Voussoir
     std::unique_ptr<Cholmod> cholmod;
   };
 
-  /** Numbers of eight bytes that a CondensedBody holds, to a tenth. */
+  /** Estimated memory of a CondensedBody, in numbers of eight bytes, accurate to a tenth. */
   struct FactorSize
   {
-    double entries = 0.;   ///< of the factor
-    double leading = 0.;   ///< of that with the interface last, before it
-    double interface = 0.; ///< of the interface's flexibility, until it is taken
-    double kept = 0.;      ///< of that afterwards
+    double entries = 0.;   ///< factor
+    double leading = 0.;   ///< leading columns of the factor with the interface last
+    double interface = 0.; ///< flexibility of the interface, before take_flexibility()
+    double kept = 0.;      ///< part that remains after take_flexibility()
   };
 
-  /** That without making it; @p neighbours of each node, ascending, the node itself included;
-   * @p is_interface: nodes in pairs; @p single: kept in single precision. */
+  /** Estimates the memory of a CondensedBody without computing the factor.
+   * @param neighbours neighbours of each node, ascending, including the node itself
+   * @param is_interface per node: whether it belongs to a pair
+   * @param single factor in single precision */
   FactorSize factor_size(const std::vector<std::vector<unsigned int>> &neighbours,
                          const std::vector<bool> &is_interface, bool single);
 
-  /** Is it cheaper to solve twice with a factor of @p free entries than once with one of @p leading entries
-   * before an interface of @p n_interface unknowns, whose flexibility is applied twice? */
+  /** Returns whether two solutions with a factor of @p free entries cost less than one solution with
+   * @p leading entries before an interface of @p n_interface unknowns. The flexibility of the interface is
+   * applied twice. */
   bool prefer_free_order(double free, double leading, double n_interface);
 } // namespace Voussoir
 

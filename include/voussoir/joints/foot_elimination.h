@@ -8,56 +8,65 @@
 
 namespace Voussoir
 {
-  /** Three numbers for each node of the interfaces, body after body. */
+  /** Three values for each interface node, body after body. */
   struct InterfaceValues
   {
     std::vector<double>      value;
-    std::vector<std::size_t> begin = {0}; ///< of each body, and the end
+    std::vector<std::size_t> begin = {0}; ///< begin of each body, and the end
 
-    double       *of_body(const unsigned int b) { return value.data() + begin[b]; }
+    double       *of_body(const unsigned int b) { return value.data() + begin[b]; } ///< values of body b
     const double *of_body(const unsigned int b) const { return value.data() + begin[b]; }
   };
 
-  /** Feet on a support that gives way: L u = place - R f, L u the displacement of the feet, f the forces on
-   * them, eliminated from the problem of the joints. With F = L A^-1 L^T, B = G A^-1 L^T and H = F + R,
+  /** Elimination of the base nodes on a compliant support from the joint problem. The displacement L u of the
+   * base nodes is place - R f, with their displacement place without forces, the forces f on them and the
+   * compliance R of the support.
    *
-   *      f = H^-1 (place - L u_0 - B^T f_joints),    gap = (W - B H^-1 B^T) f_joints + b + B H^-1 (place - L
-   * u_0),
+   * With F = L A^-1 L^T, B = G A^-1 L^T and H = F + R,
    *
-   *  u_0, b without forces at joints and feet. H couples feet of a body, and through R neighbours; its
-   * Cholesky factor is sparse. B is dense by body and joint. */
+   * f = H^-1 (place - L u_0 - B^T f_joints),
+   *
+   * gap = (W - B H^-1 B^T) f_joints + b + B H^-1 (place - L u_0),
+   *
+   * where u_0 and b belong to zero forces at joints and base nodes. H couples base nodes of one body, and
+   * neighbours through R; its Cholesky factor is sparse. B has dense blocks by body and joint. */
   class FootElimination
   {
   public:
+    /** Base nodes and the compliance of the support. */
     struct Feet
     {
-      std::vector<unsigned int> node;       ///< of the structure, ascending; interface nodes of their bodies
+      std::vector<unsigned int> node;       ///< interface nodes, numbered as in the structure, ascending
       BlockSparseMatrix         compliance; ///< R, symmetric [m/N]
     };
 
+    /** Prepares the elimination. Call add_body() for all bodies, then factorise(). @p structure must outlive
+     * the object. */
     FootElimination(const Structure &structure, Feet feet);
 
-    /** S^-1 of a body's interface, as CondensedBody::take_flexibility() gives it; of all bodies, one after
-     * the other. */
+    /** Adds the flexibility S^-1 of the interface of @p body, see CondensedBody::take_flexibility(). Call it
+     * for all bodies. */
     void add_body(unsigned int body, const std::vector<double> &flexibility);
-    void factorise(); ///< after that
+    void factorise(); ///< factorises H; after add_body() of all bodies
 
+    /** Returns the number of unknowns, three per base node. */
     unsigned int n() const { return 3 * static_cast<unsigned int>(feet.node.size()); }
 
-    /** Of each body what its interface's @p values say of the feet, and back. */
+    /** Copies the values of the base nodes from the interface @p values to @p of_feet. */
     void take_from(const InterfaceValues &values, Unknowns &of_feet) const;
+    /** Adds @p of_feet to the interface @p values of the base nodes. */
     void add_to(InterfaceValues &values, const Unknowns &of_feet) const;
 
-    void solve(Unknowns &x) const;                                      ///< x = H^-1 x
-    void add_gaps(double factor, const Unknowns &f, double *gap) const; ///< gap += factor B f
-    void take_gaps(const double *f, Unknowns &x) const;                 ///< x = B^T f
-    void subtract(const double *f, double *gap) const;                  ///< gap -= B H^-1 B^T f
+    void solve(Unknowns &x) const;                                      ///< computes x = H^-1 x
+    void add_gaps(double factor, const Unknowns &f, double *gap) const; ///< computes gap += factor B f
+    void take_gaps(const double *f, Unknowns &x) const;                 ///< computes x = B^T f
+    void subtract(const double *f, double *gap) const;                  ///< computes gap -= B H^-1 B^T f
 
-    /** The block of joints @p j and @p k of B H^-1 B^T, handed to @p take by column for all that @p wants
-     * names. */
+    /** Computes blocks of B H^-1 B^T for pairs of joints j <= k. @p wants(j, k): whether the block is
+     * required. @p take(j, k, part): receives the contribution of one body to the block, by column. */
     template <class Wants, class Take> void for_blocks(const Wants &wants, const Take &take) const;
 
-    double memory() const; ///< [bytes]
+    double memory() const; ///< memory consumption [bytes]
 
   private:
     using Key = std::pair<unsigned int, unsigned int>; ///< joint and body
@@ -68,13 +77,13 @@ namespace Voussoir
     std::vector<double> times_transposed(const std::vector<double> &columns, const Key &key) const;
 
     const Structure                   &structure;
-    Feet                               feet;      ///< its compliance until H has it
-    std::vector<unsigned int>          begin;     ///< rows of each joint
-    std::vector<unsigned int>          first;     ///< foot of each body
-    std::vector<unsigned int>          interface; ///< of each foot, number among those of its body
-    Structure                          H;         ///< its one body has the matrix
+    Feet                               feet;      ///< the compliance is moved to H
+    std::vector<unsigned int>          begin;     ///< first row of each joint
+    std::vector<unsigned int>          first;     ///< first base node of each body
+    std::vector<unsigned int>          interface; ///< per base node: its number in the interface of its body
+    Structure                          H;         ///< stores the matrix H in its only body
     mutable std::vector<CondensedBody> factor;    ///< of H
-    std::map<Key, std::vector<double>> B;         ///< by column
+    std::map<Key, std::vector<double>> B;         ///< blocks of B, by column
   };
 
   template <class Wants, class Take>

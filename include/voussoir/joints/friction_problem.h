@@ -8,10 +8,12 @@
 
 namespace Voussoir
 {
-  /** The problem of one step, gap = W force + b, as one with Coulomb's law on every surface, which any solver
-   *  of such problems can check. Pairs with several surfaces (KSM) give one contact for each that can touch:
-   *  A W A^T + C and A b + c, A: the surfaces' axes, C: compliance of the seats, c: clearances. All laws must
-   *  have flat_friction() or surfaces_law(). */
+  /** Returns the joint problem gap = W force + b of one step as a friction problem with Coulomb's law on
+   * every surface. Any solver of such problems can check it.
+   *
+   * A pair with several surfaces (KSM) has one contact for each surface that can become active. The operator
+   * is then A W A^T + C and the offset A b + c, with the surface axes A, the contact compliance C and the
+   * clearances c. All laws must have flat_friction() or surfaces_law(). */
   FrictionProblem friction_problem(const InterfaceOperator &W, const PairLaws &laws,
                                    const std::vector<PairPast> &past, const Unknowns &b);
 } // namespace Voussoir

@@ -14,88 +14,94 @@ namespace Voussoir
 {
   class FootElimination;
 
-  /** The symmetric operator W of the joints, gap = W force + b, in dense blocks by group of pairs (a joint).
-   *  Two groups are coupled where one body touches both, so along an arch W is block tridiagonal.
+  /** Symmetric operator W of the joints, gap = W force + b [m/N], in dense blocks by group of pairs (a
+   * joint). Two groups are coupled if they share a body. Along an arch W is block tridiagonal.
    *
-   *  On a support that makes steps of its own the operator is that less what the feet take off, W - B H^-1
-   * B^T, which couples all groups. Exact products take it so; in single precision, where products are for
-   * Newton's steps and the sweeps, the blocks are those of the whole operator, but of the coupled groups
-   * only.
+   * On a subcycled foundation the operator is W - B H^-1 B^T (FootElimination), which couples all groups.
+   * Products in double precision use the complete operator. Products in single precision, for Newton steps
+   * and Gauss-Seidel iterations, use its blocks of coupled groups only.
    *
-   *  With several ranks each holds the blocks of its groups' rows, those of their neighbours' columns
-   * included, and makes these rows of the products, which all get. */
+   * With several MPI processes each process holds the blocks of the rows of its groups, including the columns
+   * of neighbours. It computes these rows of a product; the result is gathered on all processes. */
   class InterfaceOperator : public ContactOperator
   {
   public:
     using Floats = std::vector<float>;
 
-    /** @p n_pairs: pairs in each group; @p share: of the groups. */
+    /** Creates an operator without entries. @p n_pairs: number of pairs of each group; @p share: distribution
+     * of the groups. */
     explicit InterfaceOperator(const std::vector<unsigned int> &n_pairs, Shares share = Shares());
 
-    /** Are rows or columns of this block mine? */
-    bool          holds(const unsigned int j, const unsigned int k) const { return is_mine(j) || is_mine(k); }
-    bool          is_mine(const unsigned int group) const { return share.is_mine(group); }
-    const Shares &shares() const { return share; }
+    /** Returns true if this process owns the rows or the columns of the block. */
+    bool holds(const unsigned int j, const unsigned int k) const { return is_mine(j) || is_mine(k); }
+    bool is_mine(const unsigned int group) const { return share.is_mine(group); } ///< group of this process
+    const Shares &shares() const { return share; }                                ///< distribution of groups
 
-    /** All ranks get the rows that each has made of its groups. */
+    /** Gathers the rows that each process has computed on all processes. */
     template <class Vector> void gather(Vector &x) const
     {
       if (!share.are_trivial())
         Ranks::gather(x.data(), share.parts(offset));
     }
 
-    /** The block of rows of group @p j and columns of group @p k >= j, column by column; made on first use.
-     * Empty if it is not held here. */
+    /** Returns the block with the rows of group @p j and the columns of group @p k >= j, by column. Creates
+     * it if necessary. Empty if this process does not hold it. */
     std::vector<double>       &block(unsigned int j, unsigned int k);
     const std::vector<double> &block(unsigned int j, unsigned int k) const { return blocks.at({j, k}); }
 
-    /** The block of groups @p j <= @p k, or nullptr where they are not coupled; empty if not held here. */
+    /** Returns the block of the groups @p j <= @p k, or nullptr if they are not coupled. Empty if this
+     * process does not hold it. */
     const std::vector<double> *find_block(unsigned int j, unsigned int k) const
     {
       const auto found = blocks.find({j, k});
       return found == blocks.end() ? nullptr : &found->second;
     }
 
-    /** y = W x. */
+    /** Computes y = W x with the complete operator. */
     void multiply(const Unknowns &x, Unknowns &y) const override;
 
+    /** Returns the 3x3 diagonal block of a pair [m/N]. */
     Matrix3 diagonal(unsigned int pair) const override;
 
+    /** Returns true if the blocks contain the complete operator. */
     bool is_in_blocks() const override { return !eliminated; }
 
-    /** The pairs of a group are visited three times at once. In single precision: @p gap is off by round-off
-     * of that size. */
+    /** Performs one Gauss-Seidel iteration over all pairs. The pairs of a group are visited three times in
+     * sequence. Blocks are in single precision, so @p gap has an error of the size of their round-off. */
     void sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const override;
 
     void gather_pairs(Unknowns &values, const std::vector<std::size_t> &begin) const override;
 
     std::unique_ptr<ContactJacobian> make_jacobian() const override;
 
-    /** One block Gauss-Seidel pass in single precision: @p own(g) for each group g, those of one colour (not
-     * coupled) by all threads, by the rank whose group it is. Before it, W x of the groups that have been
-     * visited is added to those rows of
-     * @p Wx; it writes those of @p x. Afterwards @p Wx has the couplings' part of W x, besides what @p own
-     * has added in its rows. finish() must have been called. */
+    /** Performs one block Gauss-Seidel iteration in single precision. Call it after finish().
+     * @param own called as own(g) for each group g by the process that owns it; groups of one colour are not
+     * coupled and run in parallel. Before the call, W x of the groups already visited is added to the rows of
+     * g in @p Wx. The call writes the rows of @p x.
+     * @param x unknowns of all groups
+     * @param Wx receives the coupling part of W x, in addition to what @p own adds to its rows */
     template <class Own> void gauss_seidel(const Own &own, Floats &x, Floats &Wx) const;
 
     unsigned int n_pairs() const override { return n() / 3; }
 
     unsigned int n_groups() const { return static_cast<unsigned int>(offset.size() - 1); }
-    unsigned int n() const { return offset.back(); } ///< unknowns: three per pair
-    unsigned int begin(const unsigned int group) const { return offset[group]; }
+    unsigned int n() const { return offset.back(); } ///< number of unknowns, three per pair
+    unsigned int begin(const unsigned int group) const { return offset[group]; } ///< first unknown
+    /** Returns the number of unknowns. */
     unsigned int size(const unsigned int group) const { return offset[group + 1] - offset[group]; }
     const std::vector<unsigned int> &neighbours(const unsigned int group) const { return coupled[group]; }
-    double                           memory() const; ///< [bytes]
+    double                           memory() const; ///< memory consumption [bytes]
 
-    /** A group's own block of the operator, by column; with feet that are eliminated in single precision. */
+    /** Returns the diagonal block of a group by column. If base nodes are eliminated, their part is
+     * subtracted, and the block is rounded to single precision. */
     std::vector<double> own_block(unsigned int group) const;
 
-    /** Make the copy in single precision, and choose the colours, once all blocks are filled in. @p feet:
-     * what is to be taken off, or null. */
+    /** Copies the blocks to single precision and chooses the colours. Call it after all blocks are filled.
+     * @p feet: eliminated base nodes, whose part is subtracted, or nullptr. */
     void                      finish(std::shared_ptr<const FootElimination> feet = nullptr);
     const std::vector<float> &single_block(unsigned int j, unsigned int k) const { return single.at({j, k}); }
 
-    /** y += W_jk x in single precision, also for j > k. */
+    /** Computes y += W_jk x in single precision, also for j > k. */
     void add_single(unsigned int j, unsigned int k, const float *x, float *y) const;
 
   private:
@@ -109,12 +115,13 @@ namespace Voussoir
     std::vector<unsigned int>                                            offset;
     std::vector<std::vector<unsigned int>>                               coupled;
     std::map<std::pair<unsigned int, unsigned int>, std::vector<double>> blocks;
-    std::map<std::pair<unsigned int, unsigned int>, std::vector<float>>  single; ///< less the feet's part
-    std::shared_ptr<const FootElimination>                               eliminated;
-    std::vector<Matrix3>                                                 diagonals; ///< of pairs
-    std::vector<unsigned int>                 colour; ///< of the groups; coupled ones have different ones
+    std::map<std::pair<unsigned int, unsigned int>, std::vector<float>>
+                                              single; ///< part of eliminated base nodes subtracted
+    std::shared_ptr<const FootElimination>    eliminated;
+    std::vector<Matrix3>                      diagonals; ///< diagonal blocks of the pairs
+    std::vector<unsigned int>                 colour;    ///< per group; coupled groups have different colours
     std::vector<std::vector<unsigned int>>    groups_of_colour;
-    std::vector<std::vector<Ranks::Transfer>> to_neighbours; ///< of the rows of each colour
+    std::vector<std::vector<Ranks::Transfer>> to_neighbours; ///< transfers of the rows of each colour
   };
 
   template <class Own> void InterfaceOperator::gauss_seidel(const Own &own, Floats &x, Floats &Wx) const

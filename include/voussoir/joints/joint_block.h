@@ -6,30 +6,31 @@
 
 namespace Voussoir
 {
-  /** A joint's own block D = d_force + d_gap W_jj of Newton's equations, ready to be solved, in single
-   * precision.
-   *
-   * With the stiffness F = W_jj^-1 of the joint alone, made once when it is first of use, the unknown is the
-   * change y of the gap, the force's change is z = F y. Where pairs stick, y is given by their equations;
-   * only open pairs and the directions of slip are unknown, which are few: a small system (d_force F + d_gap)
-   * y = r remains, and y = W_jj z costs nothing. Where most pairs are open the unknown is z instead, known at
-   * the open pairs (JointFactor); so, too, where F is no better than single precision can tell. */
+  /** Diagonal block D = d_force + d_gap W_jj of the Newton equations of a joint, with a solver in single
+   * precision. It chooses the unknown from the states of the pairs:
+   * - gap change y, if most pairs stick: F = W_jj^-1 is the stiffness of the joint alone, computed once when
+   *   first needed. The force change is z = F y. The equations of sticking rows give y. Only open pairs and
+   *   slip directions are unknown, in a small system (d_force F + d_gap) y = r. The product y = W_jj z needs
+   *   no extra work;
+   * - force change z, if most pairs are open: z is known at open pairs (JointFactor). Also used if F is not
+   *   accurate in single precision. */
   class JointBlock
   {
   public:
-    /** Of joint @p group of @p W, which must outlive this. */
+    /** Selects the joint @p group of @p W, which must outlive the object. */
     void initialise(const InterfaceOperator &W, unsigned int group);
 
-    /** Takes the equations of the joint's first pair and the others following; keeps the factors of similar
-     * ones, which precondition as well. Returns whether it made new ones. */
+    /** Sets the equations of the pairs of the joint. @p present: equations of the first pair, followed by the
+     * others. Factors of similar equations are kept, because they precondition as well. Returns true if
+     * factors were computed. */
     bool update(const PairEquations *present);
 
-    void forget() { factor.equations.clear(); } ///< the factors that it has
+    void forget() { factor.equations.clear(); } ///< discards the factors
 
-    /** z = D^-1 r, y = W_jj z. */
+    /** Computes z = D^-1 r and y = W_jj z. */
     void solve(const float *r, float *z, float *y) const;
 
-    bool holds_inverse() const { return !F.empty(); } ///< has F been made?
+    bool holds_inverse() const { return !F.empty(); } ///< returns whether F exists
 
   private:
     bool is_similar(const PairEquations *present) const;
@@ -44,15 +45,15 @@ namespace Voussoir
 
     const InterfaceOperator  *W = nullptr;
     unsigned int              group = 0, n = 0;
-    std::size_t               leading = 0; ///< dimension of F
-    std::vector<float>        F;           ///< by column; empty: of no use
+    std::size_t               leading = 0; ///< leading dimension of F
+    std::vector<float>        F;           ///< by column; empty: not used
     bool                      tried_inverse = false;
-    bool                      is_accurate = false; ///< is W_jj F = I to single precision?
-    JointFactor               factor; ///< of either system; its equations are those of the factor
-    bool                      for_gap = false;
-    std::vector<unsigned int> given_force; ///< rows in which the equations give the force
-    std::vector<unsigned int> given_gap;   ///< rows in which they give the gap
-    std::vector<unsigned int> unknown;     ///< rows in which they do not
+    bool                      is_accurate = false; ///< W_jj F = I in single precision
+    JointFactor               factor;              ///< factor of either system, with its equations
+    bool                      for_gap = false;     ///< the unknown is y
+    std::vector<unsigned int> given_force;         ///< rows with given force
+    std::vector<unsigned int> given_gap;           ///< rows with given gap
+    std::vector<unsigned int> unknown;             ///< other rows
   };
 } // namespace Voussoir
 

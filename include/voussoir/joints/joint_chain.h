@@ -6,17 +6,18 @@
 
 namespace Voussoir
 {
-  /** Block LU decomposition of J = d_force + d_gap W for joints that are coupled to their neighbours only,
-   *  as along an arch: S_g = J_gg - J_g,g-1 S_g-1^-1 J_g-1,g from one end to the other. In single precision.
-   */
+  /** Block LU decomposition of J = d_force + d_gap W in single precision, for joints that are coupled to
+   * their neighbours only, as along an arch: S_g = J_gg - J_g,g-1 S_g-1^-1 J_g-1,g from one end
+   * to the other. */
   class JointChain
   {
   public:
-    explicit JointChain(const InterfaceOperator &W); ///< @p W must outlive this
+    explicit JointChain(const InterfaceOperator &W); ///< @p W must outlive the object
 
+    /** Computes the decomposition for the given equations, one per pair. */
     void factorise(const std::vector<PairEquations> &equations);
 
-    /** z = J^-1 v in the rows that are not trivial; the others of @p z stay as they are. */
+    /** Computes z = J^-1 v in the rows that are not trivial. Other rows of @p z do not change. */
     void solve(const std::vector<float> &v, std::vector<float> &z) const;
 
   private:
@@ -24,7 +25,7 @@ namespace Voussoir
     void fill_coupling(unsigned int row_group, unsigned int column_group, std::vector<float> &block) const;
 
     const InterfaceOperator        &W;
-    std::vector<JointFactor>        factors; ///< of S_g
+    std::vector<JointFactor>        factors; ///< factors of S_g
     std::vector<std::vector<float>> below;   ///< J_g,g-1
     std::vector<std::vector<float>> above;   ///< S_g-1^-1 J_g-1,g
   };

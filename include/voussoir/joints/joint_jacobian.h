@@ -7,23 +7,26 @@
 
 namespace Voussoir
 {
-  /** The linear systems of Newton's method for the joints: J = d_force + d_gap W.
+  /** Linear systems of Newton's method for the joints: J = d_force + d_gap W.
    *
-   *  GMRES, preconditioned by P = D + L: D are the joints' own blocks (JointBlock); L are the couplings to
-   *  joints of earlier colour (neighbouring joints have different colours), so that P is block Gauss-Seidel
-   *  and joints of one colour run in parallel. W z comes with z = P^-1 v: W_jj z_j from the block, and each
-   *  coupling is used in both directions while it is in the cache. So a product J z = d_force z + d_gap W z
-   *  costs nothing beyond the preconditioner, is right for factors of older equations, too, and the change of
-   *  the gap of the solution is known in the end. All this in single precision, half the memory traffic: it
-   *  only makes Newton's steps, whose residuals are evaluated in double precision.
+   * GMRES in single precision, preconditioned by P = D + L. D has the diagonal blocks of the joints
+   * (JointBlock). L has the couplings to joints of earlier colour; neighbouring joints have different
+   * colours. P is a block Gauss-Seidel iteration, in which joints of one colour run in parallel.
    *
-   *  Where the joints depend on each other so much that this takes many iterations, or will (statics), and
-   * each is coupled to its neighbours only, the preconditioner is the block LU decomposition of the whole
-   * chain. */
+   * The preconditioner computes z = P^-1 v together with W z: JointBlock supplies W_jj z_j, and each coupling
+   * is used in both directions while it is in the cache. A product J z = d_force z + d_gap W z therefore
+   * needs no further access to W. The change of the gap is known at the end.
+   *
+   * Single precision halves the memory traffic. It is sufficient for Newton steps, because their residuals
+   * are computed in double precision.
+   *
+   * If GMRES takes many iterations, or if this is expected (statics), the block LU decomposition of the whole
+   * chain (JointChain) replaces the preconditioner. This requires that each joint is coupled to its
+   * neighbours only. */
   class JointJacobian : public ContactJacobian
   {
   public:
-    explicit JointJacobian(const InterfaceOperator &W); ///< @p W must outlive this
+    explicit JointJacobian(const InterfaceOperator &W); ///< @p W must outlive the object
 
     void         begin() override;
     void         expect_far_coupling() override { expects_chain = use_chain = is_chain; }
@@ -44,14 +47,14 @@ namespace Voussoir
     unsigned int         gmres(const Unknowns &r, double target, Unknowns &step, Unknowns &d_gap) const;
 
     const InterfaceOperator                           &W;
-    std::vector<std::pair<unsigned int, unsigned int>> keys; ///< of the blocks
+    std::vector<std::pair<unsigned int, unsigned int>> keys; ///< indices of the blocks
     const std::vector<PairEquations>                  *equations = nullptr;
     std::vector<JointBlock>                            joints;
-    bool                        is_chain = true;       ///< is each joint coupled to its neighbours only?
-    bool                        expects_chain = false; ///< in all problems
-    bool                        use_chain = false;     ///< from the next equations of this problem on
-    bool                        has_chain = false;     ///< in the present ones
-    std::unique_ptr<JointChain> chain;                 ///< instead of the joints' blocks, once GMRES was slow
+    bool                        is_chain = true;       ///< each joint is coupled to its neighbours only
+    bool                        expects_chain = false; ///< JointChain in all problems
+    bool                        use_chain = false; ///< JointChain from the next equations of this problem on
+    bool                        has_chain = false; ///< JointChain for the current equations
+    std::unique_ptr<JointChain> chain;             ///< replaces the blocks of the joints if GMRES is slow
   };
 } // namespace Voussoir
 

@@ -7,58 +7,62 @@
 
 namespace Voussoir
 {
-  /** What the force of a pair is in a linear system: factor times the force at the end of the step, or its
-   * mean over the step. */
+  /** Convention for the force of a pair in a linear system: factor times the force at the end of the step, or
+   * times the mean over the step. */
   struct ForceMeaning
   {
-    double factor = 1.;
-    bool   is_mean = false;
+    double factor = 1.;     ///< ratio of the unknown to the force [-]
+    bool   is_mean = false; ///< true: mean over the step; false: force at its end
   };
 
   /** Energy in joints [J]. */
   struct JointEnergy
   {
-    double stored = 0.;   ///< that the seats of keys hold
-    double fracture = 0.; ///< that bonds hold and have lost
+    double stored = 0.;   ///< energy of the flank contacts of shear keys
+    double fracture = 0.; ///< energy of bonds, current and lost
   };
 
-  /** The laws of all pairs of a structure, and where their memories lie in one array. */
+  /** Joint laws of all pairs of a structure, and the position of their history variables in one array. */
   struct PairLaws
   {
-    std::vector<const JointLaw *> of_pair;
+    std::vector<const JointLaw *> of_pair; ///< law of each pair
 
-    /** Memory of all pairs, one after the other, before anything has happened. */
+    /** Returns the initial history variables of all pairs, pair after pair. */
     Unknowns initial_memory() const { return Unknowns(n_memory(), 0.); }
-    bool     have_memory() const { return n_memory() > 0; }
-    bool     need_mean_force() const; ///< does any: see JointLaw::needs_mean_force()
+    bool     have_memory() const { return n_memory() > 0; } ///< true if a law has history variables
+    bool     need_mean_force() const; ///< true if a law has JointLaw::needs_mean_force()
 
-    /** What each law is told of its pair; points into @p memory. @p start: 3 per pair [m]. */
+    /** Returns the data of each pair for its law. The result points into @p memory.
+     * @param start gap at the start of the step, three values per pair [m]
+     * @param meaning convention of the forces
+     * @param memory history variables of all pairs */
     std::vector<PairPast> pasts(const Unknowns &start, const ForceMeaning &meaning,
                                 const Unknowns &memory) const;
 
-    /** Releases the pairs that a solution asks most of, within a tenth of the worst, since others may then be
-     * relieved: the events go into @p memory, and the forces become 0, a guess for the next. How many. */
+    /** Applies crack events to the pairs with the highest utilisation above 1: all pairs within a tenth of
+     * the largest one. Other pairs may be relieved by these events. Sets the history variables in @p memory
+     * and the forces of these pairs to 0, as a first guess. Returns the number of events. */
     unsigned int revise(const Unknowns &start, const ForceMeaning &meaning, const Unknowns &gap,
                         Unknowns &force, Unknowns &memory) const;
 
-    /** The step from @p start with this solution is accepted. */
+    /** Updates the history variables @p memory for an accepted step. @p start: gap at the start of the step,
+     * three values per pair [m]. */
     void commit(const Unknowns &start, const ForceMeaning &meaning, const Unknowns &force,
                 const Unknowns &gap, Unknowns &memory) const;
 
-    /** Returns the energy in the joints; @p gap: 3 per pair [m]. */
+    /** Returns the energy in the joints [J]. @p gap: three values per pair [m]. */
     JointEnergy joint_energy(const Unknowns &gap, const Unknowns &memory) const;
 
-    bool have_seats() const { return have_memory_with(true); } ///< can JointEnergy::stored be other than 0?
-    bool have_bonds() const
-    {
-      return have_memory_with(false);
-    } ///< can JointEnergy::fracture be other than 0?
+    bool have_seats() const { return have_memory_with(true); } ///< true if JointEnergy::stored can be nonzero
+    /** Returns true if JointEnergy::fracture can be nonzero. */
+    bool have_bonds() const { return have_memory_with(false); }
 
-    /** Returns the sum of SurfacesLaw::friction_correction() over a step of mean forces [J]; 0 where forces
-     * are those at the end of a step. @p memory: before commit(). */
+    /** Returns the sum of SurfacesLaw::friction_correction() over all pairs in a step with mean forces [J]; 0
+     * for forces at the end of a step. @p memory: history variables before commit(). */
     double friction_correction(const Unknowns &start, const ForceMeaning &meaning, const Unknowns &force,
                                const Unknowns &gap, const Unknowns &memory) const;
 
+    /** Appends a pair with its law and tributary area [m^2]. */
     void add(const JointLaw *law, double tributary_area);
 
   private:
@@ -66,18 +70,18 @@ namespace Voussoir
     std::size_t n_memory() const { return memory_end.empty() ? 0 : memory_end.back(); }
     std::size_t memory_begin(const std::size_t pair) const { return pair == 0 ? 0 : memory_end[pair - 1]; }
 
-    std::vector<double>      area;       ///< tributary, of each pair [m^2]
-    std::vector<std::size_t> memory_end; ///< of each pair
+    std::vector<double>      area;       ///< tributary area of each pair [m^2]
+    std::vector<std::size_t> memory_end; ///< end of the history variables of each pair
   };
 
-  /** The joint laws of a structure, owned once per joint, but for the pairs on edges. */
+  /** Joint laws of a structure, with ownership: one law per joint, and one per pair on an edge. */
   struct JointLaws : PairLaws
   {
-    std::vector<std::unique_ptr<JointLaw>> of_joint;
-    std::vector<std::unique_ptr<JointLaw>> of_edges; ///< of single pairs
+    std::vector<std::unique_ptr<JointLaw>> of_joint; ///< one per joint
+    std::vector<std::unique_ptr<JointLaw>> of_edges; ///< one per pair on an edge
 
-    /** Gives every pair the law of its joint. A pair on an edge of a joint with Coulomb friction (FJA)
-     * touches on all its planes, with that friction; the other laws do not know edges. */
+    /** Assigns the law of its joint to each pair. A pair on an edge of a joint with Coulomb friction (FJA)
+     * gets a law with friction on all its planes. Other laws do not support edges. */
     void assign(const std::vector<Pair> &pairs);
   };
 } // namespace Voussoir

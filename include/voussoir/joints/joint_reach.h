@@ -9,40 +9,42 @@
 
 namespace Voussoir
 {
-  /** Whether joints open or slip so far that their pairs lie. Contact is node to node: a pair acts as if its
-   * nodes still faced each other, which is an error of the order of the movement over the elements' width
-   * there. From half a width on a node faces the neighbour of its partner. */
+  /** Monitor of joint movements that are too large for node-to-node contact. A pair acts as if its nodes
+   * still faced each other. The error is of the order of the movement divided by the local element width.
+   * From half a width on, a node faces the neighbour of its partner. */
   class JointReach
   {
   public:
     JointReach() = default;
 
-    /** Width of the faces at each pair: their shortest edge, over the degree for the nodes between [m]. */
+    /** Computes the element width at each pair: the shortest edge of the joint faces there, divided by the
+     * element degree [m]. */
     JointReach(const SolidModel &model, const std::vector<Pair> &pairs);
 
-    /** @p moved: opening (n) and slip (a, b) of pair number @p p [m]. */
+    /** Records the movement of pair number @p p. @p moved: opening (n) and slip (a, b) [m]. */
     void record(unsigned int p, const Pair &pair, const Vector3 &moved);
 
-    /** A sentence for each joint that went too far: its number, what it did, by how much, where. */
+    /** Returns one warning for each joint with a movement above half the element width: number, opening or
+     * slip, amount and position. */
     std::vector<std::string> warnings() const;
 
-    const std::vector<double> &widths() const { return width; } ///< of the pairs [m]
+    const std::vector<double> &widths() const { return width; } ///< element width of each pair [m]
 
     template <class Archive> void serialize(Archive &archive, unsigned int) { archive &farthest; }
 
   private:
     enum
     {
-      share, ///< of the width: the largest so far
-      value, ///< of the opening or slip that this was [m]
-      local, ///< width there [m]
-      is_slip,
+      share,   ///< largest movement so far, divided by the width
+      value,   ///< this opening or slip [m]
+      local,   ///< element width there [m]
+      is_slip, ///< 1: slip, 0: opening
       x,
       y,
       z,
       n_values
     };
-    std::vector<double> width, farthest; ///< of each pair; n_values of each joint
+    std::vector<double> width, farthest; ///< per pair; n_values per joint
   };
 } // namespace Voussoir
 

@@ -9,42 +9,60 @@
 
 namespace Voussoir
 {
-  /** Wall seconds spent in the stages of a linear solution with joints. */
+  /** Wall-clock times of the linear solutions with joints [s]. */
   struct SystemTimes
   {
-    double substitutions = 0., joints = 0.;
+    double substitutions = 0., joints = 0.; ///< substitutions of the bodies; joint problem
   };
 
-  /** What a support says of a step, see FootElimination: three values per foot. */
+  /** Base nodes on a compliant support in one step, see FootElimination. Three values per base node. */
   struct FeetOfStep
   {
-    Unknowns place; ///< of the feet without forces on them [m]
-    Unknowns force; ///< of the solution, on the feet, of the same meaning as those of the joints [N]
+    Unknowns place; ///< displacement of the base nodes without forces on them [m]
+    Unknowns force; ///< forces of the solution on the base nodes, in the convention of the joint forces [N]
   };
 
-  /** The bodies condensed for one operator A = mass_factor M + stiffness_factor K + dashpot_factor D +
-   * springs, and the joints between them: solves A u = load + G^T force, gap = G u + offset, with the joint
-   * laws between force and gap. */
+  /** Condensed bodies for one operator A = mass_factor M + stiffness_factor K + dashpot_factor D + springs,
+   * and the joints between them. It solves A u = load + G^T force and gap = G u + offset with the joint laws
+   * between force and gap. */
   class JointSystem
   {
   public:
-    /** @p meaning: of the forces of this system, for the laws; @p springs: to the ground, per component
-     * [N/m], or empty; @p feet: on a support that gives way, compliance for forces of this meaning, or null;
-     * @p single_factors: of the bodies, see CondensedBody; W is in double precision all the same. */
+    /** Factorises the bodies and builds the joint operator.
+     * @param structure bodies and pairs; must outlive the object
+     * @param laws joint laws of the pairs
+     * @param parameters parameters of the contact solver
+     * @param mass_factor factor of M; 0: static system
+     * @param stiffness_factor factor of K
+     * @param dashpot_factor factor of D
+     * @param meaning convention of the forces of this system, for the laws
+     * @param springs springs to the ground, per component [N/m]; empty: none
+     * @param feet base nodes and compliance of the support for forces of this convention, or nullptr
+     * @param single_factors factors of the bodies in single precision (CondensedBody). The joint operator is
+     * in double precision in either case.
+     *
+     * Throws InputError if a problem file is requested for a law without Coulomb friction, and
+     * ComputationError if a body cannot be factorised. */
     JointSystem(const Structure &structure, const PairLaws &laws, const ContactParameters &parameters,
                 double mass_factor, double stiffness_factor, double dashpot_factor,
                 ForceMeaning meaning = ForceMeaning(), const Unknowns &springs = Unknowns(),
                 const FootElimination::Feet *feet = nullptr, bool single_factors = false);
-    JointSystem(const JointSystem &) = delete; // the solver knows the joint operator by its place
+    JointSystem(const JointSystem &) = delete; // the solver has a pointer to the joint operator
 
-    /** @p start: gap at the start of the step, 3 per pair [m]; @p memory: of the pairs, as committed before
-     * the step; receives the events of the step, after each of which it is solved once more; @p force: guess
-     * (zeros in a static system: none), then solution, 3 per pair [N]; @p gap, 3 per pair [m]; @p u, 3 per
-     * node [m]; @p feet: null where there are none, or their place is zero and nobody asks for the force. */
+    /** Solves a step. It is solved again after each crack event.
+     * @param load nodal loads, three values per node [N]
+     * @param offset gap for zero displacement, three values per pair [m]
+     * @param start gap at the start of the step, three values per pair [m]
+     * @param memory history variables before the step; receives the events of the step
+     * @param force first guess (zeros in a static system: none), then solution, three values per pair [N]
+     * @param gap receives three values per pair [m]
+     * @param u receives three values per node [m]
+     * @param feet displacement of the base nodes without forces, receives their forces; nullptr: no support,
+     * or zero displacement */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &memory,
                         Unknowns &force, Unknowns &gap, Unknowns &u, FeetOfStep *feet = nullptr);
 
-    /** The same with the laws' initial memory, which is not kept. */
+    /** Solves a step with the initial history variables of the laws, and discards them. */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &force,
                         Unknowns &gap, Unknowns &u)
     {
@@ -52,43 +70,47 @@ namespace Voussoir
       return solve(load, offset, start, memory, force, gap, u);
     }
 
-    /** What the equations of a step from @p start see of the pairs; points into @p memory. */
+    /** Returns the data of the pairs in the equations of a step. @p start: gap at the start of the step [m].
+     * The result points into @p memory. */
     std::vector<PairPast> pasts(const Unknowns &start, const Unknowns &memory) const
     {
       return laws.pasts(start, meaning, memory);
     }
 
-    /** The step from @p start with the solution @p force, @p gap is accepted: the laws bring the memory up to
-     * date. */
+    /** Updates the history variables @p memory for an accepted step with the solution @p force [N], @p gap
+     * [m]. @p start: gap at the start of the step [m]. */
     void commit(const Unknowns &start, const Unknowns &force, const Unknowns &gap, Unknowns &memory) const
     {
       laws.commit(start, meaning, force, gap, memory);
     }
 
-    /** Part of the work of a step's forces that friction takes, less the work along the joints [J]:
-     * PairLaws::friction_correction(). */
+    /** Returns PairLaws::friction_correction() [J]: work of friction on inclined surfaces, beyond the work of
+     * the tangential forces along the joints. */
     double friction_correction(const Unknowns &start, const Unknowns &force, const Unknowns &gap,
                                const Unknowns &memory) const
     {
       return laws.friction_correction(start, meaning, force, gap, memory);
     }
 
-    /** The bodies without joint forces: A u = load. */
+    /** Solves A u = load without joint forces, three values per node. */
     void solve_free(const Unknowns &load, Unknowns &u);
 
-    const std::vector<PairState>     &states() const { return solver->states(); }
+    /** Returns the contact states of the pairs in the last solution. */
+    const std::vector<PairState> &states() const { return solver->states(); }
+    /** Returns the active surfaces of the pairs in the last solution, one bit per surface; bit 0:
+     * the face. */
     const std::vector<unsigned char> &touching() const { return solver->touching(); }
-    double                            memory() const; ///< of factors and joint operator [bytes]
-    const InterfaceOperator          &joint_operator() const { return W; }
+    double                   memory() const; ///< memory consumption of factors and joint operator [bytes]
+    const InterfaceOperator &joint_operator() const { return W; }
 
-    SystemTimes times;
+    SystemTimes times; ///< since the construction
 
   private:
-    struct Side ///< one node of a pair: its body, and its number among the interface nodes
+    struct Side ///< node of a pair: body, and number among its interface nodes
     {
       unsigned int body = rigid_ground, node = 0;
     };
-    template <class Action> void for_each_own_body(const Action &action); ///< action(b) by all threads
+    template <class Action> void for_each_own_body(const Action &action); ///< calls action(b), in parallel
     std::vector<double>
     flexibility_of(unsigned int b, const std::vector<std::pair<unsigned int, unsigned int>> &sides_of_body);
     void          condense();
@@ -105,14 +127,14 @@ namespace Voussoir
     const ContactParameters                     parameters;
     const PairLaws                              laws;
     const ForceMeaning                          meaning;
-    const bool                                  is_static; ///< without masses
-    std::vector<std::unique_ptr<CondensedBody>> bodies;    ///< null where another rank has it
-    std::vector<std::array<Side, 2>>            sides;     ///< per pair
+    const bool                                  is_static; ///< mass_factor is 0
+    std::vector<std::unique_ptr<CondensedBody>> bodies;    ///< nullptr for bodies of other processes
+    std::vector<std::array<Side, 2>>            sides;     ///< nodes of each pair
     InterfaceOperator                           W;
-    std::shared_ptr<FootElimination>            feet; ///< or null
+    std::shared_ptr<FootElimination>            feet; ///< or nullptr
     std::unique_ptr<ContactSolver>              solver;
-    InterfaceValues                             interface; ///< work space
-    unsigned int                                n_solved;  ///< also before this object was made
+    InterfaceValues                             interface; ///< work array
+    unsigned int n_solved; ///< number of problems, including those before this object
   };
 } // namespace Voussoir
 

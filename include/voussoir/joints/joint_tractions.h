@@ -8,24 +8,28 @@ namespace Voussoir
 {
   class SolidModel;
 
-  /** Forces per area of the pairs. The normal force of a pair is the work of the pressure p on the shape
-   * function of its node, f = M p with the mass matrix M of the joint's faces; over the area A of the pair it
-   * is a mean, which at an edge of the joint lags behind by a third of an element. One step of
-   * p += A^-1 (f - M p) from there takes most of that away. Shear forces stay over the area: they are rougher
-   * than that step likes. */
+  /** Tractions of the joints from the joint forces.
+   *
+   * The normal force of a pair is the work of the pressure p on the shape function of its node: f = M p with
+   * the mass matrix M of the joint faces. The quotient f/A with the tributary area A is a mean value. At an
+   * edge of the joint it has an error of a third of an element. One correction step p += A^-1 (f - M p) from
+   * p = f/A removes most of this error. Shear tractions are not corrected, because they are
+   * not smooth enough. */
   class JointTractions
   {
   public:
+    /** Computes A^-1 M. @p structure must outlive the object. */
     JointTractions(const SolidModel &model, const Structure &structure);
 
-    /** Of side 1 on side 2 at each pair, in the frame of the pair: compression > 0 [Pa]; @p force: 3 per pair
-     * [N]. Nothing where the pair has no force; no tension where its force is none. */
+    /** Returns the traction of side 1 on side 2 at each pair, in the frame of the pair; compression is
+     * positive [Pa]. @p force: three values per pair [N]. The correction applies to pairs with a normal
+     * force only. It does not turn compression into tension. */
     const std::vector<Vector3> &at(const Unknowns &force);
 
   private:
     const Structure                                          &structure;
-    std::vector<std::vector<std::pair<unsigned int, double>>> mean; ///< rows of A^-1 M: pair, share
-    std::vector<double>                                       first;
+    std::vector<std::vector<std::pair<unsigned int, double>>> mean;  ///< rows of A^-1 M: pair, factor
+    std::vector<double>                                       first; ///< uncorrected normal traction [Pa]
     std::vector<Vector3>                                      traction;
   };
 } // namespace Voussoir

@@ -13,34 +13,36 @@ struct cholmod_factor_struct;
 
 namespace Voussoir
 {
-  /** Leading columns of a supernodal Cholesky factor L, packed for substitutions at the speed of the memory.
+  /** Leading columns of a supernodal Cholesky factor L, stored for substitutions that are limited by memory
+   * bandwidth only.
    *
-   * Of each panel of eight columns, with the triangle D and the rows B below, M = (D^-1; -B D^-1) is kept: a
-   * forward substitution is the product M t, a backward one M^T t, without a chain of divisions. Panels lie
-   * one behind the other in the order in which they are used, in blocks of eight rows, the width of the
-   * widest SIMD registers. The kernels are compiled for AVX-512, AVX and plain x86-64, and chosen when the
-   * program starts. In single precision only M is kept so, which halves what is read; all arithmetic is in
-   * double precision. */
+   * Each panel of eight columns, with the triangle D and the rows B below, is stored as M = (D^-1; -B D^-1).
+   * A forward substitution is the product M t, a backward substitution the product M^T t, without a chain of
+   * divisions. Panels are stored in the order of use, in blocks of eight rows, the width of the widest SIMD
+   * registers. Kernels for AVX-512, AVX and plain x86-64 are compiled; the program selects one
+   * when it starts.
+   *
+   * Single precision halves the memory traffic. All arithmetic is in double precision. */
   class PackedFactor
   {
   public:
     PackedFactor() = default;
 
-    /** The first @p n_columns of the supernodal factor @p L, whose numbers are gone afterwards: a large
-     * factor is packed where it is, so that there are never two of it. */
+    /** Takes the first @p n_columns columns of the supernodal factor @p L, whose values are lost. A large
+     * factor is packed in place, so that memory never holds two copies. */
     PackedFactor(cholmod_factor_struct *L, std::size_t n_columns, bool single);
 
-    /** The columns' part of x = L^-1 x, and what it does to the rows below; @p x: all rows, in the order of
-     * L.
-     */
+    /** Computes the part of the columns in x = L^-1 x, and its effect on the rows below. @p x: all rows, in
+     * the order of L. */
     void forward(double *x) const;
 
-    /** The columns' part of x = L^-T x; the rows below are given. */
+    /** Computes the part of the columns in x = L^-T x. The rows below are given. */
     void backward(double *x) const;
 
-    double memory() const; ///< [bytes]
+    double memory() const; ///< memory consumption [bytes]
 
-    /** The kernels for processors without AVX, on any: for tests. Not to be changed while others solve. */
+    /** Selects the kernels for processors without AVX, for tests. Do not change it while
+     * another thread solves. */
     static bool plain_kernels;
 
   private:
@@ -48,20 +50,20 @@ namespace Voussoir
     {
       void operator()(void *x) const { std::free(x); }
     };
-    using Aligned = std::unique_ptr<void, Free>; ///< to 64 bytes
+    using Aligned = std::unique_ptr<void, Free>; ///< aligned to 64 bytes
     static Aligned               allocate(std::size_t bytes);
     template <class Number> void take(cholmod_factor_struct *L);
     template <class Number> bool pack_in_place(cholmod_factor_struct *L);
     template <class Number> void pack(const PackedSupernode &supernode, const double *L);
     template <class Number> void substitute_with(bool forward, double *x) const;
 
-    bool                         is_single = false; ///< are the values floats?
+    bool                         is_single = false; ///< values are floats
     std::vector<PackedSupernode> supernodes;
     std::vector<unsigned int>    row_list;
     std::size_t                  n_values = 0;
     Aligned                      values;
-    void                        *first_value = nullptr; ///< of values, at a multiple of 64 bytes
-    Aligned                      work;                  ///< the rows of one supernode, doubles
+    void                        *first_value = nullptr; ///< first of the values, aligned to 64 bytes
+    Aligned                      work;                  ///< rows of one supernode, in double precision
   };
 } // namespace Voussoir
 

@@ -7,24 +7,25 @@
 
 namespace Voussoir
 {
-  /** Groups of pairs that are coupled to the same pairs, such as those of one joint of an arch: a permutation
-   *  that makes each group contiguous, and their sizes. */
+  /** Groups of pairs that are coupled to the same pairs, such as those of one joint of an arch. The
+   * permutation makes each group contiguous. */
   struct PairGroups
   {
-    std::vector<unsigned int> order; ///< new pair -> old pair
-    std::vector<unsigned int> size;  ///< of each group [pairs]
+    std::vector<unsigned int> order; ///< number in W of each reordered pair
+    std::vector<unsigned int> size;  ///< number of pairs of each group
   };
+  /** Returns the groups of the operator @p W. */
   PairGroups find_groups(const BlockSparseMatrix &W);
 
-  /** The operator as one sparse matrix, joint after joint. */
+  /** Returns the operator as one sparse matrix, joint after joint. */
   BlockSparseMatrix sparse_matrix(const InterfaceOperator &W);
 
-  /** W between surfaces of pairs: rows are the axes of surface k of pair p, for each entry (p, axes) of
-   *  @p surfaces, in the order of the pairs. */
+  /** Returns W between surfaces of pairs. @p surfaces: a pair and the matrix of its surface axes (rows) for
+   * each surface, in the order of the pairs. */
   BlockSparseMatrix sparse_matrix(const BlockSparseMatrix                             &W,
                                   const std::vector<std::pair<unsigned int, Matrix3>> &surfaces);
 
-  /** The same operator in dense blocks by group; @p W symmetric. */
+  /** Returns the symmetric operator @p W in dense blocks of @p groups. */
   InterfaceOperator make_interface_operator(const BlockSparseMatrix &W, const PairGroups &groups);
 } // namespace Voussoir
 

@@ -6,17 +6,18 @@
 
 namespace Voussoir
 {
-  /** The pairs of all joints 1..n_joints, in joint order: nodes of surfaces 100 + j and 200 + j that
-   * coincide, with frame {n, a, b}: n from side 1 to side 2, b upwards in the joint, a = b x n. Throws
-   * InputError for nodes that do not match. Pairs of two fixed nodes, and of nodes that
-   * move as one, are left out.
+  /** Returns the pairs of the joints 1 to @p n_joints, joint after joint. A pair consists of coincident nodes
+   * of the surfaces 100 + j and 200 + j. Its frame is {n, a, b}: n from side 1 to side 2, b upwards in the
+   * joint, a = b x n. Pairs of two fixed nodes, or of nodes that move together, are omitted.
    *
-   *  Where faces meet at an edge (their normals differ by more than 20 degrees, as at meshed shear keys) the
-   *  pair has several planes, and the frame of the one that is nearest to the joint's mean normal. */
+   * At an edge (normals of the faces differ by more than 20 degrees, as at meshed shear keys) the pair has
+   * several planes. Its frame is that of the plane closest to the mean normal of the joint.
+   *
+   * Throws InputError for nodes without a coincident partner. */
   std::vector<Pair> find_pairs(const SolidModel &model, unsigned int n_joints);
 
-  /** Make one body of all: coincident nodes on the two sides of joints 1..n_joints move as one, or only those
-   * on the base, when @p feet_only. */
+  /** Merges all bodies into one: coincident nodes on the two sides of the joints 1 to @p n_joints move
+   * together. @p feet_only: only base nodes are merged. */
   void tie_joints(SolidModel &model, unsigned int n_joints, bool feet_only = false);
 } // namespace Voussoir
 

@@ -8,15 +8,15 @@ namespace Voussoir
 {
   class Entries;
 
-  /** The rock around arch210: a block with a valley along x, whose section is the profile of the dam's foot.
-   *  Subsection "Mesh/Arch210/Rock". */
+  /** Parameters of the rock around arch210, subsection "Mesh/Arch210/Rock". The rock is a block with a valley
+   * along x. The cross section of the valley is arch210_valley(). */
   struct Arch210RockParameters
   {
-    bool         enabled = false;
-    double       upstream = 210, downstream = 210; ///< [m] from the dam's outermost foot
-    double       sides = 210, depth = 210;         ///< [m] likewise
-    double       element_size = 22;                ///< [m], far from the dam
-    unsigned int n_layers = 6;                     ///< of equal elements along the artificial boundary
+    bool   enabled = false;
+    double upstream = 210, downstream = 210; ///< distance of the boundary from the outermost base node [m]
+    double sides = 210, depth = 210;         ///< likewise; depth: below the base [m]
+    double element_size = 22;                ///< far from the dam [m]
+    unsigned int n_layers = 6;               ///< layers of equal elements along the artificial boundary
 
     void add_parameters(Entries &prm);
 
@@ -24,16 +24,17 @@ namespace Voussoir
     void check() const;
   };
 
-  /** Adds the rock to the mesh of make_arch210(): volume PhysicalId::first_rock, surfaces free_surface and
-   *  artificial. The foot is shared, and 'base' is then the surface between dam and rock; the dam's two end
-   *  walls leave it and are free. Nodes and cells of the dam keep their numbers.
+  /** Adds the rock to the mesh of make_arch210(): the volume PhysicalId::first_rock and the surfaces
+   * free_surface and artificial.
    *
-   *  The rock's grid is the dam's, prolonged: columns to the sides, layers up- and downstream, and rows down
-   *  along vertical lines. In the layers at the artificial boundary all grid lines are straight, equidistant
-   *  and normal to it: the boundary can be a transmitting one. The valley's section and its grid are the same
-   *  at the up- and the downstream end; the ground beside the valley is level with the foot of the dam's
-   * ends.
-   */
+   * Dam and rock share the base nodes. The surface 'base' becomes the surface between dam and rock. The two
+   * end walls of the dam are removed from it and are free. Nodes and cells of the dam keep their numbers.
+   *
+   * The grid of the dam continues into the rock: the columns to the sides, the layers upstream and
+   * downstream, the rows down along vertical lines. In the layers at the artificial boundary the grid lines
+   * are straight, normal to the boundary and have equal spacing, as a transmitting boundary requires. The
+   * upstream and the downstream end of the block have the same cross section and the same grid. The ground at
+   * the sides of the valley is horizontal, at the level of the base at the ends of the dam. */
   void add_arch210_rock(const Arch210Parameters &dam, const Arch210RockParameters &rock, HexMesh &mesh);
 } // namespace Voussoir
 

@@ -9,8 +9,7 @@
 
 namespace Voussoir
 {
-  /** The planes that cut the rock out of the ground: x smallest and largest, y smallest and largest, and z
-   *  smallest. */
+  /** Planes of the artificial boundary: smallest and largest x, smallest and largest y, and smallest z. */
   enum class CutFace
   {
     upstream,
@@ -20,30 +19,34 @@ namespace Voussoir
     bottom
   };
 
-  /** "upstream", "downstream", "right bank", "left bank", "bottom" */
+  /** Returns "upstream", "downstream", "right bank", "left bank" or "bottom". */
   std::string name_of(CutFace face);
 
-  /** Coordinate that is constant on the face: 0, 1 or 2. */
+  /** Returns the coordinate that is constant on the face: 0, 1 or 2. */
   unsigned int normal_axis(CutFace face);
 
-  /** A straight grid line from a node of the artificial boundary into the rock, normal to one face, with
-   * equal spacing: what a transmitting boundary extrapolates along. */
+  /** Straight grid line from a node of the artificial boundary into the rock, normal to one face, with equal
+   * spacing. A transmitting boundary extrapolates along such lines. */
   struct GridLine
   {
     CutFace                   face;
     double                    spacing; ///< [m]
-    int                       volume;  ///< the rock it runs in; the smaller id if between two
-    std::vector<unsigned int> nodes;   ///< n_layers + 1 of them, from the boundary inward
+    int                       volume;  ///< id of the rock volume; between two volumes the smaller id
+    std::vector<unsigned int> nodes;   ///< n_layers + 1 nodes, from the boundary inward
   };
 
-  /** The line of every node of surface PhysicalId::artificial, ordered by that node. A node on several faces
-   *  has the line normal to upstream or downstream if it lies there, else to the right or left bank, else to
-   *  the bottom; so the line of a bottom edge runs along the bottom, and that of a ground edge along the
-   *  ground.
+  /** Returns the grid lines of all nodes of the surface PhysicalId::artificial, ordered by these nodes.
    *
-   *  The mesh must have passed check_mesh(), and @p n_layers be at least 1. Throws InputError, beginning with
-   * @p source (the file), if a face is not plane, not normal to an axis or not outermost, or a line leaves
-   * the rock within @p n_layers elements, is bent, not normal to the face, of unequal spacing, or changes the
+   * A node on several faces has one line, normal to the first of these faces in the order of CutFace. The
+   * line from an edge of the bottom therefore runs along the bottom. The line from an edge of the ground runs
+   * along the ground.
+   *
+   * @param mesh must have passed check_mesh()
+   * @param n_layers number of elements along each line, at least 1
+   * @param source name of the file, for messages
+   *
+   * Throws InputError if a face does not lie in one of the five planes. Throws InputError if a line has fewer
+   * than @p n_layers elements, is not straight and normal to the face, has unequal spacing, or changes the
    * material. Deviations up to 1e-5 of the spacing are allowed. */
   std::vector<GridLine> boundary_lines(const HexMesh &mesh, unsigned int n_layers, const std::string &source);
 } // namespace Voussoir

@@ -8,25 +8,27 @@
 
 namespace Voussoir
 {
-  /** Finds the point of a set that lies at a place: nearest, within a tolerance, in logarithmic time. */
+  /** Search tree for the nearest point of a set, in logarithmic time. */
   class PointFinder
   {
   public:
+    /// Number of a point that does not exist.
     static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
-    /** @p tolerance: largest distance of two places that are the same [m]. */
+    /** Builds the tree. @p tolerance: largest distance of coincident points in find() [m]. */
     explicit PointFinder(const std::vector<std::array<double, 3>> &points, double tolerance = 0.);
     ~PointFinder();
 
-    /** Number of the point at @p place; none if there is none. */
+    /** Returns the number of the point nearest to @p place, or none if its distance exceeds the tolerance. */
     unsigned int find(const std::array<double, 3> &place) const;
 
     struct Nearest
     {
-      unsigned int number;   ///< none in an empty set
+      unsigned int number;   ///< number of the point; none in an empty set
       double       distance; ///< [m]
     };
-    Nearest nearest(const std::array<double, 3> &place) const; ///< however far it is
+    /** Returns the point nearest to @p place, at any distance. */
+    Nearest nearest(const std::array<double, 3> &place) const;
 
   private:
     struct Tree;

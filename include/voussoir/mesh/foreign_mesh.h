@@ -6,11 +6,16 @@
 
 namespace Voussoir
 {
-  /** Is it a file that the script mesh_to_msh.py reads (.inp, .med), by its ending? */
+  /** Returns true if the extension of @p file is .inp or .med: scripts/mesh_to_msh.py can read it. */
   bool is_foreign_mesh(const std::string &file);
 
-  /** Reads the mesh of another program: scripts/mesh_to_msh.py makes a gmsh file of it, for read_gmsh().
-   * Throws InputError with what the script says, or where Python or its package meshio is missing. */
+  /** Reads a mesh file of another program. The script mesh_to_msh.py converts it to a gmsh file, which
+   * read_gmsh() reads.
+   * @param file path of the .inp or .med file
+   * @param subdivided as in read_gmsh()
+   *
+   * Throws InputError with the message of the script, or if Python or its package meshio is missing. Throws
+   * WriteError if no temporary directory can be created. */
   HexMesh read_foreign_mesh(const std::string &file, bool subdivided);
 } // namespace Voussoir
 

@@ -12,13 +12,14 @@
 
 namespace Voussoir
 {
+  /** Numbers of element types in gmsh. */
   namespace GmshType
   {
-    constexpr int quadrangle_4 = 3, hexahedron_8 = 5; ///< element types
+    constexpr int quadrangle_4 = 3, hexahedron_8 = 5;
   }
 
-  /** Gmsh keeps one global state: initialized, silent and without the user's configuration in this scope.
-   */
+  /** Scope in which the global state of gmsh is initialized: without output to the terminal, and without the
+   * configuration files of the user. */
   class GmshSession
   {
   public:
@@ -33,8 +34,13 @@ namespace Voussoir
     GmshSession &operator=(const GmshSession &) = delete;
   };
 
-  /** Runs @p action, which calls gmsh; what gmsh throws (strings, numbers, exceptions) becomes an
-   * InputError. */
+  /** Runs @p action in a GmshSession. Errors of gmsh (strings, numbers, exceptions) become an InputError.
+   *
+   * @param file name of the mesh file, for the message
+   * @param problem text of the message, as "gmsh cannot read this file"
+   * @param action function that calls gmsh
+   *
+   * InputError and std::bad_alloc are passed on. std::length_error becomes std::bad_alloc. */
   template <typename Action>
   void with_gmsh(const std::string &file, const std::string &problem, const Action &action)
   {
@@ -53,7 +59,7 @@ namespace Voussoir
     {
       throw;
     }
-    catch (const std::length_error &) // more than any memory
+    catch (const std::length_error &) // requested size exceeds every memory
     {
       throw std::bad_alloc();
     }

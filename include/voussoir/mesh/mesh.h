@@ -15,94 +15,106 @@ namespace dealii
 
 namespace Voussoir
 {
-  /** Physical groups of a mesh without names (design/interfaces: mesh conventions). */
+  /** Ids of physical groups: of surfaces, and of the first rock volume. See doc/mesh.md. A group without a
+   * name has the meaning of its id; the name of a group has priority (physical_id()). */
   namespace PhysicalId
   {
     constexpr int base = 1, upstream = 2, downstream = 3, crest = 4, free_surface = 5, artificial = 6;
-    constexpr int joint_side_1 = 100, joint_side_2 = 200; ///< + joint number (1, 2, ...)
-    constexpr int max_joints = 99;                        ///< so that the two sides' ids do not meet
-    constexpr int first_rock = 1000;                      ///< volume ids from here on are rock
+    constexpr int joint_side_1 = 100, joint_side_2 = 200; ///< plus the number of the joint (1, 2, ...)
+    constexpr int max_joints = 99;                        ///< keeps the ids of the two sides disjoint
+    constexpr int first_rock = 1000;                      ///< this and larger volume ids are rock
   }                                                       // namespace PhysicalId
 
-  /** Eight-node hexahedra and the quadrilaterals of named surfaces, in gmsh's (= VTK's) corner order. */
+  /** Mesh of hexahedra with eight nodes, and the quadrilaterals of its named surfaces. The corners have the
+   * order of gmsh, which is also that of VTK. */
   struct HexMesh
   {
     struct Cell
     {
       std::array<unsigned int, 8> nodes;
-      int                         volume;   ///< physical id: monolith 1..999, rock from 1000
-      unsigned int                zone = 0; ///< index into zones: which concrete or rock; 0 = none
+      int                         volume;   ///< physical id: monolith 1 to 999, rock from 1000
+      unsigned int                zone = 0; ///< index into zones (material); 0: no zone
     };
     struct Face
     {
       std::array<unsigned int, 4> nodes;   ///< around the face, in either sense
       int                         surface; ///< physical id
     };
-    std::vector<std::array<double, 3>>         nodes; ///< [m]
+    std::vector<std::array<double, 3>>         nodes; ///< [m]; after read_gmsh() in the unit of the file
     std::vector<Cell>                          cells;
     std::vector<Face>                          faces;
     std::map<std::pair<int, int>, std::string> names;        ///< (dimension, physical id) -> physical name
-    std::vector<std::string>                   zones = {""}; ///< zone_name()s; the first is no zone
+    std::vector<std::string>                   zones = {""}; ///< names as by zone_name(); the first: no zone
   };
 
   /** Corners of the six faces of a hexahedron, counter-clockwise seen from outside. */
   constexpr unsigned int hex_faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                             {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
+  /** Returns true if the physical id @p volume is that of a monolith, false for rock. */
   inline bool is_monolith(const int volume)
   {
     return volume < PhysicalId::first_rock;
   }
+
+  /** Returns true if the physical id @p surface is that of a side of a joint. */
   inline bool is_joint_side(const int surface)
   {
     return surface > PhysicalId::joint_side_1;
   }
 
-  /** Finds the cells on the two sides of a face, by the face's nodes. */
+  /** Table of all cell faces. Finds the cells on the two sides of a face by the nodes of the face. */
   class FaceTable
   {
   public:
     struct Entry
     {
-      std::array<unsigned int, 4> key;       ///< the face's nodes, ascending
-      unsigned int                cell;      ///< owner
+      std::array<unsigned int, 4> key;       ///< nodes of the face, ascending
+      unsigned int                cell;      ///< index of the cell
       unsigned int                cell_face; ///< row of hex_faces
     };
 
     explicit FaceTable(const HexMesh &mesh);
 
-    /** The (none, one, two) owners of the face with these nodes, in any order. */
+    /** Returns the cells that have the face with these nodes, in any order of the nodes. One cell: the second
+     * pointer is null. No cell: both pointers are null. */
     std::pair<const Entry *, const Entry *> owners(std::array<unsigned int, 4> nodes) const;
 
-    /** All faces of all cells, sorted by key: the two entries of an interior face are neighbours. */
+    /** Returns all faces of all cells, sorted by key. The two entries of an interior face are neighbours. */
     const std::vector<Entry> &entries() const { return table; }
 
   private:
     std::vector<Entry> table;
   };
 
-  /** The name of a physical group by its id: "monolith 7", "rock 1000", "base", "joint 3 side 1", ... */
+  /** Returns the standard name of a physical group: "monolith 7", "rock 1000", "base", "joint 3 side 1", ...
+   * @param dimension 3: volume, 2: surface
+   * @param id physical id */
   std::string physical_name(int dimension, int id);
 
-  /** The id that a physical name stands for, -1 if the name is none of ours. Case, spaces, '_' and '-' do
-   *  not count ("monolith7", "Free surface"); "minus" and "plus" stand for side 1 and side 2 of a joint.
-   *  All names that begin with "rock" give PhysicalId::first_rock; "monolith 3 heel" is monolith 3. */
+  /** Returns the id of a physical name, or -1 if the name is unknown.
+   *
+   * Case, blanks, '_' and '-' are ignored ("monolith7", "Free surface"). The words "minus" and "plus" mean
+   * side 1 and side 2 of a joint. All names that begin with "rock" give PhysicalId::first_rock. A name with a
+   * zone, as "monolith 3 heel", gives the id of the monolith. */
   int physical_id(int dimension, const std::string &name);
 
-  /** The zone that a name of a physical volume says, as zone_name(): "heel" of "Monolith_3 Heel", "weak
-   *  layer" of "rock weak layer"; empty if it says none, as "monolith 3", "rock" or "rock 1000" (its id). */
+  /** Returns the zone in the name of a physical volume, in the form of zone_name(): "heel" for "Monolith_3
+   * Heel", "weak layer" for "rock weak layer". Returns an empty string if the name has no zone, as "monolith
+   * 3", "rock" or "rock 1000". */
   std::string zone_of(const std::string &volume_name);
 
-  /** A zone's name without what does not count in it: "Weak_layer2" is "weak layer 2". */
+  /** Returns the name of a zone in lower case, with single blanks between words and numbers: "weak layer 2"
+   * for "Weak_layer2". */
   std::string zone_name(const std::string &text);
 
-  /** Has a name characters of ASCII only? Others would not count in zone_name(). */
+  /** Returns true if all characters of @p name are ASCII. Other characters are ignored by zone_name(). */
   bool is_plain(const std::string &name);
 
-  /** Index of a zone_name() in HexMesh::zones, where it is added if it is not there. */
+  /** Returns the index of @p zone, a result of zone_name(), in HexMesh::zones. Adds a missing zone. */
   unsigned int zone_index(HexMesh &mesh, const std::string &zone);
 
-  /** Mean of the places of some nodes [m]: the centre of a face or a cell. */
+  /** Returns the mean position of the given nodes [m]: the centre of a face or a cell. */
   template <std::size_t n>
   std::array<double, 3> centre(const HexMesh &mesh, const std::array<unsigned int, n> &nodes)
   {
@@ -113,53 +125,61 @@ namespace Voussoir
     return sum;
   }
 
-  /** A point for messages: "(1.5, -20, 210) m". */
+  /** Returns the text of a position for messages: "(1.5, -20, 210) m". */
   std::string place(const std::array<double, 3> &point);
 
-  /** Drops the nodes that belong to no cell, and reorders the corners of all cells if every single one is
-   *  mirrored (which is a matter of the file's conventions or axes, not an error). */
+  /** Removes the nodes that belong to no cell and no face. If all cells are mirrored, reorders the corners of
+   * all cells: the file then has another convention or left-handed axes, which is not an error. */
   void normalize(HexMesh &mesh);
 
-  /** Throws InputError, beginning with @p source (the file), if the mesh cannot be computed with: nodes that
-   *  are not finite, inverted or degenerate cells, monoliths not numbered 1, 2, ..., faces of no cell, inside
-   *  the dam or in two surfaces, monoliths that lie face to face unconnected, or nothing that fixes the dam.
-   *  With rock, 'base' must be all faces between dam and rock, and nothing else. */
+  /** Checks that the mesh can be used for an analysis.
+   *
+   * Throws InputError, with @p source (the file) at the beginning of the message, in these cases:
+   *  - coordinates that are not finite, inverted or degenerate cells, or three cells at one face;
+   *  - volume ids below 1, or monoliths that are not numbered 1, 2, ...;
+   *  - a surface face without a cell, inside the body (joints and base excepted), or in two surfaces;
+   *  - two monoliths that lie face to face without common nodes and without a joint;
+   *  - no base of the dam, or with rock no artificial boundary;
+   *  - with rock: the surface 'base' is not exactly the set of faces between dam and rock. */
   void check_mesh(const HexMesh &mesh, const std::string &source);
 
-  /** Number of monoliths (the largest volume id below PhysicalId::first_rock). */
+  /** Returns the number of monoliths: the largest volume id below PhysicalId::first_rock. */
   unsigned int n_monoliths(const HexMesh &mesh);
 
-  /** Smallest determinant of the Jacobian of a cell's map from the unit cube, over its corners and its
-   *  centre [m^3]. */
+  /** Returns the smallest determinant of the Jacobian of the map from the unit cube to a cell, at the corners
+   * and at the centre of the cell [m^3]. */
   double min_jacobian(const HexMesh &mesh, const HexMesh::Cell &cell);
 
-  /** What a set of hexahedra does to accuracy and to the time step. All are taken at the cells' corners. */
+  /** Measures of element quality, evaluated at the corners of the cells. They affect the accuracy and the
+   * time step. */
   struct MeshQuality
   {
     double                shortest_edge, longest_edge; ///< [m]
-    double                smallest_height;             ///< [m], between opposite faces
-    std::array<double, 3> smallest_height_at;          ///< centre of that cell
-    double                smallest_scaled_jacobian;    ///< 1 for right angles, 0 for flat cells
+    double                smallest_height;             ///< smallest distance of opposite faces of a cell [m]
+    std::array<double, 3> smallest_height_at;          ///< centre of the cell with the smallest height [m]
+    double                smallest_scaled_jacobian;    ///< [-]; 1: right angles, 0: flat cell
 
-    /** Mean over the cells of the smallest over the largest Jacobian: 1 for parallelepipeds, 2/27 where a
-     * tetrahedron, of whatever shape, was split into four hexahedra [-]. */
+    /** Mean over the cells of the ratio of the smallest to the largest Jacobian [-]. It is 1 for
+     * parallelepipeds. It is 2/27 for a tetrahedron of any shape that was split into four hexahedra. */
     double mean_jacobian_ratio;
   };
 
-  /** Of the rock or of the dam, which must have cells. */
+  /** Returns the quality of the rock cells (@p of_rock) or of the dam cells. The mesh must have at least one
+   * such cell. */
   MeshQuality mesh_quality(const HexMesh &mesh, bool of_rock);
 
-  /** Volume of each physical volume [m^3], exact for the trilinear cells. */
+  /** Returns the volume of each physical volume [m^3], by its id. It is exact for trilinear cells. */
   std::map<int, double> volumes(const HexMesh &mesh);
 
-  /** Volume of all cells together, rock included [m^3]. */
+  /** Returns the volume of all cells, rock included [m^3]. */
   double volume(const HexMesh &mesh);
 
-  /** The smallest and the largest coordinates [m]. */
+  /** Returns the smallest and the largest coordinates of the nodes [m]. */
   std::pair<std::array<double, 3>, std::array<double, 3>> bounding_box(const HexMesh &mesh);
 
-  /** Length of the crest's centre line [m]: the mean of the lengths of the edges that the crest shares with
-   *  the upstream and with the downstream face; zero if a surface is missing. */
+  /** Returns the length of the centre line of the crest [m]: the mean length of the upstream and the
+   * downstream edge of the crest. Each edge is the set of element edges that the crest shares with the
+   * upstream or the downstream face. The edge of a missing surface has zero length. */
   double crest_length(const HexMesh &mesh);
 } // namespace Voussoir
 

@@ -6,14 +6,20 @@
 
 namespace Voussoir
 {
-  /** Throws InputError, with the entry that mends it, if the dam (without rock) does not look like one:
+  /** Checks the axes and the length unit of a mesh from a file, by the dam without the rock.
    *
-   *  - its axes are turned or its faces exchanged: the mean outward normal of the crest is more than 63
-   * degrees from z (up), the mean normal of the downstream face less that of the upstream face more than 63
-   * degrees from x (downstream), or the base looks up. Faces that close (rings) are not judged.
-   *  - its height is not between 5 m and 400 m: the length unit.
+   * Throws InputError, with the entry to change, in these cases:
+   *  - The mean outward normal of the crest is more than 14 degrees from z (up).
+   *  - The mean normal of the downstream face minus that of the upstream face is steeper than 63 degrees, or
+   *    its horizontal part is more than 40 degrees from x (downstream).
+   *  - The mean outward normal of the base is less than 63 degrees from z.
+   *  - The height of the dam is not between 5 m and 400 m.
    *
-   *  @p source: the file, for messages. */
+   * A surface whose normals cancel, as those of a ring do, is not checked.
+   *
+   * @param mesh in metres, x downstream, y to the left bank, z up
+   * @param parameters of the mesh. The check is skipped if the source is not "file".
+   * @param source name of the file, for messages */
   void check_axes_and_units(const HexMesh &mesh, const MeshParameters &parameters, const std::string &source);
 } // namespace Voussoir
 

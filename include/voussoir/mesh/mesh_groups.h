@@ -6,22 +6,28 @@
 
 namespace Voussoir
 {
-  /** What is wrong with the name of a physical group that physical_id() does not know, and how to mend it:
-   * the group with its @p tag, the nearest known name, and all known ones. */
+  /** Returns a message about a physical group with an unknown name. The message has the group with its
+   * @p tag, the nearest known name, and all known names.
+   * @param dimension 3: volume, 2: surface
+   * @param tag id of the group in the file
+   * @param name unknown name of the group */
   std::string unknown_group(int dimension, int tag, const std::string &name);
 
-  /** The physical groups of a mesh, what the program takes them for, and how many hexahedra or faces each
-   * has, one line each; successive monoliths and joints are drawn together. A group without a name is called
-   * by its id. */
+  /** Returns a table of the physical groups of a mesh. Each line has the group, its meaning, and the number
+   * of its hexahedra or faces. Successive monoliths or joints have a common line. A group without a name is
+   * listed by its id. */
   std::string group_table(const HexMesh &mesh);
 
-  /** How many outer faces of the dam are in no surface, and where the first is: "12 outer faces of the dam,
-   * the first at (...) m, ..."; empty if there are none. They are free, and get no water. */
+  /** Returns a warning about outer faces of the dam that are in no surface, with their number and the
+   * position of the first. Such faces are free and have no water pressure. The string is empty if there are
+   * no such faces. */
   std::string faces_without_group(const HexMesh &mesh);
 
-  /** gmsh drops names that it does not understand, and ids would take their place: throws InputError where
-   * $PhysicalNames of a gmsh file is not one line DIMENSION ID "NAME" for each group, or says one name twice.
-   */
+  /** Checks the section $PhysicalNames of a gmsh file. Gmsh ignores names that it cannot parse, so that the
+   * ids would be used instead.
+   *
+   * Throws InputError if a line is not DIMENSION ID "NAME", if the number of lines is wrong, or if two groups
+   * have the same name. Names that begin with "rock" may be repeated. */
   void check_physical_names(const std::string &file);
 } // namespace Voussoir
 

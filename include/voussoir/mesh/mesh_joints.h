@@ -8,36 +8,39 @@
 
 namespace Voussoir
 {
-  /** A contraction joint. Its sides are the surfaces PhysicalId::joint_side_1 + number (faces of monolith_1)
-   *  and PhysicalId::joint_side_2 + number (faces of monolith_2) of an opened mesh. */
+  /** Contraction joint of an opened mesh. Side 1 has the faces of monolith_1 and is the surface with the id
+   * PhysicalId::joint_side_1 + number. Side 2 has the faces of monolith_2 and the id
+   * PhysicalId::joint_side_2 + number. */
   struct Joint
   {
     int number;
     int monolith_1, monolith_2; ///< monolith_1 < monolith_2
   };
 
-  /** The dam without the rock. */
+  /** Returns the dam without the rock. */
   HexMesh monoliths_only(const HexMesh &mesh);
 
-  /** The mesh in which no two monoliths share a node, and the two sides of every joint are surfaces.
+  /** Returns the mesh with doubled nodes at the joints. Monoliths share no nodes, except those of the rock.
+   * The two sides of every joint are surfaces.
    *
-   *  Joint j lies between monoliths j and j+1; contacts of other monoliths get the numbers from
-   *  n_monoliths() on, in the order of the monoliths. The nodes of the rock are not doubled: the foot of a
-   *  joint on rock stays one node, tied. The input may be conforming, doubled or a mixture: it is closed
-   *  first, so that all three give the same result but for the numbers of the nodes. It must have passed
-   *  check_mesh().
-   *  Throws InputError as close_joints(), and for more than PhysicalId::max_joints joints. */
+   * Joint j lies between the monoliths j and j + 1. Contacts of other monoliths have the numbers from
+   * n_monoliths() on, in the order of the monoliths. Nodes of the rock are not doubled: where a joint meets
+   * the rock, its sides share the base node and are tied there.
+   *
+   * @param mesh conforming, with doubled nodes, or a mixture. It is closed first, so that all three give the
+   * same mesh up to the numbers of the nodes. It must have passed check_mesh().
+   *
+   * Throws InputError like close_joints(), and if the number of a joint exceeds PhysicalId::max_joints. */
   HexMesh open_joints(const HexMesh &mesh);
 
-  /** The conforming mesh, for tied joints: coincident nodes of the two sides of each joint become one (at the
-   *  place of the first one), and the joints' surfaces are dropped.
+  /** Returns the conforming mesh, for tied joints. Coincident nodes on the two sides of a joint are merged at
+   * the position of the first one. The surfaces of the joints are removed.
    *
-   *  Nodes coincide if they are closer than 1e-4 of the shortest edge of the joint's faces around them.
-   *  Throws InputError for a node without partner (joint, coordinates, distance to the nearest node of the
-   *  other side) and for a face without partner. */
+   * Two nodes coincide if their distance is at most 1e-4 of the shortest edge of the adjacent joint faces.
+   * Throws InputError for a node or a face without a partner on the other side, with joint and position. */
   HexMesh close_joints(const HexMesh &mesh);
 
-  /** The joints of an opened mesh, by number. */
+  /** Returns the joints of an opened mesh, in the order of their numbers. */
   std::vector<Joint> joints_of(const HexMesh &mesh);
 } // namespace Voussoir
 

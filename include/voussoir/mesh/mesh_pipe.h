@@ -7,10 +7,11 @@
 
 namespace Voussoir
 {
-  /** A mesh through a pipe. */
+  /** Writes a mesh to a pipe. */
   void send(const HexMesh &mesh, PipeWriter &pipe);
 
-  /** What send() sent. Throws PipeReader::End if an element has a node that is not there. */
+  /** Reads a mesh that send() wrote. Throws PipeReader::End if a node or a zone of an element is missing from
+   * the data. */
   void receive(PipeReader &pipe, HexMesh &mesh);
 } // namespace Voussoir
 

@@ -9,32 +9,49 @@
 
 namespace Voussoir
 {
-  /** Velocity and displacement of a motion at its samples, from rest: [m/s], [m]. */
+  /** Velocity [m/s] and displacement [m] of a ground motion at its samples, x, y, z. Both are zero at the
+   * first sample. */
   struct MotionIntegrals
   {
     std::vector<std::array<double, 3>> velocity, displacement;
   };
 
-  /** Acceleration of the base in the axes of the scene: x downstream, y across the valley, z up. */
+  /** Ground motion: acceleration of the base in the axes of the program. x points downstream, y to the left
+   * bank, z up. The acceleration is linear between the samples. */
   struct GroundMotion
   {
     double                             dt = 0.01;    ///< sampling interval [s]
     std::vector<std::array<double, 3>> acceleration; ///< a_x, a_y, a_z [m/s^2] at t = k dt
-    std::vector<std::string>           notes;        ///< what was done to records, for the user
+    std::vector<std::string>           notes; ///< processing of records (duration, filter), for the log
 
-    double                duration() const;            ///< time of the last sample [s]
-    std::array<double, 3> sample(std::size_t k) const; ///< at t = k dt [m/s^2]; zero after the end
-    std::array<double, 3> at(double t) const;          ///< linear interpolation; zero outside the record
-    std::vector<double>   component(unsigned int direction) const; ///< 0, 1, 2 for x, y, z
-    GroundMotion          scaled(double factor) const;
-    GroundMotion          refined(unsigned int n) const; ///< with @p n steps in each sampling interval
-    MotionIntegrals       integrated() const;            ///< exact for linear acceleration between samples
+    /** Returns the time of the last sample [s]. */
+    double duration() const;
+
+    /** Returns the acceleration at t = @p k dt [m/s^2]. It is zero after the last sample. */
+    std::array<double, 3> sample(std::size_t k) const;
+
+    /** Returns the acceleration at the time @p t [s] by linear interpolation [m/s^2], zero outside the
+     * duration of the motion. */
+    std::array<double, 3> at(double t) const;
+
+    /** Returns all samples of one component [m/s^2]. @p direction: 0, 1 or 2 for x, y or z. */
+    std::vector<double> component(unsigned int direction) const;
+
+    /** Returns the motion multiplied by @p factor [-]. */
+    GroundMotion scaled(double factor) const;
+
+    /** Returns the same motion with @p n steps in each sampling interval. */
+    GroundMotion refined(unsigned int n) const;
+
+    /** Returns velocity and displacement, by exact integration of the linear acceleration. */
+    MotionIntegrals integrated() const;
   };
 
-  /** Standard gravity, for accelerations given in g [m/s^2]. */
+  /** Standard acceleration of gravity, for accelerations in g [m/s^2]. */
   constexpr double standard_gravity = 9.80665;
 
-  /** CSV with the header `t,a_x,a_y,a_z` [s, m/s^2], as make_motion() reads it. Throws WriteError. */
+  /** Writes a CSV file with the header `t,a_x,a_y,a_z` [s, m/s^2], which make_motion() can read. Throws
+   * WriteError if @p file cannot be written. */
   void write_motion(const GroundMotion &motion, const std::string &file);
 } // namespace Voussoir
 

@@ -7,12 +7,17 @@
 
 namespace Voussoir
 {
-  /** The motion of a scene.
+  /** Returns the ground motion of an input file, by its entry "Motion/Source":
+   *  - file: read_motion(). A component without a file is zero.
+   *  - artificial: make_artificial_motion().
+   *  - none: zero acceleration.
    *
-   *  file: read_motion(); an absent component is zero. artificial: three components by
-   *  make_artificial_component(), whose mutual correlations are at most 0.3. none: zeros. All are multiplied
-   * by "Factor" and "Scale x", "Scale y", "Scale z". InputError where a record or an entry is not usable, and
-   * where a sample is not finite or above 1000 g. */
+   * All components are multiplied by "Factor", and each component by its "Scale x", "Scale y" or "Scale z".
+   *
+   * @param parameters section "Motion"
+   * @param scene_directory directory of the input file
+   *
+   * Throws InputError if a record or an entry is wrong, and if a sample is not finite or exceeds 1000 g. */
   GroundMotion make_motion(const MotionParameters &parameters, const std::string &scene_directory);
 } // namespace Voussoir
 

@@ -7,18 +7,25 @@
 
 namespace Voussoir
 {
-  /** One component of an artificial motion [m/s^2], n_steps() + 1 samples, before "Scale".
+  /** Returns one component of an artificial motion without "Factor" and "Scale" [m/s^2], with
+   * parameters.n_steps() + 1 samples.
    *
-   *  A trigonometric series with random phases and the power spectrum that belongs to the design spectrum
-   *  (Kaul 1978), under an envelope, is corrected in the frequency domain and then in the time domain
-   *  (match_spectrum()) to follow the design spectrum. The largest magnitude is the target's peak
-   *  acceleration, and velocity and displacement end at zero. The phases depend on the seed, the direction
-   * and the attempt alone: equal input gives equal motion. */
+   * The start is a trigonometric series with random phases, multiplied by the MotionEnvelope and, in the last
+   * twentieth, by a cosine that ends at zero. Its power spectrum corresponds to the design spectrum (Kaul
+   * 1978). The series is corrected in the frequency domain, and then in the time domain with
+   * match_spectrum(). The largest absolute acceleration equals the peak acceleration of the target. Velocity
+   * and displacement end at zero.
+   *
+   * @param parameters section "Motion"
+   * @param direction 0, 1 or 2 for x, y or z
+   * @param attempt number that selects the random phases, with the seed and the direction. Equal numbers give
+   * the same motion. */
   std::vector<double> make_artificial_component(const MotionParameters &parameters, unsigned int direction,
                                                 unsigned int attempt);
 
-  /** All three components, with new attempts where one misses MotionCriteria; when the attempts run out,
-   *  the best (which report_motion() will then warn of). */
+  /** Returns an artificial motion with three components, without "Factor" and "Scale". A component that does
+   * not satisfy MotionCriteria is generated again, with at most six attempts in all. The best attempt is
+   * used. motion_warnings() reports criteria that are still not satisfied. */
   GroundMotion make_artificial_motion(const MotionParameters &parameters);
 } // namespace Voussoir
 

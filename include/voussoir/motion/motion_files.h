@@ -7,16 +7,21 @@
 
 namespace Voussoir
 {
-  /** The motion of the files that section "Motion" names, in m/s^2, times "Factor", before "Scale".
+  /** Reads the ground motion from the files in section "Motion" [m/s^2], with "Factor" and without "Scale".
    *
-   *  Each record is brought to the analysis' time step on its own (resample()). The motion lasts for
-   *  "Duration", or, where that is automatic, as many whole time steps as the shortest record has.
-   * InputError: a record that cannot be read, that ends before a given "Duration", or that starts at another
-   * time than the component before it. */
+   * Each record is resampled separately to the time step of the analysis with resample(). The length of the
+   * motion is "Duration". If that is automatic, it is the length of the shortest record, in whole time steps.
+   *
+   * @param parameters section "Motion"
+   * @param scene_directory directory of the input file
+   *
+   * Throws InputError if a record cannot be read, ends before a given "Duration", has headings with another
+   * unit than "Unit", or starts at another time than the first one. */
   GroundMotion read_motion(const MotionParameters &parameters, const std::string &scene_directory);
 
-  /** For a scene that does not say the unit of its tables: a warning if all their numbers are below 1 m/s^2
-   * and no heading states a unit, since they may be in g; else empty. */
+  /** Returns a warning that the tables may be in g: all their values are below 1 m/s^2, and no heading states
+   * a unit. Returns an empty string otherwise, or if a file cannot be read. Intended for input files without
+   * the entry "Motion/Unit". */
   std::string unit_warning(const MotionParameters &parameters, const std::string &scene_directory);
 } // namespace Voussoir
 

@@ -11,55 +11,65 @@ namespace Voussoir
 {
   class Entries;
 
-  /** Envelope of an artificial motion: t^2, then one, then exp(-decay_rate (t - decay_begin)). */
+  /** Envelope of an artificial motion: (t / rise_end)^2, then 1, then exp(-decay_rate (t - decay_begin)). */
   struct MotionEnvelope
   {
     double rise_end, decay_begin; ///< [s]
     double decay_rate;            ///< [1/s]
   };
 
-  /** Section "Motion" of a scene. */
+  /** Section "Motion" of an input file. */
   struct MotionParameters
   {
-    static constexpr double automatic = -1.; ///< of entries that follow from others
-    static constexpr double most_steps = 1e7;
+    static constexpr double automatic = -1.;  ///< value of entries that are computed from others
+    static constexpr double most_steps = 1e7; ///< largest number of time steps
 
     std::string           source = "artificial";  ///< or "file", "none"
-    double                duration = automatic;   ///< [s]; see length()
-    double                time_step = 0.01;       ///< [s]
-    double                factor = 1.;            ///< on all components, whatever the source
-    std::array<double, 3> scale = {{1., 1., 1.}}; ///< on one each
+    double                duration = automatic;   ///< of the ground motion [s]; see length()
+    double                time_step = 0.01;       ///< sampling interval [s]
+    double                factor = 1.;            ///< of all components, for every source [-]
+    std::array<double, 3> scale = {{1., 1., 1.}}; ///< of the single components, for every source [-]
 
-    // Source = file. Paths are relative to the scene's directory.
-    std::string                file;            ///< one file with t, a_x, a_y, a_z,
-    std::array<std::string, 3> component_files; ///< or one for each component, with t, a, or AT2
-    std::string                unit = "m/s^2";
+    // Source = file. Paths are relative to the directory of the input file.
+    std::string                file;            ///< one file with t, a_x, a_y, a_z, or empty
+    std::array<std::string, 3> component_files; ///< one file per component, with t, a or AT2, or empty
+    std::string                unit = "m/s^2";  ///< of tables: "g", "m/s^2" or "cm/s^2"
 
     // Source = artificial
     DesignSpectrum spectrum;
     double         peak_acceleration = 0.5575; ///< horizontal [g]
-    double         vertical_ratio = 0.666667;  ///< vertical to horizontal
-    double         damping = 0.05;
-    unsigned int   seed = 1;
-    double         rise_end = automatic;    ///< [s]; see envelope()
-    double         decay_begin = automatic; ///< [s]
-    double         decay_rate = automatic;  ///< [1/s]
-    unsigned int   matching_iterations = 20;
+    double         vertical_ratio = 0.666667;  ///< vertical to horizontal acceleration [-]
+    double         damping = 0.05;             ///< damping ratio of the spectrum [-]
+    unsigned int   seed = 1;                   ///< selects the random phases
+    double         rise_end = automatic;       ///< [s]; see envelope()
+    double         decay_begin = automatic;    ///< [s]
+    double         decay_rate = automatic;     ///< [1/s]
+    unsigned int   matching_iterations = 20;   ///< largest number of passes of match_spectrum()
 
     void add_parameters(Entries &prm);
-    void check() const; ///< throws InputError, naming the entry
 
-    bool         duration_is_automatic() const { return duration == automatic; }
-    double       length() const;  ///< "Duration", or 20.48 s where it is automatic, but for records [s]
-    unsigned int n_steps() const; ///< length() / time_step
+    /** Checks the entries. Throws InputError with the name of a wrong entry. */
+    void check() const;
 
-    /** As the entries say; those that are automatic: 2.5 s, 11 s and 0.25 1/s where the motion is longer than
-     * that, else the envelope of a motion of 15 s in the time scale length()/15 s. */
+    /** Returns true if "Duration" is -1. */
+    bool duration_is_automatic() const { return duration == automatic; }
+
+    /** Returns "Duration" [s], or 20.48 s in whole time steps if it is automatic. Not valid for records with
+     * an automatic duration: their length is that of the files. */
+    double length() const;
+
+    /** Returns length() / time_step. */
+    unsigned int n_steps() const;
+
+    /** Returns the envelope with the values of the entries. The defaults are rise_end = 2.5 s, decay_begin =
+     * 11 s and decay_rate = 0.25 1/s. If this envelope does not fit into length(), the default times are
+     * scaled with min(1, length() / 15 s) and the default rate with the inverse. */
     MotionEnvelope envelope() const;
 
-    /** What an artificial motion is to match: pseudo-acceleration [m/s^2] in a direction at a period [s];
-     *  at period zero the peak acceleration. Beyond 3 s, where the codes end, the displacement spectrum is
-     *  constant. Without "Scale". */
+    /** Returns the target of an artificial motion: the pseudo-acceleration [m/s^2], without "Factor" and
+     * "Scale". Beyond 3 s, where the codes end, it decreases with an additional factor (3 s / period)^2.
+     * @param direction 0, 1 or 2 for x, y or z
+     * @param period natural period [s]; 0: peak acceleration */
     double target(unsigned int direction, double period) const;
 
   private:
@@ -67,16 +77,20 @@ namespace Voussoir
     void add_artificial_parameters(Entries &prm);
   };
 
-  /** Where artificial motions are to match, and how well: Chinese hydraulic practice. */
+  /** Acceptance criteria of ground motions. Those of artificial motions follow Chinese hydraulic practice. */
   namespace MotionCriteria
   {
-    constexpr double first_period = 0.04, last_period = 3.; ///< [s]
+    constexpr double first_period = 0.04, last_period = 3.; ///< range of the spectrum to match [s]
+
+    /** Largest admissible values for artificial motions: error of the spectrum at one period and on average
+     * (relative to the target), and correlation of two components [-]. */
     constexpr double maximum_error = 0.10, mean_error = 0.05, correlation = 0.3;
 
-    /** At the end of a motion, over the peaks. Records that were corrected, and artificial ones, come back to
-     * rest within a few per cent. What remains above these is an uncorrected baseline, a record that is cut
-     * while it shakes, or a permanent displacement of the ground; on rock (absolute displacements) the dam
-     * goes with it, and a velocity that remains carries it on. */
+    /** Largest admissible displacement and velocity at the end of a motion, relative to their peaks [-].
+     *
+     * Artificial motions and corrected records end at rest within a few per cent. Larger values have one of
+     * three causes: an uncorrected baseline, a record that was cut during the strong motion, or a permanent
+     * displacement of the ground. On rock, where displacements are absolute, the dam follows them. */
     constexpr double end_displacement = 0.2, end_velocity = 0.1;
   } // namespace MotionCriteria
 } // namespace Voussoir

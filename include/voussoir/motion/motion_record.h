@@ -7,29 +7,33 @@
 
 namespace Voussoir
 {
-  /** A record as its file has it. */
+  /** Accelerogram with the values and the unit of its file. */
   struct MotionRecord
   {
-    double                           start = 0.;   ///< time of the first sample [s]; 0 in AT2
+    double                           start = 0.;   ///< time of the first sample [s]; 0 for AT2
     double                           dt = 0.;      ///< sampling interval [s]
-    std::vector<std::vector<double>> components;   ///< of equal length, in the file's unit
-    bool                             in_g = false; ///< AT2, whatever unit the scene states
-    std::string                      unit; ///< that a table's headings state, as Motion/Unit; or empty
+    std::vector<std::vector<double>> components;   ///< samples, of equal length, in the unit of the file
+    bool                             in_g = false; ///< true for AT2 files; "Motion/Unit" is then ignored
+    std::string                      unit; ///< unit in the headings of a table, as in "Motion/Unit"; or empty
 
-    double duration() const; ///< from the first to the last sample [s]
+    /** Returns the time from the first to the last sample [s]. */
+    double duration() const;
   };
 
-  /** Read a table or a PEER AT2 file, told apart by their content.
+  /** Reads a table or a PEER AT2 file. The content of the file determines its format.
    *
-   *  A table has a line for each time: t [s] and n_components (1 or 3) accelerations, separated by blanks
-   *  or commas, at equal steps; the rest of a line after # is a comment, and one line of headings, without
-   *  numbers, may come first. Lines end in LF, CR LF or CR. AT2 (one component) has a header with NPTS and DT
-   * in any of PEER's three forms, then that many values in any number of columns.
+   * A table has one line per time, with t [s] and @p n_components (1 or 3) accelerations. Blanks, tabs,
+   * commas or semicolons separate the numbers. The time steps are equal. The text after # is a comment. The
+   * first line may have headings without numbers. Lines end in LF, CR LF or CR.
    *
-   *  InputError, with file and line: anything but a regular file of text of at most 100 MB, a line of more
-   * than a million characters, a wrong number of columns, anything but a finite number, time that does not
-   * increase or steps that differ, a number of values other than NPTS, an AT2 file of velocity or
-   * displacement. */
+   * An AT2 file has one component. Its header states NPTS and DT in any of the three forms of PEER. The NPTS
+   * values follow, in any number of columns.
+   *
+   * Throws InputError with file and line in these cases:
+   *  - The file is not a regular text file of at most 100 MB, or a line exceeds a million characters.
+   *  - The number of columns is wrong, or a value is not a finite number.
+   *  - The time does not increase, or the time steps differ.
+   *  - An AT2 file is not an acceleration in g, or its number of values is not NPTS. */
   MotionRecord read_motion_record(const std::string &file, unsigned int n_components);
 } // namespace Voussoir
 

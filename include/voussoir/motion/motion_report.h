@@ -9,8 +9,8 @@
 
 namespace Voussoir
 {
-  /** Engineering measures of a motion. Velocity and displacement are the exact integrals of the
-   *  piecewise linear acceleration from rest. */
+  /** Engineering measures of a ground motion. Velocity and displacement are the exact integrals of the
+   * piecewise linear acceleration, from rest. */
   struct MotionReport
   {
     struct Component
@@ -18,34 +18,38 @@ namespace Voussoir
       double peak_acceleration = 0.;    ///< [m/s^2]
       double peak_velocity = 0.;        ///< [m/s]
       double peak_displacement = 0.;    ///< [m]
-      double arias_intensity = 0.;      ///< pi / (2 g) times the integral of a^2 [m/s]
-      double significant_duration = 0.; ///< from 5 % to 95 % of it (D5-95) [s]
+      double arias_intensity = 0.;      ///< pi / (2 g) times the time integral of a^2 [m/s]
+      double significant_duration = 0.; ///< from 5 % to 95 % of the Arias intensity (D5-95) [s]
       double end_velocity = 0.;         ///< [m/s]
       double end_displacement = 0.;     ///< [m]
-      double maximum_error = 0.;        ///< of the pseudo-acceleration, relative to the target; artificial
-      double mean_error = 0.;           ///< of its magnitude, over the periods; artificial
+      double maximum_error = 0.;        ///< SpectralError::maximum; artificial motions only
+      double mean_error = 0.;           ///< SpectralError::mean; artificial motions only
     };
-    std::array<Component, 3> components;
-    /// Of the accelerations: x with y, x with z, y with z.
+    std::array<Component, 3> components; ///< x, y, z
+    /// Correlation coefficients of the accelerations: x-y, x-z, y-z [-].
     std::array<double, 3> correlations = {{0., 0., 0.}};
-    bool                  artificial = false;
+    bool                  artificial = false; ///< the motion is artificial
   };
 
-  /** Errors are taken of artificial motions only, over 0.04 s to 3 s at 200 periods per decade; at each
-   * period the greater of two, that of the true peak and that of the peak seen at the samples alone. */
+  /** Computes the measures of a ground motion. For artificial motions, spectral_error() is evaluated from
+   * 0.04 s to 3 s with 200 periods per decade.
+   * @param motion of make_motion(), with "Factor" and "Scale"
+   * @param parameters section "Motion" */
   MotionReport report_motion(const GroundMotion &motion, const MotionParameters &parameters);
 
-  /** A motion that is no earthquake: peak acceleration beyond 0.005 to 2 g, velocity above 5 m/s or
-   * displacement above 10 m; empty if it is one. */
+  /** Returns a warning about an unusual size of the motion: peak acceleration outside 0.005 to 2 g, peak
+   * velocity above 5 m/s, or peak displacement above 10 m. Returns an empty string otherwise. */
   std::string size_warning(const MotionReport &report);
 
-  /** A sentence for each criterion of MotionCriteria that the motion misses, and of its size. */
+  /** Returns one warning for each criterion of MotionCriteria that the motion does not satisfy, and one if
+   * its size is unusual (size_warning()). */
   std::vector<std::string> motion_warnings(const MotionReport &report);
 
-  /** That of the end alone (MotionCriteria::end_displacement, end_velocity); empty if it is met. */
+  /** Returns a warning if the motion does not end at rest (MotionCriteria::end_displacement, end_velocity).
+   * Returns an empty string otherwise. */
   std::string end_warning(const MotionReport &report);
 
-  /** A table, then the warnings. */
+  /** Prints a table of the measures, and then the warnings. */
   void print_report(const MotionReport &report, std::ostream &out);
 } // namespace Voussoir
 

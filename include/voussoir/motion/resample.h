@@ -7,19 +7,23 @@
 
 namespace Voussoir
 {
-  /** Would resampling from steps of @p dt to steps of @p new_dt [s] lose what the record has above the new
-   *  Nyquist frequency? Steps that differ by less than 0.1 % are the same: times are printed with few digits.
-   */
+  /** Returns true if resampling from the step @p dt to @p new_dt [s] requires a low-pass filter. Steps that
+   * differ by less than 0.1 % are regarded as equal, because files give times with few digits. */
   bool is_coarser(double new_dt, double dt);
 
-  /** A record with the samples @p a at k @p dt, at the @p n times k @p new_dt [s].
+  /** Returns a record at other times.
    *
-   *  To a finer or equal step: linear interpolation, as the time stepping assumes. To a coarser one a
-   * low-pass filter comes first: a symmetric one, which delays nothing, with a sinc under Kaiser's window
-   * (Oppenheim and Schafer, Discrete-Time Signal Processing, 7.6). Up to 0.8 of the new Nyquist frequency
-   * 0.5/new_dt it changes amplitudes by less than 2e-4, above that frequency less than 2e-4 is left. At its
-   * ends the record is continued by its reflection through the end point, so that a straight line stays what
-   * it is. Times beyond the record have its last value. */
+   * For a finer or equal step the record is interpolated linearly, as the time integration assumes. For a
+   * coarser step it is filtered first. The low-pass filter is symmetric, without phase shift: a sinc function
+   * with the window of Kaiser (Oppenheim and Schafer, Discrete-Time Signal Processing, 7.6). The Nyquist
+   * frequency of the new step is 0.5 / new_dt. Up to 0.8 of this frequency, amplitudes change by less than
+   * 2e-4. Above the Nyquist frequency they are reduced to less than 2e-4. For the filter, the record is
+   * continued beyond its ends by point reflection, which leaves a straight line unchanged.
+   *
+   * @param a samples at the times k @p dt
+   * @param dt step of the samples [s]
+   * @param new_dt step of the result [s]
+   * @param n number of values in the result. Times beyond the record have its last value. */
   std::vector<double> resample(const std::vector<double> &a, double dt, double new_dt, std::size_t n);
 } // namespace Voussoir
 

@@ -8,31 +8,38 @@
 
 namespace Voussoir
 {
-  /** A linear oscillator under base acceleration a, u'' + 2 zeta w u' + w^2 u = -a, at rest at first.
-   *  Between samples a is linear and the solution exact (Nigam and Jennings 1969). Short periods take
-   *  several substeps per sample, at least 20 per period, so that no peak is missed between samples. */
+  /** Linear oscillator under base acceleration a: u'' + 2 zeta w u' + w^2 u = -a, initially at rest.
+   *
+   * The acceleration is linear between the samples, and the solution is exact (Nigam and Jennings 1969).
+   * Short periods have several substeps per sample, at least 20 per period, so that peaks between the samples
+   * are included. */
   class Oscillator
   {
   public:
-    /** period [s] and sampling interval dt [s] positive, damping ratio zeta in [0, 1). */
+    /** @param period natural period [s], positive
+     * @param damping damping ratio zeta in [0, 1) [-]
+     * @param dt sampling interval of the acceleration [s], positive */
     Oscillator(double period, double damping, double dt);
 
+    /** Largest response. */
     struct Peak
     {
-      double      value = 0.;   ///< w^2 u, signed, where its magnitude is largest [unit of a]
-      std::size_t substep = 0;  ///< when
-      double      sampled = 0.; ///< the largest magnitude seen at the samples alone
+      double      value = 0.;   ///< w^2 u of largest absolute value, with its sign [unit of a]
+      std::size_t substep = 0;  ///< number of the substep at the end of which it occurs
+      double      sampled = 0.; ///< largest absolute value at the samples only [unit of a]
     };
 
-    /** The largest response while the record lasts. */
+    /** Returns the largest response during the record. */
     Peak peak(const std::vector<double> &acceleration) const;
 
-    /** Of several: four that have the same substeps move together, which takes a third of the time. */
+    /** Returns peak() for each of several oscillators. Four successive oscillators with the same number of
+     * substeps are computed together, which takes a third of the time. */
     static std::vector<Peak> peaks(const std::vector<Oscillator> &oscillators,
                                    const std::vector<double>     &acceleration);
 
-    /** The derivatives of w^2 u at a substep with respect to each of n_samples accelerations (the response
-     *  is their scalar product with the record): the time-reversed impulse response. */
+    /** Returns the derivatives of w^2 u at a substep with respect to the accelerations at @p n_samples
+     * samples [-]: the time-reversed impulse response. The response w^2 u is the scalar product of the
+     * derivatives and the record. */
     std::vector<double> sensitivity(std::size_t substep, std::size_t n_samples) const;
 
   private:
@@ -41,15 +48,20 @@ namespace Voussoir
 
     std::size_t           n_substeps;    // per sample
     double                stiffness;     // w^2
-    double                a[2][2];       // (u, v) of the next substep from (u, v),
-    std::array<double, 2> start, finish; // and from the accelerations at its start and its finish
+    double                a[2][2];       // maps (u, v) to those of the next substep
+    std::array<double, 2> start, finish; // factors of the accelerations at start and finish of a substep
   };
 
-  /** Pseudo-acceleration spectrum w^2 max |u| [unit of the acceleration] at the given periods [s]. */
+  /** Returns the pseudo-acceleration spectrum w^2 max |u| [unit of the acceleration] at @p periods [s].
+   * @param acceleration samples
+   * @param dt sampling interval [s]
+   * @param periods natural periods [s]
+   * @param damping damping ratio [-] */
   std::vector<double> pseudo_acceleration_spectrum(const std::vector<double> &acceleration, double dt,
                                                    const std::vector<double> &periods, double damping);
 
-  /** Periods [s] from first to last, both included, at equal ratios, at least so many in a decade. */
+  /** Returns periods from @p first to @p last, both included [s]. Successive periods have a constant ratio,
+   * with at least @p n_per_decade periods per decade. */
   std::vector<double> logarithmic_periods(double first, double last, unsigned int n_per_decade);
 } // namespace Voussoir
 

@@ -6,38 +6,45 @@
 
 namespace Voussoir
 {
-  /** What a record of acceleration is to satisfy. */
+  /** Target of match_spectrum(): response spectrum and peak acceleration. */
   struct SpectralTarget
   {
     std::vector<double> periods;             ///< [s]
     std::vector<double> pseudo_acceleration; ///< at these periods [m/s^2]
-    double              damping;
-    double              peak_acceleration; ///< [m/s^2]
+    double              damping;             ///< damping ratio [-]
+    double              peak_acceleration;   ///< of the record [m/s^2]
   };
 
-  /** Relative errors of a record's pseudo-acceleration: the largest and the mean of their magnitudes. At each
-   *  period it is the greater of two, that of the true peak and that of the peak seen at the samples alone.
-   */
+  /** Relative error of the pseudo-acceleration of a record, over all periods of a target [-].
+   *
+   * The error at a period is the larger of two values: the excess of the peak over the target, and the
+   * deficit of the peak at the samples only (Oscillator::Peak). */
   struct SpectralError
   {
-    double maximum = 0.;
-    double mean = 0.;
+    double maximum = 0.; ///< largest error
+    double mean = 0.;    ///< mean error
   };
 
+  /** Computes the error of a record. @p acceleration: samples [m/s^2]. @p dt: sampling interval [s]. */
   SpectralError spectral_error(const std::vector<double> &acceleration, double dt,
                                const SpectralTarget &target);
 
-  /** Correct a record in the time domain until its spectrum matches.
+  /** Corrects a record in the time domain to match a response spectrum.
    *
-   *  The response of an oscillator at the time of its peak is linear in the record: a scalar product with the
-   *  time-reversed impulse response (Lilhanand and Tseng 1988). Each pass finds the smallest change of
-   *  the record, in the norm weighted by 1/envelope, that moves all these peaks onto the target while
-   *  velocity and displacement end at zero and the largest sample is the peak acceleration. As peaks may
-   *  change place, passes are repeated until the maximum error is below the tolerance or n_passes are done.
+   * The response of an oscillator at the time of its peak is linear in the record: a scalar product with the
+   * time-reversed impulse response (Lilhanand and Tseng 1988). Each pass computes the smallest change of the
+   * record, in the norm weighted by 1/envelope, under three conditions. All peaks reach the target, velocity
+   * and displacement end at zero, and the largest sample is the peak acceleration. The change may shift the
+   * times of the peaks. Therefore the passes are repeated.
    *
-   *  @param acceleration [m/s^2], changed only where the envelope is positive
-   *  @param envelope     one value for each sample, not negative
-   *  @return the best record met; its end velocity, end displacement and peak are exact to rounding. */
+   * @param acceleration record [m/s^2], changed only where the envelope is positive
+   * @param dt sampling interval [s]
+   * @param envelope one value per sample [-], not negative
+   * @param target spectrum and peak acceleration
+   * @param tolerance maximum error at which the passes end [-]
+   * @param n_passes largest number of passes
+   * @return the record with the smallest maximum error. Its end velocity, end displacement and peak are exact
+   * up to round-off. */
   std::vector<double> match_spectrum(std::vector<double> acceleration, double dt,
                                      const std::vector<double> &envelope, const SpectralTarget &target,
                                      double tolerance, unsigned int n_passes);

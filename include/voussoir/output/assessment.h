@@ -13,46 +13,47 @@
 
 namespace Voussoir
 {
-  /** A result against its limit. */
+  /** Comparison of a result with its limit. */
   struct Verdict
   {
     std::string           name, unit;
-    double                value, limit;
-    bool                  is_least = false; ///< the limit is a lower one
-    std::optional<double> with_base{}; ///< of stresses: the value of all nodes, those near the base included
+    double                value, limit;     ///< in @p unit
+    bool                  is_least = false; ///< true: the limit is a lower bound
+    std::optional<double> with_base{};      ///< stresses: value including nodes near the base
     bool                  satisfied() const { return is_least ? value >= limit : value <= limit; }
   };
 
-  /** The stresses of a run. */
+  /** Stress results of a run. */
   struct StressesOfRun
   {
     const EnvelopeRecorder &envelope;
     const FaceTension      &tension;
-    unsigned int            interval; ///< steps from one record to the next
+    unsigned int            interval; ///< number of steps between two records
   };
 
-  /** The numbers that reports are written with: demand and capacity with the duration of overstress and its
-   * share of the faces, openings and slips at the waterstops, what remains of them, the shear of keys; and
-   * all against the limits. Stresses are compared away from the base (FaceTension), where an elastic dam has
-   * none that grow with refinement; and only if every step was recorded. */
+  /** Assessment of a run: demand-capacity ratios with duration and share of overstress, openings and slips at
+   * the waterstops, residual openings and slips, shear of the keys, and the comparison with the limits.
+   * Stresses are compared away from the base (FaceTension), because elastic stresses at the base grow with
+   * refinement. They are compared only if every step was recorded. */
   class Assessment
   {
   public:
-    /** @p stresses: null: not recorded. @p joints: null: a tied dam. @p blocks: null: not recorded. */
+    /** Compares all results with the limits. @p stresses, @p blocks: nullptr if not recorded. @p joints:
+     * nullptr for a tied dam. */
     Assessment(const LimitParameters &limits, const SolidModel &model, const StressesOfRun *stresses,
                const JointRecorder *joints, const BlockRecorder *blocks);
 
-    /** "overstress", "waterstop", "residual", "keys", "limits": name -> value, limit, satisfied, and
-     * "limits_not_evaluated": name -> why there is no result to compare with it. */
+    /** Adds "overstress", "waterstop", "residual", "keys", "limits" (value, limit and satisfied by name) and
+     * "limits_not_evaluated" (reasons by name) to @p summary. */
     void add_to(Json &summary) const;
 
-    /** Which limits are exceeded, by how much, or not evaluated; empty: there are none. */
+    /** Returns the limits that are exceeded, with their values, or not evaluated. Empty: no limits. */
     std::string in_words() const;
 
   private:
     void hold(const std::string &name, const std::string &unit, double value, double limit,
               std::optional<double> with_base = {});
-    void leave(const std::string &name, double limit, const std::string &reason); ///< not evaluated
+    void leave(const std::string &name, double limit, const std::string &reason); ///< limit is not evaluated
     void leave_stresses(const std::string &reason);
     void leave_demand(const std::string &reason);
     void add_stresses(const SolidModel &model, const StressesOfRun &stresses);
@@ -64,11 +65,12 @@ namespace Voussoir
 
     const LimitParameters                            limits;
     std::vector<Verdict>                             verdicts;
-    std::vector<std::pair<std::string, std::string>> unevaluated; ///< names of limits, and why
+    std::vector<std::pair<std::string, std::string>> unevaluated; ///< limits and reasons
     std::optional<Json>                              overstress, waterstop, residual, keys;
   };
 
-  Json json_of(const Extreme &extreme); ///< value, place, time
+  /** Returns value, position and time of an extreme. */
+  Json json_of(const Extreme &extreme);
 } // namespace Voussoir
 
 #endif

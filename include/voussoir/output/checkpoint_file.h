@@ -7,25 +7,25 @@
 
 namespace Voussoir
 {
-  /** Size and checksum of a file, as text; InputError if it cannot be read. */
+  /** Returns size and checksum of a file as text. Throws InputError if the file cannot be read. */
   std::string digest_of_file(const std::string &file);
 
-  /** Writes @p payload with its checksum, to the disk itself, and only then in the place of @p file; what was
-   * there before is kept as FILE.before. Throws WriteError. */
+  /** Writes @p payload with its checksum to a new file, and then replaces @p file by it. The previous file is
+   * renamed to FILE.before. Throws WriteError. */
   void write_checkpoint_file(const std::string &file, const std::string &payload);
 
-  /** The payload of @p file, or, if that is missing or damaged, of FILE.before, and then @p warning says so.
-   * Throws InputError if neither can be used. */
+  /** Returns the payload of @p file. If this file is missing or damaged, returns that of FILE.before and sets
+   * @p warning. Throws InputError if neither can be used. */
   std::string read_checkpoint_file(const std::string &file, std::string &warning);
 
-  /** What a run depends on, by name: entries of the scene, files, the program. */
+  /** Inputs of a run by name: entries of the input file, files, revision of the program. */
   using Provenance = std::map<std::string, std::string>;
 
-  /** The values of a scene's text, by "Section/Entry", without those that may change when a run is resumed:
-   * what is written and when, the settings of the joints' solver, and the duration of the motion. */
+  /** Returns the values of the text of an input file, by "Section/Entry". Entries that may change when a run
+   * is resumed are excluded: output intervals, contact solver and duration of the motion. */
   Provenance decisive_entries(const std::string &scene_text);
 
-  /** Throws InputError, naming what differs, unless @p now is what it was @p then. */
+  /** Throws InputError with all differences if @p now and @p then differ. @p checkpoint: file name. */
   void check_provenance(const Provenance &then, const Provenance &now, const std::string &checkpoint);
 } // namespace Voussoir
 

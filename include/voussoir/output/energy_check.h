@@ -8,9 +8,11 @@ namespace Voussoir
 {
   struct Scene;
 
-  /** Throws ComputationError if the energies of a run do not balance: a sound run closes to 1e-7 or better,
-   * more than 1e-4 is not to be trusted. @p dam, @p rock: largest |balance| of the run over the largest
-   * energy (0 for what is not there); @p directory: where the results are. */
+  /** Throws ComputationError if the error of an energy balance exceeds 1e-4. Normal runs have at most 1e-7.
+   *
+   * @param scene input file
+   * @param dam, rock largest error of the run, relative to the largest energy [-]; 0: not present
+   * @param directory output directory */
   void check_energies(const Scene &scene, double dam, double rock, const std::string &directory);
 } // namespace Voussoir
 

@@ -8,38 +8,40 @@
 
 namespace Voussoir
 {
-  /** Stresses of the envelope away from the base, where the stress of an elastic dam is singular, and the
-   * area of the upstream and downstream faces where the tension is above a strength. Near the base: nearer to
-   * a node of it than a tenth of the dam's height. */
+  /** Evaluation of stress envelopes: extremes away from the base, where elastic stresses are singular, and
+   * areas with a maximum principal stress above a strength. A node is near the base if its distance to a base
+   * node is less than a tenth of the height of the dam. */
   class FaceTension
   {
   public:
+    /** Computes the nodal areas of the faces, and finds the nodes near the base. */
     explicit FaceTension(const SolidModel &model);
 
+    /** Returns true if a node is near the base. */
     bool is_near_base(const unsigned int node) const { return near_base[node]; }
 
-    /** The largest maximum on a face; its value is not a number where no node of the face is away from the
-     * base. */
+    /** Returns the largest maximum on a face away from the base [Pa], or NaN if there is no such node. */
     Extreme largest_away_from_base(const EnvelopeRecorder &envelope, const SolidModel &model,
                                    int surface) const;
 
-    /** The smallest minimum of all nodes of the dam that are away from the base, not a number without any. */
+    /** Returns the smallest minimum of all nodes away from the base [Pa], or NaN if there is no such node. */
     Extreme smallest_away_from_base(const EnvelopeRecorder &envelope, const SolidModel &model) const;
 
-    /** Root of the mean square, by area, of the differences of two envelopes away from the base, where @p a
-     * has at least half of its largest tension there; 0 without tension, not a number without the face [Pa].
-     */
+    /** Returns the root mean square of the difference of two envelopes away from the base, weighted by area
+     * [Pa]. It includes the nodes where @p a has at least half of its maximum. It is 0 without tension, and
+     * NaN without the face. */
     double difference(const EnvelopeRecorder &a, const EnvelopeRecorder &b, int surface) const;
 
-    /** The larger one of both faces, 0 where there is none [Pa]. */
+    /** Returns the largest maximum on both faces away from the base, at least 0 [Pa]. */
     double headline(const EnvelopeRecorder &envelope) const;
 
+    /** Part of the area of a face. */
     struct Part
     {
-      double area = 0., whole = 0.; ///< [m^2]
+      double area = 0., whole = 0.; ///< area of the part and of the face [m^2]
       double share() const { return whole > 0. ? area / whole : 0.; }
     };
-    /** The part of a face whose nodes, by their shares of its area, have tension above @p strength [Pa]. */
+    /** Returns the nodal area of a face with a maximum above @p strength [Pa]. */
     Part above(const EnvelopeRecorder &envelope, int surface, double strength) const;
 
   private:
@@ -48,7 +50,7 @@ namespace Voussoir
       unsigned int node;
       double       area; ///< [m^2]
     };
-    std::map<int, std::vector<FaceNode>> faces;
+    std::map<int, std::vector<FaceNode>> faces;     ///< nodes by surface
     std::vector<bool>                    near_base; ///< per node of the model
   };
 } // namespace Voussoir

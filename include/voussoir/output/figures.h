@@ -6,10 +6,12 @@
 
 namespace Voussoir
 {
-  /** Draws the figures of the run in @p directory with scripts/figures.py, which writes what it has to say to
-   * @p log_file. The script is looked for in the directory $VOUSSOIR_SCRIPTS, else where the program's build
-   * or its installation has it; the interpreter is $VOUSSOIR_PYTHON, else the first python3 of the PATH and
-   * of /usr/bin that has matplotlib. No shell is involved. Returns what went wrong, or an empty text. */
+  /** Draws the figures of the run in @p directory with scripts/figures.py, whose output goes to @p log_file.
+   * Returns an error message, or an empty string.
+   *
+   * The script is in the directory $VOUSSOIR_SCRIPTS, if it is set, or else in that of the build or
+   * installation. The interpreter is $VOUSSOIR_PYTHON, or else the first python3 of the PATH and of /usr/bin
+   * with matplotlib. */
   std::string draw_figures_of(const std::string &directory, const std::string &log_file);
 } // namespace Voussoir
 

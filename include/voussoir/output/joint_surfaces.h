@@ -9,9 +9,12 @@
 
 namespace Voussoir
 {
-  /** Writes the joints as surfaces, for ParaView: joint, displacement of side 1 [m], opening [m], slip (a
-   * vector in space) [m], pressure (compression positive) [Pa] and shear stress (a vector: what side 1 feels)
-   * [Pa], both means over the step, and state (0 open, 1 stick, 2 slip; -1 where the foot is held). */
+  /** Writes the joints as surfaces for ParaView. Fields:
+   *  - joint number, displacement of side 1 [m], opening [m], slip vector [m],
+   *  - pressure (compression positive) and shear stress vector on side 1 [Pa], means over the step,
+   *  - state: 0 open, 1 stick, 2 slip, -1 fixed base node.
+   *
+   * Throws WriteError if the file cannot be written. */
   void write_joint_surfaces(const std::string &file, const SolidModel &model, const Structure &structure,
                             const Newmark &newmark, const std::vector<PairState> &states);
 } // namespace Voussoir

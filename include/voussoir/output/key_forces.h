@@ -8,26 +8,31 @@ namespace Voussoir
 {
   struct JointParameters;
 
-  /** The shear forces that the flanks of keys carry, joint by joint: of the tangential force of each pair
-   * what is more than the friction of its face can be, added up over the joint. It is at least that: where
-   * flanks that lean carry a part of the normal force, the face has less friction. */
+  /** Shear forces of the keys of each joint: sum over the pairs of the tangential force beyond the friction
+   * limit of the face. This is a lower bound, because inclined flanks carry a part of the normal force and
+   * reduce the friction of the face. */
   class KeyForces
   {
   public:
     KeyForces() = default; ///< no joint has keys
 
+    /** Finds the joints with keys. */
     KeyForces(const Structure &structure, const JointParameters &parameters);
 
-    void record(double time, const Unknowns &force); ///< 3 per pair [N]
+    /** Updates the largest forces. @p force: joint forces, three values per pair [N]. @p time: [s]. */
+    void record(double time, const Unknowns &force);
 
+    /** Largest shear force of the keys of a joint. */
     struct OfJoint
     {
       unsigned int joint;                                  ///< counted from 0
-      double       area, force, time;                      ///< [m^2]; the largest force [N], when [s]
+      double       area, force, time;                      ///< [m^2], largest force [N], its time [s]
       double       stress() const { return force / area; } ///< [Pa]
     };
-    std::vector<OfJoint> joints;        ///< with keys
-    const OfJoint       &worst() const; ///< of all, by the stress; there must be one
+    std::vector<OfJoint> joints; ///< joints with keys
+
+    /** Returns the joint with the largest stress. At least one joint must have keys. */
+    const OfJoint &worst() const;
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {

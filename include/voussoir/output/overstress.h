@@ -10,37 +10,39 @@
 
 namespace Voussoir
 {
-  /** For how long the stress at each node is above the tensile strength f_t, and above 1.1, 1.2, ... 2 f_t:
-   * the cumulative inelastic duration of USACE EM 1110-2-6053 (and of Ghanaat, "Failure modes approach to
-   * safety evaluation of dams", 13WCEE, 2004). Each record stands for the time since the one before it. */
+  /** Cumulative duration of overstress: time during which the stress at a node exceeds the tensile strength
+   * f_t, and 1.1, 1.2, ... 2 f_t (cumulative inelastic duration of USACE EM 1110-2-6053, and of Ghanaat,
+   * "Failure modes approach to safety evaluation of dams", 13WCEE, 2004). A record represents the time since
+   * the previous record. */
   class Overstress
   {
   public:
     static constexpr unsigned int n_levels = 11;
-    using Levels = std::array<double, n_levels>;                      ///< a value of each
-    static double level(const unsigned int k) { return 1. + .1 * k; } ///< stress over f_t
+    using Levels = std::array<double, n_levels>;                      ///< one value per level
+    static double level(const unsigned int k) { return 1. + .1 * k; } ///< stress divided by f_t
 
-    Overstress() = default; ///< watches nothing
+    Overstress() = default; ///< inactive
 
-    /** @p strength: f_t [Pa], 0: watches nothing. */
+    /** Sets all durations to zero. @p strength: f_t [Pa], 0: inactive. */
     Overstress(const double strength, const std::size_t n_nodes)
         : strength(static_cast<float>(strength)), seconds(strength > 0. ? n_levels * n_nodes : 0, 0.)
     {
     }
 
+    /** Returns true if f_t is positive. */
     bool watches() const { return strength > 0.f; }
 
-    /** Has any time passed? Without, as in a static state, no duration is known. */
+    /** Returns true if there is a record after the initial one. A static state has no duration. */
     bool has_lasted() const { return last > 0.; }
 
-    /** The stresses that follow are those of this time [s]. */
+    /** Begins a record at the given time [s]. */
     void begin(const double time)
     {
       interval = last < 0. ? 0. : time - last;
       last = time;
     }
 
-    /** The largest principal stress of a node [Pa]. */
+    /** Adds the largest principal stress of a node [Pa] to the record. */
     void add(const std::size_t node, const float stress)
     {
       if (watches() && stress > strength)
@@ -48,12 +50,13 @@ namespace Voussoir
           seconds[n_levels * node + k] += interval;
     }
 
+    /** Returns the duration of a node above the level @p k [s]. */
     double duration(const std::size_t node, const unsigned int k) const
     {
       return seconds[n_levels * node + k];
     }
 
-    /** With several ranks, of nodes from begin[r] to begin[r + 1] each: all get all. */
+    /** Exchanges the durations of all ranks. Rank r owns the nodes begin[r] to begin[r + 1]. */
     void collect(std::vector<std::size_t> begin)
     {
       for (std::size_t &i : begin)
@@ -65,9 +68,9 @@ namespace Voussoir
     template <class Archive> void serialize(Archive &archive, unsigned int) { archive &seconds &last; }
 
   private:
-    float               strength = 0.f;
-    double              last = -1., interval = 0.; ///< [s]
-    std::vector<double> seconds;                   ///< n_levels of each node
+    float  strength = 0.f;
+    double last = -1., interval = 0.; ///< time of the last record, time since the previous one [s]
+    std::vector<double> seconds;      ///< n_levels values per node [s]
   };
 } // namespace Voussoir
 

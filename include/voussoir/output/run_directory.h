@@ -8,38 +8,42 @@
 
 namespace Voussoir
 {
-  /** The directory that a run writes to. Nothing in it is touched before the run has read all its input; a
-   * checkpoint, and files that the program did not write, are removed by request only; and two runs cannot
-   * have it at the same time. The file `.voussoir` in it says that it is the program's, and is locked while a
-   * run lasts. */
+  /** Output directory of a run. Its files are unchanged until the run has read all its input. A checkpoint,
+   * and files of other programs, are removed only on request. Two runs cannot use it simultaneously: a run
+   * locks its file `.voussoir`. */
   class RunDirectory
   {
   public:
     explicit RunDirectory(std::string path) : path(std::move(path)) {}
-    ~RunDirectory(); ///< removes what claim() made, if begin() was never called
+    ~RunDirectory(); ///< removes the files of claim() if begin() was not called
     RunDirectory(const RunDirectory &) = delete;
     RunDirectory &operator=(const RunDirectory &) = delete;
 
-    /** Makes the directory, if need be, and locks it. @p inputs: files that the run reads. Throws InputError
-     * if it cannot be written to, if another run has it, if it holds a checkpoint or files of others (unless
-     * @p resume or @p overwrite), or if an input would be overwritten. */
+    /** Creates the directory if necessary, and locks it.
+     *
+     * @param resume the run continues a checkpoint
+     * @param overwrite existing files may be replaced
+     * @param inputs files that the run reads
+     *
+     * Throws InputError if the directory cannot be written to, if another run uses it, or if an input would
+     * be overwritten. Without @p resume and @p overwrite, also if it contains a checkpoint or other files. */
     void claim(bool resume, bool overwrite, const std::vector<std::string> &inputs);
 
-    /** All input has been read and found good: removes the results of an earlier run, unless @p resume; @p
-     * keep_problems: but not those below contact/. In a directory of others nothing but a checkpoint is
-     * removed. Throws WriteError. */
+    /** Removes the results of an earlier run, after all input was read. With @p resume no file is removed. @p
+     * keep_problems: files in contact/ are not removed. In a directory of another program only a checkpoint
+     * is removed. Throws WriteError. */
     void begin(bool resume, bool keep_problems);
 
-    const std::string path; ///< as the user gave it
+    const std::string path; ///< path on the command line
 
   private:
     void lock();
 
-    std::vector<std::filesystem::path> created; ///< directories, outermost first
-    bool                               begun = false;
-    bool                               marked = false; ///< has this object made the marker?
-    bool                               ours = false;   ///< is the directory a run's?
-    int                                descriptor = -1;
+    std::vector<std::filesystem::path> created;         ///< directories, outermost first
+    bool                               begun = false;   ///< begin() was called
+    bool                               marked = false;  ///< this object created the marker
+    bool                               ours = false;    ///< the directory is one of an earlier run
+    int                                descriptor = -1; ///< of the marker
   };
 } // namespace Voussoir
 

@@ -8,8 +8,8 @@
 
 namespace Voussoir
 {
-  /** spectrum.csv: pseudo-acceleration [m/s^2] of the motion's components over the period [s], at the damping
-   * of Motion/Damping, and of an artificial motion what it was to match. */
+  /** Returns the table of spectrum.csv: pseudo-acceleration [m/s^2] of the components of the motion over the
+   * period [s], with the damping ratio "Motion/Damping". For an artificial motion it includes the targets. */
   Table spectrum_table(const GroundMotion &motion, const MotionParameters &parameters);
 } // namespace Voussoir
 

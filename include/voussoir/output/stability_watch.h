@@ -43,13 +43,12 @@ namespace Voussoir
     /** At the start of the shaking. */
     StabilityWatch(const Dam &dam, const GroundMotion &motion, const Newmark &newmark);
 
-    /** What is wrong after step @p step, or empty. Energies and joints are looked at in each step, the nodes
-     * in every 10th and in the @p last. */
-    std::string trouble(const Newmark &newmark, const JointRecorder &joints, unsigned int step,
-                        bool last) const;
+    /** Returns what is wrong after step @p step, or an empty text. Energies and joints are examined in each
+     * step, the nodes in every 10th and in the @p last. */
+    std::string trouble(const Newmark &newmark, unsigned int step, bool last) const;
 
   private:
-    std::string of_joints(const JointRecorder &joints) const;
+    std::string of_joints(const Newmark &newmark) const;
     std::string of_dam(const DynamicState &state) const;
     std::string remedies() const;
 

@@ -6,11 +6,12 @@
 
 namespace Voussoir
 {
-  /** Height at which the rising wave enters a column: one cell below its foot [m]. */
+  /** Returns the height at which the incident wave enters @p column: one cell below its lowest node [m]. */
   double entrance(const RockColumn &column);
 
-  /** Travel times of the rising waves, S, S, P, from the lowest entrance to the height @p z, along the column
-   * with the highest top, from which the free field of the bottom comes [s]. */
+  /** Returns the travel times of the rising S, S and P waves (motion in x, y and z) from the lowest
+   * entrance() of all columns to the height @p z [s]. The path follows the column with the highest top,
+   * which also supplies the free field of the bottom. Returns zeros if the model has no columns. */
   Vector3 travel_times(const RockModel &model, double z);
 } // namespace Voussoir
 

@@ -6,26 +6,27 @@
 
 namespace Voussoir
 {
-  /** What a scene can choose as artificial boundary. */
+  /** Type of artificial boundary that an input file can choose. */
   struct BoundaryRow
   {
-    std::string name;
-    std::string doc; ///< what it is, for help texts: half a sentence
-    std::unique_ptr<ArtificialBoundary> (*make)();
+    std::string name;                              ///< value of "Foundation/Boundary"
+    std::string doc;                               ///< description for help texts, without a full stop
+    std::unique_ptr<ArtificialBoundary> (*make)(); ///< creates a boundary that is not attached
   };
 
+  /** Returns all types of artificial boundary. */
   const std::vector<BoundaryRow> &boundary_table();
 
-  /** The names between a sign, in the order of the table. */
+  /** Returns the names of all boundaries, separated by @p between, in the order of the table. */
   std::string boundary_names(const std::string &between);
 
-  /** Names and what they mean, for help texts. */
+  /** Returns the names with their descriptions, for help texts. */
   std::string boundary_help();
 
-  /** InputError, which lists the names, if there is none of that name. */
+  /** Creates the boundary @p name. Throws InputError with the list of names if there is none. */
   std::unique_ptr<ArtificialBoundary> make_boundary(const std::string &name);
 
-  /** Two of the well-tried boundaries but @p name, as advice: "mtf2 or viscous-spring". */
+  /** Returns two proven boundaries other than @p name as advice, such as "mtf2 or viscous-spring". */
   std::string other_boundaries(const std::string &name);
 } // namespace Voussoir
 

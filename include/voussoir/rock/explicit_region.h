@@ -9,103 +9,129 @@
 
 namespace Voussoir
 {
-  /** Energies of the explicit region half a step before its time [J]. */
+  /** Energies of the explicit region [J]. The values belong to half a step before ExplicitRegion::time(). */
   struct RegionEnergy
   {
-    double kinetic = 0., strain = 0.;
-    double damping = 0.;     ///< dissipated so far by Rayleigh damping
-    double external = 0.;    ///< work so far of the forces handed in
-    double transmitted = 0.; ///< what left so far through the artificial boundary; negative if it came in
-    double prescribed = 0.;  ///< work so far of the prescribed nodes on the region
+    double kinetic = 0., strain = 0.; ///< current kinetic and strain energy
+    double damping = 0.;              ///< dissipated by Rayleigh damping since the start
+    double external = 0.;             ///< work of ExplicitRegion::force since the start
+    double transmitted = 0.;          ///< energy radiated through the artificial boundary; negative: entered
+    double prescribed = 0.;           ///< work of the prescribed nodes on the region
 
+    /** Returns the error of the energy balance [J]; zero up to round-off in a correct run. */
     double balance() const { return kinetic + strain + damping + transmitted - external - prescribed; }
   };
 
-  /** A linear elastic region with lumped masses, integrated explicitly: Newmark with beta = 0, gamma = 1/2,
-   * damping evaluated with the predicted velocity (Hughes and Liu 1978, J. Appl. Mech. 45, 371-378).
+  /** Linear elastic region with lumped masses, integrated explicitly: Newmark with beta = 0 and gamma = 1/2.
+   * Damping is evaluated with the predicted velocity (Hughes and Liu 1978, J. Appl. Mech. 45, 371-378).
    *
-   *  Between the steps it keeps u at t and the predicted velocity of the next step, (u(t + dt) - u(t)) / dt:
-   *  one product with the stiffness per step. Nodes are explicit but for
-   *  - those of the artificial boundary, which moves them as it will;
-   *  - prescribed ones (the dam's base), whose predicted motion is handed in: there the region gives the
-   * force of its elements, the element partition of Hughes and Liu. */
+   * Between two steps the region stores the displacement u at t and the predicted velocity of the next step,
+   * w = (u(t + dt) - u(t)) / dt. A step needs one product with the stiffness matrix. All nodes are
+   * explicit except
+   * - nodes of the artificial boundary, which the boundary moves;
+   * - prescribed nodes (the base of the dam). The caller supplies their predicted motion and receives the
+   *   force of the rock elements on them. This is the element partition of Hughes and Liu.
+   *
+   * The region is created at rest. Set the boundary, the free field, and fixed and prescribed nodes before
+   * the first step. */
   class ExplicitRegion
   {
   public:
-    /** @p mass: of each node [kg]. At rest. InputError if @p dt exceeds the critical time step. */
+    /** Creates a region at rest.
+     * @param stiffness stiffness operator of the region
+     * @param mass lumped mass of each node [kg]
+     * @param damping Rayleigh damping
+     * @param dt time step of the rock [s]
+     *
+     * Throws InputError if @p dt exceeds the critical time step. */
     ExplicitRegion(RockOperator stiffness, std::vector<double> mass, const RayleighDamping &damping,
                    double dt);
 
-    /** @p boundary: attached to the region's model. */
+    /** Sets the artificial boundary. @p boundary must be attached to the model of the region. Throws
+     * InputError if prescribed nodes are too close to it. */
     void set_boundary(std::unique_ptr<ArtificialBoundary> boundary);
 
-    /** Null if there is none. */
+    /** Returns the artificial boundary, or nullptr if there is none. */
     const ArtificialBoundary *artificial_boundary() const { return boundary.get(); }
 
-    /** Motion without dam; its points are to be the boundary's free_field_nodes(). */
+    /** Sets the free field, which is the motion without the dam. Its points must be free_field_nodes()
+     * of the boundary. */
     void set_free_field(std::unique_ptr<IncidentField> field);
 
-    /** Components that do not move: 3 node + component. */
+    /** Fixes the given components, with the index 3 node + component. */
     void fix(const std::vector<unsigned int> &components);
+    /** Fixes all three components of the given nodes. */
     void fix_nodes(const std::vector<unsigned int> &nodes);
 
-    /** Nodes whose motion is handed in. Their masses do not count here. InputError if the
-     * boundary finds them too near. */
+    /** Declares nodes whose motion the caller prescribes. The region ignores their masses. Throws InputError
+     * if the nodes are too close to the artificial boundary. */
     void set_prescribed(const std::vector<unsigned int> &nodes);
 
-    /** External forces, three per node [N], kept until changed. Empty at first: none. */
+    /** External forces, three per node [N]. They act until they are changed. Empty: none. */
     Unknowns force;
 
-    /** This rank shall step its part of the region: to be done with several, before the first step, by all.
-     * @p part: of the operator, made with the @p split. */
-    void             split_up(RockSplit split, RockOperator part);
-    bool             is_split() const { return !split.is_trivial(); }
+    /** Restricts this MPI process to its part of the region. All processes call it before the first step.
+     * @p part: stiffness operator of this part, made with the same @p split. */
+    void split_up(RockSplit split, RockOperator part);
+    /** Returns true if several processes share the region. */
+    bool is_split() const { return !split.is_trivial(); }
+    /** Returns the distribution of the nodes over the processes. */
     const RockSplit &parts() const { return split; }
 
-    /** Does a node that this rank steps move faster, or has it moved farther [m/s, m]? */
+    /** Returns true if a component of a node of this process exceeds @p velocity [m/s] or @p displacement [m]
+     * in absolute value. */
     bool exceeds(double velocity, double displacement) const;
 
-    /** With several ranks: all get the whole region's energies up to now, and displacement() and
-     * half_step_velocity() of all nodes. */
+    /** Gathers the energies of the whole region on all processes. */
     void gather_energy();
+    /** Gathers displacement() and half_step_velocity() of all nodes on all processes. */
     void gather_motion();
 
-    /** With several ranks: what state() has is the whole region's after that, on the first rank. */
+    /** Gathers the state of the whole region in the arrays of state() on the first process. */
     void collect();
 
-    /** One step, to t + dt. @p u, @p v: predicted displacement [m] and velocity [m/s] of the prescribed nodes
-     * at t + dt, three values each, in the order of set_prescribed(). Returns what the region's elements and
-     * their damping take from these nodes, K u + C v [N]. */
+    /** Advances the region by one step to t + dt.
+     * @param u predicted displacement of the prescribed nodes at t + dt, three values each in the order of
+     * set_prescribed() [m]
+     * @param v predicted velocity of the prescribed nodes at t + dt [m/s]
+     *
+     * Returns the force K u + C v of the elements and of their damping on these nodes [N]. */
     const Unknowns &advance(const Unknowns &u = {}, const Unknowns &v = {});
 
-    /** The same in two parts, between which the @p messages that it adds are to be exchanged. */
-    void            begin_step(const Unknowns &u, const Unknowns &v, std::vector<Ranks::Message> &messages);
+    /** Begins the step of advance(). The caller must exchange the appended @p messages before end_step(). */
+    void begin_step(const Unknowns &u, const Unknowns &v, std::vector<Ranks::Message> &messages);
+    /** Completes the step of begin_step(). @p v and the result are those of advance(). */
     const Unknowns &end_step(const Unknowns &v);
 
-    double          time() const { return clock[0] * dt; } ///< [s]
-    double          time_step() const { return dt; }
-    unsigned int    n_nodes() const { return stiffness.n_rows(); }
-    const Unknowns &displacement() const { return u; }
-    /** (u(t + dt) - u(t)) / dt [m/s] */
+    double          time() const { return clock[0] * dt; }         ///< current time t [s]
+    double          time_step() const { return dt; }               ///< time step dt [s]
+    unsigned int    n_nodes() const { return stiffness.n_rows(); } ///< number of nodes
+    const Unknowns &displacement() const { return u; } ///< displacement u at t, three values per node [m]
+    /** Returns w = (u(t + dt) - u(t)) / dt, three values per node [m/s]. */
     const Unknowns &half_step_velocity() const { return w; }
-    /** At the time itself; of prescribed nodes half a step earlier. */
+    /** Returns the velocity at time(), three values per node [m/s]. The values of prescribed nodes belong to
+     * half a step earlier. */
     Unknowns velocity() const;
 
-    /** Time step beyond which the region is unstable, damping included [s]. */
+    /** Returns the largest stable time step of the region, with damping [s]. */
     double critical_time_step() const { return dt_critical; }
 
-    /** The energy account costs a tenth of a step; off at first. Switch on at rest. */
-    void         keep_energy() { K_u.assign(u.size(), 0.); }
-    RegionEnergy energy() const; ///< with several ranks: at the last gather_energy()
+    /** Enables the energy balance, which takes a tenth of the time of a step. Call it while the region
+     * is at rest. */
+    void keep_energy() { K_u.assign(u.size(), 0.); }
+    /** Returns the energies. With several processes they are those of the last gather_energy(). */
+    RegionEnergy energy() const;
 
+    /** Returns all state variables of the region, its boundary and its free field, for checkpoints. */
     std::vector<std::vector<double> *> state();
 
-    /** Any start: displacement at t = 0, and velocity half a step later. Without a free field. */
+    /** Sets an initial displacement at t = 0 [m] and an initial velocity half a step later [m/s], three
+     * values per node. Not for a region with a free field. */
     void start(const Unknowns &displacement, const Unknowns &velocity);
 
   private:
-    /** Kinetic energy and strain energy, twice; losses and work of forces over dt/2. Chunks of nodes are
-     * added in their order, so that sums do not depend on the number of threads. */
+    /** Twice the kinetic energy, twice the strain energy, damping losses and work of forces over dt/2. Chunks
+     * of nodes are added in sequence, so that sums do not depend on the number of threads. */
     using Sums = std::array<double, 4>;
     static constexpr int             per_chunk = RockSplit::per_chunk;
     template <bool with_energy> Sums step_nodes(int first, int last);
@@ -113,46 +139,50 @@ namespace Voussoir
     void                             move_prescribed(const Unknowns &u_new, const Unknowns &v_new);
     template <bool with_energy> void step_explicit_nodes();
     RegionStep                       step_of_region();
-    RegionStep                       step_of_boundary(); ///< the motion of its nodes kept
+    RegionStep step_of_boundary(); ///< also stores the velocity of the boundary nodes in boundary_w
 
     RockOperator        stiffness;
-    std::vector<double> mass, inverse_mass; ///< of nodes; of components, zero where not explicit
-    std::vector<bool>   is_fixed;           ///< components
+    std::vector<double> mass, inverse_mass; ///< per node [kg]; per component [1/kg], 0 if not explicit
+    std::vector<bool>   is_fixed;           ///< per component
     RayleighDamping     damping;
     double              dt, dt_critical;
-    std::vector<double> clock = {0.}; ///< number of the step
+    std::vector<double> clock = {0.}; ///< number of the step; a vector for state()
 
-    Unknowns u, w;   ///< displacement, and velocity of half a step later [m, m/s]
-    Unknowns x, K_x; ///< displacement with the stress of damping added, and its force
-    Unknowns K_u;    ///< force of the displacement alone, from K_x; empty without the energy account
+    Unknowns u, w;   ///< displacement, and velocity half a step later [m, m/s]
+    Unknowns x, K_x; ///< displacement plus stiffness damping times w [m], and K x [N]
+    Unknowns K_u;    ///< K u, computed from K_x [N]; empty without energy balance
 
     std::vector<unsigned int> prescribed;
     std::vector<double>       prescribed_mass;
     Unknowns                  prescribed_w, prescribed_force;
 
     std::unique_ptr<ArtificialBoundary> boundary;
-    Unknowns                            boundary_w;    ///< w of its nodes a step before
-    std::vector<unsigned int>           boundary_kept; ///< places of those of its nodes that are stepped here
+    Unknowns                            boundary_w;    ///< velocity w of its nodes in the previous step [m/s]
+    std::vector<unsigned int>           boundary_kept; ///< indices of its nodes that this process integrates
 
     std::unique_ptr<IncidentField> free_field;
-    Unknowns            field_before, field, field_next; ///< at its points: last, this and next time
-    std::vector<double> work;                            ///< by chunk and RegionWork
-    /** Of each chunk: kinetic and twice the strain energy half a step before the time, and the works then. */
+    Unknowns field_before, field, field_next; ///< at its points, for the last, current and next time [m]
+    std::vector<double> work;                 ///< per chunk and RegionWork [J]
+    /** Per chunk: twice the kinetic and twice the strain energy half a step before time(), and the works at
+     * that time. */
     std::vector<double>              account;
     RockSplit                        split;
-    std::vector<std::pair<int, int>> pieces; ///< nodes that are stepped here, in parts of chunks
+    std::vector<std::pair<int, int>> pieces; ///< ranges of nodes of this process, within chunks
   };
 
-  /** Returns the largest circular frequency of M^-1 K [1/s], from above by at most 5e-6 of it: Lanczos'
-   * method, with the residual added. @p mass: of each node [kg]. */
+  /** Returns the largest circular frequency of M^-1 K [1/s], by Lanczos' method. The residual is added, so
+   * the result is an upper bound; it is too large by at most 5e-6 of its value.
+   * @p mass: of each node [kg]. */
   double largest_frequency(const RockOperator &stiffness, const std::vector<double> &mass);
   double largest_frequency(const BlockSparseMatrix &stiffness, const std::vector<double> &mass);
 
-  /** Critical time step of the explicit scheme with damping lagged [s]: w dt = 2 (sqrt(1 + xi^2) - xi), xi
-   * the damping ratio at the frequency @p w (Hughes and Liu 1978). */
+  /** Returns the critical time step of the explicit scheme with lagged damping [s]: w dt =
+   * 2 (sqrt(1 + xi^2) - xi) with the damping ratio xi at the circular frequency @p w [1/s] (Hughes
+   * and Liu 1978). */
   double critical_time_step(double w, const RayleighDamping &damping);
 
-  /** The message for a time step beyond the critical one, to which the mend is added. */
+  /** Returns the message for a time step @p dt above the @p critical one [s]. The caller appends the
+   * suggested action. */
   std::string beyond_critical_step(double dt, double critical);
 } // namespace Voussoir
 

@@ -6,8 +6,8 @@
 
 namespace Voussoir
 {
-  /** The boundary moves with the free field, or not at all without one: it throws all waves of the dam back.
-   */
+  /** Fixed boundary: it moves with the free field, or is at rest without one. It reflects all waves
+   * of the dam. */
   class FixedBoundary : public ArtificialBoundary
   {
   public:
@@ -28,7 +28,7 @@ namespace Voussoir
     std::vector<unsigned int> kept_points() const override { return kept; }
 
   private:
-    std::vector<unsigned int> node, kept; ///< kept: places among them
+    std::vector<unsigned int> node, kept; ///< boundary nodes; kept: indices in node of this process
   };
 } // namespace Voussoir
 

@@ -10,30 +10,40 @@
 
 namespace Voussoir
 {
-  /** The motion of the ground without dam and topography, in lock-step with the region: columns, and sections
-   * through the valley (extruded slices of the mesh, themselves regions with columns at their sides). */
+  /** Free-field motion: motion of the ground without dam and topography, integrated in step with the region.
+   * It consists of columns of layered ground and of sections through the valley. A section is an extruded
+   * slice of the mesh. It is a region of its own with columns at its sides. */
   class FreeField : public IncidentField
   {
   public:
-    /** Columns of the side faces of @p model, and for its bottom the column with the highest top. */
+    /** Creates the columns of the side faces of @p model. The bottom follows the column with the highest top.
+     * @param model rock model with at least one column
+     * @param damping Rayleigh damping of the rock
+     * @param dt time step of the rock [s]
+     * @param n_steps largest number of steps of the run
+     * @param wave incident wave
+     *
+     * Throws InputError if the artificial boundary has no bottom. */
     FreeField(const RockModel &model, const RayleighDamping &damping, double dt, unsigned int n_steps,
               const IncidentWave &wave);
     ~FreeField() override;
 
-    /** Points of all lines that agree in place with nodes of the section, but for @p direction (0 = x,
-     * 1 = y), take its motion. Before the points are added. */
+    /** Adds a section. Points of lines take the motion of the section if their position agrees with a node of
+     * the section in both directions other than @p direction (0: x, 1: y). Call it before points are added.
+     */
     void add_section(RockModel section, std::unique_ptr<ExplicitRegion> region, unsigned int direction);
 
-    /** The first @p n nodes of every line become points; returns nothing, the order is that of the lines. */
+    /** Adds the first @p n nodes of every line as points, line after line. */
     void add_lines(const RockModel &model, unsigned int n);
 
-    /** These nodes become points. Nodes of lines move like their line. */
+    /** Adds the given nodes as points. Nodes of lines move like their line. */
     void add_nodes(const RockModel &model, const std::vector<unsigned int> &nodes);
 
-    /** With several ranks: each steps its share of the columns, asks for these points only, and for the
-     * columns that they follow. To be called by all at once. */
+    /** Distributes the columns over the MPI processes. All processes must call it. @p points: indices of the
+     * points that this process requires. */
     void split_up(std::vector<unsigned int> points);
 
+    /** Begins a step; see IncidentField::begin_step(). */
     void begin_step(std::vector<Ranks::Message> &messages) override;
     void end_step() override;
     void evaluate(Unknowns &u) const override;
@@ -49,15 +59,15 @@ namespace Voussoir
     {
       const double         *value[4]; ///< three components each
       std::array<double, 4> weight;
-      unsigned int          column = no_node; ///< that it follows, if any
+      unsigned int          column = no_node; ///< column that the point follows, or no_node
     };
 
-    /** Columns that this rank steps for another one, and that one for this. */
+    /** Columns exchanged with another process: this process integrates give, the other one take. */
     struct Partner
     {
       unsigned int              rank;
       std::vector<unsigned int> give, take;
-      std::vector<double>       out, in; ///< their displacements
+      std::vector<double>       out, in; ///< displacements of the columns [m]
     };
 
     void  find_partners();
@@ -66,14 +76,14 @@ namespace Voussoir
     Point of_line(const RockModel &model, unsigned int line, unsigned int k) const;
 
     std::vector<std::unique_ptr<FreeFieldColumn>> columns;
-    std::vector<unsigned int>                     number; ///< of the model's columns, among those that differ
-    unsigned int                                  highest = 0;
-    std::vector<std::unique_ptr<Section>>         sections;
-    std::vector<Point>                            points;
-    std::vector<unsigned int>                     kept; ///< of them
-    bool                                          is_split = false;
-    Shares                                        share; ///< of the columns, if split
-    std::vector<Partner>                          partners;
+    std::vector<unsigned int>             number; ///< per column of the model: index of its equal in columns
+    unsigned int                          highest = 0;
+    std::vector<std::unique_ptr<Section>> sections;
+    std::vector<Point>                    points;
+    std::vector<unsigned int>             kept; ///< indices of the points that this process requires
+    bool                                  is_split = false;
+    Shares                                share; ///< distribution of the columns, if is_split
+    std::vector<Partner>                  partners;
   };
 } // namespace Voussoir
 

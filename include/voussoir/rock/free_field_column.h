@@ -7,61 +7,72 @@
 
 namespace Voussoir
 {
-  /** Of waves that rise, in x, y, z: S, S, P [m/s]. */
+  /** Returns the speeds of vertically propagating waves with motion in x, y and z: S, S and P [m/s]. */
   Vector3 wave_speeds(const Material &material);
 
-  /** Uniform half-space of 1-D cells, driven at its first node and endless: it is long enough for the waves
-   * not to come back within the steps it was made for. Explicit, like the region. */
+  /** Uniform half-space of one-dimensional cells, driven at its first node. Its length is chosen so that no
+   * reflection returns within the given number of steps. The integration is explicit, as in the region. */
   class EndlessColumn
   {
   public:
-    /** @p courant: c dt/h of the three components. */
+    /** Creates a half-space at rest for @p n_steps steps of @p dt [s]. @p courant: Courant numbers c dt/h of
+     * the three components. */
     EndlessColumn(const Vector3 &courant, const RayleighDamping &damping, double dt, unsigned int n_steps);
 
-    /** Displacement of the second node at t + dt, given that of the first at t. */
+    /** Advances by one step. @p first: displacement of the first node at t [m]. Returns the displacement of
+     * the second node at t + dt [m]. */
     const Vector3 &advance(const Vector3 &first);
 
+    /** Returns the state variables, for checkpoints. */
     std::vector<std::vector<double> *> state() { return {&u, &w}; }
 
   private:
     RayleighDamping     damping;
     double              dt;
     Vector3             ratio;
-    std::vector<double> u, w; ///< displacement at t and velocity half a step before [m, m/s], node after node
-    std::vector<double> x;    ///< displacement with the stress of damping added
+    std::vector<double> u,
+        w;                 ///< displacement at t, velocity half a step before [m, m/s], three values per node
+    std::vector<double> x; ///< displacement plus stiffness damping times the velocity [m]
     Vector3             second;
   };
 
-  /** Motion of horizontally layered ground: the discrete column, which total motion of a flat region follows
-   * to round-off. Below its foot the ground goes on as its lowest cell. */
+  /** Motion of horizontally layered ground in a discrete column. The total motion of a flat region equals it
+   * up to round-off. Below the lowest node the ground continues with the properties of the lowest cell. */
   class FreeFieldColumn
   {
   public:
-    /** @p delay: of S in x and y, P in z, until the wave enters here [s]. */
+    /** Creates a column at rest. @p delay: travel time of the S (x, y) and P (z) waves until the wave enters
+     * this column [s]. @p n_steps: largest number of steps of the run. */
     FreeFieldColumn(const RockColumn &column, const RayleighDamping &damping, double dt, unsigned int n_steps,
                     const IncidentWave &wave, const Vector3 &delay);
 
+    /** Advances the column by one time step. */
     void advance();
 
-    const std::vector<double> &z() const { return height; }
-    const double              *displacement(const unsigned int level) const { return &u[3 * level]; }
-    std::vector<double>       &motion() { return u; } ///< of all levels, three components each [m]
+    const std::vector<double> &z() const { return height; } ///< heights of the nodes, ascending [m]
+    const double              *displacement(const unsigned int level) const
+    {
+      return &u[3 * level];
+    }                                           ///< three components [m]
+    std::vector<double> &motion() { return u; } ///< displacement of all levels, three components each [m]
 
     std::vector<std::vector<double> *> state();
 
   private:
     Vector3 incident(double t) const;
 
-    std::vector<double> height, mass, stiffness; ///< per area: of the nodes; of the cells, three components
-    RayleighDamping     damping;
-    double              dt;
-    IncidentWave        wave;
-    Vector3             delay, foot_stiffness;
-    EndlessColumn rising, leaving; ///< incident wave above where it enters; what goes down below the foot
+    std::vector<double> height, mass,
+        stiffness; ///< per area: of the nodes; of the cells, three components each
+    RayleighDamping damping;
+    double          dt;
+    IncidentWave    wave;
+    Vector3         delay, foot_stiffness;
+    EndlessColumn   rising,
+        leaving; ///< incident wave above its entrance; wave that leaves below the lowest node
     std::vector<double> u, w, x;
-    std::vector<double>
-        below; ///< incident wave one cell below and at the foot, wave that leaves, and the former two before
-    std::vector<double> time; ///< [s], one value
+    std::vector<double> below; ///< incident wave one cell below and at the lowest node, leaving wave;
+                               ///< displacement one cell below in the previous step
+    std::vector<double> time;  ///< [s], one value
   };
 } // namespace Voussoir
 

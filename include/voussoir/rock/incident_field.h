@@ -7,14 +7,14 @@
 
 namespace Voussoir
 {
-  /** A motion that enters a region through its artificial boundary, in lock-step with the region: at points
-   * whose order the boundary gives. */
+  /** Motion that enters a region through its artificial boundary. It advances in step with the region. The
+   * boundary defines the points and their order. */
   class IncidentField
   {
   public:
     virtual ~IncidentField() = default;
 
-    /** To the next time step. */
+    /** Advances the field by one time step. */
     void advance()
     {
       std::vector<Ranks::Message> messages;
@@ -23,16 +23,18 @@ namespace Voussoir
       end_step();
     }
 
-    /** The same in two parts, between which the @p messages that it adds are to be exchanged. */
+    /** Begins the step of advance(). The caller must exchange the appended @p messages before end_step(). */
     virtual void begin_step(std::vector<Ranks::Message> &messages) = 0;
+    /** Completes the step of begin_step(). */
     virtual void end_step() = 0;
 
-    /** Displacement of the points now, three values each [m]. */
+    /** Stores the current displacement of the points in @p u, three values each [m]. */
     virtual void evaluate(Unknowns &u) const = 0;
 
+    /** Returns all state variables, for checkpoints. */
     virtual std::vector<std::vector<double> *> state() = 0;
 
-    /** With several ranks, by all: state() is the whole one after that. */
+    /** Gathers the whole field in the arrays of state() on the first process. All processes must call it. */
     virtual void collect() {}
   };
 } // namespace Voussoir

@@ -9,12 +9,12 @@
 
 namespace Voussoir
 {
-  /** Displacement of the vertically rising wave at time t [m]: S in x and y, P in z. It is that of the depth
-   * at which it enters, one cell below the lowest foot of the columns. */
+  /** Displacement of the vertically rising wave as a function of time [s]: S waves in x and y, P wave in z
+   * [m]. It belongs to the depth at which the wave enters: one cell below the lowest node of all columns. */
   using IncidentWave = std::function<Vector3(double)>;
 
-  /** Half the displacement that belongs to a motion of the free surface (outcrop): the exact integral of its
-   * piecewise linear acceleration from rest. */
+  /** Returns half the displacement of the free-surface motion @p outcrop: the exact integral of its piecewise
+   * linear acceleration, from rest. */
   IncidentWave incident_wave(const GroundMotion &outcrop);
 } // namespace Voussoir
 

@@ -7,35 +7,39 @@
 
 namespace Voussoir
 {
-  /** Cells with the same list of nodes, eight to a pack: one cell in each lane of the processor's vectors. A
-   * pack that has fewer is filled up with cells without stiffness. */
+  /** Packs of eight cells with a common list of nodes. Each cell uses one lane of the SIMD vectors of the
+   * processor. An incomplete pack is filled with cells without stiffness. */
   struct NodalPacks
   {
     static constexpr unsigned int n_lanes = 8;
 
     unsigned int n_packs;
     const std::uint16_t
-                 *corner; ///< 4 times the node, of corner 0 of the eight cells of a pack, of corner 1...
-    const double *lame;   ///< sets of Lame's lambda of eight cells, and their mu [Pa]
-    const unsigned int *lame_of; ///< of each pack: where its set begins
+                 *corner; ///< 4 times the node number; per pack: corner 0 of its eight cells, corner 1, ...
+    const double *lame;   ///< sets of Lame's constants: lambda of eight cells, then mu of eight cells [Pa]
+    const unsigned int *lame_of; ///< per pack: begin of its set in lame
 
-    const double *nodes; ///< 8 of each: place [m], 0, displacement [m], 0; aligned to 64 bytes
-    double       *force; ///< 4 of each: += the cells' K x [N], and anything; aligned to 32 bytes
+    const double *nodes; ///< 8 values per node: position [m], 0, displacement [m], 0; aligned to 64 bytes
+    double *force; ///< 4 values per node: the kernel adds K x of the cells [N]; the fourth is arbitrary;
+                   ///< aligned to 32 bytes
   };
 
-  /** Forces of trilinear cells whose stiffness is integrated at their eight nodes (Gauss-Lobatto points). At
-   * a node the gradient depends on the differences along the three edges there alone, of places x_d and
-   * displacements u_d: with c_0 = x_1 cross x_2, ..., and det = x_0 c_0 it is the sum of u_d c_d^T / det. Its
-   * stress puts the force stress c_d / 8 on the upper node of edge d, and the opposite one on the lower. */
+  /** Computes the forces of trilinear cells with nodal (Gauss-Lobatto) quadrature at their eight nodes.
+   *
+   * The displacement gradient at a node depends only on the three edges d = 0, 1, 2 at this node. The
+   * differences of position along the edges are x_d, those of displacement u_d. With c_0 = x_1 cross x_2,
+   * ..., and det = x_0 c_0, the gradient is the sum of u_d c_d^T / det. Its stress adds the force stress c_d
+   * / 8 to the upper node of edge d, and the opposite force to the lower node. */
   using NodalKernel = void (*)(const NodalPacks &);
 
-  /** Names of the kernels that this processor can run, the fastest first. The last are "matrix", which is
-   * none (nullptr): the rows of the matrix are faster than what comes after it, and "plain", for any
-   * processor. Results differ by round-off. */
+  /** Returns the names of the kernels that this processor supports, the fastest first. The last two are
+   * "matrix" and "plain". "matrix" (nullptr) uses the rows of the matrix, which is faster than "plain".
+   * "plain" runs on any processor. Results of different kernels differ by round-off. */
   std::vector<const char *> nodal_kernels();
 
-  /** That with the @p name. With nullptr that which the environment variable VOUSSOIR_KERNEL names, else the
-   * fastest. InputError for a name that is unknown or stands for another processor. */
+  /** Returns the kernel @p name. With nullptr it returns the kernel of the environment variable
+   * VOUSSOIR_KERNEL, or the fastest one if the variable is not set. Throws InputError for a name that is
+   * unknown or not supported by this processor. */
   NodalKernel nodal_kernel(const char *name = nullptr);
 } // namespace Voussoir
 

@@ -9,76 +9,85 @@
 
 namespace Voussoir
 {
+  /** Marker for "no node" or "no column". */
   constexpr unsigned int no_node = static_cast<unsigned int>(-1);
 
-  /** A grid line from the artificial boundary inward. The first node's motion follows from the others'. The
-   * source is where the scattered waves come from (RockParameters::centre). */
+  /** Grid line from the artificial boundary inward. The motion of the first node follows from that of the
+   * other nodes. Scattered waves come from a source point (RockParameters::centre). */
   struct BoundaryLine
   {
-    std::vector<unsigned int> nodes;              ///< of the region; nodes[0] lies on the boundary
-    std::vector<double>       position;           ///< of the nodes, distance from nodes[0] along the line [m]
-    double                    c_p = 0., c_s = 0.; ///< wave speeds of the rock at nodes[0] [m/s]
-    double                    distance = 0.;      ///< of nodes[0], tied: the farthest, from the source [m]
+    std::vector<unsigned int> nodes;              ///< nodes of the region; nodes[0] is on the boundary
+    std::vector<double>       position;           ///< distance of each node from nodes[0] along the line [m]
+    double                    c_p = 0., c_s = 0.; ///< P and S wave speeds of the rock at nodes[0] [m/s]
+    double distance = 0.; ///< distance of nodes[0] from the source [m]; tied nodes: the largest one
   };
 
   /** A face of the artificial boundary. */
+  /** Face of a cell on the artificial boundary, with the rock behind it. */
   struct BoundaryFace
   {
-    std::array<unsigned int, 4> nodes;  ///< counter-clockwise seen from outside
-    Vector3                     normal; ///< outward
-    double                      area;   ///< [m^2]
-    int                         volume; ///< of the cell behind it
-    Material                    material;
+    std::array<unsigned int, 4> nodes;    ///< nodes of the region, counter-clockwise seen from outside
+    Vector3                     normal;   ///< outward unit normal [-]
+    double                      area;     ///< [m^2]
+    int                         volume;   ///< volume id of the cell behind the face
+    Material                    material; ///< material of this cell
   };
 
-  /** A vertical grid line on the artificial boundary, from its foot to the ground surface. */
+  /** Vertical grid line on a side face of the artificial boundary, from the bottom to the ground surface. */
   struct RockColumn
   {
-    std::vector<unsigned int> nodes;    ///< of the region
-    std::vector<double>       z;        ///< of the nodes, ascending [m]
-    std::vector<Material>     material; ///< between the nodes
+    std::vector<unsigned int> nodes;    ///< nodes of the region, from below
+    std::vector<double>       z;        ///< heights of the nodes, ascending [m]
+    std::vector<Material>     material; ///< materials between the nodes, one fewer than nodes
   };
 
-  /** The finite element model of the rock. Nodes are numbered in the mesh's order of those of the rock. */
+  /** Finite element model of the rock. The nodes are numbered in the order in which the mesh numbers the
+   * nodes of the rock. */
   struct RockModel
   {
-    std::vector<unsigned int>          node;      ///< of each mesh node, no_node if it is not in the rock
-    std::vector<std::array<double, 3>> points;    ///< places of the nodes [m]
-    BlockSparseMatrix                  stiffness; ///< [N/m]
-    std::vector<NodalCell> nodal_cells;        ///< those with nodal quadrature, unless their nodes are tied
-    std::vector<bool>      in_other_cell;      ///< of each node: is it one of a cell of another kind?
-    unsigned int           n_cells_at_dam = 0; ///< in RockParameters::layers_at_dam
-    unsigned int           n_nodal_at_dam = 0; ///< of these, those in the layers at the artificial boundary
-    std::vector<double>    mass;               ///< lumped, of each node [kg]
-    std::vector<BoundaryLine> lines;           ///< one for each node of the artificial boundary
-    std::vector<BoundaryFace> faces;           ///< of the artificial boundary
-    std::vector<RockColumn>   columns;         ///< along side faces; at least one
+    std::vector<unsigned int>          node;   ///< node of the region per mesh node; no_node outside the rock
+    std::vector<std::array<double, 3>> points; ///< positions of the nodes [m]
+    BlockSparseMatrix                  stiffness; ///< stiffness matrix of the region [N/m]
+    std::vector<NodalCell> nodal_cells;        ///< cells with nodal quadrature, except those with tied nodes
+    std::vector<bool>      in_other_cell;      ///< per node: whether it belongs to another cell, too
+    unsigned int           n_cells_at_dam = 0; ///< number of cells in RockParameters::layers_at_dam
+    unsigned int           n_nodal_at_dam =
+        0; ///< number of these cells that lie in the layers at the artificial boundary
+    std::vector<double>       mass;    ///< lumped mass of each node [kg]
+    std::vector<BoundaryLine> lines;   ///< one line per node of the artificial boundary
+    std::vector<BoundaryFace> faces;   ///< faces of the artificial boundary
+    std::vector<RockColumn>   columns; ///< columns of the side faces; at least one
 
-    /** For each line, where its free field is to be taken: side lines have a column and the place of their
-     * node in it; lines of the bottom have column no_node. */
+    /** Position in the free field of a line. Lines of side faces have a column and the level of their
+     * boundary node in it. Lines of the bottom have the column no_node. */
     struct Place
     {
       unsigned int column, level;
     };
-    std::vector<Place> place;
+    std::vector<Place> place; ///< one per line
   };
 
-  /** Model of the cells of @p mesh whose volumes have a material. @p master: mesh nodes with the same master
-   * move as one (a two-dimensional problem is one layer of cells, tied); empty if there are none.
+  /** Creates the model of the cells of @p mesh whose volumes have a material.
+   * @param mesh mesh with surfaces of the artificial boundary
+   * @param parameters materials and quadrature
+   * @param master master of each mesh node. Nodes with the same master move together; a two-dimensional
+   * problem is one layer of cells with tied nodes. Empty: no tied nodes.
    *
-   * Trilinear elements of deal.II; masses are row sums of 2x2x2 Gauss points.
+   * The elements are trilinear elements of deal.II. Masses are row sums of the mass matrix of
+   * 2x2x2 Gauss points.
    *
-   * Lines: side faces come before the bottom, and those across x before those across y, so a node on an edge
-   * has the line that is normal to the first of its faces. Of stacks of cells that begin with the same edge,
-   * lines and columns follow the longest. Between two rocks they have the mean of their moduli and densities,
-   * by the areas of the faces behind which the stacks lie. */
+   * Lines: faces across x have priority over faces across y, and these over the bottom. A node on an edge has
+   * the line normal to the face of highest priority. If several stacks of cells begin at the same edge, lines
+   * and columns follow the longest stack. Between two rocks, lines and columns have the mean moduli and
+   * densities, weighted by the areas of the faces of the stacks. */
   RockModel make_rock_model(const HexMesh &mesh, const RockParameters &parameters,
                             const std::vector<unsigned int> &master = {});
 
-  /** For products with the model's stiffness; @p kernel: of nodal_kernel(). */
+  /** Creates the stiffness operator of a model. @p kernel: see nodal_kernel(). */
   RockOperator make_operator(const RockModel &model, NodalKernel kernel = nodal_kernel());
 
-  /** This rank's part of it; @p split: receives what the parts ask for. */
+  /** Creates the part of the stiffness operator for this MPI process. @p split: receives the nodes that the
+   * parts require. */
   RockOperator make_operator(const RockModel &model, RockSplit &split);
 } // namespace Voussoir
 

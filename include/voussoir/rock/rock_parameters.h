@@ -14,40 +14,41 @@ namespace Voussoir
 {
   class ArtificialBoundary;
 
-  /** How the rock is discretised. */
+  /** Discretisation of the rock. */
   struct RockParameters
   {
-    std::map<int, Material> materials; ///< by volume id; cells of other volumes do not belong to the region
+    std::map<int, Material> materials; ///< by volume id; cells of other volumes are not part of the region
 
-    /** Nodal (Gauss-Lobatto) quadrature of the stiffness in all cells, or in that many layers at the
-     * artificial boundary, and 2x2x2 Gauss points elsewhere. Gauss points at a transmitting boundary are
-     * unstable (Zhang, Liao and Xie 2015, Chin. J. Geophys. 58(10)). */
+    /** Nodal (Gauss-Lobatto) quadrature of the stiffness: true: in all cells; false: in nodal_layers layers
+     * of cells at the artificial boundary, and 2x2x2 Gauss points elsewhere. Gauss points at a transmitting
+     * boundary are unstable (Zhang, Liao and Xie 2015, Chin. J. Geophys. 58(10)). */
     bool         nodal_everywhere = false;
     unsigned int nodal_layers = 6;
 
-    /** Of that many layers of cells about the base of a dam the stiffness is that of the dam's elements:
-     * Gauss points and, if they have them, incompatible modes. Nodal quadrature is too stiff where stresses
-     * change from cell to cell. Not in the layers at the artificial boundary. */
+    /** Number of layers of cells around the base of the dam that have the stiffness of the dam elements:
+     * Gauss points and, if the dam has them, incompatible modes. Nodal quadrature is too stiff where
+     * stresses vary from cell to cell. Cells in the layers at the artificial boundary are excluded. */
     unsigned int layers_at_dam = 0;
-    bool         incompatible_modes = true; ///< those of the dam's elements, so of these layers, too
+    bool         incompatible_modes = true; ///< incompatible modes in these layers, as in the dam
 
     std::array<double, 3> centre = {
-        {0., 0., 0.}}; ///< where the scattered waves come from: base of the dam [m]
+        {0., 0., 0.}}; ///< source point of the scattered waves: base of the dam [m]
   };
 
-  /** What a scene says of the rock. */
+  /** Parameters of the explicit rock in the input file. */
   struct RockRegionParameters
   {
     RockParameters  rock;
     RayleighDamping damping;
-    double          dt = .001;         ///< [s]
-    std::string     boundary = "mtf3"; ///< name of a row of boundary_table.cc
+    double          dt = .001;         ///< time step of the rock [s]
+    std::string     boundary = "mtf3"; ///< name of a row in boundary_table.cc
 
-    /** Makes the boundary instead of the row with that name, if given. */
+    /** Creates the artificial boundary in place of the row of the table, if it is set. */
     std::function<std::unique_ptr<ArtificialBoundary>()> boundary_maker;
 
-    /** Motion without dam: "columns" (layers, with the ground's local height at the side faces), or
-     * "sections" (slices of the mesh where the upstream and downstream faces cut the valley). */
+    /** Free field: "columns" or "sections". columns: columns of layered ground with the local height of the
+     * ground at the side faces. sections: slices of the mesh where the upstream and downstream faces
+     * cut the valley. */
     std::string free_field = "sections";
   };
 } // namespace Voussoir

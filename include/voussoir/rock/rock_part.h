@@ -8,16 +8,18 @@
 
 namespace Voussoir
 {
-  /** The nodes under the dam, from the places of all nodes of the rock [m]. */
+  /** Returns the base nodes of the dam, given the positions of all rock nodes [m]. */
   using FindFeet = std::function<std::vector<unsigned int>(const std::vector<Vector3> &)>;
 
-  /** The rock's model as make_rock_model() makes it, but with several ranks its stiffness has only the rows
-   * that this rank needs; the others are empty. They are those of
-   *  - its own nodes, as RockSplit shares them out, and of nodes within four layers of cells around them,
-   *    for the coarse space of the static state: coarse_rows() goes two layers beyond aggregates, which go
-   * two beyond their seeds;
-   *  - nodes within @p n_layers of the @p feet, which all ranks need, and of the artificial boundary;
-   *  - nodes whose cells are not all nodal: RockOperator takes their rows from the matrix. */
+  /** Creates the rock model for this MPI process. It equals that of make_rock_model(), but with several
+   * processes only the required rows of the stiffness matrix are filled. These are the rows of
+   * - the nodes that RockSplit assigns to this process, and the nodes within four layers of cells around
+   *   them. The coarse space of the static state requires them: coarse_rows() reaches two layers beyond
+   *   aggregates, and aggregates reach two layers beyond their seeds;
+   * - the nodes within @p n_layers layers of the base nodes, which all processes require. @p feet returns the
+   *   base nodes;
+   * - the nodes of the artificial boundary;
+   * - the nodes with cells of other than nodal quadrature, for which RockOperator uses matrix rows. */
   RockModel make_rock_part(const HexMesh &mesh, const RockParameters &parameters, const FindFeet &feet,
                            unsigned int n_layers);
 } // namespace Voussoir

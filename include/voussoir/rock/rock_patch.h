@@ -6,30 +6,38 @@
 
 namespace Voussoir
 {
-  /** The rock about some of its nodes, the feet of a dam, for a few steps of ExplicitRegion ahead: no wave
-   * that is farther than as many layers of elements gets to the feet meanwhile. At step j of n only nodes
-   * within n - j layers are stepped, which need no others.
+  /** Patch of the rock around the base nodes of the dam. It predicts a few steps of ExplicitRegion. A wave
+   * crosses at most one layer of elements per step, so n steps need only the nodes within n layers. Step j
+   * of n advances the nodes within n - j layers.
    *
-   *  A foot's place is u + dt w/2, w the velocity of half a step later: that of half a step after u. */
+   * The displacement of a base node is u + dt w/2: that of half a step after u. w is the velocity half a step
+   * after u. */
   class RockPatch
   {
   public:
-    /** For at most @p n_steps. InputError where the artificial boundary is as near as that. */
+    /** Creates a patch for at most @p n_steps steps.
+     * @param model rock model
+     * @param damping Rayleigh damping of the rock
+     * @param dt time step of the rock [s]
+     * @param feet base nodes of the dam
+     * @param n_steps largest number of steps
+     *
+     * Throws InputError if fewer than @p n_steps layers lie between the base and the artificial boundary. */
     RockPatch(const RockModel &model, const RayleighDamping &damping, double dt,
               const std::vector<unsigned int> &feet, unsigned int n_steps);
 
-    /** Places of the feet, three values each, after @p n_steps from the region's displacement @p u and
-     * half-step velocity @p w [m, m/s], without forces of the dam. */
+    /** Returns the displacement of the base nodes after @p n_steps steps without forces of the dam, three
+     * values each [m]. @p u and @p w: displacement [m] and half-step velocity [m/s] of the region. */
     Unknowns places(unsigned int n_steps, const Unknowns &u, const Unknowns &w) const;
 
-    /** Places of the feet after @p n_steps from rest for unit forces held at the feet [m/N], symmetric. After
-     * one step dt^2/(2 M). */
+    /** Returns the displacement of the base nodes after @p n_steps steps from rest, for constant unit forces
+     * on them [m/N]. The matrix is symmetric. After one step it is dt^2/(2 M). */
     BlockSparseMatrix compliance(unsigned int n_steps) const;
 
-    const std::vector<unsigned int> &nodes() const { return node; } ///< of the region
+    const std::vector<unsigned int> &nodes() const { return node; } ///< nodes of the region in the patch
 
-    unsigned int n_feet() const { return n_layer[0]; }
-    double       memory() const; ///< [bytes]
+    unsigned int n_feet() const { return n_layer[0]; } ///< number of base nodes
+    double       memory() const;                       ///< memory consumption [bytes]
 
   private:
     void add_layers(const RockModel &model, unsigned int n_steps);
@@ -39,11 +47,11 @@ namespace Voussoir
 
     RayleighDamping           damping;
     double                    dt;
-    std::vector<unsigned int> node;         ///< of the region, the feet first, then layer after layer
-    std::vector<unsigned int> n_layer;      ///< nodes within 0, 1, ... layers of the feet
-    std::vector<double>       inverse_mass; ///< of nodes with rows
-    std::vector<std::size_t>  start;        ///< of the rows, all but those of the last layer
-    std::vector<unsigned int> column;       ///< in node
+    std::vector<unsigned int> node;         ///< nodes of the region: base nodes first, then layer after layer
+    std::vector<unsigned int> n_layer;      ///< number of nodes within 0, 1, ... layers of the base nodes
+    std::vector<double>       inverse_mass; ///< per node with a matrix row [1/kg]
+    std::vector<std::size_t>  start;        ///< begin of each row; the last layer has no rows
+    std::vector<unsigned int> column;       ///< index in node
     std::vector<Matrix3>      value;
   };
 } // namespace Voussoir

@@ -7,30 +7,33 @@
 
 namespace Voussoir
 {
-  /** The boundary that the parameters choose, not yet attached. */
+  /** Creates the artificial boundary that the parameters select. It is not attached. */
   std::unique_ptr<ArtificialBoundary> make_boundary(const RockRegionParameters &parameters);
 
-  /** The region of a model with its artificial boundary. @p split: if several ranks are to step it. */
+  /** Creates the region of a model with its artificial boundary. @p split: non-trivial if several MPI
+   * processes share the region. */
   std::unique_ptr<ExplicitRegion> make_region(const RockModel &model, const RockRegionParameters &parameters,
                                               RockSplit split = RockSplit());
 
-  /** A check of stability: kinetic energy of the region after @p n_steps from random motion, relative to that
-   * after a tenth of them. Stable regions lose energy: below 1. @p fixed: components that do not move, 3 node
-   * + component. */
+  /** Returns the growth of noise, as a stability check: the kinetic energy of the region after @p n_steps
+   * steps from random motion, relative to that after a tenth of the steps. The result of a stable region is
+   * below 1. @p fixed: components without motion, with the index 3 node + component. */
   double noise_growth(const RockModel &model, const RockRegionParameters &parameters,
                       unsigned int n_steps = 2000, const std::vector<unsigned int> &fixed = {});
 
-  /** Those of the sections of the free field: as the region's, but what a boundary that does not absorb would
-   * throw back must leave them; they have the default boundary then. */
+  /** Returns the parameters of the sections of the free field. They equal those of the region, except for a
+   * reflecting boundary. It is replaced by the default boundary, because scattered waves must
+   * leave the sections. */
   RockRegionParameters of_sections(const RockRegionParameters &parameters);
 
-  /** The motion without dam, as yet without points; @p split: of the region. InputError for an unknown kind
-   * of free field. */
+  /** Creates the free field, without points. @p split: distribution of the region. Throws InputError for an
+   * unknown type of free field. */
   std::unique_ptr<FreeField> make_free_field(const RockModel &model, const RockRegionParameters &parameters,
                                              const IncidentWave &wave, unsigned int n_steps,
                                              const RockSplit &split = RockSplit());
 
-  /** Lets the earthquake in. @p n_steps: as many as will be made at most. */
+  /** Sets the free field of @p region for the incident @p wave. @p n_steps: largest number of steps
+   * of the run. */
   void shake(ExplicitRegion &region, const RockModel &model, const RockRegionParameters &parameters,
              const IncidentWave &wave, unsigned int n_steps);
 } // namespace Voussoir

@@ -9,53 +9,60 @@
 
 namespace Voussoir
 {
-  /** Which rank steps which nodes of a region. Each owns a range of numbers, in whole chunks, the units in
-   * which energies are added up; it steps these, and all others that its cells and its boundary lines ask
-   * for, as their owners do and to the same last bit: so no motions are exchanged, but forces of cells only
-   * (RockOperator). */
+  /** Distribution of the nodes of a region over the MPI processes. Each process owns a range of nodes in
+   * whole chunks. A chunk is the unit in which energies are added. A process also integrates the nodes of
+   * other owners that its cells and boundary lines require; the results are bitwise identical to those of
+   * the owners. Therefore only cell forces are exchanged (RockOperator), and no motions. */
   class RockSplit
   {
   public:
-    static constexpr unsigned int per_chunk = 256; ///< nodes
+    static constexpr unsigned int per_chunk = 256; ///< nodes per chunk
 
-    RockSplit() = default; ///< all by this rank
+    RockSplit() = default; ///< one process integrates all nodes
     explicit RockSplit(unsigned int n_nodes) : RockSplit(std::vector<double>(n_nodes, 1.)) {}
-    /** All ranks get about the same sum of the @p work of the nodes. */
+    /** Creates ranges of about equal work. @p work: computational work of each node, in any unit. */
     explicit RockSplit(const std::vector<double> &work);
 
-    bool         is_trivial() const { return steps.empty(); }
+    /** Returns true if one process integrates all nodes. */
+    bool is_trivial() const { return steps.empty(); }
+    /** Returns the process that owns @p node. */
     unsigned int owner(unsigned int node) const;
-    bool         is_stepped(const unsigned int node) const { return steps[Ranks::rank()][node]; }
+    /** Returns true if this process, or the process @p rank, integrates @p node. */
+    bool is_stepped(const unsigned int node) const { return steps[Ranks::rank()][node]; }
     bool is_stepped(const unsigned int node, const unsigned int rank) const { return steps[rank][node]; }
 
-    /** Of this rank. */
+    /** Returns for each node whether this process integrates it. */
     const std::vector<bool> &stepped() const { return steps[Ranks::rank()]; }
 
+    /** Adds @p nodes to the nodes of all processes. */
     void step_everywhere(const std::vector<unsigned int> &nodes);
+    /** Adds @p nodes to the nodes of the process @p rank. */
     void step(const std::vector<unsigned int> &nodes, unsigned int rank);
 
-    /** Who steps the first node of a line, on the boundary, steps all of it; also what comes later, by
-     * follow_lines(). */
+    /** Sets the boundary lines. A process that integrates the first node of a line integrates all nodes of
+     * the line. Call follow_lines() after later additions. */
     void set_lines(std::vector<std::vector<unsigned int>> nodes) { lines = std::move(nodes); }
+    /** Adds the nodes of all lines whose first node a process integrates. */
     void follow_lines();
 
-    /** Ranges of nodes that this rank steps, within chunks. @p n_nodes: of the region. */
+    /** Returns the ranges of nodes that this process integrates; no range crosses a chunk. @p n_nodes: number
+     * of nodes of the region. */
     std::vector<std::pair<int, int>> pieces(int n_nodes) const;
 
-    /** All ranks get the own nodes' values, @p n of each node. */
+    /** Gathers @p data on all processes, with @p n values per node, from the owners of the nodes. */
     void gather(std::vector<double> &data, unsigned int n) const;
 
-    /** The same for values of chunks. */
+    /** Gathers @p data on all processes, with @p n values per chunk. */
     void gather_chunks(std::vector<double> &data, unsigned int n) const;
 
-    /** All ranks get from the owner of its @p node each of the items, of @p n numbers. */
+    /** Gathers items of @p n values on all processes. The owner of entry i of @p node supplies item i. */
     void collect(std::vector<double> &data, unsigned int n, const std::vector<unsigned int> &node) const;
 
   private:
-    std::vector<std::size_t>               begin; ///< chunk of each rank
+    std::vector<std::size_t>               begin; ///< first chunk of each process
     std::size_t                            n_nodes = 0;
-    std::vector<std::vector<unsigned int>> lines; ///< their nodes
-    std::vector<std::vector<bool>>         steps; ///< of each rank, of each node
+    std::vector<std::vector<unsigned int>> lines; ///< nodes of each boundary line
+    std::vector<std::vector<bool>>         steps; ///< per process and node
   };
 } // namespace Voussoir
 

@@ -6,12 +6,14 @@
 
 namespace Voussoir
 {
-  /** For a mesh of one layer of cells: each node tied to the one at the same place but for @p direction. */
+  /** Returns the master of each node of a mesh with one layer of cells. Nodes whose positions differ in
+   * @p direction only (0: x, 1: y, 2: z) have the same master. */
   std::vector<unsigned int> tie_layer(const HexMesh &mesh, unsigned int direction);
 
-  /** One layer of cells behind the part of the artificial boundary of @p model that faces @p sense times
-   * @p direction (0 = x, 1 = y): the section through the rock there, with artificial boundary where the other
-   * artificial faces meet it. Empty if there is no such part. The model must not have tied nodes. */
+  /** Returns the section through the rock behind one side of the artificial boundary, extruded to one layer
+   * of cells. The side has the outward normal @p sense times @p direction (0: x, 1: y). The section has an
+   * artificial boundary where other artificial faces meet the side. The mesh is empty if there is no such
+   * side. The model must not have tied nodes. */
   HexMesh extruded_section(const RockModel &model, unsigned int direction, int sense);
 } // namespace Voussoir
 

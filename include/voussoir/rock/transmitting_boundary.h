@@ -7,34 +7,37 @@
 
 namespace Voussoir
 {
-  /** Motion of the boundary nodes from that of the lines: u_b = u_ff + sum of weights times the scattered
-   * field u - u_ff of the last steps. Knows only the lines; the scattered field is at rest at first. */
+  /** Transmitting boundary. The displacement of a boundary node is u_b = u_ff + sum of weights times the
+   * scattered field u - u_ff of the last steps, at the nodes of its line. It depends on the lines of the
+   * model only. The scattered field is zero at the start. */
   class TransmittingBoundary : public ArtificialBoundary
   {
   public:
+    /** Creates a boundary with the given formula; see mtf1() to mtf4(). */
     explicit TransmittingBoundary(TransmittingFormula formula);
 
     /** Returns 6 for orders up to 3, and 2 N + 1 for a higher order N: one more than each line has. */
     unsigned int n_layers() const override;
 
-    /** InputError for Gauss points near the boundary, which explode, and for a high Poisson's ratio without
-     * enough damping, which grows (doc/boundary.md). */
+    /** Throws InputError in two unstable cases (doc/boundary.md): Gauss points near the boundary, and a high
+     * Poisson's ratio without sufficient damping. */
     void check(const RockRegionParameters &parameters, double critical_time_step) const override;
 
-    /** Gauss points near it (for orders 3 and 4 anywhere: a large box explodes), or no term against drift. */
+    /** Returns a warning for Gauss points near the boundary (orders 3 and 4: anywhere, since large boxes are
+     * unstable), or for a formula without a term against drift. */
     std::string warning(const RockRegionParameters &parameters) const override;
 
-    /** InputError if a line has too few nodes, or if the fastest artificial wave crosses more than one
-     * cell in a step, S = c dt / dx > 1. */
+    /** Computes the weights of all lines. Throws InputError if a line has too few nodes, or if the fastest
+     * artificial wave crosses more than one cell in a step: S = c dt / dx > 1. */
     void attach(const RockModel &model, const Vector3 &centre, double dt) override;
 
     const std::vector<unsigned int> &nodes() const override { return boundary_node; }
 
-    /** Nodes of all lines, line after line. */
+    /** Returns the nodes of all lines, line after line. */
     const std::vector<unsigned int> &free_field_nodes() const override { return node; }
     unsigned int                     nodes_per_line() const override { return n_points; }
 
-    /** Orders 3 and 4 were seen to explode with prescribed nodes on a line. */
+    /** Throws InputError if a prescribed node lies on a line. Orders 3 and 4 were unstable in this case. */
     void check_prescribed(const std::vector<unsigned int> &prescribed) const override;
 
     void start(const RegionStep &step) override { advance(step); }
@@ -49,15 +52,15 @@ namespace Voussoir
     const TransmittingFormula &transmitting_formula() const { return formula; }
 
   private:
-    /** @p known: n_points where the compiler may know it, or 0. */
+    /** Computes the motion of the boundary nodes. @p known: n_points as a constant for the compiler, or 0. */
     template <unsigned int known> void move_nodes(const RegionStep &step);
 
     TransmittingFormula       formula;
-    unsigned int              n_points;            ///< per line
-    std::vector<unsigned int> boundary_node, node; ///< of each line the first, and all
-    std::vector<unsigned int> kept;                ///< lines
-    std::vector<double>       weights;             ///< by line, step back and point
-    std::vector<Unknowns>     history;             ///< scattered field of all nodes, the latest first
+    unsigned int              n_points;            ///< nodes per line
+    std::vector<unsigned int> boundary_node, node; ///< first node of each line; all nodes of all lines
+    std::vector<unsigned int> kept;                ///< lines that this process integrates
+    std::vector<double>       weights;             ///< per line, step back and point
+    std::vector<Unknowns>     history;             ///< scattered field of all nodes [m], the latest first
   };
 } // namespace Voussoir
 

@@ -6,18 +6,20 @@
 
 namespace Voussoir
 {
-  /** A quadrilateral between four neighbouring nodes of a surface: a face of a cell, or a part of it where
+  /** Quadrilateral between four neighbouring nodes of a surface. It is a face of a cell, or a part of it if
    * the cell has nodes inside its edges. */
   struct FaceQuad
   {
-    std::array<unsigned int, 4> nodes; ///< around it
+    std::array<unsigned int, 4> nodes; ///< in order around the quadrilateral
     unsigned int                monolith;
   };
 
-  /** Those of a surface of the bodies, such as PhysicalId::upstream or a side of a joint, cell after cell. */
+  /** Returns the quadrilaterals of a surface, cell after cell.
+   * @param model mesh of the bodies
+   * @param surface boundary id, such as PhysicalId::upstream or a side of a joint */
   std::vector<FaceQuad> face_quads(const SolidModel &model, int surface);
 
-  /** Area of the quadrilateral [m^2]. */
+  /** Returns the area of the quadrilateral [m^2]. */
   double area(const SolidModel &model, const FaceQuad &quad);
 } // namespace Voussoir
 

@@ -9,8 +9,11 @@
 
 namespace Voussoir
 {
-  /** Calls f(values, dofs) for each face of the surface @p surface, with @p n_points Gauss points along each
-   * side of it; dofs: the nodes of its cell. */
+  /** Calls f(values, dofs) for each element face of a surface.
+   * @param model mesh of the bodies
+   * @param surface boundary id
+   * @param n_points number of Gauss points in each direction of a face
+   * @param f receives the FEFaceValues of the face and the nodes of its cell */
   template <class Function>
   void for_faces(const SolidModel &model, const int surface, const unsigned int n_points, const Function &f)
   {

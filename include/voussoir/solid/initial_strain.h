@@ -6,16 +6,23 @@
 
 namespace Voussoir
 {
-  /** What an isotropic strain that needs no stress (of temperature, of swelling) does to a model. */
+  /** Effect of a stress-free isotropic strain, such as thermal strain or swelling. */
   struct InitialStrain
   {
-    Unknowns load; ///< the force of the concrete on its nodes while they are held, 3 per free node [N]
-    std::vector<Stress> stress; ///< to be added to that of StressRecovery, per node of the model [Pa]
+    Unknowns            load;   ///< equivalent nodal forces, three values per free node [N]
+    std::vector<Stress> stress; ///< stress to add to the result of StressRecovery, per node of the model [Pa]
   };
 
-  /** sigma = D (eps - strain), with @p strain at the nodes [-], between them as the displacements. The
-   * incompatible modes follow the strain, too, so that it bends a free element without stress. Stresses are
-   * taken, averaged and, with @p to_base, extrapolated to the base as in StressRecovery. */
+  /** Computes loads and stresses of an isotropic initial strain: sigma = D (eps - strain).
+   *
+   * The strain is interpolated like the displacements. The incompatible modes follow it, so a free element
+   * bends without stress. The stresses are averaged and extrapolated as in StressRecovery.
+   *
+   * @param model mesh of the bodies
+   * @param materials as in assemble_structure()
+   * @param incompatible_modes as in assemble_structure()
+   * @param strain strain at each node of the model [-]
+   * @param to_base whether to extrapolate the stresses to the base, see NodalMean */
   InitialStrain initial_strain(const SolidModel &model, const std::vector<Material> &materials,
                                bool incompatible_modes, const std::vector<double> &strain,
                                bool to_base = false);

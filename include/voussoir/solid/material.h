@@ -4,16 +4,19 @@
 
 namespace Voussoir
 {
+  /** Linear elastic, isotropic material: Young's modulus, Poisson's ratio and density. */
   struct Material
   {
     double young = 21e9, poisson = .17, density = 2400.; ///< [Pa], [-], [kg/m^3]
   };
 
-  /** Wave speeds [m/s]. */
+  /** Returns the velocity of compression waves [m/s]. */
   double p_wave_speed(const Material &material);
+
+  /** Returns the velocity of shear waves [m/s]. */
   double s_wave_speed(const Material &material);
 
-  /** Rayleigh damping of the rock: C = mass M + stiffness K [1/s], [s]. */
+  /** Rayleigh damping of the rock: C = mass M + stiffness K, with factors in [1/s] and [s]. */
   struct RayleighDamping
   {
     double mass = 0., stiffness = 0.;

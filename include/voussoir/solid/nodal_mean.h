@@ -11,31 +11,35 @@ namespace Voussoir
 {
   class SolidModel;
 
-  /** Rule by which stresses of cells become stresses of nodes: the mean of the cells of the stiffest material
-   * around a node; on request, at nodes of the base, an extrapolation of the tractions on the base.
+  /** Averaging rule for nodal stresses. The stress of a node is the mean over the cells around it that have
+   * the stiffest material. On request, the tractions on the base are extrapolated at base nodes.
    *
-   * An element of degree 1 gives tractions on planes parallel to its base as means over its height, so at a
-   * node of the base they have an error of half an element. The tractions t_1, t_2 in the middles of the two
-   * lowest elements, of heights h_1 and h_2, give t_0 = t_1 + h_1/(h_1 + h_2) (t_1 - t_2) on the base: exact
-   * where the stress is linear. The strains along the base stay as they are (TractionCondition). Nodes above
-   * a single layer of elements, and elements of degree 2, whose stresses are linear, have the mean alone. */
+   * In an element of degree 1 the tractions on planes parallel to the base are means over the element height.
+   * At a base node they have an error of half an element. Let t_1 and t_2 be the tractions in the middle of
+   * the two lowest elements, of heights h_1 and h_2. The traction on the base is t_0 = t_1 + h_1/(h_1 + h_2)
+   * (t_1 - t_2), which is exact for a linear stress. The strains parallel to the base are unchanged
+   * (TractionCondition). Elements of degree 2, whose stresses are linear, and nodes above a single layer of
+   * elements have the mean only. */
   class NodalMean
   {
   public:
-    /** @p materials: as in assemble_structure(); @p to_base: extrapolate to the base? */
+    /** @param model mesh of the bodies
+     * @param materials as in assemble_structure()
+     * @param to_base whether to extrapolate the tractions to the base */
     NodalMean(const SolidModel &model, const std::vector<Material> &materials, bool to_base);
 
-    /** What a cell adds to the mean at a node of the base: weight times its stress (xx yy zz xy yz zx). */
+    /** Contribution of the stress of a cell to the stress of a base node: weight times stress (xx yy zz
+     * xy yz zx). */
     struct Share
     {
-      unsigned int           cell, local; ///< active cell, and which of its nodes the stress is taken at
-      unsigned int           node;        ///< of the base
-      std::array<double, 36> weight;      ///< 6 x 6, row by row
+      unsigned int cell, local; ///< active cell, and local number of the node at which its stress is taken
+      unsigned int node;        ///< base node that receives the contribution
+      std::array<double, 36> weight; ///< 6 x 6, row by row
     };
 
-    std::vector<Material>     material; ///< of each node: the stiffest one around it
-    std::vector<unsigned int> n_cells;  ///< of each node: cells of that material
-    std::vector<Share>        shares;   ///< ascending in the cells
+    std::vector<Material>     material; ///< stiffest material around each node
+    std::vector<unsigned int> n_cells;  ///< number of cells of that material around each node
+    std::vector<Share>        shares;   ///< sorted by cell
   private:
     void add_base(const SolidModel &model, const std::vector<Material> &materials);
   };

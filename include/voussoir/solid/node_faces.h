@@ -10,20 +10,20 @@ namespace Voussoir
 {
   class SolidModel;
 
-  /** A face of the boundary at one of its nodes. */
+  /** Boundary face at one of its nodes. */
   struct NodeFace
   {
-    unsigned int node;    ///< of the model
+    unsigned int node;    ///< node of the model
     int          surface; ///< boundary id
-    Vector3      normal;  ///< outward, of length 1
+    Vector3      normal;  ///< outward unit normal
   };
 
-  /** The faces at all nodes of the boundary but those of the surface "base", ascending in the nodes. Element
-   * faces of one surface whose normals are within 30 degrees at a node count as one, with their mean normal
-   * by area. */
+  /** Returns the boundary faces at all boundary nodes that are not on the surface "base", sorted by node.
+   * Element faces of one surface count as one face if their normals at a node differ by less than 30 degrees.
+   * Its normal is the area-weighted mean. */
   std::vector<NodeFace> faces_at_nodes(const SolidModel &model);
 
-  /** The same of the surface "base", at its nodes. */
+  /** Returns the faces of the surface "base" at its nodes, in the same form. */
   std::vector<NodeFace> faces_of_base(const SolidModel &model);
 } // namespace Voussoir
 

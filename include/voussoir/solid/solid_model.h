@@ -14,21 +14,26 @@
 
 namespace Voussoir
 {
-  /** The finite element mesh of the bodies: deal.II's triangulation of an opened mesh, its nodes (support
-   * points of FE_Q(degree), Gauss-Lobatto), and which of them are free.
+  /** Finite element mesh of the bodies: the deal.II triangulation of an opened mesh, its nodes, and the
+   * numbering of the free nodes. The nodes are the support points of FE_Q(degree) (Gauss-Lobatto).
    *
-   *  A node is a scalar degree of freedom of deal.II's; the three displacement components of free node i are
+   * Each node is one scalar degree of freedom in deal.II. The displacement components of a free node i are
    * the unknowns 3 equation[i] + c. Free nodes are numbered body after body. */
   class SolidModel
   {
   public:
-    /** @p mesh: opened, see open_joints(). Nodes on the surface "base" are fixed. */
+    /** Creates the triangulation and fixes the nodes on the surface "base".
+     * @param mesh opened mesh, see open_joints()
+     * @param degree polynomial degree, 1 or 2 */
     SolidModel(const HexMesh &mesh, unsigned int degree);
 
-    /** Number the nodes of the base, too: the dam stands on rock. */
+    /** Includes the base nodes in the free nodes, for a dam on deformable rock. */
     void free_base();
 
-    /** Number the free nodes anew; nodes with the same @p master (a node of the same body) move as one. */
+    /** Numbers the free nodes again.
+     * @param fixed whether each node is fixed
+     * @param master for each node a node of the same body with the same displacement; for independent nodes
+     * the node itself */
     void number_equations(const std::vector<bool> &fixed, const std::vector<unsigned int> &master);
 
     bool         base_is_fixed = true;
@@ -39,31 +44,35 @@ namespace Voussoir
       return surfaces[node].count(surface) > 0;
     }
 
-    /** That of the cell among @p materials: one for each zone of the mesh (HexMesh::zones), or a single one
-     * for all. */
+    /** Returns the material of a cell. @p materials: one per zone of the mesh (HexMesh::zones), or a single
+     * one for all cells. */
     const Material &material_of(const dealii::DoFHandler<3>::active_cell_iterator &cell,
                                 const std::vector<Material>                       &materials) const;
 
-    dealii::Triangulation<3>      triangulation; ///< material ids are monolith numbers, boundary ids surfaces
+    dealii::Triangulation<3>      triangulation; ///< material id: monolith; boundary id: surface
     dealii::FE_Q<3>               fe;
     dealii::DoFHandler<3>         dof_handler;
-    std::vector<dealii::Point<3>> points;         ///< of the nodes [m]
-    std::vector<unsigned int>     body;           ///< of each node: index into body_numbers
-    std::vector<int>              body_numbers;   ///< monolith numbers, ascending
-    std::size_t                   n_zones;        ///< of the mesh, also those without cells here
-    std::vector<unsigned int>     zone;           ///< of each active cell: index into HexMesh::zones
-    std::vector<std::set<int>>    surfaces;       ///< of each node
-    std::vector<unsigned int>     equation;       ///< of each node; rigid_ground where fixed
-    std::vector<unsigned int>     first_equation; ///< of each body, and the number of free nodes at the end
+    std::vector<dealii::Point<3>> points;       ///< position of each node [m]
+    std::vector<unsigned int>     body;         ///< index into body_numbers of each node
+    std::vector<int>              body_numbers; ///< monolith numbers, ascending
+    std::size_t n_zones;             ///< number of zones of the mesh, also those without cells in this model
+    std::vector<unsigned int>  zone; ///< index into HexMesh::zones of each active cell
+    std::vector<std::set<int>> surfaces;       ///< boundary ids of each node
+    std::vector<unsigned int>  equation;       ///< free node number of each node; rigid_ground if fixed
+    std::vector<unsigned int>  first_equation; ///< first free node of each body, and the number of free nodes
 
   private:
     void find_nodes();
   };
 
-  /** Bodies with stiffness and lumped mass (row sums). Degree 1: eight-node elements with incompatible modes
-   * (Wilson; Taylor, Beresford and Wilson 1976: constant Jacobian in the modes, so the patch test holds), or
-   * plain trilinear ones when @p incompatible_modes is false. Degree 2: 27-node elements.
-   *  @p materials: one per zone of the mesh, or a single one for all. */
+  /** Assembles the stiffness and the lumped mass (row sums) of all bodies. Elements of degree 2 have 27
+   * nodes. Elements of degree 1 have 8 nodes, with incompatible modes (Taylor, Beresford and Wilson
+   * 1976) or without.
+   * @param model mesh and numbering
+   * @param materials one per zone of the mesh, or a single one for all cells
+   * @param incompatible_modes whether elements of degree 1 have incompatible modes
+   *
+   * Throws InputError if an element is so distorted that a nodal mass is not positive. */
   Structure assemble_structure(const SolidModel &model, const std::vector<Material> &materials,
                                bool incompatible_modes);
 } // namespace Voussoir

@@ -15,33 +15,42 @@ namespace Voussoir
 
   using Stress = std::array<float, 6>; ///< xx yy zz xy yz zx [Pa], tension > 0
 
-  /** Largest and smallest principal stress. */
+  /** Returns the largest and the smallest principal stress [Pa]. */
   std::array<float, 2> principal_stresses(const Stress &s);
 
-  /** Stress at all nodes from the displacements of the free ones and the known tractions on faces, as sparse
-   * products. First in each cell as CellElasticity::stress_operator(), then the mean of the cells of the same
-   * monolith around a node; where materials meet, of those of the stiffest (largest modulus of elasticity):
-   * stresses along the interface jump there, and the stiffest has the largest. On request the tractions on
-   * the base are extrapolated to its nodes (NodalMean). Then, at nodes of faces with
-   * known tractions, the nearest stress (by the energy of the difference) that has these: strains along the
-   * faces stay, see TractionCondition. Held and applied in single precision (1e-7 of the stress): it is read
-   * at every recorded step. */
+  /** Operator from displacements and known face tractions to nodal stresses, as sparse matrix products.
+   *
+   * The stress of a node is obtained in these steps:
+   * 1. stress in each cell by CellElasticity::stress_operator();
+   * 2. mean over the cells of the same monolith around the node; at an interface of materials only over those
+   *    of the stiffest material, which has the largest stress along the interface;
+   * 3. on request, extrapolation of the tractions on the base to its nodes (NodalMean);
+   * 4. at nodes of faces with known tractions, the nearest stress with these tractions; strains parallel to
+   *    the faces are unchanged (TractionCondition).
+   *
+   * The operator is stored and applied in single precision, with a relative error of 1e-7, because it is
+   * applied at every recorded step. */
   class StressRecovery
   {
   public:
-    /** @p materials: as in assemble_structure(); @p faces: with known tractions, ascending in their nodes;
-     * @p to_base: extrapolate the tractions to the base? */
+    /** @param model mesh of the bodies
+     * @param materials as in assemble_structure()
+     * @param incompatible_modes as in assemble_structure()
+     * @param faces faces with known tractions, sorted by node
+     * @param to_base whether to extrapolate the tractions to the base */
     StressRecovery(const SolidModel &model, const std::vector<Material> &materials, bool incompatible_modes,
                    const std::vector<NodeFace> &faces = {}, bool to_base = false);
 
-    /** @p u: 3 per free node [m]; @p tractions: force per area on each of the faces [Pa], empty where all are
-     * zero; result: one per node of the model. */
+    /** Computes the stress of all nodes.
+     * @param u displacement, three values per free node [m]
+     * @param tractions force per area on each of the faces [Pa]; empty: all zero
+     * @param stress receives one stress per node of the model [Pa] */
     void apply(const Unknowns &u, const std::vector<Vector3> &tractions, std::vector<Stress> &stress) const
     {
       apply(u, tractions, 0, start.size() - 1, stress);
     }
 
-    /** Only at the nodes from @p first to before @p last. */
+    /** Computes the stress of the nodes @p first to @p last - 1. */
     void apply(const Unknowns &u, const std::vector<Vector3> &tractions, std::size_t first, std::size_t last,
                std::vector<Stress> &stress) const;
 
@@ -55,10 +64,10 @@ namespace Voussoir
     std::array<float, 18> &block(unsigned int node, unsigned int free_node);
 
     std::vector<std::size_t>           start;
-    std::vector<unsigned int>          column; ///< free node
+    std::vector<unsigned int>          column; ///< free node of each block
     std::vector<std::array<float, 18>> blocks; ///< stress component 0..5 by displacement component x, y, z
     std::vector<std::array<float, 18>> of_traction;  ///< per face: stress of its node by traction
-    std::vector<unsigned int>          node_of_face; ///< that node
+    std::vector<unsigned int>          node_of_face; ///< node of each face
   };
 } // namespace Voussoir
 

@@ -7,40 +7,43 @@
 
 namespace Voussoir
 {
-  /** One linear elastic body: its stiffness, and where its nodes lie in the structure's numbering. */
+  /** Linear elastic body: its stiffness and the position of its nodes in the numbering of the structure. */
   struct Body
   {
-    int               number = 0;        ///< monolith, as messages name it
+    int               number = 0;        ///< monolith number in messages
     unsigned int      first_node = 0;    ///< its nodes are first_node .. first_node + stiffness.n_rows() - 1
     BlockSparseMatrix stiffness;         ///< [N/m], free nodes only
-    std::vector<unsigned int> interface; ///< local numbers of the nodes that belong to pairs, ascending
+    std::vector<unsigned int> interface; ///< local numbers of the nodes in pairs, ascending
 
     unsigned int n_nodes() const { return stiffness.n_rows(); }
   };
 
+  /** Node number of the rigid ground, whose displacement is zero. */
   constexpr unsigned int rigid_ground = static_cast<unsigned int>(-1);
 
-  /** A pair of coincident nodes of a joint. The jump across it is G u = R (u_2 - u_1). */
+  /** Pair of coincident nodes on both sides of a joint. The displacement of side 2 relative to side 1 is
+   * G u = R (u_2 - u_1), where R has the rows #frame. */
   struct Pair
   {
-    unsigned int           node_1 = rigid_ground, node_2 = rigid_ground; ///< free nodes, or the rigid ground
-    std::array<Vector3, 3> frame;                  ///< n (from side 1 to side 2), a, {n,a,b} right-handed
+    unsigned int           node_1 = rigid_ground, node_2 = rigid_ground; ///< free nodes, or rigid_ground
+    std::array<Vector3, 3> frame;                  ///< n (from side 1 to side 2), a, b; {n,a,b} right-handed
     double                 area = 1.;              ///< tributary area [m^2]
     Vector3                place = {{0., 0., 0.}}; ///< position [m]
     unsigned int           joint = 0;              ///< index of its joint
-    /** On an edge of the joint: axes (n, two tangents; rows) of each plane that meets there, in the frame of
-     *  the pair, which is that of the first of them. Empty where the joint is smooth. */
+
+    /** Axes of each plane that meets at an edge of the joint: n and two tangents as rows, in the frame of the
+     * pair. The first plane has the frame of the pair. Empty if the joint is smooth here. */
     std::vector<Matrix3> planes;
   };
 
-  /** Everything linear: bodies, masses, damping; and the pairs along which the bodies meet.
-   *  Fixed nodes do not exist here; displacements are relative to the moving base. */
+  /** Linear part of the model: bodies, masses, damping and the pairs between bodies. Fixed nodes are not
+   * included. Displacements are relative to the base or absolute, depending on the foundation. */
   struct Structure
   {
-    std::vector<Body>    bodies;     ///< contiguous and ascending in their nodes
-    Shares               share;      ///< of the bodies: which rank does their work; collect_interfaces()
-    std::vector<Matrix3> mass;       ///< per node, lumped, with the added mass of the water [kg]
-    std::vector<Matrix3> added_mass; ///< per node, that of the water alone [kg]
+    std::vector<Body>    bodies;     ///< sorted by node, without gaps
+    Shares               share;      ///< distribution of the bodies over the ranks; see collect_interfaces()
+    std::vector<Matrix3> mass;       ///< lumped mass per node, with added mass [kg]
+    std::vector<Matrix3> added_mass; ///< added mass of the water per node [kg]
     Unknowns             dashpots;   ///< viscous dashpots to the ground per component [N s/m]; empty = none
     std::vector<Pair>    pairs;      ///< sorted by joint
     unsigned int         n_joints = 0;
@@ -49,23 +52,24 @@ namespace Voussoir
 
     unsigned int n_nodes() const { return static_cast<unsigned int>(mass.size()); }
 
-    /** Mark the nodes of the pairs as interface of their bodies, and share out the bodies. Call once when
-     * bodies and pairs are there. */
+    /** Determines the interface nodes of the bodies and distributes the bodies over the ranks. Call once,
+     * after bodies and pairs are complete. */
     void collect_interfaces();
 
-    /** The body of a node. */
+    /** Returns the index of the body that contains a node. */
     unsigned int body_of(unsigned int node) const;
 
-    /** Stiffness times displacement, all bodies [N]. */
+    /** Computes stiffness times displacement for all bodies [N]. */
     void multiply_stiffness(const Unknowns &u, Unknowns &Ku) const;
 
-    /** All ranks get what each has made of @p u, three values per node, for its bodies. */
+    /** Distributes a vector of which each rank has computed the part of its bodies, three values per node. */
     void gather(Unknowns &u) const;
 
-    /** R (u_2 - u_1) of a pair. */
+    /** Returns the relative displacement R (u_2 - u_1) of a pair, in its frame. */
     Vector3 jump(const Pair &pair, const Unknowns &u) const;
 
-    /** u_2 += R^T f, u_1 -= R^T f: the joint force f = (n, a, b) on both sides of the pair. */
+    /** Adds a joint force to both nodes of a pair: u_2 += R^T f, u_1 -= R^T f. @p f: components in the frame
+     * (n, a, b) of the pair. */
     void add_pair_force(const Pair &pair, const Vector3 &f, Unknowns &u) const;
   };
 } // namespace Voussoir

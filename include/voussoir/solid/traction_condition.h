@@ -9,17 +9,21 @@
 
 namespace Voussoir
 {
-  /** The stress nearest to a given one among those with known tractions on planes through the point:
+  /** Correction of a stress so that it has known tractions on planes through the point. The result is the
+   * nearest stress in the energy norm:
    *
    *    minimise (s - s_0) : C^-1 : (s - s_0)  subject to  s n_k = t_k,
-   *    s = s_0 + C A^T (A C A^T)^+ (t - A s_0),
+   *    s = s_0 + C A^T (A C A^T)^+ (t - A s_0).
    *
-   *  C isotropic elasticity, A the tractions of a stress. The strain that is added is sum_k sym(l_k x n_k):
-   *  nothing along the planes. With one plane this is plane stress and the known tractions; on an edge the
-   *  strain along it remains, at a corner of three planes nothing. Tractions that contradict each other
-   *  (t_1 n_2 is not t_2 n_1) are met in the mean of squares. */
+   * C is isotropic elasticity, and A maps a stress to its tractions. The added strain is sum_k sym(l_k x
+   * n_k), with no component parallel to the planes. With one plane the result combines the given in-plane
+   * strains with the known tractions. On an edge the strain along the edge remains; at a corner of three
+   * planes the tractions determine the stress. Contradictory tractions (t_1 n_2 differs from t_2 n_1) are
+   * satisfied in the sense of least squares. */
   struct TractionCondition
   {
+    /** @param poisson Poisson's ratio
+     * @param normals unit normals of the planes */
     TractionCondition(double poisson, const std::vector<Vector3> &normals);
 
     std::array<std::array<double, 6>, 6> of_stress; ///< s by s_0: I - C A^T (A C A^T)^+ A; xx yy zz xy yz zx

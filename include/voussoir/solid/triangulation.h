@@ -8,9 +8,13 @@
 
 namespace Voussoir
 {
-  /** Makes deal.II's mesh of the @p cells of @p mesh, in that order. Its vertices are their nodes, in the
-   * order of the mesh; material ids are volumes, boundary ids surfaces (0 where a face is in none). Returns
-   * the node of each vertex. */
+  /** Creates the deal.II triangulation of some cells of a mesh. It keeps the order of the cells and of their
+   * nodes. Material ids are volumes, boundary ids are surfaces (0: none).
+   * @param mesh nodes, cells and faces
+   * @param cells indices of the cells
+   * @param triangulation receives the result
+   *
+   * Returns the mesh node of each vertex. */
   std::vector<unsigned int> make_triangulation(const HexMesh &mesh, const std::vector<unsigned int> &cells,
                                                dealii::Triangulation<3> &triangulation);
 } // namespace Voussoir

@@ -6,12 +6,12 @@ import io
 
 import numpy as np
 
-import picture
-from drawing import (COLOURS, DIRECTIONS, DOWNSTREAM, LIMIT, UPSTREAM, aspect, common_levels, common_top, draw_base,
-                     draw_crest, draw_crest_bars, draw_energy, draw_face, draw_joint_history, draw_spectrum, energy_parts, energy_unit,
-                     plt, stress_bar, worst_joints)
-from command import InputError
-from runs import Skip
+from . import picture
+from .errors import InputError
+from .drawing import (COLOURS, DIRECTIONS, DOWNSTREAM, LIMIT, UPSTREAM, aspect, common_levels, common_top, draw_base,
+                      draw_crest, draw_crest_bars, draw_energy, draw_face, draw_joint_history, draw_spectrum, energy_parts, energy_unit,
+                      plt, stress_bar, worst_joints)
+from .runs import Skip
 
 NARROW, WIDE = 4.3, 9.0  # inches: a telephone or half a page, and a whole page
 SMALL = {"font.size": 8.5, "axes.titlesize": 9, "axes.labelsize": 8.5, "legend.fontsize": 8, "xtick.labelsize": 8,

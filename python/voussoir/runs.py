@@ -1,87 +1,40 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The output directory of a run, read: its tables as arrays, its summary, and the entries of its scene."""
+"""A finished run for report and figures: tables as arrays, summary, and the entries of the scene."""
 
-import csv
-import json
 import re
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 
-from command import InputError
+from . import tables
+from .errors import InputError
+from .prm import read_entries
+from .results import read_summary
 
 
 class Skip(Exception):
-    """Something that cannot be shown because its data are not there."""
+    """A figure or a result whose data are missing."""
 
 
 def read_table(path, text_columns=()):
-    """Columns of a .csv file by name; numbers, but for the named text columns. InputError for a file that is damaged."""
+    """Reads the columns of a table of numbers, except for the named columns of text. Throws Skip for a table without rows."""
     if not path.exists():
         raise Skip(f"no {path.name}")
-    with open(path, newline="") as file:
-        rows = [row for row in csv.reader(file) if row]
-    width = len(rows[0]) if rows else 0
-    if rows and len(rows[-1]) < width:  # a run that was stopped while it wrote
-        rows.pop()
-    if len(rows) < 2:
+    table = tables.read_table(path, text_columns)
+    if not any(len(column) for column in table.values()):
         raise Skip(f"{path.name} is empty")
-    for number, row in enumerate(rows[1:], 1):
-        if len(row) != width:
-            raise InputError(f"{path} is damaged: row {number} has {len(row)} values, and {width} columns have names. Repeat the run.")
-    columns = {name.strip(): column for name, column in zip(rows[0], zip(*rows[1:]))}
-    try:
-        return {name: np.array(column) if name in text_columns else np.array(column, dtype=float)
-                for name, column in columns.items()}
-    except ValueError as error:
-        raise InputError(f"{path} is damaged: {error}. Repeat the run.") from error
+    return table
 
 
 def read_history(path):
-    """The same, of a table over time."""
+    """Reads a table over time. Throws Skip for a single time."""
     table = read_table(path)
     if "time" not in table:
         raise InputError(f"{path} is damaged: it has no column time. Repeat the run.")
     if len(table["time"]) < 2:
         raise Skip(f"{path.name} holds a single time")
     return table
-
-
-def read_entries(text):
-    """What a scene.prm of a run says: "Section/Entry" -> (value, default), in its order; the default is None where the
-    value is the default."""
-    entries, path = {}, []
-    for line in text.splitlines():
-        words, _, remark = line.partition("#")
-        words = words.strip()
-        if words.startswith("subsection "):
-            path.append(words.split(" ", 1)[1].strip())
-        elif words == "end" and path:
-            path.pop()
-        elif words.startswith("set "):
-            name, _, value = words[4:].partition("=")
-            default = remark.strip().removeprefix("default:").strip() if "default:" in remark else None
-            entries["/".join([*path, name.strip()])] = (value.strip(), default)
-    return entries
-
-
-def scene_of(entries):
-    """A scene file that has these entries, "Section/Entry" -> value."""
-    lines, path = [], []
-    for entry, value in entries.items():
-        *sections, name = entry.split("/")
-        while path != sections[:len(path)]:
-            path.pop()
-            lines.append("  " * len(path) + "end")
-        for section in sections[len(path):]:
-            lines.append("  " * len(path) + f"subsection {section}")
-            path.append(section)
-        lines.append("  " * len(path) + f"set {name} = {value}")
-    while path:
-        path.pop()
-        lines.append("  " * len(path) + "end")
-    return "\n".join(lines) + "\n"
 
 
 def with_new_names(summary):
@@ -94,20 +47,11 @@ def with_new_names(summary):
 
 
 class Run:
-    """One finished run. Throws InputError for a directory that is none; tables that are not there are Skip."""
+    """One finished run. Throws InputError for another directory, and Skip for a missing table."""
 
     def __init__(self, directory):
         self.directory = Path(directory)
-        file = self.directory / "summary.json"
-        if not file.is_file():
-            raise InputError(f"{directory} holds no summary.json, so it is not the output directory of a finished run. Give the "
-                             "directory that voussoir was told to write to with --output.")
-        try:
-            self.summary = with_new_names(json.loads(file.read_text()))
-        except (RecursionError, ValueError) as error:
-            raise InputError(f"{file} is not valid JSON: {error}. Repeat the run.") from error
-        if not isinstance(self.summary, dict):
-            raise InputError(f"{file} does not hold an object. Repeat the run.")
+        self.summary = with_new_names(read_summary(directory))
         scene = str(self.summary.get("scene", self.directory.name))
         self.scene = Path(scene).stem if scene.endswith(".prm") else scene
         self.law = str(self.summary.get("law", ""))

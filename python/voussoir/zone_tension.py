@@ -1,17 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Means of a run's largest tension over zones of the dam's faces: what `voussoir accuracy` measures stresses by."""
 
-import csv
-
 import numpy as np
+
+from .tables import read_table
 
 ZONES = 3  # of either face, along and up
 FOOT = 0.1  # of the height: nearer to the base is no zone
-
-
-def read(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
 
 
 def outline(x, corners):
@@ -28,16 +23,16 @@ def outline(x, corners):
 def zone_means(directory):
     """Means of the largest tension [Pa] over the zones of both faces, by the area of their quadrilaterals' parts; and the
     zones' areas [m2]."""
-    nodes, quads = read(directory / "faces.csv"), read(directory / "faces_cells.csv")
-    x = np.array([[float(n[k]) for k in ("x", "y", "z", "s", "max_principal")] for n in nodes])
-    corners = np.array([[int(q[f"n{i}"]) for i in range(4)] for q in quads])
-    face = np.array([q["face"] for q in quads])
+    nodes, quads = read_table(directory / "faces.csv"), read_table(directory / "faces_cells.csv")
+    x = np.stack([nodes[k] for k in ("x", "y", "z", "s", "max_principal")], axis=1)
+    corners = np.stack([quads[f"n{i}"] for i in range(4)], axis=1).astype(int)
+    face = quads["face"]
     parts = 8
     at = (np.arange(parts) + 0.5) / parts
     weights = np.array([[(1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b] for a in at for b in at])
     inside = np.einsum("pk,qkc->qpc", weights, x[corners])  # quad, part, column
     diagonals = x[corners[:, 2], :3] - x[corners[:, 0], :3], x[corners[:, 3], :3] - x[corners[:, 1], :3]
-    area = np.repeat(np.linalg.norm(np.cross(*diagonals), axis=1) / (2 * parts**2), parts * parts).reshape(len(quads), -1)
+    area = np.repeat(np.linalg.norm(np.cross(*diagonals), axis=1) / (2 * parts**2), parts * parts).reshape(len(corners), -1)
     base = outline(x, corners)
     foot = FOOT * (x[:, 2].max() - x[:, 2].min())
     means, areas = [], []

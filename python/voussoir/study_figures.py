@@ -8,8 +8,8 @@ from dataclasses import replace
 import matplotlib
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402 (after the choice of the backend)
-import numpy as np  # noqa: E402
+import matplotlib.pyplot as plt  # after the choice of the backend
+import numpy as np
 
 COLOURS = ["#0b5394", "#cc4125", "#38761d", "#b45f06", "#674ea7", "#45818e", "#7f6000"]
 MEASURES = {"Opening": ("opening", 1e3, "largest opening [mm]", "mm"), "Slip": ("slip", 1e3, "largest slip [mm]", "mm"),

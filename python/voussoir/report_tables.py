@@ -4,7 +4,7 @@
 import re
 from html import escape
 
-from runs import Skip
+from .runs import Skip
 
 AWAY, WITH_BASE = "away_from_base", "with the base"
 # Key of summary.json's extremes -> title, unit
@@ -198,7 +198,8 @@ def verdict(run):
             texts.append(f"{WORDS.get(name, name.replace('_', ' '))} {number(limit['value'], unit)} "
                          f"{'instead of' if limit.get('is_least') else 'of'} {with_unit(limit['limit'], unit)}")
     if not texts:
-        return ("", f"{len(limits)} of {len(limits) + len(unjudged)} limits are satisfied.{rest}") if unjudged else ("satisfied", "All limits of the scene are satisfied.")
+        return ("", f"{len(limits)} of {len(limits) + len(unjudged)} limits are satisfied.{rest}") if unjudged else (
+            "satisfied", "All limits of the scene are satisfied.")
     return "exceeded", f"{len(texts)} of {len(limits)} limits {'is' if len(texts) == 1 else 'are'} exceeded: {'; '.join(texts)}.{rest}"
 
 

@@ -2,13 +2,12 @@
 """Study files: which scenes, with which values of which entries. `voussoir study` runs them; doc/studies.md explains them."""
 
 import csv
-import functools
 import itertools
-import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from command import InputError, voussoir
+from .errors import InputError
+from .program import declarations
 
 UNITS = {"m": {"": 1., "m": 1., "cm": 1e-2, "mm": 1e-3}, "Pa": {"": 1., "Pa": 1., "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
          "-": {"": 1., "%": 1e-2}}
@@ -84,22 +83,6 @@ def read_prm(path):
     if sections:
         raise InputError(f'{path}: subsection "{sections[-1]}" is not closed. Add an "end".')
     return entries
-
-
-@functools.lru_cache
-def known_entries():
-    """All entries of a scene, by the program."""
-    found = []
-
-    def look(tree, path):
-        for name, child in tree.items():
-            if "pattern_description" in child:
-                found.append("/".join([*path, name]))
-            else:
-                look(child, [*path, name])
-
-    look(json.loads(voussoir("parameters", "json").stdout), [])
-    return found
 
 
 def check_entry(entry, place, known):
@@ -237,7 +220,7 @@ def is_file_entry(entry):
 
 def read_study(path, overrides=()):
     """The study in a file, every scene of it spelled out. `overrides`: "Section/Entry=value" of the command line."""
-    study, known = Study(Path(path).resolve()), set(known_entries())
+    study, known = Study(Path(path).resolve()), set(declarations())
     entries = read_prm(path)
     for text in overrides:
         name, equals, value = (part.strip() for part in text.partition("="))

@@ -7,7 +7,7 @@ import struct
 import zlib
 from array import array
 
-from command import InputError
+from .errors import InputError
 
 TYPES = {"Float32": "f", "Float64": "d", "Int8": "b", "UInt8": "B", "Int32": "i", "UInt32": "I", "Int64": "q"}
 

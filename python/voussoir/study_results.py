@@ -6,7 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from study_scene import summary_of
+from .study_scene import summary_of
+from .tables import read_table
 
 NUMBERS = ("peak_acceleration", "opening", "slip", "tension", "tension_upstream", "tension_downstream", "compression",
            "damage_area", "damage_share", "crest_upstream", "crest_downstream", "energy_balance_error", "newton_mean", "seconds",
@@ -36,26 +37,18 @@ def area_above(points, cells, values, limit):
 
 def damage(run, strength):
     """Area [m2] and share [-] of the two faces where the largest principal stress of the run exceeds the strength [Pa]."""
-    try:
-        with open(run / "faces.csv", encoding="utf-8") as file:
-            nodes = list(csv.DictReader(file))
-        with open(run / "faces_cells.csv", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-    except OSError:
+    if not (run / "faces.csv").is_file():
         return {}  # without Output/Envelope interval
-    points = np.array([[float(node[axis]) for axis in "xyz"] for node in nodes])
-    values = np.array([float(node["max_principal"]) for node in nodes])
-    cells = np.array([[int(row[f"n{i}"]) for i in range(4)] for row in rows])
-    above, whole = area_above(points, cells, values, strength) if len(cells) else (0., 0.)
+    nodes, quads = read_table(run / "faces.csv"), read_table(run / "faces_cells.csv")
+    points = np.stack([nodes[axis] for axis in "xyz"], axis=1)
+    cells = np.stack([quads[f"n{i}"] for i in range(4)], axis=1).astype(int)
+    above, whole = area_above(points, cells, nodes["max_principal"], strength) if len(cells) else (0., 0.)
     return {"damage_area": above, "damage_share": above / whole} if whole else {}
 
 
 def motion_of(run):
     """Largest acceleration of the base [m/s2] in any direction, and the crest's way up- and downstream from its static place [m]."""
-    with open(run / "history.csv", encoding="utf-8") as file:
-        names = file.readline().strip().split(",")
-        rows = np.atleast_2d(np.loadtxt(file, delimiter=","))
-    columns = dict(zip(names, rows.T))
+    columns = read_table(run / "history.csv")
     crest = columns["crest_x"] - columns["crest_x"][0]
     base = [np.abs(column).max() for name, column in columns.items() if name.startswith("base_acceleration_")]
     return {"peak_acceleration": max(base), "crest_upstream": -crest.min(), "crest_downstream": crest.max()}

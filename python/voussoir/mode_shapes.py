@@ -2,11 +2,11 @@
 """The picture of the natural modes that `voussoir modes --output DIR` writes."""
 
 import numpy as np
-
-from drawing import plt
-from picture import creases, normals, outer_faces, read_solution, view_of
-from runs import read_table
 from matplotlib.collections import LineCollection, PolyCollection
+
+from .drawing import plt
+from .picture import creases, normals, outer_faces, read_solution, view_of
+from .runs import read_table
 
 PER_PAGE = 12
 

@@ -8,10 +8,11 @@ import matplotlib
 import numpy as np
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402 (after the choice of the backend)
-from matplotlib.collections import LineCollection  # noqa: E402
-from matplotlib.ticker import MaxNLocator, NullFormatter  # noqa: E402
-from runs import Skip  # noqa: E402
+import matplotlib.pyplot as plt  # after the choice of the backend
+from matplotlib.collections import LineCollection
+from matplotlib.ticker import MaxNLocator, NullFormatter
+
+from .runs import Skip
 
 UPSTREAM, DOWNSTREAM = "#0b5394", "#cc4125"
 FACES = {"upstream": UPSTREAM, "downstream": DOWNSTREAM}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_run_observers_h
+#define voussoir_run_observers_h
+
+#include <voussoir/output/observers.h>
+
+#include <optional>
+
+namespace Voussoir
+{
+  /** The observers of a run, in the order in which they act. */
+  class RunObservers
+  {
+  public:
+    /** @p run: ready for its first step; it must outlive the observers. */
+    RunObservers(const RunState &run, Log &log);
+
+    auto begin() const { return list.begin(); }
+    auto end() const { return list.end(); }
+
+    HistoryObserver                  history;
+    JointObserver                    joints;
+    StressObserver                   stresses;
+    std::optional<BlockObserver>     blocks;     ///< if the scene requests it
+    std::optional<TimeErrorObserver> time_error; ///< if the scene requests it
+
+  private:
+    StabilityObserver       stability;
+    FieldObserver           fields;
+    std::vector<Observer *> list;
+  };
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_archive_h
+#define voussoir_archive_h
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <voussoir/dynamics/newmark.h>
+
+namespace Voussoir
+{
+  template <class Archive> void serialize(Archive &archive, Energy &e, unsigned int)
+  {
+    archive &e.kinetic &e.added_mass &e.strain &e.damping &e.friction &e.impact &e.input;
+    archive &e.joint_stored &e.joint_fracture;
+  }
+
+  template <class Archive> void serialize(Archive &archive, DynamicState &s, unsigned int)
+  {
+    archive &s.time &s.u &s.v &s.force &s.load &s.Ku &s.base_velocity &s.energy &s.memory;
+    archive &s.carried.left &s.carried.moved &s.carried.resisted &s.carried.dt;
+  }
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_observers_h
+#define voussoir_observers_h
+
+#include <voussoir/base/log.h>
+#include <voussoir/dam/tractions.h>
+#include <voussoir/output/block_recorder.h>
+#include <voussoir/output/face_tension.h>
+#include <voussoir/output/observer.h>
+#include <voussoir/output/recorder.h>
+#include <voussoir/output/run_state.h>
+#include <voussoir/output/stability_watch.h>
+#include <voussoir/output/time_error.h>
+
+namespace Voussoir
+{
+  /** Ends a run that has become unstable: record() throws ComputationError. */
+  class StabilityObserver : public Observer
+  {
+  public:
+    explicit StabilityObserver(const RunState &run) : run(run), watch(*run.dam, run.motion, *run.newmark) {}
+    void record() override;
+
+  private:
+    const RunState      &run;
+    const StabilityWatch watch;
+  };
+
+  /** Displacements of crest and probes (history.csv) and energies (energy.csv). */
+  class HistoryObserver : public Observer
+  {
+  public:
+    explicit HistoryObserver(const RunState &run);
+    void record() override;
+    void flush() override;
+    void open(const std::string &directory) override;
+    void write_tables(const std::string &) override { flush(); }
+    void save(boost::archive::binary_oarchive &archive) const override;
+    void load(boost::archive::binary_iarchive &archive) override;
+
+    /** Largest |energy balance| of the dam so far, over the largest energy [-]. */
+    double balance_error() const { return imbalance / std::max(run.largest_energy(), 1e-300); }
+
+  private:
+    void declare_history();
+    void declare_energy();
+
+    const RunState &run;
+    double          imbalance = 0.; ///< largest so far [J]
+    Table           history, energy;
+    Recorder        history_columns{history}, energy_columns{energy};
+    TableFile       history_file, energy_file;
+  };
+
+  /** Openings, slips and pressures of the joints. */
+  class JointObserver : public Observer
+  {
+  public:
+    explicit JointObserver(const RunState &run);
+    void record() override { joints.record(*run.newmark); }
+    void flush() override { file.append(joints.history); }
+    void open(const std::string &directory) override;
+    void write_tables(const std::string &directory) override;
+    void finish(const std::string &directory, Log &log) override;
+    void report(Log &log) const override;
+    void save(boost::archive::binary_oarchive &archive) const override;
+    void load(boost::archive::binary_iarchive &archive) override;
+
+    /** Largest opening and slip: part of "extremes" of summary.json. */
+    void add_extremes(Json &json) const;
+
+    JointRecorder joints;
+
+  private:
+    const RunState &run;
+    TableFile       file;
+  };
+
+  /** Stresses: the envelope over time and the stresses of the present time. */
+  class StressObserver : public Observer
+  {
+  public:
+    /** @p joints: recorder whose pressures go into envelope.vtu; it must outlive the observer. */
+    StressObserver(const RunState &run, const JointRecorder &joints);
+    void start() override { follow(); }
+    void follow() override;
+    void gather_on_root() override { envelope.collect(); }
+    void finish(const std::string &directory, Log &log) override;
+    void report(Log &log) const override;
+    void save(boost::archive::binary_oarchive &archive) const override;
+    void load(boost::archive::binary_iarchive &archive) override;
+
+    /** Total stresses at the nodes of the model at the present time [Pa]. */
+    std::vector<Stress> now();
+
+    /** Are stresses recorded? */
+    bool is_recording() const { return run.scene().output.envelope_interval > 0; }
+
+    /** Largest stresses: part of "extremes" of summary.json. */
+    void add_extremes(Json &json) const;
+
+    /** Area of the faces with a tension above the strength: "tension_above_strength" of summary.json. */
+    Json json_of_strength() const;
+
+    /** Tractions for the recovery, or null if it does not use them. */
+    Tractions *known_tractions() { return run.scene().output.knows_tractions() ? &tractions : nullptr; }
+
+  private:
+    std::vector<Vector3> tractions_now();
+    std::string          largest_in_words(int surface, bool with_base) const;
+
+    const RunState      &run;
+    const JointRecorder &joints;
+    Tractions            tractions;
+
+  public:
+    StressRecovery   recovery;
+    FaceTension      tension;
+    EnvelopeRecorder envelope;
+    double           seconds = 0.; ///< wall time of follow() [s]
+  };
+
+  /** Forces between foundation and monoliths (blocks.csv). */
+  class BlockObserver : public Observer
+  {
+  public:
+    explicit BlockObserver(const RunState &run);
+    void follow() override;
+    void record() override { blocks.record(run.newmark->state().time); }
+    void flush() override { file.append(blocks.history); }
+    void open(const std::string &directory) override { file.open(directory + "/blocks.csv", blocks.history); }
+    void write_tables(const std::string &) override { flush(); }
+    void save(boost::archive::binary_oarchive &archive) const override;
+    void load(boost::archive::binary_iarchive &archive) override;
+
+    BlockRecorder blocks;
+
+  private:
+    const RunState &run;
+    TableFile       file;
+  };
+
+  /** Estimate of the error by the time step, from a comparison run with twice the step. If the comparison run
+   *  fails, the run continues without the estimate. */
+  class TimeErrorObserver : public Observer
+  {
+  public:
+    TimeErrorObserver(const RunState &run, const JointRecorder &joints, StressObserver &stresses, Log &log);
+    void follow() override;
+    void gather_on_root() override;
+    void report(Log &log) const override;
+    void save(boost::archive::binary_oarchive &archive) const override;
+    void load(boost::archive::binary_iarchive &archive) override;
+
+    bool   has_estimate() const { return companion != nullptr; }
+    Json   json() const;               ///< "error_estimate" of summary.json
+    double memory_consumption() const; ///< [bytes]
+
+  private:
+    TimeError error() const { return companion->of(joints, stresses.envelope, stresses.tension); }
+
+    const RunState                    &run;
+    const JointRecorder               &joints;
+    const StressObserver              &stresses;
+    Log                               &log;
+    std::unique_ptr<TimeErrorEstimate> companion;
+  };
+
+  /** Fields on the mesh and on the joints for ParaView (solution-NNNNN.vtu, solution.pvd). */
+  class FieldObserver : public Observer
+  {
+  public:
+    FieldObserver(const RunState &run, StressObserver &stresses) : run(run), stresses(stresses) {}
+    void flush() override;
+    void open(const std::string &path) override;
+    void save(boost::archive::binary_oarchive &archive) const override;
+    void load(boost::archive::binary_iarchive &archive) override;
+
+  private:
+    void write();
+    void write_collection() const;
+    void add_stresses(std::vector<FieldWriter::NodalField> &fields) const;
+    void add_joints(std::vector<FieldWriter::NodalField> &fields) const;
+
+    const RunState                             &run;
+    StressObserver                             &stresses;
+    std::string                                 directory;
+    bool                                        is_resumed = false;
+    std::vector<std::pair<double, std::string>> files; ///< time [s] and name
+  };
+} // namespace Voussoir
+
+#endif

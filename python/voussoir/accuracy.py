@@ -1,0 +1,370 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Error against cost of a scene, and the cheapest setting that meets a wish.
+
+    voussoir accuracy SCENE.prm [--for 1%] [--seconds 5] [--output DIR] [--set 'Section/Entry=value']...
+
+Each choice that a scene has (time step, elements along, up and through, degree, rock) is refined by itself, with all
+others as the scene has them, over the strongest seconds of the scene's motion. Two measures, each relative: the
+largest openings of every joint at the crest, upstream and downstream (root of the sum of squares over them), and the means of the tension envelope over
+nine zones of either face (the same over the zones, by their areas), without what is nearer to the base than a tenth of the height: the
+stress of an elastic dam is singular there. Where a choice has three levels, its order is fitted and its
+limit extrapolated (Richardson); with two, the order is that of the method. The error of a level is its distance to
+that limit; errors of several choices are added as vectors, joint by joint and zone by zone. Runs that are there already
+are not repeated. Cost: seconds of processor time of each thread per second of earthquake, without set-up.
+
+Writes accuracy.csv, accuracy.json and accuracy.png into DIR; runs, with their tables, are beside them.
+"""
+
+import csv
+import hashlib
+import itertools
+import json
+import math
+import re
+import shutil
+import time
+from pathlib import Path
+
+import numpy as np
+
+from .command import Parser
+from .errors import ComputationError, InputError
+from .program import call, entries_of, message_of, set_options, start
+from .results import read_summary
+from .study_file import is_file_entry
+from .tables import read_table
+from .zone_tension import zone_means
+
+ALONG, UP, THROUGH = (f"Mesh/Arch210/Elements {way}" for way in ("along", "up", "through"))
+STEPS, SUBSTEPS, DEGREE = "Dynamics/Steps per sample", "Foundation/Substeps", "Elements/Degree"
+SUBDIVIDE = "Mesh/Subdivide"
+ROCK_SIZE = "Mesh/Arch210/Rock/Element size"
+TAPER = 0.2  # of the motion's beginning [s]
+RUNS = b"2"  # what this script reads of a run: those of another kind are made again
+FIRST, LAST = "base", "wish"  # names of the runs of the scene as it is, and of what is proposed
+
+
+class Choice:
+    """One thing that a scene may refine: levels from coarse to fine, each {entry: value}; sizes fall with them."""
+
+    def __init__(self, name, levels, sizes, current, order=2.0):
+        self.name, self.levels, self.sizes, self.current, self.order = name, levels, sizes, current, order
+        self.limit, self.fitted = None, False  # measures at size zero; is the order a fit?
+
+    def key(self, level):
+        return FIRST if level == self.current else f"{self.name} " + " ".join(map(str, self.levels[level].values()))
+
+    def fit(self, values):
+        """Order and limit from the measures (vectors) of all levels."""
+        if len(values) > 2:
+            first, last = (np.linalg.norm(values[k] - values[k + 1]) for k in (-3, -2))
+            if last > 0 and first > 0:
+                self.order = solve_order(first / last, self.sizes[-3] / self.sizes[-2], self.sizes[-2] / self.sizes[-1])
+                self.fitted = 1 < self.order < 4
+        coarsest = max(-3, -len(values))  # the widest pair, whose scatter is enlarged least
+        gain = 1 / ((self.sizes[coarsest] / self.sizes[-1]) ** self.order - 1)
+        self.limit = values[-1] + gain * (values[-1] - values[coarsest])
+
+
+def solve_order(quotient, coarse, fine):
+    """p of errors C h^p from the quotient of their differences, h falling by the factors coarse, then fine; 1 to 4."""
+    def of(p):
+        return fine ** p * (coarse ** p - 1) / (fine ** p - 1)
+    low, high = 1.0, 4.0
+    if quotient <= of(low) or quotient >= of(high):
+        return low if quotient <= of(low) else high
+    for _ in range(50):
+        middle = (low + high) / 2
+        low, high = (middle, high) if of(middle) < quotient else (low, middle)
+    return low
+
+
+def choices_of(entries):
+    """What this scene can refine, the level it has now included."""
+    result = []
+    steps = int(entries[STEPS])
+    on_rock = entries["Foundation/Model"] == "rock"
+    counts = ([steps // 2] if steps % 2 == 0 and not on_rock else []) + [steps, 2 * steps] + ([] if on_rock else [4 * steps])
+    result.append(Choice("time step", [{STEPS: n} for n in counts], [1 / n for n in counts], counts.index(steps)))
+    if entries["Mesh/Source"] == "arch210":
+        monoliths = int(entries["Mesh/Arch210/Joints"]) + 1
+        per_monolith = max(1, math.ceil(int(entries[ALONG]) / monoliths))
+        for name, entry, now, unit in (("along", ALONG, per_monolith, monoliths), ("up", UP, int(entries[UP]), 1),
+                                       ("through", THROUGH, int(entries[THROUGH]), 1)):
+            numbers = [now, math.ceil(1.5 * now), max(2 * now, math.ceil(1.5 * now) + 1)]
+            result.append(Choice(name, [{entry: unit * n} for n in numbers], [1 / n for n in numbers], 0))
+        if entries["Foundation/Model"] != "rigid":
+            size = float(entries[ROCK_SIZE])
+            result.append(Choice("rock size", [{ROCK_SIZE: s} for s in (size, round(size / 1.4, 3))], [1.4, 1], 0))
+    elif int(entries[DEGREE]) == 1:
+        result.append(Choice("degree", [{DEGREE: 1}, {DEGREE: 2}], [1, 0.5], 0, 3.0))
+    elif entries[SUBDIVIDE] == "false":
+        result.append(Choice("mesh", [{SUBDIVIDE: "false"}, {SUBDIVIDE: "true"}], [1, 0.5], 0))
+    return result
+
+
+def strongest(motion, seconds):
+    """The part of a motion (t, a_x, a_y, a_z) with the largest Arias intensity, tapered in, from t = 0 on."""
+    dt = motion[1, 0]
+    length = min(len(motion) - 1, round(seconds / dt))
+    power = np.concatenate([[0], np.cumsum((motion[:, 1:] ** 2).sum(axis=1))])
+    ends = power[length + 1:] - power[:len(power) - length - 1]
+    first = int(np.argmax(ends))
+    part = motion[first:first + length + 1].copy()
+    if first > 0:
+        part[:, 1:] *= np.minimum(1, np.arange(len(part)) * dt / TAPER)[:, None]
+    part[:, 0] = np.arange(len(part)) * dt
+    return part, motion[first, 0]
+
+
+class Ladder:
+    """The runs, each in a directory of its own; measures and costs by their names."""
+
+    def __init__(self, scene, common, directory, n_expected):
+        self.scene, self.common, self.directory = scene, common, directory
+        self.n_expected, self.began, self.spent = n_expected, time.monotonic(), 0
+        self.openings, self.tensions, self.areas, self.cost, self.changes, self.scale = {}, {}, {}, {}, {}, None
+
+    def run(self, name, changes):
+        directory = self.directory / "runs" / name.replace(" ", "_").replace("/", "-")
+        stamp, key = directory / "digest.json", self.key_of(changes)
+        known = json.loads(stamp.read_text()) if stamp.exists() else {}
+        if known.get("key") == key:
+            changes = known["changes"]
+        else:
+            changes = self.start(name, changes, directory)
+            stamp.write_text(json.dumps({"key": key, "changes": changes}))
+        self.changes[name] = changes
+        summary = read_summary(directory)
+        joints = read_table(directory / "joints.csv")
+        self.openings[name] = np.stack([joints[f"opening_{face}"] for face in ("upstream", "downstream")], axis=1).ravel()
+        self.tensions[name], self.areas[name] = zone_means(directory)
+        seconds = summary["seconds"]
+        # Processor time, not wall time: what else the machine does should not decide.
+        self.cost[name] = seconds["per_second_of_earthquake"] * seconds["shaking_cpu"] / seconds["shaking"] / summary["threads"]
+        done = len(self.cost)
+        left = (time.monotonic() - self.began) / done * max(0, self.n_expected - done)
+        opening = f"largest opening {1e3 * self.openings[name].max():7.2f} mm" if self.openings[name].size else "no joints"
+        print(f"  {name:24s} {opening}, largest zone mean {1e-6 * self.tensions[name].max():6.3f} MPa, "
+              f"{self.cost[name]:7.3f} s per s;  {done}/{self.n_expected}, about {left:.0f} s left", flush=True)
+
+    def start(self, name, changes, directory):
+        """Runs the scene with the changes and returns them. Smaller elements of rock have a smaller critical time step: then
+        with as many steps of the rock in one of the dam as the program asks for or, if it refuses these, steps of both."""
+        shutil.rmtree(directory, ignore_errors=True)
+        result = start(self.scene, "--output", directory, "--quiet", *set_options({**self.common, **changes}))
+        first, tried = result.stderr, changes
+        for entry in (SUBSTEPS, STEPS) if name != FIRST else ():
+            if result.returncode == 2 and (needed := re.search(rf'"{entry}" to (\d+)', first)):
+                tried = {**changes, entry: int(needed[1])}
+                result = start(self.scene, "--output", directory, "--quiet", *set_options({**self.common, **tried}))
+        if result.returncode != 0:
+            error = InputError if result.returncode == 2 else ComputationError
+            raise error(f"the run \"{name}\" ({', '.join(f'{k} = {v}' for k, v in tried.items()) or 'the scene as it is'}"
+                        f") failed: {message_of(result.stderr, result.returncode)}")
+        return tried
+
+    def key_of(self, changes):
+        """A digest of all that a run reads: every entry of the scene, and the contents of its files."""
+        entries = entries_of(self.scene, {**self.common, **changes})
+        digest = hashlib.sha256(RUNS + json.dumps(entries).encode() + self.common["Motion/File"].read_bytes())
+        for entry, value in entries.items():
+            file = self.scene.parent / value
+            digest.update(file.read_bytes() if is_file_entry(entry) and file.is_file() else b"")
+        return digest.hexdigest()
+
+    def measures(self, name):
+        """Openings and tensions (by the roots of their zones' areas) as one vector, each part relative to the largest of the
+        runs of single choices; openings of less than a hundredth of a millimetre are none."""
+        share = np.sqrt(self.areas[FIRST] / self.areas[FIRST].sum())
+        parts, least = (self.openings, {run: share * means for run, means in self.tensions.items()}), (1e-5, 1.)
+        if self.scale is None:  # once: limits are of this scale
+            self.scale = [max([smallest, *(np.linalg.norm(v) for v in part.values())]) for part, smallest in zip(parts, least)]
+        return np.concatenate([part[name] / s for part, s in zip(parts, self.scale)])
+
+    def norm(self, vector):
+        """Relative error of openings and of tensions, and the larger of both."""
+        n = len(self.openings[FIRST])
+        pair = [float(np.linalg.norm(vector[:n])), float(np.linalg.norm(vector[n:]))]
+        return (*pair, max(pair))
+
+
+def plan(choices, ladder, wish):
+    """The cheapest combination of measured and finer levels whose errors, added as vectors, meet the wish."""
+    options = []
+    for choice in choices:
+        cost = [ladder.cost[choice.key(k)] / ladder.cost[FIRST] for k in range(len(choice.levels))]
+        options.append([(k, ladder.measures(choice.key(k)) - choice.limit, cost[k]) for k in range(len(choice.levels))])
+    best, closest = None, None
+    for levels in itertools.product(*options):
+        error, cost = combined(ladder, [error for _, error, _ in levels])[2], math.prod(c for _, _, c in levels)
+        candidate = (cost, error, [k for k, _, _ in levels])
+        if error <= wish and (best is None or cost < best[0]):
+            best = candidate
+        if closest is None or error < closest[1]:
+            closest = candidate
+    return best, closest
+
+
+def combined(ladder, vectors):
+    """An estimate of the error of several choices at once. They partly cancel, but no sum of vectors is that exact."""
+    norms = [ladder.norm(v) for v in vectors]
+    total = ladder.norm(sum(vectors))
+    return tuple(max(total[k], 0.5 * math.sqrt(sum(n[k] ** 2 for n in norms))) for k in range(3))
+
+
+def percent(x):
+    return f"{100 * x:.2g} %" if x < 0.1 else f"{100 * x:.0f} %"
+
+
+def draw(choices, ladder, wish, total, proposal, file):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    figure, axes = plt.subplots(figsize=(7.5, 5.2))
+    for choice, mark in zip(choices, "osv^D*P"):
+        keys = [choice.key(k) for k in range(len(choice.levels))]
+        errors = [100 * ladder.norm(ladder.measures(key) - choice.limit)[2] for key in keys]
+        axes.plot([ladder.cost[key] for key in keys], errors, mark + "-", label=f"{choice.name} alone, "
+                  + (f"order {choice.order:.1f}" if choice.fitted else f"order {choice.order:.0f} taken"))
+    axes.plot(ladder.cost[FIRST], 100 * total[2], "k*", markersize=14, label=f"the scene as it is, {percent(total[2])}")
+    if "cost" in proposal:
+        axes.plot(proposal["cost"], 100 * proposal["error"], "kD", markersize=9, label=f"proposed, {percent(proposal['error'])}")
+    axes.axhline(100 * wish, color="0.5", linewidth=1, linestyle="--", label=f"the wish, {percent(wish)}")
+    axes.set(xscale="log", yscale="log", xlabel="cost: processor seconds of each thread per second of earthquake",
+             ylabel="error of openings or zone tension, the larger [%]")
+    axes.grid(True, which="both", linewidth=0.4, color="0.88")
+    axes.legend(frameon=False, fontsize=9)
+    figure.savefig(file, dpi=160, bbox_inches="tight")
+
+
+def write_table(choices, ladder, file):
+    with open(file, "w", newline="") as out:
+        table = csv.writer(out)
+        table.writerow(["choice", "setting", "cost", "error_openings", "error_tension", "order", "order_is_fitted"])
+        for choice in choices:
+            for k, level in enumerate(choice.levels):
+                name = choice.key(k)
+                errors = ladder.norm(ladder.measures(name) - choice.limit)
+                table.writerow([choice.name, "; ".join(f"{e} = {v}" for e, v in level.items()), f"{ladder.cost[name]:.6g}",
+                                *(f"{e:.6g}" for e in errors[:2]), f"{choice.order:.3g}", choice.fitted])
+
+
+def number(text, what, unit=""):
+    try:
+        value = float(text.removesuffix(unit)) if text.endswith(unit) else math.nan
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and value > 0):
+        raise InputError(f"{what} must be a positive number{f' with its {unit}, such as 1{unit}' if unit else ''}, not \"{text}\".")
+    return value
+
+
+def prepare(options, wish):
+    """The scene's ladder, with the strongest part of its motion, and what it can refine."""
+    seconds = number(options.seconds, "--seconds")
+    entries = entries_of(options.scene, options.set)
+    if entries["Motion/Source"] == "none":
+        raise InputError(f"the scene {options.scene} has no motion (Motion/Source = none): there is no earthquake to chart.")
+    if entries["Output/Envelope interval"] == "0":
+        options.set.append("Output/Envelope interval=1")
+    directory = Path(options.output or f"output/{Path(options.scene).stem}-accuracy")
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"The directory {directory} cannot be written to: {error.strerror}. Choose another with --output.") from None
+    call("motion", options.scene, "--output", directory / "whole.csv", *set_options(options.set))
+    part, start = strongest(np.loadtxt(directory / "whole.csv", delimiter=",", skiprows=1), seconds)
+    motion = (directory / "motion.csv").resolve()
+    np.savetxt(motion, part, delimiter=",", header="t,a_x,a_y,a_z", comments="# ")
+    common = dict(entry.split("=", 1) for entry in options.set)
+    common.update({"Motion/Source": "file", "Motion/File": motion, "Motion/File x": "", "Motion/File y": "", "Motion/File z": "",
+                   "Motion/Unit": "m/s^2", "Motion/Duration": -1, "Motion/Factor": 1, "Motion/Scale x": 1, "Motion/Scale y": 1,
+                   "Motion/Scale z": 1, "Output/Figures": "false", "Output/Solution interval": 0})
+    choices = choices_of(entries)
+    n_runs = 2 + sum(len(choice.levels) - 1 for choice in choices)
+    print(f"{options.scene}: the strongest {part[-1, 0]:.4g} s, from {start:.4g} s on; {n_runs} runs; wish: {percent(wish)}")
+    return choices, Ladder(Path(options.scene).resolve(), common, directory, n_runs), entries
+
+
+def about_choices(choices, ladder, wish):
+    """Prints the error and cost of each level; returns what could be coarser."""
+    print("\n  choice       setting                                      s per s   openings   tension   order")
+    for choice in choices:
+        for k, level in enumerate(choice.levels):
+            name = choice.key(k)
+            o, t, _ = ladder.norm(ladder.measures(name) - choice.limit)
+            words = ", ".join(f"{entry.split('/')[-1]} = {value}" for entry, value in level.items())
+            print(f"  {choice.name:12s} {words + (' (now)' if k == choice.current else ''):42s} {ladder.cost[name]:9.3f}   "
+                  f"{percent(o):>8s}  {percent(t):>8s}   {choice.order:.1f}{'' if choice.fitted else ' taken'}")
+    small = [c.name for c in choices if ladder.norm(ladder.measures(FIRST) - c.limit)[2] < wish / 10]
+    if small:
+        print(f"\n  Finer than the wish needs: {', '.join(small)} (each less than a tenth of it).")
+    return small
+
+
+def propose(choices, ladder, wish):
+    """Runs the cheapest setting that should meet the wish; where none does, names the closest."""
+    best, closest = plan(choices, ladder, wish)
+    chosen = best or closest
+    changes = {}
+    for choice, k in zip(choices, chosen[2]):
+        if k != choice.current:
+            level = ladder.changes[choice.key(k)]
+            changes.update({entry: max(value, changes.get(entry, value)) for entry, value in level.items()})
+    proposal = {"changes": changes, "predicted": chosen[1], "meets": best is not None}
+    if best is None:
+        return proposal
+    if changes:
+        ladder.run(LAST, changes)
+        changes = proposal["changes"] = ladder.changes[LAST]
+    name = LAST if changes else FIRST
+    # Its own measures against the limit of all choices: what the sum of single refinements predicts for size zero.
+    limit = ladder.measures(FIRST) + sum(choice.limit - ladder.measures(FIRST) for choice in choices)
+    measured = ladder.norm(ladder.measures(name) - limit)
+    return {**proposal, "meets": measured[2] <= wish, "openings": measured[0], "tension": measured[1],
+            "error": max(measured[2], chosen[1]), "cost": ladder.cost[name]}
+
+
+def main():
+    parser = Parser(prog="voussoir accuracy")
+    parser.add_argument("--for", dest="wish", default="1%")
+    parser.add_argument("--seconds", default="5")
+    parser.add_argument("--output")
+    parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("scene", nargs="*")
+    options = parser.parse_args()
+    if len(options.scene) != 1:
+        raise InputError("`voussoir accuracy` needs one scene file. `voussoir accuracy --help` shows how.")
+    options.scene = options.scene[0]
+    wish = number(options.wish, "--for", "%") / 100
+    choices, ladder, _ = prepare(options, wish)
+    for choice in choices:
+        for k, level in enumerate(choice.levels):
+            if choice.key(k) not in ladder.cost:
+                ladder.run(choice.key(k), {} if k == choice.current else level)
+    for choice in choices:
+        choice.fit([ladder.measures(choice.key(k)) for k in range(len(choice.levels))])
+    total = combined(ladder, [ladder.measures(FIRST) - choice.limit for choice in choices])
+    small = about_choices(choices, ladder, wish)
+    if len(choices) == 1:
+        print("\n  The mesh cannot be refined from here (degree 2, already subdivided): its error is in none of these numbers.")
+    print(f"\nThe scene as it is: error {percent(total[0])} of the openings, {percent(total[1])} of the zone means of tension, "
+          f"at {ladder.cost[FIRST]:.3g} s of processor time (of each thread) per second of earthquake.")
+    proposal = propose(choices, ladder, wish)
+    lines = " ".join(f"--set '{entry}={value}'" for entry, value in proposal["changes"].items()) or "(as it is)"
+    if "cost" in proposal:
+        print(f"{'For' if proposal['meets'] else 'Not quite'} {percent(wish)}: {lines}\n    at {proposal['cost']:.3g} s per "
+              f"second of earthquake; error estimated {percent(proposal['predicted'])}, measured against the extrapolated limit "
+              f"{percent(max(proposal['openings'], proposal['tension']))}.")
+    else:
+        print(f"No setting that was tried meets {percent(wish)}. The closest, by estimate {percent(proposal['predicted'])}: "
+              f"{lines}\n    Start from it, with `voussoir accuracy` again.")
+    directory = ladder.directory
+    write_table(choices, ladder, directory / "accuracy.csv")
+    draw(choices, ladder, wish, total, proposal, directory / "accuracy.png")
+    (directory / "accuracy.json").write_text(json.dumps({
+        "scene": str(ladder.scene), "wish": wish, "error": {"openings": total[0], "tension": total[1]},
+        "cost": ladder.cost[FIRST], "finer_than_needed": small, "proposal": proposal}, indent=1) + "\n")
+    print(f"Chart     {directory / 'accuracy.png'}\nTable     {directory / 'accuracy.csv'}")
+    return 0

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes DIR/figures/*.png from the output directory of a run of voussoir, or of several: their scales are then the same.
+
+    scripts/figures.py DIR... [--format png|svg|pdf]
+
+envelope_{upstream,downstream}[_compression]   principal stress over the run, developed elevation views
+openings, slips                                maxima at the crest, joint by joint
+history, joint_history                         crest and base; the joints that open most
+spectrum                                       of the motion, with the design spectrum
+energy                                         energies and their balance
+
+Of the output directory of `voussoir modes`: modes.png. Figures whose data are missing are skipped with a message.
+Exit status: 0 done, 1 some data could not be understood, 2 not an output directory, 3 no numpy or matplotlib.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from .errors import InputError
+from .drawing import (DIRECTIONS, FACES, aspect, common_levels, common_top, draw_base, draw_crest, draw_crest_bars, draw_energy,
+                      draw_face, draw_joint_history, draw_spectrum, energy_parts, imbalance, plt, stress_bar, worst_joints)
+from .runs import Run, Skip
+
+N_WORST_JOINTS = 4
+
+
+def strength_of(run):
+    """Tensile strength [MPa] of the scene's limits, 0 if there is none."""
+    return 1e-6 * run.limit("Tensile strength")
+
+
+def envelopes(runs, save):
+    for column, kind, suffix in (("max_principal", "maximum", ""), ("min_principal", "minimum", "_compression")):
+        levels = common_levels(runs, column)
+        for run in runs:
+            for name in FACES:
+                figure, axes = plt.subplots(figsize=(10, 2.3 + 8.8 * aspect(run)))
+                try:
+                    contours = draw_face(axes, run, name, column, levels, strength_of(run))
+                except Skip as reason:
+                    print(f"figures: skipped envelope_{name}{suffix}: {reason}")
+                    plt.close(figure)
+                    continue
+                axes.set_title(f"{run.heading}\n{name.capitalize()} face: envelope of {kind} principal stress", pad=10)
+                stress_bar(figure, contours, axes, levels, fraction=0.05, pad=0.16, aspect=45)
+                save(run, figure, f"envelope_{name}{suffix}")
+
+
+def crest_maxima(runs, save):
+    runs = [run for run in runs if not run.tied]
+    for quantity, name in (("opening", "openings"), ("slip", "slips")):
+        for run in runs:
+            figure, axes = plt.subplots(figsize=(8, 4))
+            draw_crest_bars(axes, run, quantity, common_top(runs, quantity), run.limit(quantity.capitalize()))
+            axes.set_title(f"{run.heading}\nMaximum joint {quantity} at the crest")
+            save(run, figure, name)
+
+
+def joint_history(runs, save):
+    for run in runs:
+        if run.tied:
+            continue
+        worst = worst_joints(run, N_WORST_JOINTS)
+        figure, rows = plt.subplots(len(worst), 1, sharex=True, sharey=True, squeeze=False, figsize=(9, 1.2 + 1.5 * len(worst)))
+        largest = max(draw_joint_history(axes, run, joint) for axes, joint in zip(rows[:, 0], worst))
+        rows[0, 0].set_ylim(-0.04 * largest, 1.3 * largest if largest > 0 else 1)
+        rows[0, 0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncol=2)
+        rows[0, 0].set_title(f"{run.heading}\nOpenings at the crest, the joints that open most", loc="left")
+        rows[-1, 0].set_xlabel("time [s]")
+        figure.supylabel("opening [mm]", fontsize=11, x=0.06)
+        save(run, figure, "joint_history")
+
+
+def history(runs, save):
+    for run in runs:
+        base = run.base_acceleration
+        figure, rows = plt.subplots(1 + len(base), 1, sharex=True, squeeze=False, figsize=(9, 3.4 + 1.5 * len(base)),
+                                    gridspec_kw={"height_ratios": [2] + [1] * len(base)})
+        draw_crest(rows[0, 0], [run])
+        rows[0, 0].set_ylabel("crest, relative\nto the base [mm]")
+        rows[0, 0].set_title(f"{run.heading}\nCrown crest, downstream positive, and base acceleration", loc="left")
+        largest = max((np.abs(column).max() for column in base.values()), default=0)
+        for axes, direction in zip(rows[1:, 0], sorted(base)):
+            draw_base(axes, run, direction, largest)
+        rows[-1, 0].set_xlabel("time [s]")
+        figure.align_ylabels(rows[:, 0])
+        save(run, figure, "history")
+
+
+def spectrum(runs, save):
+    for run in runs:
+        table = run.table("spectrum.csv")
+        moving = [d for d in DIRECTIONS if np.any(table[f"spectrum_{d}"])]
+        if not moving:
+            continue
+        figure, row = plt.subplots(1, len(moving), figsize=(3.6 * len(moving), 3.6), sharey=True, squeeze=False)
+        for axes, direction in zip(row[0], moving):
+            draw_spectrum(axes, table, direction)
+        row[0, 0].set_ylabel("pseudo-acceleration [m/s²]")
+        row[0, 0].set_title(f"{run.heading}\nResponse spectrum of the motion, damping {100 * table['damping'][0]:g} %", loc="left")
+        save(run, figure, "spectrum")
+
+
+def energy(runs, save):
+    for run in runs:
+        time, balance = run.energy["time"], imbalance(run)
+        figure, (above, below) = plt.subplots(2, 1, sharex=True, figsize=(9, 6), gridspec_kw={"height_ratios": [3, 1]})
+        draw_energy(above, run, energy_parts(run)[1])
+        above.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+        above.set_title(f"{run.heading}\nEnergies", loc="left")
+        below.plot(time, 100 * balance, color="k", linewidth=1)
+        below.text(1.02, 0.95, f"at most\n{np.abs(balance).max():.1e}", transform=below.transAxes, va="top")
+        below.set(xlabel="time [s]", ylabel="balance [% of\nlargest energy]", xlim=(time[0], time[-1]))
+        below.ticklabel_format(axis="y", scilimits=(-2, 3), useMathText=True)
+        figure.align_ylabels([above, below])
+        save(run, figure, "energy")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directories", nargs="+", metavar="DIR")
+    parser.add_argument("--format", default="png", choices=("png", "svg", "pdf"))
+    options = parser.parse_args()
+    modes = Path(options.directories[0])
+    if (modes / "modes.csv").exists() and not (modes / "summary.json").exists():
+        from .mode_shapes import draw_modes
+        draw_modes(modes)
+        return 0
+    try:
+        runs = [Run(directory) for directory in options.directories]
+    except InputError as error:
+        print(f"figures: error: {error}", file=sys.stderr)
+        return 2
+
+    def save(run, figure, name):
+        (run.directory / "figures").mkdir(exist_ok=True)
+        metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(options.format)
+        figure.savefig(run.directory / "figures" / f"{name}.{options.format}", metadata=metadata)
+        plt.close(figure)
+
+    todo = [envelopes, history, spectrum, energy]
+    if all(run.tied for run in runs):
+        print("figures: tied dam, no figures of joints")
+    else:
+        todo += [crest_maxima, joint_history]
+    status = 0
+    for make in todo:
+        try:
+            make(runs, save)
+        except Skip as reason:
+            print(f"figures: skipped {make.__name__}: {reason}")
+        except (KeyError, ValueError, IndexError) as error:
+            print(f"figures: error: {make.__name__}: {type(error).__name__}: {error}", file=sys.stderr)
+            status = 1
+        plt.close("all")
+    return status

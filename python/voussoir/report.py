@@ -1,0 +1,306 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One self-contained page for a run of voussoir, or for several side by side.
+
+    voussoir report DIR... [--output FILE.html] [--pdf]
+
+DIR are output directories of finished runs. The page holds its figures and its style, and asks nothing of the network.
+Its texts are those of the directories' files, which may be another person's: all are escaped, and its Content-Security-Policy allows neither
+scripts nor other files. --pdf prints it to FILE.pdf with an installed Chromium (on Debian: apt-get install chromium), without scripts, files and network.
+"""
+
+import sys
+from base64 import b64encode
+from datetime import datetime
+from hashlib import sha256
+from html import escape
+from pathlib import Path
+
+from . import report_figures as figures
+from .chromium import find_browser, print_page
+from .command import Parser
+from .errors import ComputationError, InputError
+from .prm import prm_text
+from .report_tables import blocks, blocks_of, differences, extremes, facts, number, tiles, verdict
+from .runs import Run, Skip, name_apart
+
+
+class Page:
+    """Text of the page, and what could not be shown."""
+
+    def __init__(self):
+        self.parts, self.missing, self.figures = [], [], 0
+
+    def add(self, text):
+        self.parts.append(text)
+
+    def section(self, title):
+        self.add(f"<h2>{escape(title)}</h2>")
+
+    def caption(self, text):
+        self.figures += 1
+        return f"<figcaption><b>Figure {self.figures}.</b> {text}</figcaption>"
+
+    def wide(self, caption, alt, make):
+        """A figure that is drawn twice: for wide screens and paper, and for narrow screens."""
+        if (pair := self.made(alt, make)) is not None:
+            self.add(f'<figure><picture><source media="(max-width: 640px)" srcset="{pair[1]}">'
+                     f'<img src="{pair[0]}" alt="{escape(alt)}"></picture>{self.caption(caption)}</figure>')
+
+    def row(self, caption, panels):
+        """Panels side by side, each with its name: (name, alternative text, how to make it)."""
+        cells = []
+        for name, alt, make in panels:
+            if (source := self.made(alt, make)) is not None:
+                title = f'<p class="name">{escape(name)}</p>' if name else ""
+                cells.append(f'<div>{title}<img src="{source}" alt="{escape(alt)}"></div>')
+        if cells:
+            self.add(f'<figure><div class="row">{"".join(cells)}</div>{self.caption(caption)}</figure>')
+
+    def made(self, what, make):
+        """What @p make gives; None, and a remark at the end, where its data are missing."""
+        try:
+            return make()
+        except Skip as reason:
+            self.missing.append(f"{what}: {reason}")
+        except (ArithmeticError, LookupError, ValueError) as error:
+            self.missing.append(f"{what}: the data are not understood ({type(error).__name__}: {error})")
+            print(f"voussoir: warning: {what}: {type(error).__name__}: {error}", file=sys.stderr)
+        return None
+
+
+def named(runs, run, what=""):
+    """The name over a panel: of the run, where there are several, and of what it shows."""
+    return ", ".join(text for text in (run.name if len(runs) > 1 else "", what) if text)
+
+
+def moving_of(page, runs, what):
+    """Those with an earthquake; of the others a remark at the end."""
+    page.missing += [f"{run.name}: {what}, the run is of the static state alone" for run in runs if not run.moves]
+    return [run for run in runs if run.moves]
+
+
+# ---------------------------------------------------------------- sections
+
+def head(page, runs):
+    run, several = runs[0], len(runs) > 1
+    title = " and ".join(run.scene for run in runs[:2]) if several and len({r.scene for r in runs}) > 1 else run.scene
+    if len({r.scene for r in runs}) > 2:
+        title = ""
+    page.add(f'<header><h1>Earthquake analysis of {f"the arch dam “{escape(title)}”" if title else f"an arch dam: {len(runs)} runs"}</h1>')
+    page.add(f'<p class="sub">{"Runs " + escape(", ".join(r.name for r in runs)) if several else escape(run.facts.get("Joints", run.law))}'
+             f'</p><p class="sub">Computed {finished(run)} with Voussoir {escape(str(run.summary.get("version", "")))}</p></header>')
+
+
+def finished(run):
+    return datetime.fromtimestamp((run.directory / "summary.json").stat().st_mtime).strftime("%-d %B %Y")
+
+
+def results(page, runs):
+    page.section("Results")
+    for run in runs:
+        state, sentence = verdict(run)
+        page.add(f'<p class="verdict {state}">{"<b>" + escape(run.name) + ".</b> " if len(runs) > 1 else ""}{escape(sentence)}</p>')
+    if len(runs) == 1:
+        page.add(tiles(runs[0]))
+    page.add(extremes(runs))
+    page.add('<p class="sub">Opening and slip are counted from the grouted state, with the dam under its own weight. Tension is '
+             'positive. Places are x (downstream), y (to the left bank), z (up) in metres.</p>')
+    if any("value_with_base" in limit for run in runs for limit in run.summary.get("limits", {}).values()):
+        page.add('<p class="sub">Limits of stresses are compared with the values away from the base: farther from it than a tenth of the '
+                 'dam’s height. Closer to the base the stress of an elastic dam grows with refinement of the mesh.</p>')
+
+
+def dam_and_scene(page, runs):
+    page.section("Dam and scene")
+    pictured = {tuple(run.summary.get("mesh", {}).items()): run for run in reversed(runs)}
+    shown = [run for run in runs if run in pictured.values()]
+    page.row("The mesh, seen from downstream, the right bank at the left; heavy lines are contraction joints.",
+             [(named(shown, run), f"mesh of {run.name}", lambda run=run: figures.dam(run)) for run in shown])
+    page.add(facts(runs))
+    page.add("<h3>What differs from the defaults</h3>")
+    page.add(differences(runs))
+
+
+def motion(page, runs):
+    page.section("Ground motion")
+    seen = {}
+    for run in runs:
+        if not run.moves:
+            continue
+        try:
+            seen.setdefault(tuple((d, a.tobytes()) for d, a in sorted(run.base_acceleration.items())), run)
+        except Skip as reason:
+            page.missing.append(f"motion of {run.name}: {reason}")
+    moving = list(seen.values())
+    if not any(run.moves for run in runs):
+        page.add("<p>None: the static state alone.</p>")
+    for run in moving:
+        title = f" of {escape(run.name)}" if len(moving) > 1 else ""
+        page.wide(f"Acceleration of the base{title}.", f"acceleration of the base of {run.name}", lambda run=run: figures.accelerations(run))
+    for run in moving:
+        top = page.made("spectra", lambda: figures.highest_spectrum(moving))
+        images = page.made("spectra", lambda run=run: figures.spectra(run, top)) if top else None
+        if images:
+            damping = 100. * run.table("spectrum.csv")["damping"][0]
+            page.row(f"Response spectra of the motion{' of ' + escape(run.name) if len(moving) > 1 else ''}, damping {damping:g} %"
+                     f"{'; dashed: the design spectrum' if run.entries.get('Motion/Source', ('artificial',))[0] == 'artificial' else ''}.",
+                     [("", f"response spectrum, {figures.DIRECTIONS[d]}", lambda source=source: source) for d, source in images.items()])
+
+
+def response(page, runs):
+    page.section("Response")
+    moving = moving_of(page, runs, "its response over time")
+    if moving:
+        page.wide("Displacement of the crest at the crown against the base, downstream positive. It begins with the static state.",
+                  "displacement of the crest", lambda: figures.crest(moving))
+    open_ = [run for run in runs if not run.tied]
+    if open_:
+        page.row("Largest openings and slips at the crest, joint by joint.",
+                 [(named(open_, run, ""), f"largest {quantity}s of {run.name}",
+                   lambda run=run, quantity=quantity: figures.crest_bars(run, quantity, open_)) for run in open_ for quantity in ("opening", "slip")])
+        top = {q: page.made(f"{q} over the height", lambda q=q: figures.highest_point(open_, q)) for q in ("opening", "slip")}
+        page.row("Largest openings and slips over the height, of the joints that move most.",
+                 [(named(open_, run), f"{q} over the height of {run.name}",
+                   lambda run=run, q=q: figures.over_height(run, q, top[q])) for run in open_ for q in ("opening", "slip") if top[q] is not None])
+    moving = [run for run in moving if not run.tied]
+    if moving:
+        highest = {q: page.made(f"{q} over time", lambda q=q: figures.highest_at_crest(moving, q)) for q in ("opening", "slip")}
+        page.row("Opening and slip at the crest over time, of the joints that open most.",
+                 [(named(runs, run), f"{q} over time of {run.name}", lambda run=run, q=q: figures.over_time(run, q, highest[q]))
+                  for run in moving for q in ("opening", "slip") if highest[q] is not None])
+
+
+def stresses(page, runs):
+    strength = any(run.limit("Tensile strength") > 0. for run in runs)
+    page.section("Stresses")
+    for column, kind in (("max_principal", "Largest principal stress"), ("min_principal", "Smallest principal stress")):
+        heavy = "; the heavy line is the tensile strength" if strength and column == "max_principal" else ""
+        page.row(f"{kind} of every point over time, self-weight included, on the developed faces{heavy}.",
+                 [(named(runs, run, f"{name} face"), f"{kind.lower()}, {name} face of {run.name}",
+                   lambda run=run, name=name, column=column: figures.face(run, name, column, runs))
+                  for run in runs for name in ("upstream", "downstream")])
+    if strength:
+        page.row("Cumulative duration for which the stress at any one point of a face is above a multiple of the tensile strength "
+                 "(USACE EM 1110-2-6053).",
+                 [(named(runs, run), f"duration of overstress of {run.name}", lambda run=run: figures.overstress(run)) for run in runs if run.moves])
+
+
+def bases(page, runs):
+    shown = [run for run in runs if blocks_of(run)]
+    if not shown:
+        return
+    page.section("Monoliths on their bases")
+    for run in shown:
+        if len(runs) > 1:
+            page.add(f"<h3>{escape(run.name)}</h3>")
+        page.add(blocks(run))
+    page.add('<p class="sub">Force of the foundation on the base of each monolith: normal to its mean plane, and in it. Forces in MN, times [s] in '
+             'brackets; safety is that against sliding.</p>')
+    safe = [run for run in shown if any("min_sliding_safety" in block for block in blocks_of(run).values())]
+    if safe:
+        page.row("Safety against sliding on the base over time, of the monoliths that have the least.",
+                 [(named(runs, run), f"safety against sliding of {run.name}", lambda run=run: figures.sliding(run, safe)) for run in safe])
+
+
+def checks(page, runs):
+    page.section("Energy and checks")
+    moving = [run for run in runs if run.moves]
+    page.row("Energies; on rock also what has left through the artificial boundary.",
+             [(named(runs, run), f"energies of {run.name}", lambda run=run: figures.energies(run, moving)) for run in moving])
+    rows = [("Energy balance, over the largest energy", lambda s: number(s["energy_balance_error"], "")),
+            ("Residual of the contact problems, relative", lambda s: number(s["contact_residual"], "")),
+            ("Newton steps per time step, mean and largest", lambda s: f"{s['newton_iterations']['mean']:.2f}, {s['newton_iterations']['max']:.0f}"),
+            ("Time steps", lambda s: f"{s['steps']} of {s['time_step']:g} s" if s["steps"] else "the static state"),
+            ("Estimated error of the time step, largest openings at the crest", lambda s: f"{100 * s['error_estimate']['openings']:.2g} %")]
+    body = ""
+    for title, value in rows:
+        cells = []
+        for run in runs:
+            try:
+                cells.append(value(run.summary))
+            except (KeyError, TypeError, ValueError):
+                cells.append("")
+        if any(cells):
+            body += f"<tr><td>{title}</td>" + "".join(f'<td class="n">{escape(cell)}</td>' for cell in cells) + "</tr>"
+    names = "".join(f'<th class="n">{escape(run.name)}</th>' for run in runs)
+    page.add(f'<div class="table"><table><thead><tr><th>check</th>{names}</tr></thead><tbody>{body}</tbody></table></div>')
+    page.add("<h3>Warnings</h3>")
+    texts = [(run, text) for run in runs for text in run.summary.get("warnings", [])]
+    listed = "".join(f'<li class="warning">{escape(named(runs, run))}{": " if len(runs) > 1 else ""}{escape(text)}</li>' for run, text in texts)
+    page.add(f"<ul>{listed}</ul>" if texts else "<p>None.</p>")
+
+
+def repeat(page, runs):
+    page.section("How to repeat it")
+    page.add("<p>Write the scene below to a file, beside the meshes and records that it names, and run:</p>")
+    for run in runs:
+        summary = run.summary
+        scene = f"{run.scene}.prm" if len({r.scene for r in runs}) == len(runs) else f"{run.directory.resolve().name}.prm"
+        own = {entry: value for entry, (value, default) in run.entries.items() if default is not None}
+        page.add(f'<h3>{escape(run.name)}</h3><pre>voussoir {escape(scene)} --output {escape(run.directory.resolve().name)}</pre>'
+                 f"<p class=\"sub\">Voussoir {escape(str(summary.get('version', '?')))}, revision {escape(str(summary.get('revision', '?')))}, "
+                 f"deal.II {escape(str(summary.get('dealii', '?')))}; it took {summary.get('seconds', {}).get('wall', 0.):.0f} s and "
+                 f"{summary.get('memory_bytes', 0.) / 2**30:.2g} GiB.</p>"
+                 f'<details{" open" if len(runs) == 1 else ""}><summary>{escape(scene)}</summary><pre>{escape(prm_text(own))}</pre></details>')
+    page.add(f"<p>This page: <code>voussoir report {escape(' '.join(run.directory.resolve().name for run in runs))}</code></p>")
+
+
+def page_of(runs):
+    page = Page()
+    head(page, runs)
+    for section in (results, dam_and_scene, motion, response, stresses, bases, checks, repeat):
+        section(page, runs)
+    if page.missing:
+        page.add('<h3>Not shown</h3><ul>' + "".join(f"<li>{escape(text)}</li>" for text in dict.fromkeys(page.missing)) + "</ul>")
+    page.add("<footer>Made by Voussoir’s <code>report</code>. Units are SI; stresses in MPa, openings and slips in mm.</footer>")
+    style = (Path(__file__).resolve().parent / "report.css").read_text()
+    title = escape(", ".join(run.heading for run in runs))
+    policy = f"default-src 'none'; img-src data:; style-src 'sha256-{b64encode(sha256(style.encode()).digest()).decode()}'; base-uri 'none'; form-action 'none'"
+    text = (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="{policy}">'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">'
+            f'<title>{title}</title><link rel="icon" href="data:,"><style>{style}</style></head><body>\n' + "\n".join(page.parts) +
+            "\n</body></html>\n")
+    return text.encode("utf-8", "backslashreplace").decode()  # JSON may hold halves of characters
+
+
+# ---------------------------------------------------------------- files
+
+def print_pdf(page, text, pdf):
+    """The page's text as PDF. Throws InputError where there is no Chromium."""
+    if (browser := find_browser()) is None:
+        raise InputError("--pdf needs a Chromium, and none is on the PATH. On Debian: apt-get install chromium; or open "
+                         f"{page} in any browser and print it; the environment variable VOUSSOIR_BROWSER may name one.")
+    pdf.unlink(missing_ok=True)
+    try:
+        pdf.write_bytes(print_page(text))
+    except OSError as error:
+        raise ComputationError(f"{browser} did not print {pdf}: {error}. The page {page} is complete.") from error
+
+
+def main():
+    parser = Parser(prog="voussoir report", description=__doc__)
+    parser.add_argument("directories", nargs="*", metavar="DIR")
+    parser.add_argument("--output", type=Path)
+    parser.add_argument("--pdf", action="store_true")
+    options = parser.parse_args()
+    if not options.directories:
+        raise InputError("`voussoir report` needs the output directory of a run, or of several: voussoir report output/quickstart")
+    runs = [Run(directory) for directory in options.directories]
+    name_apart(runs)
+    output = options.output or runs[0].directory / "report.html"
+    if output.suffix not in (".html", ".htm"):
+        raise InputError(f"The report is a page: give --output a name that ends in .html, instead of {output}.")
+    try:
+        text = page_of(runs)
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        raise InputError(f"summary.json of {', '.join(options.directories)} is not what this version writes ({type(error).__name__}: {error}). "
+                         "Repeat the run.") from error
+    try:
+        output.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"{output} cannot be written: {error.strerror}. Choose another file with --output.") from error
+    print(f"Report    {output}")
+    if options.pdf:
+        print_pdf(output, text, output.with_suffix(".pdf"))
+        print(f"          {output.with_suffix('.pdf')}")
+    return 0

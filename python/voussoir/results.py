@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The output directory of a run: summary, tables and meshes."""
+
+from __future__ import annotations
+
+import json
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Dict
+
+from .errors import InputError
+from .tables import PathLike, Table, read_table
+
+
+def read_summary(directory: PathLike) -> Dict[str, Any]:
+    """Reads summary.json of a finished run; throws InputError if the file is missing or damaged."""
+    file = Path(directory) / "summary.json"
+    try:
+        found = json.loads(file.read_text(encoding="utf-8"))
+    except OSError:
+        raise InputError(f"{directory} holds no summary.json, so it is not the output directory of a finished run. Give the "
+                         "directory that voussoir was told to write to with --output.") from None
+    except (RecursionError, ValueError) as error:
+        raise InputError(f"{file} is not valid JSON: {error}. Repeat the run.") from error
+    if not isinstance(found, dict):
+        raise InputError(f"{file} does not hold an object. Repeat the run.")
+    return found
+
+
+class Results:
+    """The directory of a run. A table is read at its first use."""
+
+    def __init__(self, directory: PathLike) -> None:
+        self.directory = Path(directory)
+        if not (self.directory / "log.txt").is_file():
+            raise InputError(f"{self.directory} is not the directory of a run: it has no log.txt.")
+
+    def __repr__(self) -> str:
+        return f"Results({str(self.directory)!r})"
+
+    def table(self, name: str) -> Table:
+        """Reads the columns of NAME.csv by name: numbers, or text."""
+        return read_table(self.directory / f"{name}.csv")
+
+    @cached_property
+    def summary(self) -> Dict[str, Any]:
+        """summary.json, which a finished run has."""
+        return read_summary(self.directory)
+
+    @cached_property
+    def history(self) -> Table:
+        """Crest, base and probes over time [s, m, m/s2]."""
+        return self.table("history")
+
+    @cached_property
+    def joints(self) -> Table:
+        """Largest opening and slip of each joint at the crest [m]."""
+        return self.table("joints")
+
+    @cached_property
+    def joint_history(self) -> Table:
+        """Opening and slip of each joint at the crest over time [s, m]."""
+        return self.table("joint_history")
+
+    @cached_property
+    def blocks(self) -> Table:
+        """Forces on the bases of the monoliths over time [s, N, N m]."""
+        return self.table("blocks")
+
+    @cached_property
+    def energy(self) -> Table:
+        """Energies over time [s, J]."""
+        return self.table("energy")
+
+    @cached_property
+    def faces(self) -> Table:
+        """Envelope of the principal stresses on the faces [m, Pa]."""
+        return self.table("faces")
+
+    def mesh(self, name: str = "envelope.vtu") -> Any:
+        """Reads a .vtu file as a meshio.Mesh."""
+        try:
+            import meshio
+        except ImportError:
+            raise InputError("Meshes need meshio (on Debian: apt-get install python3-meshio).") from None
+        path = self.directory / name
+        if not path.is_file():
+            raise InputError(f"{path} is not there.")
+        try:
+            return meshio.read(path)
+        except (Exception, SystemExit) as error:  # meshio ends the program for some files  # pylint: disable=broad-exception-caught
+            why = "meshio does not know it" if isinstance(error, SystemExit) else str(error) or type(error).__name__
+            raise InputError(f"{path} cannot be read as a mesh: {why}.") from None
+
+
+def load(directory: PathLike) -> Results:
+    """Returns the results of an earlier run."""
+    return Results(directory)

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/app/run_observers.h>
+
+namespace Voussoir
+{
+  RunObservers::RunObservers(const RunState &run, Log &log)
+      : history(run), joints(run), stresses(run, joints.joints), stability(run),
+        fields(run, stresses), list{&stability, &joints, &history}
+  {
+    if (run.scene().output.block_forces)
+      list.push_back(&blocks.emplace(run));
+    if (run.scene().error_estimate && run.n_steps > 1)
+      list.push_back(&time_error.emplace(run, joints.joints, stresses, log));
+    list.insert(list.end(), {&stresses, &fields});
+  }
+} // namespace Voussoir

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/app/memory_need.h>
+#include <voussoir/app/run_report.h>
+#include <voussoir/motion/motion.h>
+#include <voussoir/motion/motion_report.h>
+#include <voussoir/output/figures.h>
+#include <voussoir/output/spectrum_table.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Voussoir
+{
+  namespace
+  {
+    void report_zones(Log &log, const std::vector<Zone> &zones, const char *entry)
+    {
+      for (const Zone &zone : zones)
+        if (!zone.name.empty() && zone.listed)
+          log.line("          zone %s: %s; %.4g m3", zone.name.c_str(), in_words(zone.material).c_str(),
+                   zone.volume);
+        else if (!zone.name.empty())
+          log.line("          zone %s: not in %s, so as the section; %.4g m3", zone.name.c_str(), entry,
+                   zone.volume);
+    }
+
+    /** Prints the size of the motion, and a warning for each entry that may be an oversight. */
+    void report_motion_and_warnings(const RunState &run, Log &log)
+    {
+      const Dam   &dam = *run.dam;
+      const Scene &scene = run.scene();
+      if (run.n_steps == 0)
+        log.line("Motion    none: the static state alone");
+      else
+      {
+        MotionParameters measures_only = scene.motion;
+        measures_only.source = "file"; // without the errors of an artificial motion's spectrum
+        const MotionReport report = Voussoir::report_motion(run.motion, measures_only);
+        const auto        &c = report.components;
+        const double       g = standard_gravity;
+        log.line("Motion    x, y, z: PGA %.3f %.3f %.3f g, PGV %.3f %.3f %.3f m/s, PGD %.3f %.3f %.3f m",
+                 c[0].peak_acceleration / g, c[1].peak_acceleration / g, c[2].peak_acceleration / g,
+                 c[0].peak_velocity, c[1].peak_velocity, c[2].peak_velocity, c[0].peak_displacement,
+                 c[1].peak_displacement, c[2].peak_displacement);
+        if (const double delay = dam.foundation->delay(); scene.motion.duration_is_automatic() && delay > 0.)
+          log.line("          the run goes on for %.2f s after the motion: its end is at the dam's base then",
+                   run.grid().duration() - run.motion.duration());
+        else if (delay > 0.)
+          log.line("          the last %.3f s of the motion do not reach the dam: the run ends with "
+                   "\"Motion/Duration\"; -1 adds the travel time",
+                   delay);
+        if (const std::string warning = size_warning(report); !warning.empty())
+          log.line("warning: %s", warning.c_str());
+      }
+      if (scene.mesh.source == "arch210" && scene.mesh.arch210_rock.enabled && !dam.foundation->uses_rock())
+        log.line("warning: the rock of Mesh/Arch210/Rock is left out: Foundation/Model is rigid.");
+      if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0. && !dam.has_water)
+        log.line(
+            "warning: the water does not reach the dam: Reservoir/Water level is %g m, below the upstream "
+            "face. Raise it, in the axes of the scene, or set Reservoir/Density to 0.",
+            scene.reservoir.level);
+      const auto &crest = dam.geometry->joints;
+      if (crest.size() > 1 && crest.front().arc_length > crest.back().arc_length)
+        log.line(
+            "warning: the joints are numbered from the left bank (y > 0) to the right, and so are those of "
+            "Joints/Overrides and of all results; usual is from the right bank.");
+      if (scene.mesh.source == "file" && !dam.ungrouped.empty())
+        log.line("warning: %s", dam.ungrouped.c_str());
+      for (const std::string &warning : dam.mesh_warnings)
+        log.line("warning: %s", warning.c_str());
+      for (const std::string &warning : scene.warnings)
+        log.line("warning: %s", warning.c_str());
+    }
+
+    /** Prints what was done to records, and what remains at the end of the motion. */
+    void report_motion_notes(const RunState &run, Log &log)
+    {
+      for (const std::string &note : run.motion.notes)
+        log.line("Records   %s", note.c_str());
+      MotionParameters any = run.scene().motion;
+      any.source = "file"; // without the errors of an artificial motion's spectrum
+      if (const std::string warning = end_warning(report_motion(run.motion, any));
+          run.n_steps > 0 && !warning.empty())
+        log.line("warning: %s", warning.c_str());
+    }
+
+  } // namespace
+
+  void report_setup(const RunState &run, const bool validate, Log &log)
+  {
+    const Dam         &dam = *run.dam;
+    const Scene       &scene = run.scene();
+    const unsigned int n_nodes = dam.structure.n_nodes();
+    log.line("Mesh      %s: %zu cells, degree %u, %u dofs, %u monoliths; volume %.4g m3, crest %.1f m",
+             scene.name.c_str(), dam.n_cells, scene.elements.degree, 3 * n_nodes, dam.n_monoliths, dam.volume,
+             dam.crest_length);
+    log.line("Concrete  %s", in_words(scene.concrete).c_str());
+    report_zones(log, dam.concrete_zones, "Concrete/Zones");
+    if (dam.tied)
+      log.line("Joints    %u joint%s, tied: the monolithic dam", dam.n_joints, dam.n_joints == 1 ? "" : "s");
+    else
+    {
+      std::string laws = scene.joints.model;
+      for (const auto &entry : scene.joints.overrides)
+        laws += ", joint " + std::to_string(entry.first) + ": " + entry.second;
+      if (scene.joints.any_reads("Joints/Friction"))
+      {
+        std::ostringstream friction;
+        friction << " (friction " << scene.joints.friction << ")";
+        laws += friction.str();
+      }
+      log.line("Joints    %u joint%s, %zu pairs, law %s", dam.n_joints, dam.n_joints == 1 ? "" : "s",
+               dam.structure.pairs.size(), laws.c_str());
+    }
+    dam.foundation->report(log, run.grid());
+    report_zones(log, dam.rock_zones, "Foundation/Zones");
+    log.line("Damping   Rayleigh, C = %.4g 1/s M + %.4g s K: %.3g %% at %g Hz and %g Hz",
+             scene.damping.mass_factor(), scene.damping.stiffness_factor(), 100. * scene.damping.ratio,
+             scene.damping.frequency_1, scene.damping.frequency_2);
+    if (!dam.has_water)
+      log.line("Water     none: the reservoir is empty");
+    else
+      log.line("Water     level %g m; added mass %s x %g, %.4g kg along x", scene.reservoir.level,
+               scene.reservoir.added_mass.c_str(), scene.reservoir.factor, dam.added_mass);
+    report_loads(dam, log);
+    report_motion_and_warnings(run, log);
+    report_motion_notes(run, log);
+    if (validate)
+    {
+      std::istringstream groups(dam.groups);
+      const char        *title = "Groups";
+      for (std::string row; std::getline(groups, row); title = "")
+        log.line("%-9s %s", title, row.c_str());
+      log.line("Unknowns  %u of the bodies, %zu of the joints", 3 * n_nodes, 3 * dam.structure.pairs.size());
+      log.line("Steps     %u of %g s%s", run.n_steps, run.motion.dt, dam.foundation->about_steps().c_str());
+      log.line("Memory    %s", in_words(memory_need(scene, make_mesh(scene.mesh, scene.directory))).c_str());
+    }
+  }
+
+  void write_tables_of_start(const RunState &run, const std::string &directory)
+  {
+    const Scene &scene = run.scene();
+    if (run.n_steps > 0)
+    {
+      MotionParameters as_run = scene.motion;
+      as_run.factor *= scene.loads.factor("earthquake"); // of the combination, as that of the motion
+      spectrum_table(run.motion, as_run).write(directory + "/spectrum.csv");
+    }
+    if (scene.statics.stages.empty())
+      return;
+    Table table;
+    table.columns = {"stage",      "share",      "level",     "crest_x",     "crest_y",    "crest_z",
+                     "open_pairs", "slip_pairs", "wet_pairs", "max_opening", "max_overlap"};
+    for (const StaticStep &s : run.statics.steps)
+      table.rows.push_back({double(s.stage), s.share, s.level, s.crown[0], s.crown[1], s.crown[2],
+                            double(s.n_open), double(s.n_slip), double(s.n_wet), s.opening, s.overlap});
+    table.write(directory + "/stages.csv");
+  }
+
+  void report_figures(const std::string &directory, Log &log)
+  {
+    const std::string error = draw_figures_of(directory, directory + "/figures.log");
+    if (error.empty())
+      log.line("Figures   %s/figures", directory.c_str());
+    else
+      log.line("warning: the figures could not be drawn: %s. The results are complete.", error.c_str());
+  }
+} // namespace Voussoir

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/output/archive.h>
+#include <voussoir/output/observers.h>
+
+#include <cmath>
+
+namespace Voussoir
+{
+  HistoryObserver::HistoryObserver(const RunState &run) : run(run)
+  {
+    declare_history();
+    declare_energy();
+  }
+
+  void HistoryObserver::declare_history()
+  {
+    Recorder          &table = history_columns;
+    const DamGeometry &geometry = *run.dam->geometry;
+    const SolidModel  &model = *run.dam->model;
+    table.add("time", [this] { return run.newmark->state().time; });
+    table.add_vector("crest", [this] { return run.relative_to_base(run.dam->geometry->crown); });
+    if (model.equation[geometry.crown_left] != model.equation[geometry.crown])
+      table.add_vector("crest_left", [this] { return run.relative_to_base(run.dam->geometry->crown_left); });
+    table.add_vector("base_acceleration", [this] { return run.motion.sample(run.step); });
+    if (!run.dam->base_is_held())
+      table.add_vector("base", [this] { return run.dam->base_motion(run.newmark->state().u); });
+    for (const auto &probe : run.scene().output.probe_places())
+    {
+      const Vector3     &p = probe.second;
+      const unsigned int node = probe_node(model, probe.first, dealii::Point<3>(p[0], p[1], p[2]));
+      table.add_vector(probe.first, [this, node] { return run.relative_to_base(node); });
+    }
+  }
+
+  void HistoryObserver::declare_energy()
+  {
+    Recorder   &table = energy_columns;
+    const auto  now = [this]() -> const Energy  &{ return run.newmark->state().energy; };
+    const auto  first = [this]() -> const Energy  &{ return run.newmark->initial_energy(); };
+    const auto &laws = run.dam->laws;
+    table.add("time", [this] { return run.newmark->state().time; });
+    table.add("kinetic", [=] { return now().kinetic; });
+    table.add("strain", [=] { return now().strain - first().strain; });
+    table.add("added_mass", [=] { return now().added_mass; });
+    table.add("damping", [=] { return now().damping; });
+    table.add("friction", [=] { return now().friction; });
+    table.add("impact", [=] { return now().impact; });
+    table.add("input", [=] { return now().input; });
+    table.add("balance", [=] { return now().balance(first()); });
+    const auto stored = [=] { return now().joint_stored - first().joint_stored; };
+    const auto fracture = [=] { return now().joint_fracture - first().joint_fracture; };
+    if (laws.have_seats())
+      table.add("joint_stored", stored);
+    if (laws.have_bonds())
+      table.add("joint_fracture", fracture);
+    if (laws.have_memory()) // the name of earlier versions, for one release
+      table.add("bond", [=] { return stored() + fracture(); });
+    table.add_named([this] { return run.dam->foundation->energies(); });
+  }
+
+  void HistoryObserver::record()
+  {
+    history_columns.record();
+    energy_columns.record();
+    const double balance = run.newmark->state().energy.balance(run.newmark->initial_energy());
+    imbalance = std::max(imbalance, std::abs(balance));
+  }
+
+  void HistoryObserver::flush()
+  {
+    history_file.append(history);
+    energy_file.append(energy);
+  }
+
+  void HistoryObserver::open(const std::string &directory)
+  {
+    history_file.open(directory + "/history.csv", history);
+    energy_file.open(directory + "/energy.csv", energy);
+  }
+
+  void HistoryObserver::save(boost::archive::binary_oarchive &archive) const
+  {
+    archive << history << energy << imbalance;
+  }
+
+  void HistoryObserver::load(boost::archive::binary_iarchive &archive)
+  {
+    archive >> history >> energy >> imbalance;
+  }
+} // namespace Voussoir

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/output/run_state.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Voussoir
+{
+  namespace
+  {
+    void add_inertia(const Dam &dam, const Vector3 &a, Unknowns &load)
+    {
+      for (std::size_t k = 0; dam.foundation->moves_base() && k < load.size(); ++k)
+        load[k] += a[0] * dam.inertia[0][k] + a[1] * dam.inertia[1][k] + a[2] * dam.inertia[2][k];
+    }
+
+    void start_foundation(const RunState &run, Log &log)
+    {
+      Dam &dam = *run.dam;
+      dam.foundation->start(run.motion, run.grid(), run.statics.u);
+      if (const double added = dam.foundation->add_interface_mass(dam.structure, run.grid()); added > 0.)
+      {
+        double mass = 0.;
+        for (const Matrix3 &m : dam.structure.mass)
+          mass += m[0];
+        log.line("Feet      %.3g kg heavier for the sub-steps, %.1f %% of dam, water and feet", added,
+                 100. * added / mass);
+      }
+    }
+  } // namespace
+
+  void RunState::start(const ContactParameters &parameters, Log &log)
+  {
+    if (n_steps > 0)
+      start_foundation(*this, log);
+    Support *const support = n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr;
+    newmark =
+        std::make_unique<Newmark>(dam->structure, dam->laws, parameters, motion.dt,
+                                  impact_rule(scene().impact_rule), support, scene().has_single_factors());
+    Unknowns load = statics.load;
+    if (n_steps > 0)
+      add_inertia(*dam, motion.acceleration[0], load);
+    newmark->start(statics.u, Unknowns(statics.u.size(), 0.), statics.force, load, statics.closed,
+                   statics.memory);
+  }
+
+  Unknowns RunState::next_load() const
+  {
+    Unknowns load = statics.load;
+    add_inertia(*dam, motion.sample(step + 1), load);
+    return load;
+  }
+
+  Vector3 RunState::ground_acceleration(const unsigned int after) const
+  {
+    return dam->foundation->moves_base() ? motion.acceleration[after] : Vector3{};
+  }
+
+  Vector3 RunState::relative_to_base(const unsigned int node) const
+  {
+    const Unknowns    &u = newmark->state().u;
+    const unsigned int e = dam->model->equation[node];
+    Vector3            result{};
+    if (e != rigid_ground)
+      result = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};
+    return result - dam->base_motion(u);
+  }
+
+  double RunState::largest_energy() const
+  {
+    // Before the motion has begun there is only the round-off of the static state.
+    return std::max(newmark->largest_energy(), 1e-6 * std::abs(newmark->initial_energy().strain));
+  }
+} // namespace Voussoir

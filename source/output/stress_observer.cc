@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/dam/load_table.h>
+#include <voussoir/mesh/mesh.h>
+#include <voussoir/output/archive.h>
+#include <voussoir/output/assessment.h>
+#include <voussoir/output/observers.h>
+
+#include <cmath>
+
+namespace Voussoir
+{
+  namespace
+  {
+    std::vector<double> water_mass(const Dam &dam)
+    {
+      return dam.added_mass > 0. ? added_mass_per_area(*dam.model, dam.scene.reservoir)
+                                 : std::vector<double>();
+    }
+  } // namespace
+
+  StressObserver::StressObserver(const RunState &run, const JointRecorder &joints)
+      : run(run), joints(joints),
+        tractions(*run.dam->model, run.dam->structure, known_traction(run.scene()), run.dam->initial_stress,
+                  run.statics.joint_water, water_mass(*run.dam)),
+        recovery(*run.dam->model, run.dam->materials, run.scene().elements.incompatible_modes,
+                 run.scene().output.knows_tractions() ? tractions.faces : std::vector<NodeFace>(),
+                 run.scene().output.knows_tractions()),
+        tension(*run.dam->model), envelope(recovery, run.dam->initial_stress)
+  {
+    envelope.overstress = Overstress(run.scene().limits.tensile_strength, run.dam->model->n_nodes());
+  }
+
+  /** Records this rank's nodes. Where the first rank is about to print stresses, it gets those of all. */
+  void StressObserver::follow()
+  {
+    if (!is_recording())
+      return;
+    const Stopwatch watch;
+    if (run.is_due(run.scene().output.envelope_interval))
+      envelope.record(run.newmark->state().time, run.newmark->state().u, tractions_now());
+    if (run.is_due(run.scene().output.progress_interval) || run.is_last())
+      envelope.collect();
+    seconds += watch.seconds();
+  }
+
+  std::vector<Vector3> StressObserver::tractions_now()
+  {
+    return known_tractions() ? tractions.at(run.newmark->state().force, run.acceleration)
+                             : std::vector<Vector3>();
+  }
+
+  std::vector<Stress> StressObserver::now()
+  {
+    std::vector<Stress> result;
+    recovery.apply(run.newmark->state().u, tractions_now(), result);
+    for (std::size_t i = 0; i < result.size(); ++i)
+      for (unsigned int c = 0; c < 6; ++c)
+        result[i][c] += run.dam->initial_stress[i][c];
+    return result;
+  }
+
+  void StressObserver::finish(const std::string &directory, Log &)
+  {
+    if (!is_recording())
+      return;
+    const FieldWriter writer(*run.dam->model);
+    writer.write_vtu(directory + "/envelope.vtu", {},
+                     {{"max_principal", envelope.maximum},
+                      {"min_principal", envelope.minimum},
+                      {"max_joint_pressure", joints.largest_pressure(*run.dam->model)}});
+    writer.write_faces(directory, *run.dam->geometry, envelope.maximum, envelope.minimum);
+  }
+
+  std::string StressObserver::largest_in_words(const int surface, const bool with_base) const
+  {
+    const Extreme largest = with_base ? envelope.extreme(*run.dam->model, surface, true)
+                                      : tension.largest_away_from_base(envelope, *run.dam->model, surface);
+    char          text[40];
+    std::snprintf(text, sizeof(text), "%.2f MPa", 1e-6 * largest.value);
+    return std::isfinite(largest.value) ? text : "none";
+  }
+
+  void StressObserver::report(Log &log) const
+  {
+    if (!is_recording())
+      return;
+    log.line(
+        "Tension   largest %s upstream, %s downstream, farther than a tenth of the height from the base; "
+        "with the base, where it grows with refinement, %s and %s",
+        largest_in_words(PhysicalId::upstream, false).c_str(),
+        largest_in_words(PhysicalId::downstream, false).c_str(),
+        largest_in_words(PhysicalId::upstream, true).c_str(),
+        largest_in_words(PhysicalId::downstream, true).c_str());
+    if (const double f = run.scene().strength_of_area(); f > 0.)
+      log.line(
+          "          above the strength of %.2f MPa: %.1f %% of the upstream face, %.1f %% of the downstream "
+          "face",
+          1e-6 * f, 100. * tension.above(envelope, PhysicalId::upstream, f).share(),
+          100. * tension.above(envelope, PhysicalId::downstream, f).share());
+  }
+
+  void StressObserver::add_extremes(Json &json) const
+  {
+    if (!is_recording())
+      return;
+    const SolidModel &model = *run.dam->model;
+    json.add("max_tension_upstream", json_of(envelope.extreme(model, PhysicalId::upstream, true)))
+        .add("max_tension_downstream", json_of(envelope.extreme(model, PhysicalId::downstream, true)))
+        .add("max_compression", json_of(envelope.extreme(model, 0, false)))
+        .add("max_compression_away_from_base", json_of(tension.smallest_away_from_base(envelope, model)));
+    for (const auto &[name, surface] :
+         {std::make_pair(std::string("max_tension_upstream"), PhysicalId::upstream),
+          {"max_tension_downstream", PhysicalId::downstream}})
+    {
+      const Json largest = json_of(tension.largest_away_from_base(envelope, model, surface));
+      json.add(name + "_away_from_base", largest).add(name + "_above_foot", largest); // for one release
+    }
+  }
+
+  Json StressObserver::json_of_strength() const
+  {
+    Json json;
+    json.add("strength", run.scene().strength_of_area());
+    for (const auto &face :
+         {std::make_pair("upstream", PhysicalId::upstream), {"downstream", PhysicalId::downstream}})
+    {
+      const FaceTension::Part part = tension.above(envelope, face.second, run.scene().strength_of_area());
+      Json                    of_face;
+      json.add(face.first, of_face.add("area", part.area).add("share", part.share()));
+    }
+    return json;
+  }
+
+  void StressObserver::save(boost::archive::binary_oarchive &archive) const
+  {
+    archive << envelope << seconds;
+  }
+
+  void StressObserver::load(boost::archive::binary_iarchive &archive)
+  {
+    archive >> envelope >> seconds;
+  }
+} // namespace Voussoir

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
+#include <voussoir/output/archive.h>
+#include <voussoir/output/observers.h>
+
+#include <cmath>
+
+namespace Voussoir
+{
+  TimeErrorObserver::TimeErrorObserver(const RunState &run, const JointRecorder &joints,
+                                       StressObserver &stresses, Log &log)
+      : run(run), joints(joints), stresses(stresses), log(log)
+  {
+    const Scene      &scene = run.scene();
+    ContactParameters parameters = scene.contact;
+    parameters.write_problems = false;
+    companion = std::make_unique<TimeErrorEstimate>(*run.dam, parameters, run.motion.dt,
+                                                    impact_rule(scene.impact_rule), run.newmark->state(),
+                                                    run.statics.closed);
+    // The comparison run has every second time of the run. With less frequent records the run would miss
+    // peaks that the comparison run has.
+    if (scene.output.envelope_interval == 1 || scene.output.envelope_interval == 2)
+      companion->record_stresses(stresses.recovery, stresses.known_tractions());
+  }
+
+  void TimeErrorObserver::follow()
+  {
+    if (!companion)
+      return;
+    try
+    {
+      const DynamicState &state = run.newmark->state();
+      companion->advance(run.step, state.load, state.base_velocity, run.ground_acceleration(run.step));
+    }
+    catch (const ComputationError &error)
+    {
+      companion.reset();
+      log.line("warning: there will be no estimate of the error that the time step makes (Dynamics/Error "
+               "estimate): with twice the step the joints did not converge. %s",
+               error.what());
+    }
+  }
+
+  void TimeErrorObserver::gather_on_root()
+  {
+    if (companion)
+      companion->collect();
+  }
+
+  double TimeErrorObserver::memory_consumption() const
+  {
+    return companion ? companion->newmark.memory() : 0.;
+  }
+
+  void TimeErrorObserver::report(Log &log) const
+  {
+    if (!companion)
+      return;
+    const TimeError error = this->error();
+    if (!run.dam->structure.pairs.empty())
+      log.line("          error by the time step, by estimate: %.2g %% of the joints' openings; %.2g mm of "
+               "the largest",
+               100. * error.opening, 1e3 * error.largest_opening);
+    if (std::isfinite(error.tension_upstream))
+      log.line("          error by the time step, by estimate: %.2g and %.2g MPa of the largest tension "
+               "upstream and downstream",
+               1e-6 * error.tension_upstream, 1e-6 * error.tension_downstream);
+  }
+
+  Json TimeErrorObserver::json() const
+  {
+    const TimeError error = this->error();
+    Json            json;
+    json.add("openings", error.opening)
+        .add("largest_opening", error.largest_opening)
+        .add("tension_upstream", error.tension_upstream)
+        .add("tension_downstream", error.tension_downstream);
+    return json;
+  }
+
+  void TimeErrorObserver::save(boost::archive::binary_oarchive &archive) const
+  {
+    const bool is_estimating = has_estimate();
+    archive << is_estimating;
+    if (!is_estimating)
+      return;
+    const DynamicState beside = companion->newmark.state();
+    archive << beside << *companion;
+  }
+
+  void TimeErrorObserver::load(boost::archive::binary_iarchive &archive)
+  {
+    bool was_estimating = false;
+    archive >> was_estimating;
+    if (!was_estimating)
+    {
+      companion.reset();
+      return;
+    }
+    DynamicState beside;
+    archive >> beside >> *companion;
+    companion->newmark.resume(beside, run.newmark->initial_energy(), run.newmark->largest_energy(),
+                              run.statics.closed);
+  }
+} // namespace Voussoir
