@@ -87,9 +87,11 @@ def read_list(path):
 
 
 def is_expression(text):
-    """Can it stand in brackets? A rough check: brackets pair off, no operator at an end, no assignment, no statement."""
+    """Can it stand in brackets? A rough check: brackets pair off, no operator at an end, no assignment, no statement, no list."""
     open_ones = []
     for c in re.sub(r"'.'|\"[^\"]*\"", "", text):
+        if c == "," and not open_ones:
+            return False
         if c in "([{":
             open_ones.append(c)
         elif c in ")]}" and (not open_ones or open_ones.pop() + c not in ("()", "[]", "{}")):
