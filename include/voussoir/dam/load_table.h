@@ -53,8 +53,8 @@ namespace Voussoir
     /** Adds force and stress without the load factor; null: the force follows from the traction, if any. */
     void (*add)(const Scene &, const LoadSite &, StaticLoad &load) = nullptr;
 
-    /** Returns the traction on the surface times @p factor [Pa], at the height @p z [m] of a face with the
-     * outward normal @p normal; null: no traction. */
+    /** Returns the traction on the surface times a factor [Pa], at the height z [m] of a face with the given
+     * outward normal; null: no traction. */
     Vector3 (*traction)(const Scene &, double factor, double z, const Vector3 &normal) = nullptr;
     int surface = 0; ///< surface of the traction
 
