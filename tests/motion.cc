@@ -3,8 +3,7 @@
 
 #include "testing.h"
 
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/output_file.h>
 #include <voussoir/motion/motion.h>
@@ -299,8 +298,8 @@ namespace
 
   void entries()
   {
-    MotionParameters         parameters;
-    dealii::ParameterHandler prm;
+    MotionParameters parameters;
+    Entries          prm;
     parameters.add_parameters(prm);
     expect(parameters.vertical_ratio == 0.666667 && parameters.peak_acceleration == 0.5575,
            "defaults change");
