@@ -185,7 +185,7 @@ def asked_for(accuracy, np):
             self.stderr = ("voussoir: error: More damping.\n" if few else "voussoir: warning: Rock.\nvoussoir: error: Beyond. "
                            'Raise "Dynamics/Steps per sample" to 12 or "Foundation/Substeps" to 7, or larger elements.\n')
 
-    accuracy.voussoir = lambda *words: Result(words)
+    accuracy.start = lambda *words: Result(words)
     ladder = accuracy.Ladder(Path("scene.prm"), {}, Path("."), 1)
     done = ladder.start("rock size 5", {"size": 5}, Path("nowhere"))
     expect(done == {"size": 5, "Dynamics/Steps per sample": 12}, f"{done}")

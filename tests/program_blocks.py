@@ -199,7 +199,7 @@ def limits():
     expect("Block forces" in summary("none")["limits_not_evaluated"]["sliding_safety"], "not evaluated")
     shown = runs("scene.prm", "--output", "plain", *settings("Limits/Sliding safety=1"))
     expect("Base friction" in summary("plain")["limits_not_evaluated"]["sliding_safety"], "not evaluated")
-    expect("sliding safety (there is neither Limits/Base friction" in shown, shown)
+    expect("sliding safety (Limits/Base friction and Limits/Base cohesion are 0" in shown, shown)
     expect(len(table("plain/blocks.csv")[0]) == 1 + 3 * 6, "no safety without friction")
     runs("scene.prm", "--output", "judged", *settings("Limits/Sliding safety=40", "Limits/Base friction=1", "Limits/Base cohesion=1 MPa"))
     found, rows = summary("judged"), blocks("judged")

@@ -241,7 +241,7 @@ def combinations():
     for value, *parts in (("rare: weight, watre", "watre", "\"water\""), ("rare: weight, weight 2", "twice")):
         refused(["scene.prm", "--validate", *settings(Loads__Combinations=value)], "Loads/Combinations", *parts)
     refused(["scene.prm", "--validate", *settings(Loads__Combination="usul")], "Loads/Combination", "\"usual\"")
-    expect("is nothing" in runs("scene.prm", "--validate", *settings(Loads__Silt__Level=-50)), "silt below the dam")
+    expect("silt is zero" in runs("scene.prm", "--validate", *settings(Loads__Silt__Level=-50)), "silt below the dam")
 
 
 def uplift():
@@ -280,7 +280,7 @@ def uplift():
     print(f"    largest openings with factors 0, 0.5, 1: {[max(x) for x in opening]}; not linear by {missed} m")
     expect(size > 2 * max(opening[0]) and missed < 1e-6 * size, f"{opening}")
     for entry in ("Tail water", "Silt"):
-        refused(["static.prm", "--validate", "--set", f"Loads/{entry}/Level=500"], f"Loads/{entry}/Level", "above the dam")
+        refused(["static.prm", "--validate", "--set", f"Loads/{entry}/Level=500"], f"Loads/{entry}/Level", "above the top of the dam")
     meshes.wall("wall.msh", monoliths=(1, 1, 2, 2), width=20.)
     file = scene("wall", "wall.msh", Reservoir={"Density": 1000, "Water level": 50})
     runs(file, "--output", "without")

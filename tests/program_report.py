@@ -317,7 +317,7 @@ def unjudged():
     expect("is thinner than Limits/Waterstop depth, 18 m, over the highest" in deep, f"waterstops that end below the crest: {deep}")
     runs("report", "no_motion")
     text = Reader("no_motion/report.html").text
-    expect("Not evaluated: duration of overstress (the stresses are of one time only)" in text, "the page does not say what is not evaluated")
+    expect("Not evaluated: duration of overstress (the stresses are recorded at one time only)" in text, "the page does not say what is not evaluated")
 
 
 def earlier():

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <voussoir/base/error.h>
 #include <sstream>
 
 namespace Voussoir
