@@ -21,13 +21,13 @@ namespace Voussoir
   namespace
   {
     constexpr unsigned int none = static_cast<unsigned int>(-1);
-    constexpr double       block = 9 * 8. + 4.; // of a sparse matrix: 3 x 3 numbers and a column [bytes]
+    constexpr double       block = 9 * 8. + 4.; // sparse matrix: 3 x 3 numbers and a column index [bytes]
 
-    // Measured, see tests/program_memory.py [bytes].
+    // Measured by tests/program_memory.py [bytes].
     constexpr double program = 178e6, per_cell = 700., per_node = 700., per_rock_node = 2100.;
 
-    /** How much more there is with elements of degree 2: nodes, blocks, entries of factors, and of what lies
-     * on surfaces, squared. */
+    /** Ratios of sizes with elements of degree 2 to those with degree 1: nodes, blocks of matrices, entries
+     * of factors, and squared number of surface nodes. */
     struct Growth
     {
       explicit Growth(const unsigned int degree)
@@ -38,12 +38,12 @@ namespace Voussoir
       double nodes = 1., blocks = 1., entries = 1., surface = 1.;
     };
 
-    /** The nodes of some cells, their neighbours, and which of them are in pairs. */
+    /** Graph of the nodes of some cells: neighbours, and nodes on the interface (pairs or coupled base). */
     struct Graph
     {
       std::vector<std::vector<unsigned int>> neighbours;
       std::vector<bool>                      is_interface;
-      std::vector<unsigned int>              place; ///< of the nodes in the mesh
+      std::vector<unsigned int>              place; ///< index of each node in the mesh
       double                                 n_blocks() const
       {
         double sum = 0.;
@@ -53,7 +53,7 @@ namespace Voussoir
       }
     };
 
-    /** Of the cells that @p counts, without the nodes that are @p held. */
+    /** Returns the graph of the cells for which @p counts is true, without the fixed nodes @p held. */
     Graph graph_of(const HexMesh &mesh, const std::function<bool(const HexMesh::Cell &)> &counts,
                    const std::vector<bool> &held, const std::vector<bool> &in_pair)
     {
@@ -83,7 +83,7 @@ namespace Voussoir
       return graph;
     }
 
-    /** Massless rock makes all nodes of the base neighbours. */
+    /** Makes all nodes of the base neighbours, as condensed massless rock does. */
     void couple(const std::vector<bool> &on_base, Graph &graph)
     {
       std::vector<unsigned int> base;
@@ -113,19 +113,20 @@ namespace Voussoir
       return !is_monolith(cell.volume);
     }
 
-    /** Factors and joint operators of one size of steps, and what belongs to them. */
+    /** Numbers in factors and joint operators for one size of time steps. */
     struct Factors
     {
-      double entries = 0.;   ///< of the factors
-      double dense = 0.;     ///< of the interfaces' flexibilities, until W is there
-      double kept = 0.;      ///< of these afterwards
-      double operators = 0.; ///< of W
-      double diagonal = 0.;  ///< of W's own blocks of the joints
-      double feet = 0.;      ///< of what eliminates feet on rock with steps of its own, or without mass
-      double share = 1.;     ///< of all this but the feet's, the largest of a rank
+      double entries = 0.;   ///< Cholesky factors of the bodies
+      double dense = 0.;     ///< flexibilities of the interfaces, until W is assembled
+      double kept = 0.;      ///< flexibilities after W is assembled
+      double operators = 0.; ///< joint operator W
+      double diagonal = 0.;  ///< diagonal blocks of W
+      double feet = 0.;      ///< elimination of base nodes: rock with subcycling, or massless rock
+      double share = 1.;     ///< largest share of a rank, except the elimination of base nodes
     };
 
-    /** Those of FootElimination: the feet's flexibility and its factor, and what couples feet and joints. */
+    /** Returns the numbers in FootElimination: flexibility of the base nodes, its factor, and the coupling of
+     * base nodes and joints. */
     double of_feet(const Graph &body, const std::vector<bool> &on_base)
     {
       double feet = 0., joints = 0.;
@@ -134,14 +135,14 @@ namespace Voussoir
       return 9. * feet * (2. * feet + joints);
     }
 
-    /** Of massless rock, which couples all feet: what eliminates them, and its factor. */
+    /** Returns the numbers in the elimination with massless rock, which couples all base nodes. */
     double of_dense_feet(const std::vector<bool> &on_base)
     {
       const double unknowns = 3. * std::count(on_base.begin(), on_base.end(), true);
       return 2. * unknowns * unknowns;
     }
 
-    /** @p m: unknowns of each joint. */
+    /** Adds the numbers in W. @p m: number of unknowns of each joint. */
     void add_operator(const std::vector<Joint> &joints, const std::vector<double> &m, Factors &factors)
     {
       for (std::size_t j = 0; j < joints.size(); ++j)
@@ -156,7 +157,7 @@ namespace Voussoir
         }
     }
 
-    /** Unknowns of each joint: three for each node on its side 1. */
+    /** Returns the number of unknowns of each joint: three for each node on its side 1. */
     std::vector<double> joint_unknowns(const HexMesh &opened, const std::vector<Joint> &joints,
                                        const std::vector<bool> &held)
     {
@@ -180,7 +181,7 @@ namespace Voussoir
                          [&](const Joint &joint) { return scene.joints.model_of(joint.number) == "tied"; });
     }
 
-    /** Of a rank, over the sum. */
+    /** Returns the largest sum of a rank over the sum of all bodies. */
     double largest_share(const std::vector<double> &of_body)
     {
       const Shares        shares(of_body);
@@ -191,7 +192,7 @@ namespace Voussoir
       return sum > 0. ? *std::max_element(of_rank.begin(), of_rank.end()) / sum : 1.;
     }
 
-    /** The dam: its matrices, and its factors in @p factors. */
+    /** Returns the memory of the dam without factors [bytes], and adds the factors to @p factors. */
     double of_dam(const Scene &scene, const HexMesh &mesh, Factors &factors)
     {
       const HexMesh            opened = open_joints(monoliths_only(mesh));
@@ -214,7 +215,7 @@ namespace Voussoir
       const Growth        growth(scene.elements.degree);
       double              n_nodes = 0., n_blocks = 0.;
       const bool          single = scene.has_single_factors() && !led;
-      std::vector<double> of_body; // what is shared out
+      std::vector<double> of_body; // distributed to the ranks
       double              largest_factor = 0.;
       for (const int volume : volumes)
       {
@@ -234,7 +235,7 @@ namespace Voussoir
         n_nodes += growth.nodes * graph.neighbours.size();
         n_blocks += growth.blocks * graph.n_blocks();
       }
-      if (single) // those in hand are made in double precision, one by each thread
+      if (single) // each thread computes one factor in double precision
         factors.entries += largest_factor * std::min<std::size_t>(of_body.size(), omp_get_max_threads());
       factors.share = largest_share(of_body);
       if (massless && led)
@@ -244,11 +245,12 @@ namespace Voussoir
       factors.operators *= growth.surface;
       factors.diagonal *= growth.surface;
       if (led && !tied)
-        factors.feet += factors.operators; // a second one while the feet are eliminated
+        factors.feet += factors.operators; // a second operator during the elimination of base nodes
       return 2. * block * n_blocks + per_cell * dam.cells.size() + per_node * n_nodes; // stiffness, stress
     }
 
-    /** Massless rock, while it is condensed: its stiffness, its factor, and what is dense at the base. */
+    /** Returns the memory of massless rock during its condensation [bytes]: stiffness, factor and dense
+     * matrices of the base. */
     double of_massless_rock(const HexMesh &mesh, const unsigned int degree)
     {
       const auto nodes = [&](const int id)
@@ -260,17 +262,18 @@ namespace Voussoir
              8. * (growth.entries * size.leading + growth.surface * 3. * size.interface);
     }
 
-    /** Rock with mass: its stiffness and, at the peak, the static state, of which the first rank has the
-     * coarse levels; @p others receives that of each other rank. */
+    /** Returns the peak memory of rock with mass on the first rank [bytes]: stiffness and static state. Only
+     * the first rank stores the coarse levels of the static state. @p others receives the peak of each other
+     * rank. */
     double of_rock(const Scene &scene, const HexMesh &mesh, double &others)
     {
       const std::vector<bool> no(mesh.nodes.size(), false);
       const Graph             rock = graph_of(mesh, is_rock, no, no);
       double                  n_blocks = rock.n_blocks();
-      if (scene.foundation.nodal_everywhere) // does not couple the ends of a cell's diagonals
+      if (scene.foundation.nodal_everywhere) // no coupling along the diagonals of cells
         n_blocks -= 8. * std::count_if(mesh.cells.begin(), mesh.cells.end(), is_rock);
-      const double part = 1. / Ranks::size(), matrix = block * n_blocks; // kept of it: see make_rock_part()
-      constexpr unsigned int few = 10;                                   // layers, whose rows all ranks keep
+      const double           part = 1. / Ranks::size(), matrix = block * n_blocks; // see make_rock_part()
+      constexpr unsigned int few = 10; // layers, whose rows all ranks store
       const bool   is_shared = scene.foundation.nodal_everywhere && scene.foundation.layers_at_dam <= few;
       const double kept = is_shared ? std::min(1., part + .13) : 1.;
       const double all = per_rock_node * rock.neighbours.size() - (1. - kept) * matrix;
@@ -284,7 +287,7 @@ namespace Voussoir
     Factors      factors;
     MemoryNeed   need;
     const double dam = of_dam(scene, mesh, factors);
-    // Of the operator also single precision; inverses and LU factors of the joints' blocks in that, too.
+    // Operator in double and single precision; inverses and LU factors of the diagonal blocks in single.
     need.halved_step =
         factors.share *
             (8. * factors.entries + std::max(8. * factors.dense, 8. * factors.kept + 12. * factors.operators +
@@ -297,7 +300,7 @@ namespace Voussoir
       need.run += of_rock(scene, mesh, others);
       need.of_others += others;
     }
-    else if (scene.foundation.model == "massless") // before the dam has factors
+    else if (scene.foundation.model == "massless") // before the factors of the dam exist
       need.run = need.of_others =
           std::max(need.run, program + dam + of_massless_rock(mesh, scene.elements.degree));
     return need;
@@ -308,7 +311,7 @@ namespace Voussoir
     constexpr double gib = 1024. * 1024. * 1024.;
     char             others[60] = "", text[200];
     if (Ranks::size() > 1)
-      std::snprintf(others, sizeof(others), " for the first rank, %.2f GiB for each other one",
+      std::snprintf(others, sizeof(others), " for the first rank, %.2f GiB for each other rank",
                     need.of_others / gib);
     std::snprintf(text, sizeof(text), "about %.2f GiB%s, and %.2f GiB more for each halving of a step",
                   need.run / gib, others, need.halved_step / gib);
@@ -321,7 +324,7 @@ namespace Voussoir
     {
       return "There is not enough memory: this scene needs " +
              in_words(memory_need(scene, make_mesh(scene.mesh, scene.directory))) +
-             ". Use fewer elements, or a machine that has as much.";
+             ". Use fewer elements, or a machine with more memory.";
     }
     catch (const std::bad_alloc &)
     {

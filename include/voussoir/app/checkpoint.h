@@ -12,8 +12,7 @@ namespace Voussoir
   class Checkpoint
   {
   public:
-    /** Reads the provenance of the run. @p scene_text: the scene with all defaults. @p scene must outlive the
-     * object. */
+    /** Reads the provenance. @p scene must outlive the object. @p scene_text: the scene with all defaults. */
     Checkpoint(const Scene &scene, const std::string &scene_text, const std::string &directory);
 
     /** Returns entries of the scene, digests of the input files and revision of the program at present. */

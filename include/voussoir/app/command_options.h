@@ -31,8 +31,7 @@ namespace Voussoir
   };
 
   /** Returns the words of a command line by meaning. "--" ends the options. Throws InputError for options
-   * that the command does not have, for options without a required value, and for options that are given
-   * twice. */
+   * that are unknown to the command, that lack their value, or that are given twice. */
   Arguments read_arguments(const std::vector<std::string> &words);
 
   /** Returns the help text of a command. Empty: the run of a scene. */

@@ -30,8 +30,7 @@ namespace Voussoir
     template <class Archive> void serialize(Archive &archive, unsigned int) { archive &columns &rows; }
   };
 
-  /** CSV file of a table that grows during the run. After a run that is killed, the file has the rows so far.
-   */
+  /** CSV file of a table that grows during the run. If the run is killed, the file has the rows so far. */
   class TableFile
   {
   public:
@@ -119,7 +118,7 @@ namespace Voussoir
     void collect();
 
     /** Returns the largest maximum, or the smallest minimum, of the nodes on a surface [Pa]. Surface 0: all
-     * nodes. The value is not a number if the surface has no nodes. */
+     * nodes. NaN: no nodes. */
     Extreme extreme(const SolidModel &model, int surface, bool largest) const;
 
     std::vector<float> maximum, minimum, time_of_maximum, time_of_minimum; ///< per node [Pa], [s]

@@ -51,8 +51,7 @@ namespace Voussoir
     /** Returns the loads at the end of the next step, without those of the foundation, 3 per node [N]. */
     Unknowns next_load() const;
 
-    /** Returns the acceleration of the base after @p after steps [m/s^2], or 0 if displacements are absolute.
-     */
+    /** Returns the acceleration of the base after @p after steps [m/s^2]; 0 if displacements are absolute. */
     Vector3 ground_acceleration(unsigned int after) const;
 
     /** Returns the displacement of a node of the mesh relative to the base, with the static displacement [m].
