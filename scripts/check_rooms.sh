@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Do the rooms stand? A room includes itself and rooms above it only, no two files need each other, no file is longer
-# than 400 lines, no function longer than 60. The same for the imports of Python (check_imports.py).
+# Checks the rooms: a room includes only itself and the rooms above, without circular includes. A file has at most 400 lines, a
+# function at most 60 lines. check_imports.py checks the imports of Python in the same way.
 # Usage: scripts/check_rooms.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -263,8 +263,7 @@ namespace Voussoir
     }
 
     /** Returns the peak memory of rock with mass on the first rank [bytes]: stiffness and static state. Only
-     * the first rank stores the coarse levels of the static state. @p others receives the peak of each other
-     * rank. */
+     * the first rank stores the coarse levels. @p others receives the peak of each other rank. */
     double of_rock(const Scene &scene, const HexMesh &mesh, double &others)
     {
       const std::vector<bool> no(mesh.nodes.size(), false);

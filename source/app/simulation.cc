@@ -303,8 +303,7 @@ namespace Voussoir
       observer->gather_on_root();
   }
 
-  /** Runs @p action on the first rank. After an error, gathers the state on the first rank for a checkpoint.
-   */
+  /** Runs @p action on the first rank. After an error, gathers the state there for a checkpoint. */
   void Simulation::on_first(const std::function<void()> &action)
   {
     try
