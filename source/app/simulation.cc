@@ -165,6 +165,8 @@ namespace Voussoir
         save_if_due();
       }
       ranks.gather(state);
+      for (Observer *observer : *observers)
+        observer->gather_on_root();
       on_first([this] { finish(); });
     }
     catch (const WriteError &error)

@@ -86,9 +86,7 @@ namespace Voussoir
 
       bool needs_mean_force() const override { return seat > 0.; }
 
-      /** Returns 2 if the step passes through a flank or beyond its end, which requires the next event; else
-       * 0.
-       */
+      /** Returns 2 if the step passes through a flank or beyond its end and requires the next event, else 0. */
       double excess(const Vector3 &, const Vector3 &gap, const PairPast &past) const override
       {
         if (!is_out(past.start))

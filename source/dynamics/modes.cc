@@ -90,7 +90,7 @@ namespace Voussoir
       Vector<double> &phi = eigenvectors[k], Mphi(n);
       mass.vmult(Mphi, phi);
       phi /= std::sqrt(phi * Mphi);
-      modes.push_back({std::sqrt(eigenvalues[k].real()) / (2. * 3.14159265358979323846),
+      modes.push_back({std::sqrt(eigenvalues[k].real()) / (2. * M_PI),
                        Unknowns(phi.begin(), phi.end())});
     }
     std::sort(modes.begin(), modes.end(),

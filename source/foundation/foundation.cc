@@ -71,13 +71,13 @@ namespace Voussoir
     prm.leave_subsection();
   }
 
-  std::string Foundation::about_steps() const
+  std::string FoundationSetup::about_steps() const
   {
     return "; the scheme is implicit: there is no critical time step";
   }
 
-  ContactResult Foundation::settle(const DamSolve &solve, const Unknowns &, const Unknowns &, Unknowns &load,
-                                   Log &)
+  ContactResult BaseSupport::settle(const DamSolve &solve, const Unknowns &, const Unknowns &, Unknowns &load,
+                                    Log &)
   {
     return solve(load);
   }

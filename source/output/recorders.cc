@@ -57,9 +57,7 @@ namespace Voussoir
         history.columns.push_back(quantity + ("_" + std::to_string(j + 1)));
   }
 
-  /** Returns openings and slips of a joint at the crest, first the openings, each upstream and downstream
-   * [m].
-   */
+  /** Returns two openings and two slips of a joint at the crest, upstream and downstream [m]. */
   std::array<double, 4> JointRecorder::at_crest(const Newmark &newmark, const std::size_t joint) const
   {
     const auto &pairs = geometry.joints[joint];
