@@ -92,7 +92,7 @@ def check(file):
             if word not in named:
                 yield f"{file}:{line}: the docstring of {name} has @p {word}, which is no parameter"
     for owner, count in members.items():
-        if count > (limit := ABOVE.get(owner, MEMBERS)):
+        if count > (limit := max(MEMBERS, ABOVE.get(owner, 0))):  # of JointSystem it has the parameters
             yield f"{file}: class {owner} has {count} member functions, more than {limit}"
         if virtuals[owner] > VIRTUALS:
             yield f"{file}: class {owner} has {virtuals[owner]} virtual functions, more than {VIRTUALS}"

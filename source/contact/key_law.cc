@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/entries.h>
+#include <voussoir/base/error.h>
 #include <voussoir/contact/key_law.h>
 
 #include <algorithm>
@@ -237,5 +239,47 @@ namespace Voussoir
     if (keys.height > 0. && keys.direction != "radial")
       add_flanks(2, keys, flank_friction, surfaces);
     return std::make_unique<KSM>(std::move(surfaces), keys);
+  }
+
+  /** Returns a warning about keys for which Coulomb's law has two solutions (doc/keys.md), or "". */
+  std::string key_law_warning(const LawParameters &parameters)
+  {
+    const KeyParameters &keys = parameters.keys;
+    const double         face = parameters.friction, flank = keys.friction < 0. ? face : keys.friction,
+                 degree = std::acos(-1.) / 180., needed = 90. - keys.flank_angle + std::atan(flank) / degree;
+    if (keys.height == 0. || needed >= 90. || face <= std::tan(needed * degree))
+      return "";
+    std::ostringstream text;
+    text << "Joints/Friction " << face << " with flanks of " << keys.flank_angle
+         << " degrees and flank friction " << flank << " (Joints/Keys): above " << std::tan(needed * degree)
+         << " Coulomb's law has two solutions: a key stops at its flank, or slides up the flank. The "
+            "result of the run may be either of them. Set Joints/Keys/Friction = -1, the friction of the "
+            "faces, or reduce the flank angle.";
+    return text.str();
+  }
+
+  void KeyParameters::add_parameters(Entries &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Keys");
+    prm.add_parameter("Height", height,
+                      "Height of the shear keys [m]. A joint with a larger opening slips freely.",
+                      {.005, 2., true}, Double(0.));
+    prm.add_parameter("Clearance", clearance, "Clearance normal to each flank of a key [m].", {0., .1},
+                      Double(0.));
+    prm.add_parameter("Flank angle", flank_angle,
+                      "Angle between the flanks and the normal of the joint [degrees]. 0: rectangular keys.",
+                      {10., 80., true}, Double(0., 89.));
+    prm.add_parameter("Direction", direction, "Direction of the slip that the keys restrain.",
+                      Selection("radial|vertical|both"));
+    prm.add_parameter("Friction", friction,
+                      "Coefficient of friction of the flanks [-]. -1: that of the faces (Joints/Friction).",
+                      {-1., 2.}, Double(-1.));
+    prm.add_parameter("Seat compliance", seat_compliance,
+                      "Compliance of the flank contact of the keys, per area of the joint [m/Pa]. -1: 20 "
+                      "Height/E with Young's modulus E of the concrete, the result of meshed keys "
+                      "(doc/keys.md). 0: rigid.",
+                      Double(-1., 1e-6));
+    prm.leave_subsection();
   }
 } // namespace Voussoir

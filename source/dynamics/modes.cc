@@ -49,8 +49,6 @@ namespace Voussoir
     if (2 * n_modes + 2 > n)
       throw InputError("The dam has only " + std::to_string(n) +
                        " unknowns. Reduce the number of modes (--count).");
-    if (Ranks::size() > 1)
-      return modes_of_ranks(structure, n_modes);
     JointSystem    system(structure, JointLaws(), ContactParameters(), 0., 1., 0.);
     Unknowns       load(n), u;
     const Operator mass{
@@ -96,13 +94,5 @@ namespace Voussoir
     std::sort(modes.begin(), modes.end(),
               [](const NaturalMode &a, const NaturalMode &b) { return a.frequency < b.frequency; });
     return modes;
-  }
-
-  std::vector<double> natural_frequencies(const Structure &structure, const unsigned int n_modes)
-  {
-    std::vector<double> frequencies;
-    for (const NaturalMode &mode : natural_modes(structure, n_modes))
-      frequencies.push_back(mode.frequency);
-    return frequencies;
   }
 } // namespace Voussoir

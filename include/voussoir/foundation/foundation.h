@@ -122,10 +122,6 @@ namespace Voussoir
     /** Returns the strain energy of massless rock in the static state [J], otherwise zero. */
     virtual double strain_at_start() const { return 0.; }
 
-    /** Adds the mass that substeps require at the base nodes. Returns the added mass [kg]. Must be called
-     * before the Newmark object of the dam is created. */
-    virtual double add_interface_mass(Structure &, const TimeGrid &) const { return 0.; }
-
     /** Returns the support of the base nodes, or nullptr. Marks the base nodes as interface nodes of their
      * bodies. Must be called after start(), and before the Newmark object of the dam is created. */
     virtual Support *support(Structure &) { return nullptr; }
@@ -200,7 +196,7 @@ namespace Voussoir
    *  1. assembly of the dam: base(), add_stiffness(), add_mass(),
    *  2. before the run: delay(), check(), report(), about_steps(),
    *  3. static state: static_springs(), static_feet(), and settle() for each load stage,
-   *  4. start of the dynamic analysis: start(), add_interface_mass(), support(), watch(),
+   *  4. start of the dynamic analysis: start(), support(), watch(),
    *  5. time step: advance(), base_velocity(), step of the dam by Newmark, follow(),
    *  6. after the time step: energies(), trouble_of_energy(), trouble_of_motion(). */
   class Foundation : public FoundationSetup, public BaseSupport, public Neighbour

@@ -46,7 +46,7 @@ namespace Voussoir
 
     /** Initializes foundation and time integration from the static state. @p parameters: settings of the
      * contact solver. */
-    void start(const ContactParameters &parameters, Log &log);
+    void start(const ContactParameters &parameters);
 
     /** Returns the loads at the end of the next step, without those of the foundation, 3 per node [N]. */
     Unknowns next_load() const;
