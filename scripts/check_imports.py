@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks the imports of the Python files: a module of the package imports modules of its own layer and of the layers above in LAYERS,
-commands and benchmarks import no command, and no files import each other in a circle. Imports within functions count.
+"""Checks the imports of the Python files. A module of the package imports only modules of its own layer and of the layers above in
+LAYERS. Commands and benchmarks import no command. There are no circular imports. Imports within functions count.
 
     scripts/check_imports.py     exit status 1 with a line for each violation
 """

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Checks the rooms: a room includes itself and rooms above it only, no two files need each other, no function is longer than 60 lines;
-# the gates of check_classes.py hold, and those of check_imports.py for the imports of Python.
+# Checks the rooms: a room includes only itself and the rooms above, without circular includes. A function has at most 60 lines.
+# check_classes.py checks the classes, check_imports.py the imports of Python.
 # Usage: scripts/check_rooms.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which lines of the sources do the tests reach? Adds up what gcov says of a build with --coverage whose tests have run.
+"""Line coverage of the tests: sums the results of gcov for a build with --coverage whose tests have run.
 
     scripts/coverage.py DIRECTORY [--missed FILE]
 
 Prints a Markdown table with a row for each room: lines with code, lines that a test reached, and their share. --missed writes the
-others to a file, as "file:line". scripts/full.sh makes the build.
+other lines to a file, as "file:line". scripts/full.sh makes the build.
 """
 
 import argparse

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What an editor needs to complete scenes, from the program's entries:
+"""Writes files for the completion of scenes in an editor, from the entries of the program:
 
     scripts/editor.py [--output .vscode] [--voussoir build/voussoir]
 
@@ -22,13 +22,13 @@ LARGEST = {"[Double": 1e300, "[Integer": 2147483647}
 
 
 def unit_of(entry):
-    """As the program reads it from the documentation."""
+    """Unit in the documentation of an entry, as the program reads it."""
     found = re.search(r"\[([^\]]*)\]", entry["documentation"])
     return found[1] if found else ""
 
 
 def choices_of(entry):
-    """Of a selection or a truth value; [] for others."""
+    """Choices of a selection or a truth value; [] for other entries."""
     pattern = entry["pattern_description"]
     if pattern.startswith("[Selection "):
         return pattern[len("[Selection "):].rstrip("] ").split("|")
@@ -36,7 +36,7 @@ def choices_of(entry):
 
 
 def schema_of(entry):
-    """What the value may be. Numbers may be text with a unit, "21 GPa"."""
+    """Schema of a value. Numbers may be text with a unit, "21 GPa"."""
     pattern, result = entry["pattern_description"], {"description": entry["documentation"], "default": entry["default_value"]}
     if unit_of(entry):
         result["x-unit"] = unit_of(entry)

@@ -44,7 +44,7 @@ def known(name, pattern):
 
 
 def lines_of_inp(file):
-    """Its keywords in capitals, their parameters and their lines of data."""
+    """Keywords of an .inp file in capitals, with their parameters and lines of data."""
     blocks = []
     for line in Path(file).read_text(errors="replace").splitlines():
         if line.startswith("*") and not line.startswith("**"):
@@ -57,8 +57,8 @@ def lines_of_inp(file):
 
 
 def elements_of_inp(blocks):
-    """Numbers of the elements in the order of the file, and the sets of them by name in capitals. meshio keeps no numbers, mixes up
-    sets where a block of elements has none or shares its name, and knows one block of nodes alone."""
+    """Numbers of the elements in the order of the file, and sets of elements by name in capitals. meshio loses the numbers, and
+    reads only one block of nodes. It confuses sets if a block of elements has no set or the same set as another block."""
     if sum(keyword == "NODE" for keyword, _, _ in blocks) > 1 or any(
             keyword == "INCLUDE" or keyword == "INSTANCE" and data for keyword, _, data in blocks):
         refuse("it has several *NODE blocks, an *INCLUDE or a moved *INSTANCE, which meshio does not put together. Write a flat "

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Do the tests notice errors? Builds all mutants of scripts/mutants.txt into one program, in a scratch directory, and
-runs against each the tests that are likeliest to see it, until one fails: then the mutant is killed, if that test passes without it.
-Mutants of Python (scripts/mutants_python.txt) need no build: each is put into a copy of scripts, package and tests, which runs with
-the program of build/.
+"""Mutation test. Builds all mutants of scripts/mutants.txt into one program, in a scratch directory, and runs the most
+relevant tests against each mutant until one fails. The mutant is killed if that test passes without the mutant. Mutants of Python
+(scripts/mutants_python.txt) require no build: each is applied to a copy of scripts, package and tests, which runs with the program
+of build/.
 
     scripts/mutants.py [--scratch build-mutants] [--only REGEX] [--python] [--random N --seed TEXT] [--all] [--table FILE]
                        [--check] [--no-build] [--build build] [--timeout 300]
 
---check looks only whether all mutants still fit the sources; --all runs the other tests, too, against those that survive. --random
-takes N mutants by the seed, not those of headers, and builds what they need only: the rest comes from ccache after scripts/build.sh.
+--check only checks that all mutants fit the sources. --all also runs the other tests against survivors. --random selects N mutants
+by the seed, except those of headers, and builds only their targets: the rest comes from ccache after scripts/build.sh.
 Prints a table in Markdown and the survivors. Exit status: 0 none survives, 1 some do, 2 a mutant does not fit the sources.
 """
 
@@ -87,7 +87,7 @@ def read_list(path):
 
 
 def is_expression(text):
-    """Can it stand in brackets? A rough check: brackets pair off, no operator at an end, no assignment, no statement, no list."""
+    """True if the text can be put in parentheses. A rough check: brackets pair off, no operator at an end, no assignment, no statement, no list."""
     open_ones = []
     for c in re.sub(r"'.'|\"[^\"]*\"", "", text):
         if c == "," and not open_ones:
@@ -195,7 +195,7 @@ def sources(*needed):
 
 
 def write_tree(texts, tree):
-    """Makes the tree that of these files; those that do not change keep their time."""
+    """Updates a tree to these files. Unchanged files keep their time."""
     for old in (f for f in tree.rglob("*") if f.is_file() and f.relative_to(tree).parts[0] != "build"):
         if str(old.relative_to(tree)) not in texts:
             old.unlink()
@@ -225,7 +225,7 @@ def build(tree, directory, patterns=None):
 
 
 def targets_of(directory, patterns):
-    """What the tests of these patterns need of a build that has been configured."""
+    """Targets of a configured build that the tests of these patterns require."""
     text = (directory / "tests" / "CTestTestfile.cmake").read_text()
     targets = {"voussoir"}
     for name, words in re.findall(r"^add_test\((\S+) (.*)\)$", text, re.M):

@@ -1,7 +1,7 @@
 #!/usr/bin/env pvpython
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shows a run in ParaView: the dam, displaced and coloured by its largest principal stress, beside it its joints coloured by their
-opening, over all times; on Debian: apt-get install paraview python3-paraview.
+"""Shows a run in ParaView over all times: the displaced dam in colours of the maximum principal stress, and next to it the joints in
+colours of the opening. On Debian: apt-get install paraview python3-paraview.
 
     pvpython scripts/paraview_state.py DIR [--magnify 200] [--tension 6] [--time T] [--picture FILE.png] [--state FILE.pvsm]
 

@@ -7,7 +7,7 @@ set -euo pipefail
 # shellcheck source=environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-form() # the sources as clang-format 14 writes them, scripts without complaints, mutants that fit
+form() # format of the sources, checks of scripts and prose, mutants that fit
 {
   cd "$root"
   mapfile -t sources < <(git ls-files '*.cc' '*.h')
@@ -20,6 +20,7 @@ form() # the sources as clang-format 14 writes them, scripts without complaints,
   shellcheck scripts/*.sh .ci/run
   flake8 python scripts benchmarks meshes
   scripts/mutants.py --check
+  scripts/check_prose.py --strings --total 2
 }
 
 # run_tests DIRECTORY [ARGUMENTS...]: of ctest; its output also goes to a file, which says what was skipped.

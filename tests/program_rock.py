@@ -84,7 +84,7 @@ def end_of_motion():
     arrival, after = whole["rock"]["arrival"], -(-whole["rock"]["arrival"] // .01)
     print(f"    arrival after {arrival:.3f} s, {after:.0f} steps of the motion")
     expect(whole["steps"] == 5 * (24 + after) and whole["time_step"] == .002, f"{whole['steps']} steps")
-    expect(f"the run goes on for {.01 * after:.2f} s after the motion" in log, log)
+    expect(f"the run continues for {.01 * after:.2f} s after the motion" in log, log)
     runs("scene.prm", "--output", "padded", *entries_of("padded", round(.24 + .01 * after, 2)))
     for name, columns in (("history", ("crest_x", "crest_z", "base_x")), ("energy", ("kinetic", "rock_kinetic"))):
         (names, rows), (_, padded) = table(f"whole/{name}.csv"), table(f"padded/{name}.csv")

@@ -256,7 +256,7 @@ def writing():
         time.sleep(.002)
     resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (6000, 6000))
     message = process.communicate()[1]
-    failed(subprocess.CompletedProcess([], process.returncode, "", message), "fills/", "Nor can a checkpoint")
+    failed(subprocess.CompletedProcess([], process.returncode, "", message), "fills/", "checkpoint could not be written either")
     with open("/dev/full", "w") as full:
         for arguments in (["parameters"], ["--help"], ["scene.prm", "--validate"]):
             result = subprocess.run([VOUSSOIR, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)

@@ -1,18 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Error against cost of a scene, and the cheapest setting that meets a wish.
+"""Error and cost of a scene with several meshes and time steps, and the cheapest setting that meets a target error.
 
     voussoir accuracy SCENE.prm [--for 1%] [--seconds 5] [--output DIR] [--set 'Section/Entry=value']...
 
-Each choice that a scene has (time step, elements along, up and through, degree, rock) is refined by itself, with all
-others as the scene has them, over the strongest seconds of the scene's motion. Two measures, each relative: the
-largest openings of every joint at the crest, upstream and downstream (root of the sum of squares over them), and the means of the tension envelope over
-nine zones of either face (the same over the zones, by their areas), without what is nearer to the base than a tenth of the height: the
-stress of an elastic dam is singular there. Where a choice has three levels, its order is fitted and its
-limit extrapolated (Richardson); with two, the order is that of the method. The error of a level is its distance to
-that limit; errors of several choices are added as vectors, joint by joint and zone by zone. Runs that are there already
-are not repeated. Cost: seconds of processor time of each thread per second of earthquake, without set-up.
+Each choice of a scene (time step, elements along, up and through, degree, rock) is refined separately, over the
+strongest seconds of the scene's motion. The other choices are those of the scene.
 
-Writes accuracy.csv, accuracy.json and accuracy.png into DIR; runs, with their tables, are beside them.
+There are two relative measures. The first is the largest openings of every joint at the crest, upstream and downstream.
+The second is the means of the tension envelope over nine zones of each face, weighted by area. Nodes nearer to the base
+than a tenth of the height are excluded, since the stress of an elastic dam is singular there. Both measures are the root
+of a sum of squares.
+
+With three levels of a choice, the order is fitted and the limit is extrapolated (Richardson). With two levels, the order
+is that of the method. The error of a level is the distance to the limit. Errors of several choices are added as vectors,
+joint by joint and zone by zone.
+
+Existing runs are not repeated. Cost: CPU time of each thread per second of earthquake, without setup. accuracy.csv,
+accuracy.json, accuracy.png and the runs are written to DIR.
 """
 
 import csv
@@ -80,7 +84,7 @@ def solve_order(quotient, coarse, fine):
 
 
 def choices_of(entries):
-    """What this scene can refine, the level it has now included."""
+    """Choices that can be refined in a scene, with the present level."""
     result = []
     steps = int(entries[STEPS])
     on_rock = entries["Foundation/Model"] == "rock"
@@ -149,8 +153,8 @@ class Ladder:
               f"{self.cost[name]:7.3f} s per s;  {done}/{self.n_expected}, about {left:.0f} s left", flush=True)
 
     def start(self, name, changes, directory):
-        """Runs the scene with the changes and returns them. Smaller elements of rock have a smaller critical time step: then
-        with as many steps of the rock in one of the dam as the program asks for or, if it refuses these, steps of both."""
+        """Runs the scene with the changes and returns them. Smaller rock elements have a smaller critical time step. Then
+        the rock has the number of substeps that the message of the run requires, or else both have smaller steps."""
         shutil.rmtree(directory, ignore_errors=True)
         result = start(self.scene, "--output", directory, "--quiet", *set_options({**self.common, **changes}))
         first, tried = result.stderr, changes
@@ -174,8 +178,8 @@ class Ladder:
         return digest.hexdigest()
 
     def measures(self, name):
-        """Openings and tensions (by the roots of their zones' areas) as one vector, each part relative to the largest of the
-        runs of single choices; openings of less than a hundredth of a millimetre are none."""
+        """Openings and tensions as one vector. Tensions are weighted by the roots of the zones' areas. Each part is relative
+        to the largest of the runs of single choices. Openings below 0.01 mm count as 0."""
         share = np.sqrt(self.areas[FIRST] / self.areas[FIRST].sum())
         parts, least = (self.openings, {run: share * means for run, means in self.tensions.items()}), (1e-5, 1.)
         if self.scale is None:  # once: limits are of this scale
@@ -190,7 +194,7 @@ class Ladder:
 
 
 def plan(choices, ladder, wish):
-    """The cheapest combination of measured and finer levels whose errors, added as vectors, meet the wish."""
+    """The cheapest combination of measured and finer levels whose errors, added as vectors, meet the target error."""
     options = []
     for choice in choices:
         cost = [ladder.cost[choice.key(k)] / ladder.cost[FIRST] for k in range(len(choice.levels))]
@@ -207,7 +211,7 @@ def plan(choices, ladder, wish):
 
 
 def combined(ladder, vectors):
-    """An estimate of the error of several choices at once. They partly cancel, but no sum of vectors is that exact."""
+    """Estimate of the error of several choices together. They may cancel, but at most down to half of the root sum of squares."""
     norms = [ladder.norm(v) for v in vectors]
     total = ladder.norm(sum(vectors))
     return tuple(max(total[k], 0.5 * math.sqrt(sum(n[k] ** 2 for n in norms))) for k in range(3))
@@ -304,7 +308,7 @@ def about_choices(choices, ladder, wish):
 
 
 def propose(choices, ladder, wish):
-    """Runs the cheapest setting that should meet the wish; where none does, names the closest."""
+    """Runs the cheapest setting that is expected to meet the target error, or else prints the closest one."""
     best, closest = plan(choices, ladder, wish)
     chosen = best or closest
     changes = {}

@@ -3,7 +3,7 @@
 
     voussoir arcs TABLE.csv --output DAM.msh [--joints 10] [--along 40] [--up 10] [--through 2] [--end-height 5] [--rock 150]
 
-Columns of the table, an arc in each line [m, degrees], in any order of lines; lines that begin with # are remarks:
+Columns of the table [m, degrees]; one arc per line, in any order; lines that begin with # are comments:
 
     elevation
     upstream_x                crown of the upstream face, x downstream
@@ -13,10 +13,10 @@ Columns of the table, an arc in each line [m, degrees], in any order of lines; l
     right_angle, left_angle   of the abutments at the upstream arc's centre, from the crown: both positive, growing upwards
 
 Between the arcs all columns are monotone cubic functions of the elevation (Fritsch and Carlson, SIAM J. Numer. Anal. 17, 1980;
-the weighted harmonic mean of Fritsch and Butland). Joints divide the crest into equal parts. On the upstream face they, and all
-columns of the mesh, run down in vertical planes normal to the crest, so that free-standing monoliths do not lean; through the dam
-they are radial at every elevation. At both ends, where the height goes to zero, an end wall of --end-height remains, and is fixed.
-With --rock it is free, and the foot stands on a block of rock for Foundation/Model = massless.
+the weighted harmonic mean of Fritsch and Butland). Joints divide the crest into equal parts. On the upstream face all joints and
+columns of elements lie in vertical planes normal to the crest, so that free-standing monoliths do not lean. Through the dam they
+are radial at every elevation. Each end of the crest has a fixed end wall of height --end-height. With --rock the end walls are
+free, and a block of rock supports the base, for Foundation/Model = massless.
 """
 
 import csv
@@ -207,7 +207,7 @@ def build(dam, joints, along, up, through, end_height):
 
 
 def smallest_jacobian(nodes, cells):
-    """Of the corners, over the product of the edges there; negative where a cell is folded."""
+    """Smallest Jacobian of the corners over the product of the edges there; negative if a cell is folded."""
     x = nodes[[cell for _, cell in cells]]
     worst = 1.
     for corner, (a, b, c) in enumerate(((1, 3, 4), (2, 0, 5), (3, 1, 6), (0, 2, 7), (7, 5, 0), (4, 6, 1), (5, 7, 2), (6, 4, 3))):
@@ -218,7 +218,7 @@ def smallest_jacobian(nodes, cells):
 
 
 def volume_of(nodes, cells):
-    """By six tetrahedra of each hexahedron [m3]."""
+    """Volume of hexahedra, by six tetrahedra each [m3]."""
     x, total = nodes[[cell for _, cell in cells]], 0.
     for a, b in ((1, 2), (2, 3), (3, 7), (7, 4), (4, 5), (5, 1)):
         total += np.einsum("ij,ij->i", np.cross(x[:, a] - x[:, 0], x[:, b] - x[:, 0]), x[:, 6] - x[:, 0]).sum() / 6
@@ -249,7 +249,7 @@ def main():
     parser.add_argument("--output", required=True, help="the mesh, MSH 2.2")
     parser.add_argument("--joints", type=int, default=10)
     parser.add_argument("--along", type=int, default=40, help="elements along the crest, rounded up to a multiple of the monoliths")
-    parser.add_argument("--up", type=int, default=10, help="elements from the foot to the crest")
+    parser.add_argument("--up", type=int, default=10, help="elements from the base to the crest")
     parser.add_argument("--through", type=int, default=2, help="elements through the thickness")
     parser.add_argument("--end-height", type=float, default=5., help="height of the dam's two ends [m]")
     parser.add_argument("--rock", type=float, default=0., metavar="EXTENT", help="massless rock beside, up- and downstream of and below the dam [m]")

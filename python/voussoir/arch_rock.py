@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rock around a dam of arch_from_table.py, for Foundation/Model = massless: a block of hexahedra that shares the nodes of the dam's foot.
+"""Rock around a dam of arch_from_table.py, for Foundation/Model = massless: a block of hexahedra that shares the base nodes of the dam.
 
-The grid is the dam's, prolonged: columns to both sides, layers up- and downstream, rows down. The ground is level along the stream and, beside the
-valley, level with the foot of the dam's ends, whose walls are free.
+The grid extends that of the dam: columns to both sides, layers up- and downstream, rows down. The ground is level along the stream. On both
+sides of the valley the ground has the level of the base at the dam's ends, whose walls are free.
 """
 
 import numpy as np
@@ -26,7 +26,7 @@ def graded(first, length, n):
 
 
 def ground_of(foot, extent):
-    """Points of the ground [column, layer], the foot among them."""
+    """Points of the ground [column, layer], with the base of the dam."""
     columns, layers = foot.shape[0] + 2 * SIDE, foot.shape[1] + 2 * STREAM
     ground = np.zeros((columns, layers, 3))
     middle = ground[SIDE:-SIDE]

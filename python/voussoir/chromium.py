@@ -71,7 +71,7 @@ class Chromium:
         return json.loads(text)
 
     def call(self, method, seconds=60., **parameters):
-        """The result of a method; events that come meanwhile are kept."""
+        """Returns the result of a method. Events before the result are stored."""
         self.number += 1
         words = {"id": self.number, "method": method, "params": parameters}
         if self.session:

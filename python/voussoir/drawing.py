@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the figures of runs are drawn with, an axes at a time, for figures.py and report.py: the same colours, signs and
-words everywhere. Stresses in MPa, tension positive; openings and slips in mm."""
+"""Drawings of results, one axes at a time, for figures.py and report.py: the same colours, signs and words in all
+figures. Stresses in MPa, tension positive; openings and slips in mm."""
 
 from collections import Counter
 
@@ -29,7 +29,7 @@ plt.rcParams.update({
 
 
 def minus(text):
-    """With the typographic minus of the axes."""
+    """Text with the typographic minus of the axes."""
     return text.replace("-", "\N{MINUS SIGN}")
 
 
@@ -104,7 +104,7 @@ def draw_face(axes, run, name, column, levels, strength=0.):
 
 
 def label_face(axes, face, stress, tension):
-    """Where the worst is, the banks and the side that it is seen from."""
+    """Marks the largest value, the banks and the side of the view."""
     s, z = face["s"], face["z"]
     width, height = np.ptp(s), np.ptp(z)
     worst = np.argmax(stress) if tension else np.argmin(stress)

@@ -51,7 +51,7 @@ def widest(directory):
 
 
 def times_of(directory):
-    """Time [s] and file of each solution, by solution.pvd; none without it."""
+    """Time [s] and file of each solution, by solution.pvd; empty if the file does not exist."""
     pvd = directory / "solution.pvd"
     found = re.findall(r'timestep="([^"]*)" file="(solution-[^"]*)"', pvd.read_text(errors="replace")) if pvd.exists() else []
     try:

@@ -7,7 +7,7 @@ from typing import Any, Dict, Mapping, Optional, Tuple
 
 
 def read_entries(text: str) -> Dict[str, Tuple[str, Optional[str]]]:
-    """Reads the entries of an input file that the program wrote, in their order.
+    """Reads the entries of an input file that the program wrote, in sequence.
 
     Returns "Section/Entry" -> (value, default). The default is None if the value is the default."""
     entries: Dict[str, Tuple[str, Optional[str]]] = {}

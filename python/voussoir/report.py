@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One self-contained page for a run of voussoir, or for several side by side.
+"""Writes a self-contained page about a run of voussoir, or about several runs side by side.
 
     voussoir report DIR... [--output FILE.html] [--pdf]
 
-DIR are output directories of finished runs. The page holds its figures and its style, and asks nothing of the network.
-Its texts are those of the directories' files, which may be another person's: all are escaped, and its Content-Security-Policy allows neither
-scripts nor other files. --pdf prints it to FILE.pdf with an installed Chromium (on Debian: apt-get install chromium), without scripts, files and network.
+DIR are output directories of finished runs. The page contains its figures and its style, and loads nothing from the network.
+The files of the directories may come from other persons. Therefore all texts are escaped, and the Content-Security-Policy of the page forbids
+scripts and other files. --pdf prints the page to FILE.pdf with an installed Chromium (on Debian: apt-get install chromium), under the same limits.
 """
 
 import sys
@@ -57,7 +57,7 @@ class Page:
             self.add(f'<figure><div class="row">{"".join(cells)}</div>{self.caption(caption)}</figure>')
 
     def made(self, what, make):
-        """What @p make gives; None, and a remark at the end, where its data are missing."""
+        """Result of `make`. If data are missing: None, and a remark at the end of the page."""
         try:
             return make()
         except Skip as reason:
@@ -74,7 +74,7 @@ def named(runs, run, what=""):
 
 
 def moving_of(page, runs, what):
-    """Those with an earthquake; of the others a remark at the end."""
+    """Runs with an earthquake. The other runs produce a remark at the end of the page."""
     page.missing += [f"{run.name}: {what}, the run is of the static state alone" for run in runs if not run.moves]
     return [run for run in runs if run.moves]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The figures of a report, as images that stand in the page itself. All runs have the same scales."""
+"""Figures of a report, as images inside the page. All runs have the same scales."""
 
 import base64
 import io

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tables of a report, as HTML: numbers with units that engineers read, limits beside them."""
+"""Tables of a report, as HTML: numbers in engineering units, next to their limits."""
 
 import re
 from html import escape
@@ -42,7 +42,7 @@ def superscript(exponent):
 
 
 def with_unit(value, unit):
-    """Of a limit: as it was given, without zeros at the end."""
+    """Text of a limit as in the scene, without zeros at the end."""
     return f"{value * SCALES[unit]:.4g}{' ' + unit if unit else ''}"
 
 
@@ -78,14 +78,14 @@ def limits_of(run):
 
 
 def unit_of(name):
-    """Of an extreme that this page does not know by name."""
+    """Unit of an extreme that is not listed by name."""
     if any(word in name for word in ("opening", "slip", "displacement", "gap")):
         return "mm"
     return "MPa" if any(word in name for word in ("tension", "compression", "stress", "pressure")) else ""
 
 
 def items(run):
-    """Key -> Item of the results of a run, in their order."""
+    """Results of a run in sequence: {key: Item}."""
     limits, errors, found = limits_of(run), run.summary.get("error_estimate"), {}
     errors = errors if isinstance(errors, dict) else {}
     extremes_of_run = run.summary.get("extremes", {})
@@ -147,7 +147,7 @@ def blocks(run):
 
 
 def demands(run, limits):
-    """Of the tensile strength."""
+    """Items about the tensile strength."""
     overstress, found = run.summary.get("overstress"), {}
     faces = [overstress[name] for name in ("upstream", "downstream") if name in (overstress or {})]
     if not faces:
@@ -259,7 +259,7 @@ def table(head, rows):
 
 
 def facts(runs):
-    """What the log said of the scenes, side by side."""
+    """Table of the lines of the log about each scene."""
     titles = list(dict.fromkeys(title for run in runs for title in run.facts if title not in ("Shaking", "Figures", "Results", "Speed", "Energy")))
     rows = []
     for title in titles:

@@ -61,7 +61,7 @@ class Run:
 
     @property
     def moves(self):
-        """Is there an earthquake, or the static state alone?"""
+        """True if the run has an earthquake, not only a static state."""
         return self.summary.get("steps", 1) != 0
 
     def table(self, name, text_columns=()):
@@ -135,7 +135,7 @@ class Run:
 
     @cached_property
     def facts(self):
-        """What the log says before the first step: title -> text."""
+        """Lines of the log before the first step: {title: text}."""
         file, facts, title = self.directory / "log.txt", {}, None
         for line in file.read_text(errors="replace").splitlines() if file.exists() else []:
             if line.startswith(("   time", "Limits ", "Joints    largest", "Tension ")):  # results of a static state follow it at once

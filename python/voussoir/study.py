@@ -74,7 +74,7 @@ def check_profile(profile):
 
 
 def jobs_and_threads(options, study):
-    """Scenes at a time, and threads of each: no more than there are cores, unless the user says so."""
+    """Number of simultaneous scenes, and of threads of each; together at most the number of cores, except by option."""
     cores = len(os.sched_getaffinity(0))
     jobs = int(options.jobs) if options.jobs else max(1, cores // max(1, study.threads))
     threads = study.threads or (1 if options.profile else max(1, cores // jobs))
@@ -244,12 +244,12 @@ def take_over(directory, scenes):
 
 
 def end_at_once_with_parent():
-    """At SIGTERM Snakemake would wait for its jobs; at SIGKILL they notice, and write their checkpoints."""
+    """Ends Snakemake by SIGKILL together with its parent; the jobs then write their checkpoints. After SIGTERM Snakemake would wait for them."""
     end_with_parent(signal.SIGKILL)
 
 
 def memory_at_hand():
-    """In MiB."""
+    """Available memory [MiB]."""
     with open("/proc/meminfo", encoding="ascii") as file:
         return next(int(line.split()[1]) // 1024 for line in file if line.startswith("MemAvailable:"))
 
@@ -287,7 +287,7 @@ def follow(process, directory, scenes, todo):
 
 
 def run_workflow(options, directory, scenes, todo, jobs, threads):
-    """Runs what is to be done; what fails is recorded."""
+    """Runs the remaining scenes, and records failures."""
     for name in todo:
         (directory / "records" / f"{name}.json").unlink(missing_ok=True)
     for name in scenes:

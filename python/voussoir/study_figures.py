@@ -118,9 +118,9 @@ def normal(z):
 
 
 def lognormal_fit(scales, above, runs):
-    """Median and standard deviation of the logarithm of the scale at which a limit is passed: maximum likelihood of the
+    """Median and standard deviation of the logarithm of the scale at which a limit is exceeded. Maximum likelihood of the
     counts `above` of `runs` at each scale (Baker, Earthquake Spectra 31, 2015, equation 11), by Newton's method for
-    Phi(a + b ln x). None where counts do not overlap (the smaller the deviation, the better) or do not rise with the scale."""
+    Phi(a + b ln x). None: the counts do not overlap (then a smaller deviation always fits better), or do not increase."""
     scales, above, runs = (np.asarray(values, dtype=float) for values in (scales, above, runs))
     if not above.any() or (above == runs).all() or scales[above > 0].min() >= scales[above < runs].max():
         return None
@@ -139,8 +139,8 @@ def lognormal_fit(scales, above, runs):
 
 
 def passings(by_record, limit):
-    """The scale at which each record's curve {scale: value} first passes the limit, between scales linearly: three lists, of
-    the scales, of the last ones of records that never pass, and of the first ones of records that pass from the first on."""
+    """Scales at which the records' curves {scale: value} first exceed the limit, by linear interpolation. Three lists: these
+    scales; the largest scales of records that never exceed it; the smallest scales of records that always exceed it."""
     known, later, earlier = [], [], []
     for curve in by_record.values():
         scales = sorted(curve)
@@ -179,7 +179,7 @@ def lognormal_of_passings(known, later, earlier):
 
 
 def draw_fragility(axes, study, pairs, limit, colour, text):
-    """Shares of runs above a limit at each scale, and the curve that fits them; says how many runs that is."""
+    """Draws the share of runs above a limit at each scale, with the fitted curve and the number of runs."""
     stripes, by_record = defaultdict(list), curves(pairs, study)
     for row, value in pairs:
         stripes[number(row[study.over])].append(value > limit)
@@ -233,8 +233,8 @@ def fragility(study, rows, path):
 # ---------------------------------------------------------------- tornado
 
 def effects(study, pairs):
-    """For each factor the mean measure of each of its values, over the sets of scenes that differ in it alone:
-    {factor: {value: mean}}; and the scene that most of the sets have, if there is one."""
+    """Mean measure for each value of each factor: {factor: {value: mean}}, over sets of scenes that differ only in the
+    factor. Also the scene that most sets have in common, if there is one."""
     found, taken = {}, Counter()
     for factor in study.factors:
         sets = defaultdict(dict)
@@ -250,7 +250,7 @@ def effects(study, pairs):
 
 
 def tornado(study, rows, path):
-    """What each factor does to each measure, the strongest on top."""
+    """Draws the effect of each factor on each measure, the strongest effect on top."""
     names = [name for name in MEASURES if measured(rows, name)]
     heights = max(len(study.factors), 2)
     figure, panels = plt.subplots(2, 2, figsize=(12, 2.4 + 1.1 * heights), squeeze=False, layout="constrained")

@@ -27,7 +27,7 @@ class Value:
 
 @dataclass
 class Study:
-    """What a study file says. A scene is a base scene and a tuple of Values."""
+    """Content of a study file. A scene is a base scene and a tuple of Values."""
     file: Path
     scenes: list = field(default_factory=list)  # (base scene, settings, factors)
     factors: list = field(default_factory=list)  # entries that vary, in the file's order; "Scene" if there are several
@@ -39,7 +39,7 @@ class Study:
 
 
 def edit_distance(a, b):
-    """Of two words (Levenshtein)."""
+    """Levenshtein distance of two words."""
     row = list(range(len(b) + 1))
     for i, x in enumerate(a, 1):
         before, row[0] = row[0], i
@@ -93,7 +93,7 @@ def check_entry(entry, place, known):
 
 
 def value_in(entry, text):
-    """What a text means: 0.5 and 0.50 are the same value, files 1 and 01 are not."""
+    """Meaning of a text: 0.5 and 0.50 are the same value, files 1 and 01 are different."""
     first, *rest = text.split() or [""]
     try:
         return text if is_file_entry(entry) or entry == "Scene" else (float(first), *rest)
@@ -124,7 +124,7 @@ def values_of(text, place, entry=""):
 
 
 def number_with_unit(text, unit, place):
-    """In m, Pa or as a share."""
+    """Value of a text [m], [Pa] or as a share."""
     digits = text.rstrip("%abcdfghijklmnopqrstuvwxyzGMP ").strip()
     factor = UNITS[unit].get(text[len(digits):].strip())
     try:
@@ -200,7 +200,7 @@ def study_of_itself(study, entries):
 
 
 def base_scenes(study, own):
-    """The values of "Scene" as an axis: paths relative to the study. None without."""
+    """The values of "Scene" as an axis: paths relative to the study; or None."""
     text, place = own.get("Scene", ("", ""))
     return [(Value("Scene", value, place),) for value in values_of(text, place, "Scene")] if text else None
 
@@ -274,7 +274,7 @@ def spell_out(study, choices, settings):
 
 
 def choose_axes(study, own):
-    """What the figures are drawn over, and what counts as a record: by the file, or by the names of what varies."""
+    """Abscissa of the figures, and entries that identify a record: from the file, or from the names of the axes."""
     for name, attribute, usual in (("Over", "over", ("Motion/Factor", "Motion/Peak acceleration")),
                                    ("Records", "records", ("Motion/Seed", "Motion/File", "Motion/File x"))):
         text, place = own.get(f"Figures/{name}", ("", ""))

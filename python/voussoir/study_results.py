@@ -47,7 +47,7 @@ def damage(run, strength):
 
 
 def motion_of(run):
-    """Largest acceleration of the base [m/s2] in any direction, and the crest's way up- and downstream from its static place [m]."""
+    """Largest acceleration of the base in any direction [m/s2], and displacements of the crest from the static state, up- and downstream [m]."""
     columns = read_table(run / "history.csv")
     crest = columns["crest_x"] - columns["crest_x"][0]
     base = [np.abs(column).max() for name, column in columns.items() if name.startswith("base_acceleration_")]

@@ -36,7 +36,7 @@ def write_whole(path, text):
 
 
 def record_of(directory, name):
-    """What is known of a scene's last run: its key, status, message, seconds."""
+    """Record of a scene's last run: key, status, message, seconds."""
     try:
         return json.loads((Path(directory) / "records" / f"{name}.json").read_text())
     except (OSError, ValueError):
@@ -52,12 +52,12 @@ def summary_of(directory, name):
 
 
 def revision_of(directory, name):
-    """Of the program that ran the scene."""
+    """Revision of the program that ran the scene."""
     return summary_of(directory, name).get("revision", "")
 
 
 def row_in_words(directory, name):
-    """What a scene gave, for the screen."""
+    """Results of a scene, for the screen."""
     summary = summary_of(directory, name)
     extremes = {key: value["value"] for key, value in summary["extremes"].items()}
     words = [f"opening {1e3 * extremes['max_opening']:.1f} mm"] if "max_opening" in extremes else []
@@ -67,11 +67,11 @@ def row_in_words(directory, name):
 
 
 def run(program, directory, name, threads, extra):
-    """Status and log of one start of the program; -1 if this process was told to stop."""
+    """Status and log of one start of the program; -1 if this process received a signal to stop."""
     stopped = []
 
     def stop(*_):
-        """The program writes a checkpoint and ends; a second signal would end it at once."""
+        """Passes the signal to the program only once, since a second signal would prevent its checkpoint."""
         if not stopped:
             stopped.append(True)
             job.terminate()

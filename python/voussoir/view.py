@@ -55,8 +55,8 @@ class Mesh:
         return self.points[self.quads[self.surface == surface]] if len(self.quads) else np.zeros((0, 4, 3))
 
     def tints(self, level):
-        """For draw_mesh(): a function of cells and their volumes that gives the colours of their outer faces with what bounds the rock,
-        and those that are upstream, with the water."""
+        """Function for draw_mesh() of cells and their volumes. It returns the colours of the outer faces with the boundaries of the rock,
+        and the upstream faces with the water."""
         kind = {tuple(sorted(quad)): number for number, quad in zip(self.surface, self.quads)}
 
         def of(cells, volume):
@@ -135,7 +135,7 @@ def plan(axes, mesh):
 
 
 def cut(mesh, y):
-    """Where the cells meet the plane y: polygons (x, z), and their volumes."""
+    """Intersections of the cells with a plane of constant y: polygons (x, z), and their volumes."""
     corners = mesh.points[mesh.cells]
     found, volumes = [], []
     for k in np.flatnonzero((corners[:, :, 1].min(axis=1) < y) & (corners[:, :, 1].max(axis=1) > y)):

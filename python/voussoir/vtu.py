@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads the .vtu files that voussoir writes, and writes such files; needs nothing but Python."""
+"""Reads the .vtu files of voussoir, and writes such files. Requires only Python."""
 
 import base64
 import re

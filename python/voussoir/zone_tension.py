@@ -10,7 +10,7 @@ FOOT = 0.1  # of the height: nearer to the base is no zone
 
 
 def outline(x, corners):
-    """Places of the nodes where the faces end, but for the crest: on the base."""
+    """Positions of the nodes at the edges of the faces, except the crest: nodes on the base."""
     places = np.round(x[:, :3], 2)
     number = np.unique(places, axis=0, return_inverse=True)[1].ravel()[corners]  # joints have two nodes at each place
     edges = np.sort(np.stack([number, np.roll(number, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)

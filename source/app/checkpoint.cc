@@ -14,7 +14,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** The first @p n samples in a row, zero after the end of the motion. */
+    /** Returns the first @p n samples of a motion, three components each, with zeros after its end. */
     std::vector<double> beginning(const GroundMotion &motion, const std::size_t n)
     {
       std::vector<double> samples;
@@ -36,11 +36,11 @@ namespace Voussoir
     const std::string revision = VOUSSOIR_REVISION;
     Provenance        result = decisive_entries(scene_text);
     result["the program's revision"] = revision;
-    if (revision == "unknown" || revision.find("dirty") != std::string::npos) // says little
+    if (revision == "unknown" || revision.find("dirty") != std::string::npos) // does not identify the program
       result["the program"] = digest_of_file("/proc/self/exe");
     for (const auto &input : scene.input_files())
       if (std::error_code error;
-          std::filesystem::is_regular_file(input.second, error)) // else reading it says so
+          std::filesystem::is_regular_file(input.second, error)) // other files: an error of the reader
         result["the file of " + input.first + " (" + std::filesystem::path(input.second).filename().string() +
                ")"] = digest_of_file(input.second);
     return result;
@@ -81,13 +81,15 @@ namespace Voussoir
       save(run, observers, counters);
       return " The state after step " + std::to_string(run.step) + " of " + std::to_string(run.n_steps) +
              " is kept in " + file +
-             ": make room, or clear the way, and the same command with --resume goes on.";
+             ". Free some disk space or remove the obstacle, then continue with the same command and "
+             "--resume.";
     }
     catch (const WriteError &)
     {
-      return std::filesystem::exists(file) ? " Nor can a checkpoint, but the one before is "
-                                             "there: make room, and --resume goes on from it."
-                                           : " Nor can a checkpoint.";
+      return std::filesystem::exists(file)
+                 ? " The checkpoint could not be written either. The previous "
+                   "checkpoint is intact. Free some disk space and continue with --resume."
+                 : " The checkpoint could not be written either.";
     }
   }
 
@@ -107,9 +109,10 @@ namespace Voussoir
   unsigned int Checkpoint::open(Log &log)
   {
     if (!exists())
-      throw InputError("There is no checkpoint " + file +
-                       " to resume from: the run has ended, or never reached one. Run "
-                       "without --resume, or name the output directory of the run with --output.");
+      throw InputError(
+          "There is no checkpoint " + file +
+          " to resume from: the run is complete, or was stopped before its first checkpoint. Run "
+          "without --resume, or set the output directory of the run with --output.");
     std::string warning;
     payload = read_checkpoint_file(file, warning);
     if (!warning.empty())
@@ -128,12 +131,12 @@ namespace Voussoir
     catch (const boost::archive::archive_exception &)
     {
       throw InputError("The checkpoint " + file +
-                       " is of another build of the program. Run without --resume.");
+                       " was written by another build of the program. Run without --resume.");
     }
   }
 
-  /** InputError where the rock of the checkpoint, whose run had @p n_steps_then and whose motion had
-   * @p samples_then, does not allow for the run and the motion of now. */
+  /** Throws InputError if the state of the rock is invalid for the present length of the motion. The run of
+   * the checkpoint had @p n_steps_then steps, and its motion @p samples_then samples. */
   void Checkpoint::check_longer_motion(const RunState &run, const unsigned int n_steps_then,
                                        const std::size_t samples_then) const
   {
@@ -142,16 +145,16 @@ namespace Voussoir
     if (run.n_steps < n_steps_then)
       throw InputError(
           "The checkpoint " + file +
-          " is of a longer motion: on rock, whose free field is made for its length, a run can be "
-          "resumed with a longer one only. Raise \"Motion/Duration\", or run without --resume.");
-    constexpr unsigned int ahead = 1; // steps by which the rock knows the motion before the dam
+          " has a longer motion. On rock the free field has the length of the motion, so a run can only be "
+          "resumed with a longer motion. Increase \"Motion/Duration\", or run without --resume.");
+    constexpr unsigned int ahead = 1; // steps of the rock ahead of the dam
     if (run.motion.acceleration.size() > samples_then && run.step + ahead + 1 >= samples_then)
       throw InputError(
           "The checkpoint " + file +
-          " was written at the end of its motion, after it, or a step before it: the rock, ahead of the "
-          "dam, has felt that end already. It cannot be run on with a longer one. Set \"Motion/Duration\" as "
-          "it "
-          "was, or run without --resume.");
+          " was written one step before the end of its motion or later. The end has already acted on the "
+          "rock, which is a "
+          "step ahead of the dam, so the run cannot be resumed with a longer motion. Set the previous "
+          "\"Motion/Duration\", or run without --resume.");
   }
 
   void Checkpoint::check_motion(const RunState &run, const double dt,
@@ -160,8 +163,8 @@ namespace Voussoir
     if (dt != run.motion.dt || samples != beginning(run.motion, run.step + 1))
       throw InputError(
           "The motion differs from that of the checkpoint " + file +
-          " before the time at which it was written; an artificial motion depends on its duration "
-          "from the beginning. Set \"Motion/Duration\" as it was, or run without --resume.");
+          " before the time of the checkpoint. An artificial motion depends on its duration from the "
+          "first sample. Set the previous \"Motion/Duration\", or run without --resume.");
   }
 
   void Checkpoint::load_foundation(const RunState &run, const unsigned int n_steps_then,
@@ -171,7 +174,7 @@ namespace Voussoir
     {
       std::vector<double> saved;
       archive >> saved;
-      // Of a longer motion the free field's endless columns are longer, and still at rest there.
+      // With a longer motion the columns of the free field are longer; the added part is at rest.
       AssertThrow(saved.size() == array->size() ||
                       (run.n_steps > n_steps_then && saved.size() < array->size()),
                   dealii::ExcInternalError());
@@ -195,7 +198,7 @@ namespace Voussoir
     if (run.step > run.n_steps)
       throw InputError("The checkpoint " + file + " was written after step " + std::to_string(run.step) +
                        ", but the motion now ends after " + std::to_string(run.n_steps) +
-                       ". Raise \"Motion/Duration\", or run without --resume.");
+                       ". Increase \"Motion/Duration\", or run without --resume.");
     check_longer_motion(run, n_steps_then, samples_then);
     check_motion(run, dt, samples);
     archive >> counters.wall_before >> counters.cpu_before >> state >> first >> largest >> counters >>

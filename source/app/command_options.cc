@@ -11,7 +11,7 @@ namespace Voussoir
   {
     struct Option
     {
-      const char *name, *value, *meaning; ///< without a value: a flag
+      const char *name, *value, *meaning; ///< empty value: a flag
       bool        needed = false;
     };
 
@@ -19,7 +19,7 @@ namespace Voussoir
     {
       const char         *name, *words, *summary;
       std::vector<Option> options;
-      const char         *script = ""; ///< in Python, that does it
+      const char         *script = ""; ///< Python script that executes it
     };
 
     const Option set = {"--set", "'Section/Entry=value'",
@@ -28,89 +28,85 @@ namespace Voussoir
     const std::vector<Command> commands = {
         {"",
          "SCENE.prm",
-         "Static state and earthquake of the dam of a scene.",
+         "Runs a scene: static state and earthquake of a dam.",
          {{"--output", "DIR", "directory for the results, by default output/SCENE"},
           set,
-          {"--resume", "", "go on from the last checkpoint in the directory"},
-          {"--overwrite", "", "replace what is in the directory"},
-          {"--validate", "", "check scene, mesh and motion, print what would be run, and stop"},
-          {"--quiet", "", "print nothing but errors; with --validate: and warnings"}}},
-        {"scene",
-         "SCENE.prm",
-         "The scene as it would be run, with what it includes and every default.",
-         {set}},
+          {"--resume", "", "continue from the last checkpoint in the directory"},
+          {"--overwrite", "", "replace the results in the directory"},
+          {"--validate", "", "check scene, mesh and motion, print a summary, and stop"},
+          {"--quiet", "", "print only errors; with --validate also warnings"}}},
+        {"scene", "SCENE.prm", "Prints the complete scene, with included files and all defaults.", {set}},
         {"arcs",
          "TABLE.csv",
-         "The mesh of a dam of circular arcs from a table, an arc in each line.",
+         "Writes the mesh of a dam from a table of circular arcs, one arc per line.",
          {{"--output", "FILE.msh", "the file to write", true},
-          {"--joints", "N", "contraction joints, by default 10"},
+          {"--joints", "N", "number of contraction joints, by default 10"},
           {"--along", "N",
-           "elements along the crest, by default 40; rounded up to a multiple of the monoliths"},
-          {"--up", "N", "elements from the foot to the crest, by default 10"},
-          {"--through", "N", "elements through the thickness, by default 2"},
-          {"--end-height", "X", "height of the dam's two ends [m], by default 5"},
-          {"--rock", "X", "massless rock around and below the dam, of this extent [m]; none by default"}},
+           "number of elements along the crest, by default 40; rounded up to a multiple of the monoliths"},
+          {"--up", "N", "number of elements from the base to the crest, by default 10"},
+          {"--through", "N", "number of elements through the thickness, by default 2"},
+          {"--end-height", "X", "height of the dam at both ends of the crest [m], by default 5"},
+          {"--rock", "X", "extent of a box of massless rock around and below the dam [m], by default none"}},
          "arch_from_table.py"},
         {"mesh",
          "SCENE.prm",
-         "The scene's mesh, for gmsh.",
+         "Writes the mesh of a scene as a file of gmsh.",
          {{"--output", "FILE.msh", "the file to write", true},
           {"--format", "4.1|2.2", "MSH format, by default 4.1"},
           set}},
         {"modes",
          "SCENE.prm",
-         "Natural frequencies of the tied dam, with added mass [Hz].",
-         {{"--count", "N", "how many, by default 10"},
+         "Prints natural frequencies of the monolithic dam, with added mass [Hz].",
+         {{"--count", "N", "number of modes, by default 10"},
           {"--output", "DIR",
            "directory for mode shapes, participation factors, effective masses and a picture"},
           set}},
         {"motion",
          "SCENE.prm",
-         "The scene's ground motion, t, a_x, a_y, a_z [s, m/s^2], and a report about it.",
+         "Writes the ground motion of a scene, t, a_x, a_y, a_z [s, m/s^2], and prints a report.",
          {{"--output", "FILE.csv", "the file to write", true}, set}},
         {"contact",
          "FILE.hdf5...",
-         "Solves frictional contact problems in FCLib's format; a JSON object per file, seconds are CPU "
-         "seconds.",
+         "Solves frictional contact problems in FCLib's format. Prints a JSON object per file, with CPU "
+         "times.",
          {{"--tolerance", "X", "largest residual, by default 1e-12"},
           {"--solver", "NAME",
-           "newton (the default, with its fallbacks), proximal, sweeps, paper, fischer-burmeister"},
-          {"--max-seconds", "X", "for each problem, by default 10"},
+           "newton (default, with fallbacks), proximal, sweeps (Gauss-Seidel), paper, fischer-burmeister"},
+          {"--max-seconds", "X", "largest CPU time for each problem [s], by default 10"},
           {"--write-solutions", "DIR", "write the contact forces into this directory"}}},
         {"accuracy",
          "SCENE.prm",
-         "Error against cost of the scene over its strongest seconds, and the cheapest setting that meets a "
-         "wish.",
-         {{"--for", "X%", "the error that is wished, by default 1%"},
-          {"--seconds", "X", "of the strongest motion, by default 5"},
-          {"--output", "DIR",
-           "directory for the runs, the table and the chart, by default output/SCENE-accuracy"},
+         "Runs a scene with several meshes and time steps: error and cost, and the cheapest setting that "
+         "meets a target error.",
+         {{"--for", "X%", "target error, by default 1%"},
+          {"--seconds", "X", "duration of the strongest motion [s], by default 5"},
+          {"--output", "DIR", "directory for runs, table and chart, by default output/SCENE-accuracy"},
           set},
          "accuracy.py"},
         {"view",
          "SCENE.prm",
-         "Pictures of what would be run: mesh, groups, joints, water, axes, rock.",
+         "Draws a scene: mesh, groups, joints, water, axes, rock.",
          {{"--output", "DIR", "directory for the pictures, by default output/SCENE-view"}, set},
          "view.py"},
         {"report",
          "DIR...",
-         "One self-contained page for one run, or for several side by side.",
+         "Writes a self-contained HTML page about a run, or about several runs side by side.",
          {{"--output", "FILE.html", "the file to write, by default DIR/report.html"},
-          {"--pdf", "", "the same as PDF beside it, by headless Chromium"}},
+          {"--pdf", "", "also write the page as PDF in the same directory, by headless Chromium"}},
          "report.py"},
         {"study",
          "STUDY.prm",
-         "Many scenes under Snakemake, one table of their results, and figures.",
-         {{"--jobs", "N", "scenes at a time, by default as many as there are cores"},
+         "Runs many scenes under Snakemake. Writes one table of their results, and figures.",
+         {{"--jobs", "N", "number of simultaneous scenes, by default the number of cores"},
           {"--output", "DIR", "directory for the runs and results, by default output/STUDY"},
-          {"--profile", "PROFILE", "Snakemake's profile, for a cluster such as Slurm"},
-          {"--keep-going", "", "run the other scenes where one fails"},
-          {"--dry-run", "", "say what would be run"},
+          {"--profile", "PROFILE", "profile of Snakemake, for a cluster such as Slurm"},
+          {"--keep-going", "", "continue with the other scenes if a scene fails"},
+          {"--dry-run", "", "print the scenes without a run"},
           {"--set", "'Section/Entry=value'", "override an entry of the study; may be given several times"}},
          "study.py"},
         {"parameters",
          "[prm|json|markdown] [SECTION]",
-         "All entries of a scene file, or those of a section, with their defaults and meaning.",
+         "Prints all entries of a scene file or of a section, with defaults and meaning.",
          {}}};
 
     constexpr const char *status = "Exit status: 0 done; 1 the computation failed; 2 bad input.\n";
@@ -149,7 +145,7 @@ namespace Voussoir
       return text + "\n    " + command.summary + "\n";
     }
 
-    /** The option of any command: whether it has a value does not depend on which. */
+    /** Returns the option of any command. An option has a value in all commands or in none. */
     const Option *find_anywhere(const std::string &name)
     {
       for (const Command &command : commands)
@@ -176,7 +172,7 @@ namespace Voussoir
                        " --help` shows all options.");
     }
 
-    /** All words, by the options they may be of any command; the first other word names the command. */
+    /** Word of the command line, with its value if it is an option of any command. */
     struct Word
     {
       std::string   text, value;
@@ -200,8 +196,8 @@ namespace Voussoir
         if (word.option != nullptr && *word.option->value != '\0')
         {
           if (i + 1 == words.size() || words[i + 1].empty() || find_anywhere(words[i + 1]) != nullptr)
-            throw InputError("The option " + words[i] + " needs a value after it, " + word.option->value +
-                             ". `voussoir --help` shows how.");
+            throw InputError("The option " + words[i] + " needs a value, " + word.option->value +
+                             ". `voussoir --help` shows the usage.");
           word.value = words[++i];
         }
         result.push_back(word);
@@ -244,7 +240,7 @@ namespace Voussoir
       else if (*word.option->value == '\0')
         arguments.flags.insert(word.text);
       else if (!arguments.values.emplace(word.text, word.value).second)
-        throw InputError("The option " + word.text + " is given twice. Leave one.");
+        throw InputError("The option " + word.text + " is given twice. Remove one.");
     }
     return arguments;
   }

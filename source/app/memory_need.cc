@@ -20,13 +20,13 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double block = 9 * 8. + 4.; // of a sparse matrix: 3 x 3 numbers and a column [bytes]
+    constexpr double block = 9 * 8. + 4.; // sparse matrix: 3 x 3 numbers and a column index [bytes]
 
-    // Measured, see tests/program_memory.py [bytes].
+    // Measured by tests/program_memory.py [bytes].
     constexpr double program = 178e6, per_cell = 700., per_node = 700., per_rock_node = 2100.;
 
-    /** Factors of what there is with elements of degree 2: nodes, blocks, entries of the factors, and squares
-     * of what lies on surfaces. */
+    /** Ratios of sizes with elements of degree 2 to those with degree 1: nodes, blocks of matrices, entries
+     * of factors, and squared number of surface nodes. */
     struct Growth
     {
       double nodes, blocks, entries, surface;
@@ -60,10 +60,10 @@ namespace Voussoir
     {
       std::vector<std::vector<unsigned int>> neighbours;
       std::vector<bool>                      is_interface;
-      double n_blocks = 0., n_feet = 0.; ///< feet: interface nodes of the base
+      double n_blocks = 0., n_feet = 0.; ///< n_feet: interface nodes of the base
     };
 
-    /** Returns the graph of the cells that @p counts, without the nodes that are @p held. */
+    /** Returns the graph of the cells for which @p counts is true, without the fixed nodes @p held. */
     Graph graph_of(const HexMesh &mesh, const std::function<bool(const HexMesh::Cell &)> &counts,
                    const std::vector<bool> &held, const std::vector<bool> &in_pair,
                    const std::vector<bool> &on_base)
@@ -95,14 +95,14 @@ namespace Voussoir
       return graph;
     }
 
-    /** Entries of factors and joint operators of one size of steps [8 bytes]. */
+    /** Entries of factors and joint operators of one size of time steps [8 bytes]. */
     struct Factors
     {
       double entries = 0., dense = 0.,
              kept = 0.; ///< of the factors; flexibilities of interfaces before and after W
       double operators = 0., diagonal = 0.; ///< of W, and of its blocks of single joints
-      double feet = 0.;                     ///< of the elimination of feet
-      double share = 1.;                    ///< largest share of a rank, of all but the feet
+      double feet = 0.;                     ///< elimination of base nodes
+      double share = 1.;                    ///< largest share of a rank, except the base nodes
     };
 
     /** Adds the joint operator. @p held: nodes without unknowns. */
@@ -189,12 +189,12 @@ namespace Voussoir
       if (single) // each thread computes one factor in double precision at a time
         factors.entries += largest_factor * std::min<std::size_t>(of_body.size(), omp_get_max_threads());
       factors.share = largest_share(of_body);
-      if (massless && led) // couples all feet: their elimination and its factor
+      if (massless && led) // couples all base nodes: elimination and factor
         factors.feet += 18. * std::pow(std::count(on_base.begin(), on_base.end(), true), 2);
       if (!tied)
         add_operator(dam, joints, led ? on_base : held, growth.surface, factors);
       if (led && !tied)
-        factors.feet += factors.operators; // a second operator during the elimination of the feet
+        factors.feet += factors.operators; // a second operator during the elimination of base nodes
       return bytes;
     }
 
@@ -217,9 +217,9 @@ namespace Voussoir
       const std::vector<bool> no(mesh.nodes.size(), false);
       const Graph             rock = graph_of(mesh, is_rock, no, no, no);
       double                  n_blocks = rock.n_blocks;
-      if (scene.foundation.nodal_everywhere) // does not couple the ends of a cell's diagonals
+      if (scene.foundation.nodal_everywhere) // no coupling along the diagonals of cells
         n_blocks -= 8. * std::count_if(mesh.cells.begin(), mesh.cells.end(), is_rock);
-      const double part = 1. / Ranks::size(), matrix = block * n_blocks; // kept of it: see make_rock_part()
+      const double part = 1. / Ranks::size(), matrix = block * n_blocks; // see make_rock_part()
       const bool   is_shared = scene.foundation.nodal_everywhere && scene.foundation.layers_at_dam <= 10;
       const double kept = is_shared ? std::min(1., part + .13) : 1.;
       const double all = per_rock_node * rock.neighbours.size() - (1. - kept) * matrix;
@@ -233,7 +233,7 @@ namespace Voussoir
     Factors      factors;
     MemoryNeed   need;
     const double dam = of_dam(scene, mesh, factors);
-    // Of the operator also single precision; inverses and LU factors of the joints' blocks in that, too.
+    // Operator in double and single precision; inverses and LU factors of the diagonal blocks in single.
     need.halved_step =
         factors.share *
             (8. * factors.entries + std::max(8. * factors.dense, 8. * factors.kept + 12. * factors.operators +
@@ -246,7 +246,7 @@ namespace Voussoir
       need.run += of_rock(scene, mesh, others);
       need.of_others += others;
     }
-    else if (scene.foundation.model == "massless") // before the dam has factors
+    else if (scene.foundation.model == "massless") // before the factors of the dam exist
       need.run = need.of_others =
           std::max(need.run, program + dam + of_massless_rock(mesh, scene.elements.degree));
     return need;
@@ -257,7 +257,7 @@ namespace Voussoir
     constexpr double gib = 1024. * 1024. * 1024.;
     char             others[60] = "", text[200];
     if (Ranks::size() > 1)
-      std::snprintf(others, sizeof(others), " for the first rank, %.2f GiB for each other one",
+      std::snprintf(others, sizeof(others), " for the first rank, %.2f GiB for each other rank",
                     need.of_others / gib);
     std::snprintf(text, sizeof(text), "about %.2f GiB%s, and %.2f GiB more for each halving of a step",
                   need.run / gib, others, need.halved_step / gib);
@@ -270,7 +270,7 @@ namespace Voussoir
     {
       return "There is not enough memory: this scene needs " +
              in_words(memory_need(scene, make_mesh(scene.mesh, scene.directory))) +
-             ". Use fewer elements, or a machine that has as much.";
+             ". Use fewer elements, or a machine with more memory.";
     }
     catch (const std::bad_alloc &)
     {

@@ -25,7 +25,7 @@ namespace Voussoir
                    zone.volume);
     }
 
-    /** Prints the size of the motion, and a warning for each entry that may be an oversight. */
+    /** Prints the peak values of the motion, and a warning for each entry that may be an oversight. */
     void report_motion_and_warnings(const RunState &run, Log &log)
     {
       const Dam   &dam = *run.dam;
@@ -44,27 +44,26 @@ namespace Voussoir
                  c[0].peak_velocity, c[1].peak_velocity, c[2].peak_velocity, c[0].peak_displacement,
                  c[1].peak_displacement, c[2].peak_displacement);
         if (const double delay = dam.foundation->delay(); scene.motion.duration_is_automatic() && delay > 0.)
-          log.line("          the run goes on for %.2f s after the motion: its end is at the dam's base then",
+          log.line("          the run continues for %.2f s after the motion, until its end reaches the dam",
                    run.grid().duration() - run.motion.duration());
         else if (delay > 0.)
-          log.line("          the last %.3f s of the motion do not reach the dam: the run ends with "
+          log.line("          the last %.3f s of the motion do not reach the dam: the run ends at "
                    "\"Motion/Duration\"; -1 adds the travel time",
                    delay);
         if (const std::string warning = size_warning(report); !warning.empty())
           log.line("warning: %s", warning.c_str());
       }
       if (scene.mesh.source == "arch210" && scene.mesh.arch210_rock.enabled && !dam.foundation->uses_rock())
-        log.line("warning: the rock of Mesh/Arch210/Rock is left out: Foundation/Model is rigid.");
+        log.line("warning: the rock of Mesh/Arch210/Rock is ignored: Foundation/Model is rigid.");
       if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0. && !dam.has_water)
         log.line(
             "warning: the water does not reach the dam: Reservoir/Water level is %g m, below the upstream "
-            "face. Raise it, in the axes of the scene, or set Reservoir/Density to 0.",
+            "face. Increase the level, in the axes of the scene, or set Reservoir/Density to 0.",
             scene.reservoir.level);
       const auto &crest = dam.geometry->joints;
       if (crest.size() > 1 && crest.front().arc_length > crest.back().arc_length)
-        log.line(
-            "warning: the joints are numbered from the left bank (y > 0) to the right, and so are those of "
-            "Joints/Overrides and of all results; usual is from the right bank.");
+        log.line("warning: the joints are numbered from the left bank (y > 0) to the right bank, also in "
+                 "Joints/Overrides and in all results. Usually the numbers begin at the right bank.");
       if (scene.mesh.source == "file" && !dam.ungrouped.empty())
         log.line("warning: %s", dam.ungrouped.c_str());
       for (const std::string &warning : dam.mesh_warnings)
@@ -73,7 +72,7 @@ namespace Voussoir
         log.line("warning: %s", warning.c_str());
     }
 
-    /** Prints what was done to records, and what remains at the end of the motion. */
+    /** Prints the corrections of records, and a warning about motion that remains at the end. */
     void report_motion_notes(const RunState &run, Log &log)
     {
       for (const std::string &note : run.motion.notes)
@@ -144,7 +143,7 @@ namespace Voussoir
     if (run.n_steps > 0)
     {
       MotionParameters as_run = scene.motion;
-      as_run.factor *= scene.loads.factor("earthquake"); // of the combination, as that of the motion
+      as_run.factor *= scene.loads.factor("earthquake"); // of the combination, as in run.motion
       spectrum_table(run.motion, as_run).write(directory + "/spectrum.csv");
     }
     if (scene.statics.stages.empty())

@@ -37,8 +37,8 @@ namespace Voussoir
     if (options.resume)
       state.start_step = checkpoint.open(log);
     if (options.resume && options.overwrite)
-      throw InputError("--resume goes on with what is in " + directory +
-                       ", and --overwrite replaces it: give one of the two.");
+      throw InputError("--resume continues the run in " + directory +
+                       ", but --overwrite replaces the run. Use only one of both options.");
     read_input();
     report_setup(state, options.validate, log);
     if (options.validate)
@@ -48,7 +48,7 @@ namespace Voussoir
     loop();
   }
 
-  /** One run is started with one command, on machines that see the same files. */
+  /** Throws InputError if the ranks have different command lines or input files. */
   void Simulation::check_ranks() const
   {
     std::string text = scene_text + directory + (options.resume ? " resume" : "") +
@@ -56,8 +56,8 @@ namespace Voussoir
     for (const auto &[name, value] : checkpoint.provenance)
       text += name + value;
     if (!Ranks::have_same(text))
-      throw InputError("The ranks of this run have different scenes: start all with the same command, where "
-                       "all see the same program, scene and files.");
+      throw InputError("The ranks of this run have different scenes. Start all ranks with the same command, "
+                       "with access to the same program, scene and files.");
   }
 
   void Simulation::claim_directory()
@@ -68,7 +68,7 @@ namespace Voussoir
     Ranks::on_first([&] { run_directory.claim(options.resume, options.overwrite, inputs); });
   }
 
-  /** Reads all files that the scene names. Throws InputError for what cannot be run. */
+  /** Reads the files of the scene and creates the dam. Throws InputError for invalid input. */
   void Simulation::read_input()
   {
     const double  factor = scene.loads.factor("earthquake"); // of the combination
@@ -79,18 +79,18 @@ namespace Voussoir
     state.dam = std::make_unique<Dam>(scene);
     const Dam &dam = *state.dam;
     if (!scene.statics.stages.empty())
-      StaticPath{*state.dam};                                // can all of them be?
-    if (n_steps > 0 && scene.motion.duration_is_automatic()) // by whole samples
+      StaticPath{*state.dam};                                // throws InputError for an invalid stage
+    if (n_steps > 0 && scene.motion.duration_is_automatic()) // in whole samples
       n_steps += scene.steps_per_sample *
                  std::ceil(dam.foundation->delay() / (scene.steps_per_sample * motion.dt) - 1e-9);
     if (n_steps > 0)
       dam.foundation->check(state.grid(), scene.steps_per_sample);
     if (checkpoint.provenance_now() != checkpoint.provenance)
-      throw InputError("A file that the scene names has changed while it was read. Run again.");
+      throw InputError("An input file of the scene changed while the program read it. Start the run again.");
     counters.setup = counters.clock.seconds();
   }
 
-  /** Ends a run with --validate: with --quiet the warnings are all that is printed. */
+  /** Prints the warnings at the end of --validate, if --quiet has suppressed the log. */
   void Simulation::validate()
   {
     if (options.quiet && Ranks::is_first())
@@ -98,7 +98,7 @@ namespace Voussoir
         std::cerr << "voussoir: warning: " << warning << '\n';
   }
 
-  /** Finds the state from which the time loop starts: the static state, or that of the checkpoint. */
+  /** Computes the static state, and restores the checkpoint of a resumed run. */
   void Simulation::start()
   {
     Stopwatch watch;
@@ -127,7 +127,7 @@ namespace Voussoir
         observer->start();
   }
 
-  /** Creates the files of the run: all input is read and found good. */
+  /** Creates the files of the run, after all input is checked. */
   void Simulation::begin_files()
   {
     run_directory.begin(options.resume, scene.contact.write_problems);
@@ -177,7 +177,7 @@ namespace Voussoir
     }
   }
 
-  /** Makes a step, and shows it to the observers. */
+  /** Computes a step, and calls the observers. */
   void Simulation::advance()
   {
     const Stopwatch   watch;
@@ -195,15 +195,15 @@ namespace Voussoir
       try
       {
         if (Ranks::is_first())
-          write_tables(); // what there is, to see what went wrong
+          write_tables(); // for a diagnosis of the error
       }
-      catch (const WriteError &) // the first error is the one to tell
+      catch (const WriteError &) // only the first error is reported
       {
       }
       const bool resumable = std::filesystem::exists(directory + "/checkpoint.bin");
       throw ComputationError(
-          error.what() + (" The tables in " + directory) + " end before it" +
-          (resumable ? "; the last checkpoint is there, too: go on from it with --resume." : "."));
+          error.what() + (" The tables in " + directory) + " end before this step." +
+          (resumable ? " The last checkpoint is in the same directory: continue with --resume." : ""));
     }
     for (Observer *observer : *observers)
       observer->follow();
@@ -230,9 +230,9 @@ namespace Voussoir
     state.base_velocity_before = newmark.state().base_velocity;
     const ContactResult result = newmark.advance(load, foundation.base_velocity());
     if (const double more = newmark.memory() - memory_before; more > 0.)
-      log.line(
-          "          smaller steps from t = %.4g s on, where joints ask for them: factors of %.2f GiB more%s",
-          newmark.state().time, more / std::pow(2., 30), Ranks::size() > 1 ? " on the first rank" : "");
+      log.line("          reduced time steps from t = %.4g s, required by the joints: additional factors of "
+               "%.2f GiB%s",
+               newmark.state().time, more / std::pow(2., 30), Ranks::size() > 1 ? " on the first rank" : "");
     foundation.follow(newmark.state());
     state.acceleration =
         mean_acceleration(v_before, newmark.state().v, state.motion.dt, state.ground_acceleration(state.step),
@@ -241,7 +241,7 @@ namespace Voussoir
     return result;
   }
 
-  /** Adds the present time to the results, on the first rank. */
+  /** Adds the results of the present time, on the first rank. */
   void Simulation::record()
   {
     const Stopwatch watch;
@@ -253,7 +253,7 @@ namespace Voussoir
     catch (const ComputationError &error)
     {
       write_tables();
-      throw ComputationError(error.what() + (" The tables in " + directory) + " end before it.");
+      throw ComputationError(error.what() + (" The tables in " + directory) + " end before this step.");
     }
     for (Observer *observer : *observers)
       observer->flush();
@@ -289,7 +289,7 @@ namespace Voussoir
     const double balance_error = observers->history.balance_error();
     log.line("Energy    balance closes to %.1e of the largest energy", balance_error);
     state.dam->foundation->report_balance(log);
-    checkpoint.remove(); // the run is complete: nothing to resume
+    checkpoint.remove(); // the run is complete
     if (scene.output.figures)
       report_figures(directory, log);
     log.line("Results   %s", directory.c_str());
@@ -297,7 +297,7 @@ namespace Voussoir
       check_energies(scene, balance_error, state.dam->foundation->balance_error(), directory);
   }
 
-  /** Sends to the first rank all that is to be kept. */
+  /** Sends the state of foundation and observers to the first rank. */
   void Simulation::gather_on_root()
   {
     state.dam->foundation->collect();
@@ -305,8 +305,7 @@ namespace Voussoir
       observer->gather_on_root();
   }
 
-  /** Runs @p action on the first rank. After an error there, the first rank has the whole state, to keep it.
-   */
+  /** Runs @p action on the first rank. After an error, gathers the state there for a checkpoint. */
   void Simulation::on_first(const std::function<void()> &action)
   {
     try
@@ -342,7 +341,7 @@ namespace Voussoir
              clock_time(elapsed / done * (state.n_steps - state.step)).c_str());
   }
 
-  /** Settings of the contact solver. Problems of this @p stage are written to a directory of their own. */
+  /** Returns the settings of the contact solver. Each @p stage has a separate directory for its problems. */
   ContactParameters Simulation::contact_parameters(const std::string &stage) const
   {
     ContactParameters parameters = scene.contact;
@@ -352,18 +351,18 @@ namespace Voussoir
     std::error_code error;
     std::filesystem::create_directories(parameters.write_directory, error);
     if (error)
-      throw WriteError("The directory " + parameters.write_directory + " cannot be made: " + error.message() +
-                       ".");
+      throw WriteError("The directory " + parameters.write_directory +
+                       " cannot be created: " + error.message() + ". Use another directory with --output.");
     if (options.resume)
       parameters.first_problem = stage == "shaking" ? state.start_step : 0;
     else
       for (const auto &entry : std::filesystem::directory_iterator(parameters.write_directory))
         if (entry.path().extension() == ".hdf5" && entry.path().filename().string().rfind("problem-", 0) == 0)
-          std::filesystem::remove(entry.path(), error); // of the run before
+          std::filesystem::remove(entry.path(), error); // of the previous run
     return parameters;
   }
 
-  /** The signal to stop that has come to this process or another one of the run, or null. */
+  /** Returns the name of a received signal to stop, on any rank, or null. */
   const char *Simulation::signal() const
   {
     const char *own = interrupt->received();
@@ -375,9 +374,9 @@ namespace Voussoir
   void Simulation::stop_if_asked() const
   {
     if (const char *signal = this->signal())
-      throw Interrupted(signal +
-                        std::string(" came before the shaking began: there is nothing to go on from") +
-                        (options.resume ? " but the checkpoint that is there." : "."));
+      throw Interrupted(signal + std::string(" came before the time loop.") +
+                        (options.resume ? " The previous checkpoint is intact: continue with --resume."
+                                        : " There is no checkpoint: start the run again."));
   }
 
   void Simulation::keep_and_stop(const char *signal)
@@ -392,7 +391,7 @@ namespace Voussoir
     std::ostringstream message;
     message << signal << " at t = " << state.newmark->state().time << " s, after step " << state.step
             << " of " << state.n_steps << ". The tables so far and a checkpoint are in " << directory
-            << ": the same command with --resume goes on.";
+            << ". Continue with the same command and --resume.";
     throw Interrupted(message.str());
   }
 } // namespace Voussoir

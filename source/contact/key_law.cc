@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <voussoir/base/error.h>
 
 namespace Voussoir
 {
@@ -14,13 +15,13 @@ namespace Voussoir
   {
     constexpr double pi = 3.141592653589793;
 
-    /** The flanks of a trapezoidal key that restrains slip in direction @p d (1 or 2): phi = g sin a -/+ d
-     *  cos a + c >= 0 (doc/method.md, Joint laws). */
+    /** Adds the flanks of a trapezoidal key that restrains slip in direction @p d (1 or 2): phi = g sin a -/+
+     *  d cos a + c >= 0 (doc/method.md, Joint laws). */
     void add_flanks(const unsigned int d, const KeyParameters &keys, const double friction,
                     std::vector<ContactSurface> &surfaces)
     {
       const double a = keys.flank_angle * pi / 180.;
-      // Exactly rectangular keys: cos(90 deg) and the like are not zero in round numbers.
+      // For rectangular keys sin and cos are exact, without round-off.
       const double s = keys.flank_angle == 0. ? 0. : std::sin(a),
                    c = keys.flank_angle == 0. ? 1. : std::cos(a);
       for (const double sign : {1., -1.})
@@ -36,6 +37,7 @@ namespace Voussoir
       }
     }
 
+    /** Law KSM: a flat face and the flanks of trapezoidal shear keys. */
     class KSM : public SurfacesLaw
     {
     public:
@@ -44,11 +46,11 @@ namespace Voussoir
       {
       }
 
-      /** Returns the active surfaces of a step. A key in its socket at the start of the step touches the face
-       * and its flanks. A key outside (opening >= height) and out of line closes on its crest. A key outside
-       * and in line touches the face only. If the step then passes through a flank, it is solved again with
-       * the flanks. If it ends out of line on their extension, it is solved again with the crest: excess().
-       */
+      /** Returns the surfaces for the step. A key in its socket at the start of the step has the face and its
+       * flanks. A key that is out of the socket (opening >= height) and misaligned has its crest. A key that
+       * is out and aligned has the face only. If the step then passes through a flank, the step is repeated
+       * with the flanks. If the repeated step ends on the extension of a flank, it is repeated with the
+       * crest: see excess(). */
       PresentSurfaces present(const PairPast &past) const override
       {
         PresentSurfaces result{{surfaces[0]}, {1}, past.start};
@@ -76,8 +78,9 @@ namespace Voussoir
         return result;
       }
 
-      /** Events of the step; then, with elastic seats, two stresses of friction per flank [Pa] and the
-       * largest compression of the flanks with which the key left its socket [m]. */
+      /** Returns the number of history variables: events of the step; with elastic flank contact also two
+       * friction stresses per flank [Pa], and the largest compression of the flanks when the key left its
+       * socket [m]. */
       unsigned int n_memory() const override
       {
         return n_beside() == 0 ? 0 : 1 + (seat > 0. ? 2 * n_beside() + 1 : 0);
@@ -85,8 +88,7 @@ namespace Voussoir
 
       bool needs_mean_force() const override { return seat > 0.; }
 
-      /** 2 if the step passes through a flank, or over its end, as no key can: then the step needs the next
-       *  event. */
+      /** Returns 2 if the step passes through a flank or beyond its end and requires the next event, else 0. */
       double excess(const Vector3 &, const Vector3 &gap, const PairPast &past) const override
       {
         if (!is_out(past.start))
@@ -119,7 +121,7 @@ namespace Voussoir
         }
       }
 
-      /** Returns the energy of the flank contact [J]. */
+      /** Returns the elastic energy of the flank contact [J]. */
       double bond_energy(const Vector3 &gap, const double area, const double *memory) const override
       {
         double energy = 0.;
@@ -138,14 +140,15 @@ namespace Voussoir
       enum class Contact
       {
         face,
-        flanks, ///< and the face
+        flanks, ///< flanks and face
         crest
       };
 
-      /** A key on its crest stays there: its opening is the height within the solver's error. */
+      /** Returns true if the key is out of its socket. The tolerance exceeds the solver's error in the
+       * opening, so that a key on its crest stays there. */
       bool is_out(const Vector3 &gap) const { return gap[0] >= height * (1. - 1e-6); }
 
-      /** Depth of the pair behind the flanks, the largest [m]. Negative: distance to the nearest flank. */
+      /** Returns the largest penetration of a flank [m]. Negative: distance to the nearest flank. */
       double depth(const Vector3 &gap) const
       {
         double result = -std::numeric_limits<double>::infinity();
@@ -154,23 +157,23 @@ namespace Voussoir
         return result;
       }
 
-      /** Depth behind the ends of the flanks [m]: positive for a key that is over a crest. */
+      /** Returns the penetration at the ends of the flanks [m]. Positive: the key is above a crest. */
       double depth_at_end(const Vector3 &gap) const { return depth({{height, gap[1], gap[2]}}); }
 
-      /** Returns whether a key outside of its socket is over a crest, by more than round-off and more than
-       * the compression of the flank on which it left. */
+      /** Returns true if a key out of its socket is above a crest. The tolerance is round-off and the
+       *  compression of the flank when the key left its socket. */
       bool is_out_of_line(const Vector3 &gap, const PairPast &past) const
       {
         return depth_at_end(gap) > round_off * height + compression_of(past);
       }
 
-      /** Compression of a flank with which the key left its socket [m]. */
+      /** Returns the compression of a flank when the key left its socket [m]. */
       double compression_of(const PairPast &past) const
       {
         return seat > 0. && past.memory ? std::max(0., past.memory[2 * n_beside() + 1]) : 0.;
       }
 
-      /** Returns the possible contact of the pair in the step from past.start, with the events so far. */
+      /** Returns the possible contact in the step from past.start, after the events so far. */
       Contact contact_of(const PairPast &past) const
       {
         if (!is_out(past.start))
@@ -181,15 +184,15 @@ namespace Voussoir
         return events == 0. ? Contact::face : events == 1. ? Contact::flanks : Contact::crest;
       }
 
-      /** Two stresses of friction that elastic seats of a flank carry [Pa]. */
+      /** Returns the two friction stresses of a flank with elastic contact [Pa]. */
       static const double *friction_of(const double *memory, const std::size_t flank)
       {
         static const double none[2] = {0., 0.};
         return memory ? memory + 2 * flank - 1 : none;
       }
 
-      /** A start within round-off of a surface is moved onto it: otherwise the direction of friction would
-       *  hang on a slip of 1e-14 m before the flank stops it. */
+      /** Moves a start within round-off of a surface onto the surface. Otherwise a slip of 1e-14 m before the
+       *  flank contact would determine the direction of friction. */
       void free_of_round_off(Vector3 &start) const
       {
         const double small = round_off * height;
@@ -198,14 +201,14 @@ namespace Voussoir
         for (std::size_t k = 1; k < surfaces.size(); ++k)
         {
           const Vector3      normal = {{surfaces[k].axes[0], surfaces[k].axes[1], surfaces[k].axes[2]}};
-          const unsigned int d = normal[1] != 0. ? 1 : 2; // of the slip that it restrains
+          const unsigned int d = normal[1] != 0. ? 1 : 2; // direction of the restrained slip
           const double       phi = dot(normal, start) + surfaces[k].clearance;
           if (std::abs(phi) <= small)
             start[d] -= phi / normal[d];
         }
       }
 
-      static constexpr double round_off = 1e-9; ///< of a gap, over the height
+      static constexpr double round_off = 1e-9; ///< of a gap over the height [-]
 
       const double height;
       const double seat; ///< compliance of the flanks [m/Pa]
@@ -217,14 +220,15 @@ namespace Voussoir
     const KeyParameters &keys = parameters.keys;
     if (parameters.equations != Equations::alart_curnier)
       throw InputError(
-          "Joints/Equations: the law KSM has the equations \"alart-curnier\" only, since a pair with "
-          "keys touches on several surfaces at once.");
+          "Joints/Equations: the law KSM supports only \"alart-curnier\", since a pair with keys has several "
+          "contact surfaces.");
     if (!(keys.flank_angle >= 0. && keys.flank_angle < 90.))
       throw InputError("Joints/Keys/Flank angle must be at least 0 and less than 90 degrees.");
     if (!(keys.height >= 0. && std::isfinite(keys.height)) ||
         !(keys.clearance >= 0. && std::isfinite(keys.clearance)))
       throw InputError("Joints/Keys/Height and Joints/Keys/Clearance must be finite and at least 0 m.");
-    if (!((keys.friction >= 0. && keys.friction <= 10.) || keys.friction == -1.)) // beyond, flanks only wedge
+    if (!((keys.friction >= 0. && keys.friction <= 10.) ||
+          keys.friction == -1.)) // larger values lock all flanks
       throw InputError(
           "Joints/Keys/Friction must be at least 0 and at most 10, or -1: the friction of the faces.");
     const double                flank_friction = keys.friction < 0. ? parameters.friction : keys.friction;

@@ -25,7 +25,7 @@ namespace Voussoir
   {
     directory = path;
     if (is_resumed && (files.empty() || files.back().first != run.newmark->state().time))
-      flush(); // the run that wrote the checkpoint could not write the file, as on a full disk
+      flush(); // the previous process could not write the file, for example on a full disk
   }
 
   void FieldObserver::add_stresses(std::vector<FieldWriter::NodalField> &fields) const
@@ -46,8 +46,8 @@ namespace Voussoir
     }
   }
 
-  /** Joint state at the nodes of the joints: opening, slip, pressure, and 0 open, 1 stick, 2 slip; 0, 0, 0
-   * and -1 elsewhere (not nan, which deal.II would spread over the cells). */
+  /** Adds opening, slip, pressure and contact state (0 open, 1 stick, 2 slip) at the nodes of the joints. The
+   * values elsewhere are 0, 0, 0 and -1, since deal.II would propagate NaN to the cells. */
   void FieldObserver::add_joints(std::vector<FieldWriter::NodalField> &fields) const
   {
     const Structure   &structure = run.dam->structure;
@@ -95,7 +95,7 @@ namespace Voussoir
     write_collection();
   }
 
-  /** Writes solution.pvd: the dam, and its joints beside it, at all times so far. */
+  /** Writes solution.pvd, with the files of the dam and of the joints at all times so far. */
   void FieldObserver::write_collection() const
   {
     OutputFile pvd(directory + "/solution.pvd");

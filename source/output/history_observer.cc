@@ -53,7 +53,7 @@ namespace Voussoir
       table.add("joint_stored", stored);
     if (laws.have_bonds())
       table.add("joint_fracture", fracture);
-    if (laws.have_memory()) // the name of earlier versions, for one release
+    if (laws.have_memory()) // name of earlier versions, for one release
       table.add("bond", [=] { return stored() + fracture(); });
     table.add_named([this] { return run.dam->foundation->energies(); });
   }

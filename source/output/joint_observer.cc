@@ -38,8 +38,7 @@ namespace Voussoir
     if (joints.points.has_waterstops() && missing > 0. &&
         (limits.waterstop_opening > 0. || limits.waterstop_slip > 0.))
       log.line("warning: joint %u is thinner than Limits/Waterstop depth, %g m, over the highest %.1f m: "
-               "openings and slips there are not held against the limits of the waterstops. Take a smaller "
-               "depth.",
+               "the limits of the waterstops are not evaluated there. Reduce the depth.",
                joint, limits.waterstop_depth, missing);
   }
 

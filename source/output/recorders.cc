@@ -57,7 +57,7 @@ namespace Voussoir
         history.columns.push_back(quantity + ("_" + std::to_string(j + 1)));
   }
 
-  /** Openings, then slips, upstream and downstream [m]. */
+  /** Returns two openings and two slips of a joint at the crest, upstream and downstream [m]. */
   std::array<double, 4> JointRecorder::at_crest(const Newmark &newmark, const std::size_t joint) const
   {
     const auto &pairs = geometry.joints[joint];
@@ -203,7 +203,7 @@ namespace Voussoir
 
   Extreme EnvelopeRecorder::extreme(const SolidModel &model, const int surface, const bool largest) const
   {
-    Extreme result{std::numeric_limits<double>::quiet_NaN()}; // no such nodes
+    Extreme result{std::numeric_limits<double>::quiet_NaN()}; // no nodes on the surface
     bool    found = false;
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
       if (surface == 0 || model.on_surface(i, surface))

@@ -54,7 +54,7 @@ namespace Voussoir
 
   double RunState::largest_energy() const
   {
-    // Before the motion has begun there is only the round-off of the static state.
+    // Before the motion begins, the largest energy is only round-off of the static state.
     return std::max(newmark->largest_energy(), 1e-6 * std::abs(newmark->initial_energy().strain));
   }
 } // namespace Voussoir

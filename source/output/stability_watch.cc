@@ -12,10 +12,10 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double amplification = 10.; ///< of a node, see StabilityWatch
-    constexpr double long_period = 1.;    ///< of dam and rock, longer than any arch dam's [s]
+    constexpr double amplification = 10.; ///< of the motion at a node, see StabilityWatch
+    constexpr double long_period = 1.;    ///< natural period above that of any arch dam [s]
 
-    /** Speed that the strain energy of the static state could give to the dam [m/s]. */
+    /** Returns the velocity with which the dam has the kinetic energy @p strain [J] [m/s]. */
     double static_speed(const Structure &structure, const double strain)
     {
       double mass = 0.;
@@ -63,7 +63,7 @@ namespace Voussoir
     std::string what = dam.foundation->trouble_of_energy();
     if (what.empty() && (step % interval == 0 || last))
     {
-      what = dam.foundation->trouble_of_motion(); // where an instability of its boundary begins
+      what = dam.foundation->trouble_of_motion(); // an instability of its boundary begins there
       if (what.empty())
         what = of_dam(newmark.state());
     }
@@ -90,7 +90,7 @@ namespace Voussoir
     std::ostringstream text;
     text << "the joints have moved by " << moved.value << " m at " << place(moved.place) << ", more than "
          << largest_joint_share
-         << " of the dam's size (or do they really slide? Look at \"Joints/Friction\").";
+         << " of the dam's size. If the joints really slide, check \"Joints/Friction\".";
     return text.str();
   }
 
@@ -128,11 +128,11 @@ namespace Voussoir
       return own;
     std::ostringstream text;
     text.precision(3);
-    text << "Results after that are worthless. Use ";
+    text << "The later results are invalid. Use ";
     if (!dam.tied && dam.scene.impact_rule != "mean-force")
       text << "\"Dynamics/Impact\" = mean-force, or ";
-    text << "a smaller time step (\"Dynamics/Steps per sample\"), and check \"Motion/Unit\" and the motion's "
-            "size (voussoir motion).";
+    text << "a smaller time step (\"Dynamics/Steps per sample\"), and check \"Motion/Unit\" and the "
+            "peak values of the motion (voussoir motion).";
     return text.str();
   }
 } // namespace Voussoir

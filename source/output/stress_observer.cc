@@ -30,7 +30,7 @@ namespace Voussoir
     envelope.overstress = Overstress(run.scene().limits.tensile_strength, run.dam->model->n_nodes());
   }
 
-  /** Records this rank's nodes. Where the first rank is about to print stresses, it gets those of all. */
+  /** Records the stresses of this rank's nodes. Before the first rank prints stresses, they are gathered. */
   void StressObserver::follow()
   {
     if (!is_recording())

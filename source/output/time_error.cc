@@ -54,12 +54,11 @@ namespace Voussoir
 
   namespace
   {
-    constexpr double part = .4;            // of the difference
+    constexpr double part = .4;            // of the difference of both runs
     constexpr double part_of_history = .1; // of the largest difference at equal times
     constexpr double round_off = 1e-9;     // [m]
 
-    /** Squares of the differences of the openings at the crest, upstream and downstream, at the times that
-     * both have: for each, the largest over time; summed [m^2]. */
+    /** Returns the sum over the crest openings of the squared largest difference at common times [m^2]. */
     double difference_over_time(const Table &fine, const Table &coarse)
     {
       std::vector<double> largest(coarse.columns.size(), 0.);
@@ -71,7 +70,7 @@ namespace Voussoir
         if (row == fine.rows.end())
           break;
         for (std::size_t k = 1; k < then.size(); ++k)
-          if ((k - 1) % 4 < 2) // two openings, two slips
+          if ((k - 1) % 4 < 2) // two openings, then two slips
             largest[k] = std::max(largest[k], std::abs((*row)[k] - then[k]));
       }
       return std::inner_product(largest.begin(), largest.end(), largest.begin(), 0.);
@@ -91,7 +90,7 @@ namespace Voussoir
       }
     if (!(sum > round_off * round_off))
       return 0.;
-    // Largest openings of both may agree by chance, their histories do not.
+    // The largest openings of both runs may agree by chance, but the histories differ.
     return std::max(part * std::sqrt(difference / sum),
                     part_of_history * std::sqrt(difference_over_time(of_run.history, joints.history) / sum));
   }

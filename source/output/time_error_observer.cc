@@ -17,8 +17,8 @@ namespace Voussoir
     companion = std::make_unique<TimeErrorEstimate>(*run.dam, parameters, run.motion.dt,
                                                     impact_rule(scene.impact_rule), run.newmark->state(),
                                                     run.statics.closed);
-    // The comparison run has every second time of the run. With less frequent records the run would miss
-    // peaks that the comparison run has.
+    // The comparison run has every second time of the run. With longer intervals the run would miss peaks
+    // that the comparison run records.
     if (scene.output.envelope_interval == 1 || scene.output.envelope_interval == 2)
       companion->record_stresses(stresses.recovery, stresses.known_tractions());
   }
@@ -35,8 +35,8 @@ namespace Voussoir
     catch (const ComputationError &error)
     {
       companion.reset();
-      log.line("warning: there will be no estimate of the error that the time step makes (Dynamics/Error "
-               "estimate): with twice the step the joints did not converge. %s",
+      log.line("warning: there will be no estimate of the error due to the time step (Dynamics/Error "
+               "estimate): the joints did not converge with twice the time step. %s",
                error.what());
     }
   }

@@ -8,20 +8,21 @@
 
 namespace Voussoir
 {
-  /** The saved state of a run in its output directory, with which --resume continues the run. */
+  /** Saved state of a run in the output directory, from which --resume continues the run. */
   class Checkpoint
   {
   public:
-    /** Reads what the run depends on: entries, files, program. @p scene_text: the scene with all defaults. */
+    /** Reads the provenance. @p scene must outlive the object. @p scene_text: the scene with all defaults. */
     Checkpoint(const Scene &scene, const std::string &scene_text, const std::string &directory);
 
-    /** Entries, files and program as they are now. */
+    /** Returns entries of the scene, digests of the input files and revision of the program at present. */
     Provenance provenance_now() const;
 
-    bool exists() const; ///< the checkpoint or the one before it
+    /** Returns true if there is a checkpoint or a previous one. */
+    bool exists() const;
 
-    /** Reads the checkpoint before anything is computed. Throws InputError if there is none, or if it belongs
-     *  to another scene. Returns the number of steps done. */
+    /** Reads the checkpoint file and returns the number of steps done. Throws InputError if there is no
+     *  checkpoint, or if the checkpoint belongs to another scene. */
     unsigned int open(Log &log);
 
     /** Restores the state that open() read, on all ranks. Throws InputError if the ground motion differs. */
@@ -30,11 +31,12 @@ namespace Voussoir
     /** Writes the state between two steps, on the first rank. Throws WriteError. */
     void save(const RunState &run, const RunObservers &observers, const RunCounters &counters) const;
 
-    /** Writes the state after a file could not be written. Returns a sentence about the result. */
+    /** Writes the state after a WriteError. Returns a sentence about the result for the message. */
     std::string keep_last_state(const RunState &run, const RunObservers &observers,
                                 const RunCounters &counters) const;
 
-    void remove() const; ///< the run is complete
+    /** Removes the files of the checkpoint after a complete run. */
+    void remove() const;
 
   private:
     void check_longer_motion(const RunState &run, unsigned int n_steps_then, std::size_t samples_then) const;
@@ -44,10 +46,10 @@ namespace Voussoir
 
     const Scene      &scene;
     const std::string scene_text, directory, file;
-    std::string       payload; ///< from open() to load()
+    std::string       payload; ///< content of the file, from open() to load()
 
   public:
-    const Provenance provenance; ///< entries, files and program when the object was made
+    const Provenance provenance; ///< entries, files and program at construction
   };
 } // namespace Voussoir
 

@@ -9,17 +9,20 @@
 
 namespace Voussoir
 {
-  /** The words of a command line, sorted out. */
+  /** Words of a command line by meaning. */
   struct Arguments
   {
     std::string                        command;   ///< "mesh", "modes", ...; empty: run a scene
-    std::vector<std::string>           words;     ///< files and the like, in their order
-    std::map<std::string, std::string> values;    ///< of options with a value: "--output" -> "a.msh"
+    std::vector<std::string>           words;     ///< files and other words, in sequence
+    std::map<std::string, std::string> values;    ///< options with a value: "--output" -> "a.msh"
     std::set<std::string>              flags;     ///< options without a value
-    std::vector<std::string>           overrides; ///< of --set
+    std::vector<std::string>           overrides; ///< values of --set
     bool                               help = false, version = false;
 
-    bool        has(const std::string &flag) const { return flags.count(flag) > 0; }
+    /** Returns true if the option @p flag is given. */
+    bool has(const std::string &flag) const { return flags.count(flag) > 0; }
+
+    /** Returns the value of @p option, or @p standard if the option is not given. */
     std::string value(const std::string &option, const std::string &standard = "") const
     {
       const auto found = values.find(option);
@@ -27,23 +30,23 @@ namespace Voussoir
     }
   };
 
-  /** Throws InputError for options that there are not, or that the command does not have, for options without
-   *  their value and for those that are given twice. "--" ends the options. */
+  /** Returns the words of a command line by meaning. "--" ends the options. Throws InputError for options
+   * that are unknown to the command, that lack their value, or that are given twice. */
   Arguments read_arguments(const std::vector<std::string> &words);
 
-  /** The help about one command, empty: running a scene. */
+  /** Returns the help text of a command. Empty: the run of a scene. */
   std::string help_about(const std::string &command);
 
-  /** All commands in short. */
+  /** Returns a summary of all commands. */
   std::string help_about_all();
 
-  /** The script in Python that does what the command asks for; empty: the program itself does. */
+  /** Returns the Python script that executes a command. Empty: the program executes the command. */
   std::string script_of(const std::string &command);
 
-  /** The words that read_arguments() would sort out like this, without the command. */
+  /** Returns words from which read_arguments() makes @p arguments, without the command. */
   std::vector<std::string> words_of(const Arguments &arguments);
 
-  /** What to say of a first word that is no scene when there are others: the nearest command. */
+  /** Returns the command with the name most similar to @p word. */
   std::string nearest_command(const std::string &word);
 } // namespace Voussoir
 

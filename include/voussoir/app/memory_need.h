@@ -6,8 +6,8 @@
 
 namespace Voussoir
 {
-  /** Estimated memory of a run [bytes], with an error of about 20 %. It follows from the mesh, without
-   * matrices or factors. */
+  /** Estimated memory of a run [bytes], with an error of about 20 %. The estimate
+   * requires only the mesh. */
   struct MemoryNeed
   {
     double run = 0.;         ///< peak of the first rank, without reduced time steps

@@ -8,11 +8,11 @@
 
 namespace Voussoir
 {
-  /** The observers of a run, in the order in which they act. */
+  /** Observers of a run, in the order of their calls. */
   class RunObservers
   {
   public:
-    /** @p run: ready for its first step; it must outlive the observers. */
+    /** @p run: state after RunState::start(). Both arguments must outlive the observers. */
     RunObservers(const RunState &run, Log &log);
 
     auto begin() const { return list.begin(); }

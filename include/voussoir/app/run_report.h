@@ -7,23 +7,23 @@
 
 namespace Voussoir
 {
-  /** Prints mesh, materials, joints, foundation, loads, ground motion and warnings. @p validate: also groups,
-   * unknowns, steps and memory. */
+  /** Prints mesh, materials, joints, foundation, loads, ground motion and warnings. @p validate: also prints
+   * groups, unknowns, steps and memory. */
   void report_setup(const RunState &run, bool validate, Log &log);
 
   /** Prints the static loads. */
   void report_loads(const Dam &dam, Log &log);
 
-  /** Static loads: factors and resultants [N]. */
+  /** Returns factors and resultants [N] of the static loads: "loads" of summary.json. */
   Json json_of_loads(const Dam &dam);
 
   /** Writes spectrum.csv of the ground motion and stages.csv of the static state. Throws WriteError. */
   void write_tables_of_start(const RunState &run, const std::string &directory);
 
-  /** Draws the figures of a run that has ended. */
+  /** Draws the figures of a completed run. Prints a warning if this fails. */
   void report_figures(const std::string &directory, Log &log);
 
-  /** Writes summary.json and prints the limits. Throws WriteError. */
+  /** Writes summary.json, and prints which limits are satisfied. Throws WriteError. */
   void write_summary(const std::string &directory, const RunState &run, const RunObservers &observers,
                      const RunCounters &counters, const RankCounters &ranks, Log &log);
 } // namespace Voussoir

@@ -10,23 +10,24 @@
 
 namespace Voussoir
 {
+  /** Options of the command line for a run. */
   struct RunOptions
   {
-    std::string output;            ///< directory; empty: output/NAME
+    std::string output;            ///< directory of the results; empty: output/NAME
     bool        resume = false;    ///< continue from the last checkpoint
-    bool        validate = false;  ///< set up and report, but do not compute
-    bool        overwrite = false; ///< replace a checkpoint, and write beside files of other programs
-    bool        quiet = false;
+    bool        validate = false;  ///< setup and report only
+    bool        overwrite = false; ///< replace a checkpoint; allow files of other programs
+    bool        quiet = false;     ///< print errors only
   };
 
-  /** One run of a scene: setup, static state, time loop, results. */
+  /** Run of a scene: setup, static state, time loop and results. */
   class Simulation
   {
   public:
     /** @p scene_text: the scene with all defaults, for the output directory. */
     Simulation(const Scene &scene, const std::string &scene_text, const RunOptions &options);
 
-    /** Runs all. Throws InputError, ComputationError, WriteError or Interrupted. */
+    /** Executes the run. Throws InputError, ComputationError, WriteError or Interrupted. */
     void run();
 
   private:
@@ -55,17 +56,17 @@ namespace Voussoir
     const Scene                   scene;
     const RunOptions              options;
     RunDirectory                  run_directory;
-    const std::string             directory; ///< its path
+    const std::string             directory; ///< path of run_directory
     const std::string             scene_text;
     Checkpoint                    checkpoint;
-    std::optional<InterruptGuard> interrupt; ///< of a run, not of --validate
+    std::optional<InterruptGuard> interrupt; ///< empty with --validate
     Log                           log;
     RunCounters                   counters;
     RankCounters                  ranks;
     Stopwatch                     loop_clock;
     RunState                      state;
     std::optional<RunObservers>   observers;
-    bool                          is_inside_step = false; ///< the state is not one of any time
+    bool                          is_inside_step = false; ///< the state is incomplete
   };
 } // namespace Voussoir
 

@@ -8,26 +8,34 @@
 
 namespace Voussoir
 {
-  /** The forces of the foundation on the bases of the monoliths over time, and their safety against sliding.
-   */
+  /** Forces of the foundation on the bases of the monoliths over time, and the safety against sliding. */
   class BlockRecorder
   {
   public:
+    /** @p joint_water: water pressure in each pair [Pa], or empty. */
     BlockRecorder(Dam &dam, const std::vector<double> &joint_water);
 
-    void follow(const StepOfDam &step); ///< the dam has made a step, or rests
+    /** Computes the forces at the end of a step of the dam, or of the static state. */
+    void follow(const StepOfDam &step);
+
+    /** Adds the forces of the last follow() to the history and to the extremes. @p time: time [s]. */
     void record(double time);
 
-    Table history; ///< blocks.csv
-    bool  has_safety() const { return friction > 0. || cohesion > 0.; }
+    Table history; ///< rows of blocks.csv
 
-    Extreme least_safety() const; ///< of all monoliths; its place is the base's centroid
-    Json    json() const;         ///< by monolith: its base and its extremes
+    /** Returns true if the scene has a strength of the base, which the safety against sliding requires. */
+    bool has_safety() const { return friction > 0. || cohesion > 0.; }
+
+    /** Returns the smallest safety against sliding [-] of all monoliths, at the centroid of a base. */
+    Extreme least_safety() const;
+
+    /** Returns base and extremes of each monolith: "blocks" of summary.json. */
+    Json json() const;
 
     template <class Archive> void serialize(Archive &archive, unsigned int) { archive &history &extremes; }
 
   private:
-    struct Extremes ///< over time
+    struct Extremes ///< over time, of one monolith
     {
       Extreme                       compression, least_compression, shear, safety;
       template <class Archive> void serialize(Archive &archive, unsigned int)
@@ -35,9 +43,9 @@ namespace Voussoir
         archive &compression &least_compression &shear &safety;
       }
     };
-    const double          friction, cohesion;
+    const double          friction, cohesion; ///< of the base [-], [Pa]
     const BaseForces      forces;
-    std::vector<Wrench>   now;
+    std::vector<Wrench>   now;      ///< per base
     std::vector<Extremes> extremes; ///< per base
   };
 } // namespace Voussoir

@@ -14,46 +14,49 @@ namespace Voussoir
 {
   class Log;
 
-  /** Part of the results of a run: it reads the run's state after each step and keeps what it needs.
+  /** Part of the results of a run. An observer reads the state of the run after each step.
    *
-   *  The time loop calls, in this order: start() or load() on all ranks, open() on the first; then per step
-   *  follow() on all ranks, record() and flush() on the first; at the end gather_on_root() on all ranks, and
-   *  write_tables(), finish() and report() on the first. open(), flush(), write_tables() and finish() throw
-   *  WriteError. */
+   *  The time loop calls the members in this order. At the start: start() or load() on all ranks, then open()
+   *  on the first rank. In each step: follow() on all ranks, then record() and flush() on the first rank. At
+   *  the end: gather_on_root() on all ranks, then write_tables(), finish() and report() on the first rank.
+   *  open(), flush(), write_tables() and finish() throw WriteError. */
   class Observer
   {
   public:
     virtual ~Observer() = default;
 
-    /** Reads the static state, unless the run is resumed. All ranks. */
+    /** Reads the static state. All ranks; not called if the run is resumed. */
     virtual void start() {}
 
     /** Reads the state after a step. All ranks. */
     virtual void follow() {}
 
-    /** Adds the present time to the results in memory. First rank; at the start, too. */
+    /** Adds the results of the present time to the tables in memory. First rank; also at the start. */
     virtual void record() {}
 
-    /** Appends to the files what record() added. First rank. */
+    /** Appends the rows that record() added to the files. First rank. */
     virtual void flush() {}
 
-    /** Sends to the first rank what the others have. All ranks; before save(), write_tables(), finish(). */
+    /** Sends the results of all ranks to the first rank. Called on all ranks before save(), write_tables()
+     *  and finish(). */
     virtual void gather_on_root() {}
 
-    /** Creates the files that grow with the run, with the rows so far. First rank. */
+    /** Creates the files that grow during the run, with the rows so far. First rank. */
     virtual void open(const std::string & /*directory*/) {}
 
-    /** Writes the tables so far, also when a run is stopped. First rank. */
+    /** Writes the tables so far, also when the run is interrupted. First rank. */
     virtual void write_tables(const std::string & /*directory*/) {}
 
-    /** Writes what exists at the end only, with warnings about it. First rank. */
+    /** Writes the results that exist only at the end of a run, and warnings about them. First rank. */
     virtual void finish(const std::string & /*directory*/, Log & /*log*/) {}
 
-    /** Prints the results that matter most. First rank. */
+    /** Prints the main results. First rank. */
     virtual void report(Log & /*log*/) const {}
 
-    /** Writes the state of the observer to a checkpoint, or restores it. */
+    /** Writes the state of the observer to a checkpoint. */
     virtual void save(boost::archive::binary_oarchive & /*archive*/) const {}
+
+    /** Restores the state of the observer from a checkpoint. */
     virtual void load(boost::archive::binary_iarchive & /*archive*/) {}
   };
 } // namespace Voussoir

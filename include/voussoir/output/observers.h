@@ -14,10 +14,11 @@
 
 namespace Voussoir
 {
-  /** Ends a run that has become unstable: record() throws ComputationError. */
+  /** Monitor of instability: record() throws ComputationError if the run has become unstable. */
   class StabilityObserver : public Observer
   {
   public:
+    /** @p run: state at the start of the time loop. The observer refers to it. */
     explicit StabilityObserver(const RunState &run) : run(run), watch(*run.dam, run.motion, *run.newmark) {}
     void record() override;
 
@@ -30,6 +31,7 @@ namespace Voussoir
   class HistoryObserver : public Observer
   {
   public:
+    /** Declares the columns of the tables. @p run must outlive the observer. */
     explicit HistoryObserver(const RunState &run);
     void record() override;
     void flush() override;
@@ -38,7 +40,7 @@ namespace Voussoir
     void save(boost::archive::binary_oarchive &archive) const override;
     void load(boost::archive::binary_iarchive &archive) override;
 
-    /** Largest |energy balance| of the dam so far, over the largest energy [-]. */
+    /** Returns the largest |energy balance| of the dam so far over the largest energy [-]. */
     double balance_error() const { return imbalance / std::max(run.largest_energy(), 1e-300); }
 
   private:
@@ -46,7 +48,7 @@ namespace Voussoir
     void declare_energy();
 
     const RunState &run;
-    double          imbalance = 0.; ///< largest so far [J]
+    double          imbalance = 0.; ///< largest |energy balance| so far [J]
     Table           history, energy;
     Recorder        history_columns{history}, energy_columns{energy};
     TableFile       history_file, energy_file;
@@ -56,6 +58,7 @@ namespace Voussoir
   class JointObserver : public Observer
   {
   public:
+    /** @p run must outlive the observer. */
     explicit JointObserver(const RunState &run);
     void record() override { joints.record(*run.newmark); }
     void flush() override { file.append(joints.history); }
@@ -66,7 +69,7 @@ namespace Voussoir
     void save(boost::archive::binary_oarchive &archive) const override;
     void load(boost::archive::binary_iarchive &archive) override;
 
-    /** Largest opening and slip: part of "extremes" of summary.json. */
+    /** Adds the largest opening and slip [m] to "extremes" of summary.json. */
     void add_extremes(Json &json) const;
 
     JointRecorder joints;
@@ -76,11 +79,11 @@ namespace Voussoir
     TableFile       file;
   };
 
-  /** Stresses: the envelope over time and the stresses of the present time. */
+  /** Stresses at the present time and their envelope over time. */
   class StressObserver : public Observer
   {
   public:
-    /** @p joints: recorder whose pressures go into envelope.vtu; it must outlive the observer. */
+    /** @p joints: recorder of the contact pressures for envelope.vtu. Both must outlive the observer. */
     StressObserver(const RunState &run, const JointRecorder &joints);
     void start() override { follow(); }
     void follow() override;
@@ -90,19 +93,20 @@ namespace Voussoir
     void save(boost::archive::binary_oarchive &archive) const override;
     void load(boost::archive::binary_iarchive &archive) override;
 
-    /** Total stresses at the nodes of the model at the present time [Pa]. */
+    /** Returns the total stresses at the nodes of the model at the present time [Pa]. */
     std::vector<Stress> now();
 
-    /** Are stresses recorded? */
+    /** Returns true if stresses are recorded. */
     bool is_recording() const { return run.scene().output.envelope_interval > 0; }
 
-    /** Largest stresses: part of "extremes" of summary.json. */
+    /** Adds the largest principal stresses [Pa] to "extremes" of summary.json. */
     void add_extremes(Json &json) const;
 
-    /** Area of the faces with a tension above the strength: "tension_above_strength" of summary.json. */
+    /** Returns "tension_above_strength" of summary.json: area of each face with a maximum principal stress
+     * above the tensile strength [m^2]. */
     Json json_of_strength() const;
 
-    /** Tractions for the recovery, or null if it does not use them. */
+    /** Returns the boundary tractions for the stress recovery, or null if the scene disables them. */
     Tractions *known_tractions() { return run.scene().output.knows_tractions() ? &tractions : nullptr; }
 
   private:
@@ -120,10 +124,11 @@ namespace Voussoir
     double           seconds = 0.; ///< wall time of follow() [s]
   };
 
-  /** Forces between foundation and monoliths (blocks.csv). */
+  /** Forces of the foundation on the bases of the monoliths (blocks.csv). */
   class BlockObserver : public Observer
   {
   public:
+    /** @p run: state with the static state. It must outlive the observer. */
     explicit BlockObserver(const RunState &run);
     void follow() override;
     void record() override { blocks.record(run.newmark->state().time); }
@@ -140,11 +145,12 @@ namespace Voussoir
     TableFile       file;
   };
 
-  /** Estimate of the error by the time step, from a comparison run with twice the step. If the comparison run
-   *  fails, the run continues without the estimate. */
+  /** Estimate of the error due to the time step, from a comparison run with twice the time step. If the
+   *  comparison run fails, the run continues without the estimate. */
   class TimeErrorObserver : public Observer
   {
   public:
+    /** Starts the comparison run from the state of @p run. All arguments must outlive the observer. */
     TimeErrorObserver(const RunState &run, const JointRecorder &joints, StressObserver &stresses, Log &log);
     void follow() override;
     void gather_on_root() override;
@@ -152,9 +158,14 @@ namespace Voussoir
     void save(boost::archive::binary_oarchive &archive) const override;
     void load(boost::archive::binary_iarchive &archive) override;
 
-    bool   has_estimate() const { return companion != nullptr; }
-    Json   json() const;               ///< "error_estimate" of summary.json
-    double memory_consumption() const; ///< [bytes]
+    /** Returns false if the comparison run has failed. */
+    bool has_estimate() const { return companion != nullptr; }
+
+    /** Returns "error_estimate" of summary.json. */
+    Json json() const;
+
+    /** Returns the memory of the comparison run [bytes]. */
+    double memory_consumption() const;
 
   private:
     TimeError error() const { return companion->of(joints, stresses.envelope, stresses.tension); }
@@ -170,6 +181,7 @@ namespace Voussoir
   class FieldObserver : public Observer
   {
   public:
+    /** Both arguments must outlive the observer. */
     FieldObserver(const RunState &run, StressObserver &stresses) : run(run), stresses(stresses) {}
     void flush() override;
     void open(const std::string &path) override;
@@ -186,7 +198,7 @@ namespace Voussoir
     StressObserver                             &stresses;
     std::string                                 directory;
     bool                                        is_resumed = false;
-    std::vector<std::pair<double, std::string>> files; ///< time [s] and name
+    std::vector<std::pair<double, std::string>> files; ///< time [s] and name of each file
   };
 } // namespace Voussoir
 

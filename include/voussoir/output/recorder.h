@@ -9,25 +9,27 @@
 
 namespace Voussoir
 {
-  /** Fills a table row by row; name and value of a column are said in one place. */
+  /** Table that is filled row by row, from columns that are declared by name and value. */
   class Recorder
   {
   public:
+    /** Removes the columns of @p table, which must outlive the recorder. */
     explicit Recorder(Table &table) : table(table) { table.columns.clear(); }
 
+    /** Adds a column with the value that @p value returns. */
     void add(const std::string &name, const std::function<double()> &value)
     {
       add(std::vector<std::string>{name}, [value] { return std::vector<double>{value()}; });
     }
 
-    /** Several columns, whose values @p values gives together. */
+    /** Adds several columns. @p values returns one value for each column. */
     void add(const std::vector<std::string> &names, const std::function<std::vector<double>()> &values)
     {
       table.columns.insert(table.columns.end(), names.begin(), names.end());
       sources.push_back(values);
     }
 
-    /** Columns whose names and values @p values gives together; the names are always the same. */
+    /** Adds columns. @p values returns their names and values, with the same names in each call. */
     void add_named(const std::function<std::vector<std::pair<std::string, double>>()> &values)
     {
       std::vector<std::string> names;
@@ -43,7 +45,7 @@ namespace Voussoir
           });
     }
 
-    /** The columns NAME_x, NAME_y and NAME_z. */
+    /** Adds the columns NAME_x, NAME_y and NAME_z. */
     void add_vector(const std::string &name, const std::function<Vector3()> &value)
     {
       add({name + "_x", name + "_y", name + "_z"},
@@ -54,7 +56,7 @@ namespace Voussoir
           });
     }
 
-    /** One more row, of the present values. */
+    /** Adds a row with the present values. */
     void record()
     {
       std::vector<double> row;

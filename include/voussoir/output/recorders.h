@@ -18,37 +18,42 @@
 
 namespace Voussoir
 {
-  /** Rows of numbers under named columns; written as CSV. */
+  /** Table of numbers with named columns. */
   struct Table
   {
     std::vector<std::string>         columns;
     std::vector<std::vector<double>> rows;
 
-    void write(const std::string &file) const; ///< throws WriteError
+    /** Writes the table as CSV. Throws WriteError. */
+    void write(const std::string &file) const;
 
     template <class Archive> void serialize(Archive &archive, unsigned int) { archive &columns &rows; }
   };
 
-  /** The file of a table that grows with the run, so that a run that is killed leaves what it had. */
+  /** CSV file of a table that grows during the run. If the run is killed, the file has the rows so far. */
   class TableFile
   {
   public:
-    void open(const std::string &name, const Table &table); ///< with the rows so far; throws WriteError
-    void append(const Table &table); ///< the rows that the file does not have yet; throws WriteError
+    /** Creates the file with the rows so far. Throws WriteError. */
+    void open(const std::string &name, const Table &table);
+
+    /** Appends the rows that are not in the file yet. Throws WriteError. */
+    void append(const Table &table);
 
   private:
     std::unique_ptr<OutputFile> file;
     std::size_t                 n_written = 0;
   };
 
-  /** Openings and slips of the joints: at the crest over time, and the largest anywhere. Opening and slip are
-   * counted from the grouted state. */
+  /** Openings and slips of the joints, at the crest over time and the largest anywhere. Openings and slips
+   * are relative to the grouted state. */
   class JointRecorder
   {
   public:
+    /** Both arguments must outlive the recorder. */
     JointRecorder(const Structure &structure, const DamGeometry &geometry);
 
-    /** Of one joint at the crest over time, upstream and downstream [m]; when it was open most [s]. */
+    /** Largest openings and slips of one joint at the crest [m], and the time of the largest opening [s]. */
     struct Largest
     {
       double opening_upstream = 0., opening_downstream = 0., slip_upstream = 0., slip_downstream = 0.,
@@ -60,20 +65,24 @@ namespace Voussoir
       }
     };
 
-    void  record(const Newmark &newmark);
-    Table maxima() const;    ///< joints.csv
-    Table pressures() const; ///< joint_pressures.csv
+    /** Adds the present openings, slips and pressures to the results. */
+    void record(const Newmark &newmark);
 
-    /** The largest pressure over time at the nodes of the joints, one per node of the model, 0 elsewhere
-     * [Pa]. */
+    /** Returns the largest openings and slips of each joint: joints.csv. */
+    Table maxima() const;
+
+    /** Returns the largest and mean contact pressures of each joint: joint_pressures.csv. */
+    Table pressures() const;
+
+    /** Returns the largest contact pressure over time at each node of the model [Pa], 0 outside of joints. */
     std::vector<float> largest_pressure(const SolidModel &model) const;
 
-    Table                history; ///< joint_history.csv
-    Extreme              opening, slip;
-    JointReach           reach;   ///< counts from when it is set
-    JointPoints          points;  ///< the same
-    KeyForces            keys;    ///< the same
-    std::vector<Largest> largest; ///< per joint
+    Table                history;       ///< rows of joint_history.csv
+    Extreme              opening, slip; ///< largest anywhere [m]
+    JointReach           reach;         ///< records once it is set
+    JointPoints          points;        ///< records once it is set
+    KeyForces            keys;          ///< records once it is set
+    std::vector<Largest> largest;       ///< per joint
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
@@ -88,31 +97,32 @@ namespace Voussoir
     const Structure    &structure;
     const DamGeometry  &geometry;
     std::vector<double> pressure, time_of_pressure; ///< largest of each pair [Pa], [s]
-    std::vector<double> sum_of_means;               ///< of each joint's mean pressure, over history.rows [Pa]
+    std::vector<double> sum_of_means; ///< mean pressure of each joint, summed over history.rows [Pa]
   };
 
-  /** Normal force of a pair over its area, compression > 0 [Pa]. */
+  /** Returns the contact pressure of a pair, the normal force per area, compression > 0 [Pa]. */
   double joint_pressure(const Structure &structure, const DynamicState &state, unsigned int pair);
 
-  /** Largest and smallest principal stress of every node over time. */
+  /** Largest and smallest principal stresses of each node over time. */
   class EnvelopeRecorder
   {
   public:
     /** @p initial: stresses to add to those of the displacements (self-weight), one per node. */
     EnvelopeRecorder(const StressRecovery &recovery, std::vector<Stress> initial);
 
-    /** @p tractions: as StressRecovery::apply(). */
+    /** Computes the stresses of this rank's nodes and updates their extremes. @p time: time [s]. @p u:
+     * displacements, 3 per node [m]. @p tractions: as in StressRecovery::apply(). */
     void record(double time, const Unknowns &u, const std::vector<Vector3> &tractions);
 
-    /** With several ranks each records its share of the nodes; after this all have all. */
+    /** Gathers the extremes of all nodes on every rank. All ranks: record() covers the nodes of one rank. */
     void collect();
 
-    /** The largest of the maxima (or the smallest of the minima) of the nodes on a surface, 0: of all nodes.
-     */
+    /** Returns the largest maximum, or the smallest minimum, of the nodes on a surface [Pa]. Surface 0: all
+     * nodes. NaN: no nodes. */
     Extreme extreme(const SolidModel &model, int surface, bool largest) const;
 
     std::vector<float> maximum, minimum, time_of_maximum, time_of_minimum; ///< per node [Pa], [s]
-    Overstress         overstress;                                         ///< counts from when it is set
+    Overstress         overstress;                                         ///< records once it is set
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
@@ -122,25 +132,28 @@ namespace Voussoir
   private:
     const StressRecovery    &recovery;
     std::vector<Stress>      initial, stress;
-    std::vector<std::size_t> begin; ///< node of each rank
+    std::vector<std::size_t> begin; ///< first node of each rank
   };
 
-  /** Writes results on the mesh: VTU files for ParaView, and the developed faces for the figures. */
+  /** Writer of results on the mesh: VTU files for ParaView, and the developed faces for the figures. */
   class FieldWriter
   {
   public:
+    /** @p model must outlive the writer. */
     explicit FieldWriter(const SolidModel &model);
 
+    /** Field with one value per node of the model. */
     struct NodalField
     {
       std::string        name;
-      std::vector<float> values; ///< one per node
+      std::vector<float> values;
     };
 
-    /** One VTU file. @p u: 3 per free node, or empty. */
+    /** Writes a VTU file. @p u: displacements, 3 per free node [m], or empty. Throws WriteError. */
     void write_vtu(const std::string &file, const Unknowns &u, const std::vector<NodalField> &fields) const;
 
-    /** faces.csv and faces_cells.csv: the nodes and quadrilaterals of the upstream and downstream faces. */
+    /** Writes nodes and quadrilaterals of the upstream and downstream faces to faces.csv and
+     * faces_cells.csv. @p maximum, @p minimum: principal stresses of the nodes [Pa]. Throws WriteError. */
     void write_faces(const std::string &directory, const DamGeometry &geometry,
                      const std::vector<float> &maximum, const std::vector<float> &minimum) const;
 

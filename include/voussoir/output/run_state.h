@@ -8,8 +8,8 @@
 
 namespace Voussoir
 {
-  /** A run between two steps: the dam, the ground motion and the state of the time integration. The time loop
-   *  changes it, observers read it. */
+  /** State of a run between two steps: dam, ground motion and time integration. The time loop changes the
+   *  state; observers only read the state. */
   struct RunState
   {
     std::unique_ptr<Dam>     dam;
@@ -19,41 +19,46 @@ namespace Voussoir
 
     unsigned int           n_steps = 0;    ///< of the whole run; 0: static state only
     unsigned int           step = 0;       ///< number of steps done
-    unsigned int           start_step = 0; ///< the value of step at the start of this process
-    std::vector<PairState> pairs_at_start; ///< at start_step
+    unsigned int           start_step = 0; ///< value of @p step at the start of this process
+    std::vector<PairState> pairs_at_start; ///< contact states of the pairs at @p start_step
 
     Unknowns u_before;               ///< displacement before the last step, 3 per node [m]
     Vector3  base_velocity_before{}; ///< DynamicState::base_velocity before the last step [m/s]
-    Unknowns acceleration;           ///< mean over the last step, that of the base included [m/s^2]
+    Unknowns acceleration;           ///< mean over the last step, with that of the base, 3 per node [m/s^2]
 
+    /** Returns the scene of the dam. */
     const Scene &scene() const { return dam->scene; }
-    TimeGrid     grid() const { return {motion.dt, scene().foundation.substeps, n_steps}; }
-    bool         is_last() const { return step == n_steps; }
 
-    /** Does a record with this interval of steps include the present step? Interval 0: never. */
+    /** Returns time steps of dam and rock, and the number of steps. */
+    TimeGrid grid() const { return {motion.dt, scene().foundation.substeps, n_steps}; }
+
+    /** Returns true if all steps are done. */
+    bool is_last() const { return step == n_steps; }
+
+    /** Returns true if the present step is a multiple of @p interval. Interval 0: never. */
     bool is_due(const unsigned int interval) const { return interval > 0 && step % interval == 0; }
 
-    /** Contact states of the pairs after the last step. */
+    /** Returns the contact states of the pairs after the last step. */
     const std::vector<PairState> &pairs() const
     {
       return step == start_step ? pairs_at_start : newmark->pair_states();
     }
 
-    /** Makes foundation and time integration ready for the first step from the static state. @p parameters:
-     * of the contact solver. */
+    /** Initializes foundation and time integration from the static state. @p parameters: settings of the
+     * contact solver. */
     void start(const ContactParameters &parameters);
 
-    /** Loads at the end of the next step, without those of the foundation, 3 per node [N]. */
+    /** Returns the loads at the end of the next step, without those of the foundation, 3 per node [N]. */
     Unknowns next_load() const;
 
-    /** Acceleration of the base after so many steps, if displacements count from the base; else 0 [m/s^2]. */
+    /** Returns the acceleration of the base after @p after steps [m/s^2]; 0 if displacements are absolute. */
     Vector3 ground_acceleration(unsigned int after) const;
 
-    /** Displacement of a node of the mesh relative to the base (on rock: to its lowest part), the static one
-     *  included [m]. */
+    /** Returns the displacement of a node of the mesh relative to the base, with the static displacement [m].
+     *  On rock the reference is the lowest part of the base. */
     Vector3 relative_to_base(unsigned int node) const;
 
-    /** Largest energy of the run, the reference of energy balances [J]. */
+    /** Returns the largest energy of the run, the reference of energy balances [J]. */
     double largest_energy() const;
   };
 } // namespace Voussoir

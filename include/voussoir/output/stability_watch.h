@@ -9,42 +9,44 @@
 
 namespace Voussoir
 {
-  /** What a ground motion can do to anything linear that stands on it. */
+  /** Bounds of a ground motion and of the response of linear structures to the motion. */
   struct MotionBounds
   {
-    double velocity = 0., displacement = 0.; ///< largest of the ground itself, PGV and PGD [m/s], [m]
-    /** No oscillator on this ground gets faster, whatever its frequency [m/s]: the largest of the integral
-     * over |a(s)| exp(-alpha (t - s)/2) ds, the bound of Duhamel's integral with the damping alpha M. */
+    double velocity = 0., displacement = 0.; ///< largest of the ground, PGV and PGD [m/s], [m]
+    /** Upper bound of the velocity of an oscillator of any frequency on this ground [m/s]. The bound of
+     * Duhamel's integral with the damping alpha M is the maximum over t of the integral of
+     * |a(s)| exp(-alpha (t - s)/2) ds. */
     double oscillator = 0.;
   };
 
-  /** @p mass_damping: alpha [1/s]. Velocity and displacement are the integrals of the piecewise linear
-   * acceleration from rest. */
+  /** Returns the bounds of a ground motion. @p mass_damping: alpha [1/s]. Velocity and displacement are
+   * integrals of the piecewise linear acceleration, from rest. */
   MotionBounds bounds_of(const GroundMotion &motion, double mass_damping);
 
-  /** Looks at every node of dam and rock, and at the energy that the rock takes in, for what no earthquake
-   * can do. The bounds scale with the motion and with the static state:
+  /** Monitor of instability. It compares the nodes of dam and rock, and the energy that enters the rock, with
+   * bounds that an earthquake cannot exceed. The bounds scale with the motion and with the static state:
    *
-   * - speed of the dam: 10 times MotionBounds::oscillator, since the energy norm of a structure that only
-   *   loses energy is bounded by it for the mean over the mass; 10 is for the nodes that are faster;
-   * - speed of the rock: 10 times PGV, since ground and valley raise the motion of the outcrop by less;
-   * - each with v0 = sqrt(2 E0/M) added, the speed that the strain energy of the static state could give to
-   *   the dam's mass;
-   * - displacements from the static state: 10 PGD and what an oscillator of 1 s makes of these speeds;
-   * - energy taken in through the artificial boundary: 3 times what the rising wave brings through the
-   *   bottom, the integral of rho c v^2 with half the outcrop's velocity, and E0. A fixed boundary is stable
-   *   and may take in more by resonance;
-   * - energy made by the coupling of dam and rock: as much.
+   * - velocity of the dam: 10 times (MotionBounds::oscillator + v0). The oscillator's velocity bounds the
+   *   mean over the mass of a structure that only loses energy. The factor 10 allows for faster nodes. The
+   *   velocity v0 = sqrt(2 E0/M) has the static strain energy E0 as kinetic energy of the dam's mass M;
+   * - velocity of the rock: 10 times (PGV + v0). Soil layers and valleys amplify the outcrop motion by less;
+   * - displacement from the static state: 10 PGD, and the displacement of an oscillator with a period of 1 s
+   *   at the bound of the velocity;
+   * - energy that enters through the artificial boundary: 3 times the energy of the incident wave and E0. The
+   *   incident energy is the integral of rho c v^2 at the bottom, with half the outcrop velocity. A fixed
+   *   boundary has no such bound, since resonance in the rock box is stable;
+   * - energy that the coupling of dam and rock generates: the same bound.
    *
-   * Exponential growth passes from sound values to the bounds within tens of steps. */
+   * Exponential growth exceeds the bounds within tens of steps. */
   class StabilityWatch
   {
   public:
-    /** At the start of the shaking. */
+    /** Computes the bounds at the start of the time loop, and starts the monitor of the foundation. @p dam
+     * must outlive the object. */
     StabilityWatch(const Dam &dam, const GroundMotion &motion, const Newmark &newmark);
 
-    /** Returns what is wrong after step @p step, or an empty text. Energies and joints are examined in each
-     * step, the nodes in every 10th and in the @p last. */
+    /** Returns the instability after step @p step with a remedy, or an empty text. Energies and joints are
+     * checked in each step, the nodes in every 10th step and in the @p last one. */
     std::string trouble(const Newmark &newmark, unsigned int step, bool last) const;
 
   private:
@@ -54,7 +56,7 @@ namespace Voussoir
 
     const Dam     &dam;
     const Unknowns u_static;
-    double         velocity_dam, displacement_dam; ///< bounds
+    double         velocity_dam, displacement_dam; ///< bounds [m/s], [m]
   };
 } // namespace Voussoir
 

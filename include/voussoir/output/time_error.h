@@ -11,45 +11,50 @@
 
 namespace Voussoir
 {
-  /** What the time step does to the extremes of a run, by estimate. */
+  /** Estimated error of a run's extremes due to the time step. */
   struct TimeError
   {
-    /** Of the joints' largest openings at the crest, upstream and downstream: root of the sum of squares over
-     * the joints, over that of the openings [-]. */
+    /** Relative error of the joints' largest openings at the crest, upstream and downstream [-]: root of the
+     * sum of squared errors over the root of the sum of squared openings. */
     double opening = 0.;
-    double largest_opening = 0.; ///< of the largest anywhere [m]
-    /** Of principal stresses away from the base near the largest ones, as FaceTension::difference() [Pa]; not
-     * a number: not recorded. */
+    double largest_opening = 0.; ///< error of the largest opening anywhere [m]
+    /** Error of the largest maximum principal stresses away from the base, as in FaceTension::difference()
+     * [Pa]. NaN: stresses are not recorded. */
     double tension_upstream = std::numeric_limits<double>::quiet_NaN(), tension_downstream = tension_upstream;
   };
 
-  /** The same dam on its moving base at twice the time step, beside the run. The estimate is 0.4 of the
-   * difference between both: an error that falls with the step's power p is 1/(2^p - 1) of it, so that the
-   * estimate is right within a factor of 2 for p = 1.2 to 2.6 (doc/accuracy.md: what was measured). Where the
-   * steps are so long that the error does not fall regularly, largest openings may be the same by chance; the
-   * estimate is not less than a tenth of the largest difference of the openings at equal times. */
+  /** Comparison run of the same dam with twice the time step, parallel to the run. The estimate is 0.4 of the
+   * difference of both runs. An error of order p is 1/(2^p - 1) of the difference, so the estimate is
+   * accurate within a factor of 2 for p = 1.2 to 2.6 (measured errors: doc/accuracy.md). With long time
+   * steps, the largest openings of both runs may agree by chance. The estimate is therefore at least a tenth
+   * of the largest difference of the openings at equal times. */
   class TimeErrorEstimate
   {
   public:
-    /** @p dt: of the run. @p start: its state then, @p reference_jump: jumps at which the joints are
-     * closed, 3 per pair [m]. All are kept. */
+    /** @p dt: time step of the run [s]. @p start: state of the run at the start. @p reference_jump: jumps at
+     * which the joints are closed, 3 per pair [m]. @p dam must outlive the object. */
     TimeErrorEstimate(const Dam &dam, const ContactParameters &parameters, double dt, ImpactRule rule,
                       const DynamicState &start, const Unknowns &reference_jump);
 
-    /** Tensions, too, from now on; @p tractions: known to @p stress, or null. Both are kept. */
+    /** Starts the records of stresses. @p tractions: boundary tractions that @p stress uses, or null. Both
+     * must outlive the object. */
     void record_stresses(const StressRecovery &stress, Tractions *tractions);
 
-    /** After each step of the run, under @p load at its end and with the acceleration @p ground of the base
-     * there [m/s^2]; every second one is a step here. */
+    /** Advances the comparison run in every second call. The time loop calls it after each step of the run.
+     * @p load: loads at the end of the step, 3 per node [N]. @p base_velocity: as in Newmark::advance()
+     * [m/s].
+     * @p ground: acceleration of the base at the end of the step [m/s^2]. */
     void advance(unsigned int step, const Unknowns &load, const Vector3 &base_velocity,
                  const Vector3 &ground);
 
-    void collect() ///< as EnvelopeRecorder
+    /** Gathers the stresses of all nodes on every rank. All ranks. */
+    void collect()
     {
       if (envelope)
         envelope->collect();
     }
 
+    /** Returns the estimate from the results of the run. */
     TimeError of(const JointRecorder &joints, const EnvelopeRecorder &envelope,
                  const FaceTension &tension) const;
 
@@ -61,7 +66,7 @@ namespace Voussoir
     }
 
   private:
-    std::unique_ptr<Support> support; // before what stands on it
+    std::unique_ptr<Support> support; // constructed before newmark, which uses it
 
   public:
     Newmark newmark;
@@ -74,7 +79,7 @@ namespace Voussoir
     JointRecorder                   joints;
     std::optional<EnvelopeRecorder> envelope;
     Tractions                      *tractions = nullptr;
-    Vector3                         ground_before{}; ///< at the end of the last step [m/s^2]
+    Vector3                         ground_before{}; ///< at the end of the previous step [m/s^2]
     Unknowns                        acceleration;    ///< mean of the last step [m/s^2]
   };
 } // namespace Voussoir
