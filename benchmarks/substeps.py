@@ -22,7 +22,7 @@ STEPS, SUBSTEPS, COUPLING = "Dynamics/Steps per sample", "Foundation/Substeps", 
 SCENES = {
     "rock_fja": ({"Motion/Duration": 5.12, "Motion/Rise end": 0.5, "Motion/Decay begin": 4.5}, [
         ("partition", 5, 1, {}), ("mean traction", 5, 1, {}), ("mean traction", 2, 3, {}),
-        ("partition", 2, 3, {"Foundation/Stiffness damping": 2.6e-4}), ("mean traction", 1, 5, {})]),
+        ("mean traction", 1, 5, {})]),
     "rock28": ({"Motion/Duration": 2.56, "Motion/Decay begin": 2.4}, [
         ("partition", 7, 1, {}), ("mean traction", 2, 4, {}), ("mean traction", 1, 7, {})]),
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Do the rooms stand? A room includes itself and rooms above it only, no two files need each other, no file is longer
-# than 400 lines, no function longer than 60. The same for the imports of Python (check_imports.py).
+# Checks the rooms: a room includes itself and rooms above it only, no two files need each other, no function is longer than 60 lines;
+# the gates of check_classes.py hold, and those of check_imports.py for the imports of Python.
 # Usage: scripts/check_rooms.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -16,8 +16,7 @@ awk -v order="${rooms[*]}" '
     if (!floor[from[1]] || floor[to[1]] > floor[from[1]]) { print "rooms: " $1 " includes " $2 ", which is below it"; bad = 1 } }
   END { exit bad }' <<< "$edges"
 tsort <<< "$edges" > /dev/null 2> >(sed 's/^tsort: /rooms: files that need each other: /' >&2)
-find source include/voussoir -type f -exec wc -l {} + |
-  awk '$2 != "total" && $1 > 400 { print "rooms: " $2 " has " $1 " lines, more than 400"; bad = 1 } END { exit bad }'
 find source include/voussoir -name '*.cc' -o -name '*.h' | LC_ALL=C sort |
   xargs "${PYTHON:-python3}" scripts/function_lengths.py 60 | sed 's/^/rooms: /'
+find include/voussoir -name '*.h' | LC_ALL=C sort | xargs "${PYTHON:-python3}" scripts/check_classes.py | sed 's/^/rooms: /'
 "${PYTHON:-python3}" scripts/check_imports.py

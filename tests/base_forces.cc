@@ -161,7 +161,6 @@ namespace
       for (std::size_t k = 0; k < steady.size(); ++k)
         steady[k] += load.force[k];
     dam.foundation->start(motion, grid, zero);
-    dam.foundation->add_interface_mass(dam.structure, grid);
     Newmark    newmark(dam.structure, dam.laws, scene.contact, dt, ImpactRule::mean_force,
                        dam.foundation->support(dam.structure));
     const bool moves = dam.foundation->moves_base();
@@ -308,8 +307,6 @@ namespace
     below("rock, each monolith", momentum(scene, true, .002, 60), 1e-11);
     scene.foundation.substeps = 2;
     below("rock with steps of its own", momentum(scene, true, .004, 40), 1e-11);
-    scene.foundation.coupling = "partition";
-    below("rock with sub-steps, partition", momentum(scene, true, .004, 40), 1e-11);
   }
 
   /** A base with its lowest line at x = 2: it rises by .75 per m upstream and by 1/3 per m downstream. Area

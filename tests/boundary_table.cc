@@ -5,8 +5,7 @@
 #include "box.h"
 #include "column.h"
 
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/foundation/foundation_parameters.h>
 #include <voussoir/rock/boundary_table.h>
@@ -26,8 +25,8 @@ namespace
   /** Sets the boundary of a scene; false if it is refused. */
   bool accepts(const std::string &name)
   {
-    dealii::ParameterHandler prm;
-    FoundationParameters     p;
+    Entries              prm;
+    FoundationParameters p;
     p.add_parameters(prm);
     try
     {

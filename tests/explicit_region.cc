@@ -90,12 +90,12 @@ namespace
       const Unknowns force = region->advance(u, v);
       error = std::max(error, largest_difference(now, region->displacement()));
       // Free nodes: the force of the elements is minus the mass times the acceleration, known a step later.
-      Unknowns       balance;
-      const Unknowns velocity = leader->velocity();
+      Unknowns        balance;
+      const Unknowns &w = leader->half_step_velocity();
       for (unsigned int i = 0; i < nodes.size(); ++i)
         for (unsigned int c = 0; c < 3; ++c)
         {
-          const double a = 2. / p.dt * (velocity[3 * nodes[i] + c] - v[3 * i + c]);
+          const double a = (w[3 * nodes[i] + c] - v[3 * i + c]) / p.dt;
           balance.push_back(force[3 * i + c] + model.mass[nodes[i]] * a);
           peak = std::max(peak, std::abs(force[3 * i + c]));
         }

@@ -416,6 +416,54 @@ namespace
 
   // Faces
 
+  void add_tail_water(const SolidModel &model, const TailWaterParameters &water, Unknowns &load)
+  {
+    Scene scene;
+    scene.loads.tail_water = water;
+    add_traction(
+        model, PhysicalId::downstream,
+        [&](const double z, const Vector3 &normal) { return tail_water_traction(scene, 1., z, normal); },
+        load);
+  }
+
+  void add_silt(const SolidModel &model, const SiltParameters &silt, Unknowns &load)
+  {
+    Scene scene;
+    scene.loads.silt = silt;
+    add_traction(
+        model, PhysicalId::upstream,
+        [&](const double z, const Vector3 &normal) { return silt_traction(scene, 1., z, normal); }, load);
+  }
+
+  /** The tractions of the table give the forces of the loads, with the factors of the combination. */
+  void tractions_of_table()
+  {
+    SolidModel model(wall({{2, 4, 6}}), 1);
+    model.free_base();
+    const Structure structure = assemble_structure(model, {Material()}, true);
+    Scene           scene;
+    scene.reservoir.level = scene.loads.silt.level = scene.loads.tail_water.level = .7 * tall;
+    scene.loads.combinations["all"] = "water 1.5, silt 2, tail water 0.5";
+    scene.loads.combination = "all";
+    const KnownTraction           known = known_traction(scene);
+    const std::vector<StaticLoad> loads = static_loads(scene, {model, structure, {Material()}});
+    expect(loads.size() == 3 && loads[0].name == "water" && loads[1].name == "tail water", "three loads");
+    Unknowns by_traction(3 * structure.n_nodes(), 0.), by_load(by_traction);
+    for (const int surface : {PhysicalId::upstream, PhysicalId::downstream})
+      add_traction(
+          model, surface, [&](const double z, const Vector3 &n) { return known(surface, z, n); },
+          by_traction);
+    double error = 0., size = 0.;
+    for (std::size_t i = 0; i < by_load.size(); ++i)
+    {
+      for (const StaticLoad &load : loads)
+        by_load[i] += load.force[i];
+      error = std::max(error, std::abs(by_load[i] - by_traction[i]));
+      size = std::max(size, std::abs(by_load[i]));
+    }
+    below("forces of the loads against their tractions", error / size, 1e-13);
+  }
+
   void faces()
   {
     for (const unsigned int degree : {1, 2})
@@ -428,20 +476,20 @@ namespace
       {
         tail.level = silt.level = level;
         Unknowns load(3 * model.first_equation.back(), 0.);
-        add_tail_water(model, tail, 9.81, load);
+        add_tail_water(model, tail, load);
         expect_close(sum(load)[0], -9810. * level * level / 2. * wide, 1e-3, "push of the tail water");
         TailWaterParameters salty = tail;
         salty.density = 1030.;
         Unknowns heavy(load.size(), 0.);
-        add_tail_water(model, salty, 9.81, heavy);
+        add_tail_water(model, salty, heavy);
         expect_close(sum(heavy)[0], 1.03 * sum(load)[0], 1e-12, "push of tail water of 1030 kg/m3");
         Unknowns of_silt(load.size(), 0.);
-        add_silt(model, silt, 9.81, of_silt);
+        add_silt(model, silt, of_silt);
         expect_close(sum(of_silt)[0], 900. * 9.81 / 3. * level * level / 2. * wide, 1e-3,
                      "push of the silt, K = 1/3");
         silt.coefficient = .5;
         Unknowns half(load.size(), 0.);
-        add_silt(model, silt, 9.81, half);
+        add_silt(model, silt, half);
         expect_close(sum(half)[0], 1.5 * sum(of_silt)[0], 1e-12, "K = 1/2");
         expect(std::abs(sum(half)[1]) + std::abs(sum(half)[2]) < 1e-9 * sum(half)[0], "along x");
         silt.coefficient = -1.;
@@ -459,7 +507,7 @@ namespace
       SiltParameters silt;
       silt.level = tall;
       Unknowns load(3 * model.first_equation.back(), 0.);
-      add_silt(model, silt, 9.81, load);
+      add_silt(model, silt, load);
       const double vertical = 900. * 9.81 * tall * tall / 2. * wide;
       expect_close(sum(load)[0], vertical / 3., 1e-9, "push of the silt");
       expect_within(sum(load)[2], lean > 0. ? -.2 * vertical : 0., 1e-9 * vertical, "weight of the silt");
@@ -480,8 +528,8 @@ namespace
     TailWaterParameters tail;
     silt.level = tail.level = tall;
     Unknowns of_silt(3 * model.first_equation.back(), 0.), of_tail(of_silt);
-    add_silt(model, silt, 9.81, of_silt);
-    add_tail_water(model, tail, 9.81, of_tail);
+    add_silt(model, silt, of_silt);
+    add_tail_water(model, tail, of_tail);
     const double push = 900. * 9.81 / 3. * tall * tall / 2. * wide, back = 9810. * tall * tall / 2. * wide;
     expect_close(sum(of_silt)[0], push * c, 1e-9, "push of the silt on a turned wall, x");
     expect_close(sum(of_silt)[1], push * s, 1e-9, "push of the silt on a turned wall, y");
@@ -530,6 +578,7 @@ namespace
   {
     faces();
     turned();
+    tractions_of_table();
     uplift();
   }
 

@@ -4,8 +4,7 @@
 
 #include "mesh_testing.h"
 
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/base/output_file.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/mesh_joints.h>
@@ -76,8 +75,8 @@ namespace
 
   void test_parameters()
   {
-    MeshParameters           parameters;
-    dealii::ParameterHandler prm;
+    MeshParameters parameters;
+    Entries        prm;
     parameters.add_parameters(prm);
     prm.parse_input_from_string(
         "subsection Mesh\nset Axes = y x z\nsubsection Arch210\nset Joints = 5\nend\nend\n");

@@ -3,8 +3,7 @@
 
 #include "testing.h"
 
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/output_file.h>
 #include <voussoir/motion/motion.h>
@@ -254,15 +253,10 @@ namespace
       for (unsigned int d = 0; d < 3; ++d)
         expect_within(same.acceleration[k][d], motion.acceleration[k][d], 1e-10, "written and read");
 
-    // Interpolation of the motion, and outside of it.
-    expect_within(motion.at(0.005)[0], 0.25, 1e-12, "at");
-    expect_within(motion.at(0.03)[0], 0.75, 1e-12, "at the end");
-    expect(motion.at(-0.001)[0] == 0. && motion.at(0.031)[0] == 0., "not zero outside");
-
     parameters = file_parameters();
     parameters.source = "none";
     motion = make_motion(parameters, "");
-    expect(motion.acceleration.size() == 4 && motion.at(0.02)[0] == 0., "Source = none");
+    expect(motion.acceleration.size() == 4 && motion.sample(2)[0] == 0., "Source = none");
   }
 
   void bad_files()
@@ -304,8 +298,8 @@ namespace
 
   void entries()
   {
-    MotionParameters         parameters;
-    dealii::ParameterHandler prm;
+    MotionParameters parameters;
+    Entries          prm;
     parameters.add_parameters(prm);
     expect(parameters.vertical_ratio == 0.666667 && parameters.peak_acceleration == 0.5575,
            "defaults change");

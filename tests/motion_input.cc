@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What goes into a motion: resampling of records, records of unequal length and step, scaling, envelopes of
-// short motions, what is left at the end, and input that must be refused.
+// short motions, residual motions at the end, and input that must be refused.
 
 #include "testing.h"
 
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
@@ -29,7 +28,7 @@ namespace
     return a;
   }
 
-  /** Largest difference of two records, but for @p margin samples at each end. */
+  /** Returns the largest difference of two records, without @p margin samples at each end. */
   double difference(const std::vector<double> &a, const std::vector<double> &b, std::size_t margin)
   {
     expect(a.size() == b.size() && a.size() > 2 * margin, "lengths");
@@ -191,7 +190,7 @@ namespace
     auto             warnings = motion_warnings(report_motion(motion, p));
     expect(warnings.size() == 1 && warnings[0].find("in x") != std::string::npos &&
                warnings[0].find("100 %") != std::string::npos,
-           "drift is not warned of");
+           "drift produces no warning");
     // Back and forth, to rest at its place: a tenth of the displacement (1 - cos wt)^2.
     for (std::size_t k = 0; k < motion.acceleration.size(); ++k)
     {
@@ -200,9 +199,9 @@ namespace
     }
     warnings = motion_warnings(report_motion(motion, p));
     expect(warnings.empty(),
-           "a motion that ends at rest is warned of: " + (warnings.empty() ? "" : warnings[0]));
+           "a motion that ends at rest produces a warning: " + (warnings.empty() ? "" : warnings[0]));
     motion.acceleration.resize(751); // cut in its middle
-    expect(motion_warnings(report_motion(motion, p)).size() == 1, "a cut motion is not warned of");
+    expect(motion_warnings(report_motion(motion, p)).size() == 1, "a cut motion produces no warning");
   }
 
   /** a = (3 t - 1, 2, -t): v and u by hand, also with three steps per sample and twice the size. */
@@ -268,8 +267,8 @@ namespace
     p.factor = 1e4;
     expect_error([&] { make_motion(p, ""); }, {"1000 g", "Factor"});
 
-    MotionParameters         declared;
-    dealii::ParameterHandler prm;
+    MotionParameters declared;
+    Entries          prm;
     declared.add_parameters(prm);
     for (const std::string entry : {"Seed = -1", "Matching iterations = -1", "Matching iterations = 5000000"})
     {

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import run_program
 from program_watch import settings
-from run_program import expect, run_cases, runs, table, write, write_scene
+from run_program import expect, run_cases, runs, write, write_scene
 
 ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1"}
 SHORT = settings("Motion/Duration=0.3", "Output/Solution interval=10")
@@ -122,26 +122,6 @@ def rock():
     any_number("own", (2, 4), *ROCK, *OWN, *settings("Mesh/Arch210/Joints=5", "Mesh/Arch210/Elements along=12"))
 
 
-def modes():
-    """Frequencies and effective masses are those of one rank, on a rigid base and on massless rock; errors are told once."""
-    write_scene()
-    rock = settings("Foundation/Model=massless", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60")
-    for name, more in (("rigid", ()), ("massless", rock)):
-        runs("modes", "scene.prm", "--count", "6", "--output", f"{name}_1", *more)
-        for n in (2, 3):
-            status, out, error = on_ranks(n, "modes", "scene.prm", "--count", "6", "--output", f"{name}_{n}", *more)
-            expect(status == 0 and out.count("mode  frequency") == 1, f"modes on {n} ranks: {status} {out} {error}")
-            (names, one), (_, several) = table(f"{name}_1/modes.csv"), table(f"{name}_{n}/modes.csv")
-            for a, b in zip(one, several, strict=True):
-                off = abs(b[1] / a[1] - 1.)
-                expect(off < 1e-9, f"{name}: mode {a[0]:.0f} on {n} ranks is off by {off:.1e}")
-                for column in range(names.index("effective_mass_x"), len(names)):
-                    expect(abs(b[column] - a[column]) < 1e-6 * max(row[column] for row in one), f"{names[column]}: {a} {b}")
-            print(f"    {name}: {[row[1] for row in several]} Hz on {n} ranks as on one")
-    status, _, error = on_ranks(2, "modes", "scene.prm", "--count", "99999")
-    expect(status == 2 and error.count("--count") == 1, f"{status}: {error}")
-
-
 def killed(n, directory, *arguments):
     """A run on n ranks that is killed once it has a checkpoint."""
     process = subprocess.Popen([*launcher(n), "scene.prm", "--output", directory, *arguments], env={**os.environ, **ROOT},
@@ -240,9 +220,11 @@ def errors():
     expect(status == 0 and out.count("Voussoir") == 1, out + error)
     status, out, error = on_ranks(2, "mesh", "scene.prm", "--output", "mesh.msh")
     expect(status == 0 and out.count("dam :") == 1 and Path("mesh.msh").exists(), out + error)
+    status, out, error = on_ranks(2, "modes", "scene.prm", "--count", "2", "--output", "modes")
+    expect(status == 0 and out.count("mode  frequency") == 1 and Path("modes/modes.csv").exists(), out + error)
     status, out, error = on_ranks(2, "scene.prm", "--validate")
     expect(status == 0 and out.count("Memory") == 1, out + error)
 
 
 if __name__ == "__main__":
-    run_cases(rigid, rock, problems, modes, checkpoint, last_write, stopped, errors)
+    run_cases(rigid, rock, problems, checkpoint, last_write, stopped, errors)

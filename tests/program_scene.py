@@ -67,7 +67,7 @@ def options():
                              (["modes", "scene.prm", "--count", "3x"], ("--count", "3x")),
                              (["parameters", "Joint"], ('"Joint"', 'Did you mean "Joints"', "markdown")),
                              (["parameters", "prm", "Joints/Key"], ('"Joints/Keys"',)),
-                             (["parameters", "json", "Joints", "Mesh"], ("Mesh", "too many"))):
+                             (["parameters", "json", "Joints", "Mesh"], ("Mesh", "Remove the argument"))):
         refused(arguments, *parts)
     expect("2 joints" in runs("--validate", "--overwrite", "--", "scene.prm"), "-- before the scene")
     # One section

@@ -246,7 +246,6 @@ namespace Blocks
     foundation.add_stiffness(dam.model, dam.structure);
     foundation.add_mass(dam.structure);
     const TimeGrid grid{c.dt, c.substeps, 0};
-    foundation.add_interface_mass(dam.structure, grid);
     foundation.start({}, grid, Unknowns(unit.size(), 0.));
     Newmark newmark(dam.structure, dam.laws, contact, c.dt, ImpactRule::mean_force,
                     foundation.support(dam.structure));

@@ -59,49 +59,6 @@ namespace
     below("  foot", difference(cut.foot, whole.foot), 1e-9);
   }
 
-  /** Steps of the rock in each of the dam: what that costs in accuracy, and that it does not grow. */
-  void substeps()
-  {
-    Case c;
-    c.boundary = "mtf3";
-    c.dt = .0005;
-    c.duration = .32;
-    const History fine = partitioned(box(8), c);
-    print(
-        "Sub-steps of the rock, difference to 0.5 ms / peak\n  dt of the dam [ms]   m        top       foot");
-    for (const unsigned int m : {1, 2, 4})
-      for (const double dt : {.008, .004, .002})
-      {
-        if (dt / m > .0029) // the rock's critical step
-          continue;
-        c.dt = dt;
-        c.substeps = m;
-        const History h = partitioned(box(8), c);
-        const double  top = difference(h.top, fine.top), foot = difference(h.foot, fine.foot);
-        std::printf("  %18.3f %3u %10.2e %10.2e\n", 1e3 * dt, m, top, foot);
-        // Of second order: 16 times as much at 8 ms as at 2 ms.
-        const double size = dt / .002;
-        below("  top", top, (m == 1 ? .005 : .05) * size * size);
-        below("  foot", foot, (m == 1 ? .02 : .1) * size * size);
-      }
-    // Far after the pulse. What the foundation asks for keeps it from growing; without, it grows.
-    const auto late = [&](const unsigned int m, const double damping)
-    {
-      c.dt = m * .0022;
-      c.substeps = m;
-      c.stiffness_damping = damping * .0022;
-      c.duration = 2000 * c.dt;
-      const History              h = partitioned(box(8), c);
-      const std::vector<Vector3> begin(h.foot.begin(), h.foot.begin() + 200),
-          end(h.foot.end() - 200, h.foot.end());
-      return peak(end) / peak(begin);
-    };
-    below("largest of steps 1800 to 2000 / peak, m = 2, no damping", late(2, 0.), .05);
-    below("  m = 3, stiffness damping of 0.15 steps of the rock", late(3, .15), 1e-3);
-    below("  m = 4, the same", late(4, .15), 1e-3);
-    Columns::above("  m = 4, no damping: grows", late(4, 0.), 1e3);
-  }
-
   /** The reference of the next test is a quarter of the domain. */
   void symmetry()
   {
@@ -186,18 +143,16 @@ namespace
   }
 } // namespace
 
-/** Usage: rock_implicit partition|substeps|domain|long */
+/** Usage: rock_implicit partition|domain|long */
 int main(int argc, char **argv)
 {
   const std::string part = argc > 1 ? argv[1] : "";
   if (part == "partition")
     return Columns::run_all({partition, tied_joint});
-  if (part == "substeps")
-    return Columns::run_all({substeps});
   if (part == "domain")
     return Columns::run_all({symmetry, larger_domain});
   if (part == "long")
     return Columns::run_all({long_run});
-  std::fprintf(stderr, "usage: rock_implicit partition|substeps|domain|long\n");
+  std::fprintf(stderr, "usage: rock_implicit partition|domain|long\n");
   return 2;
 }

@@ -3,12 +3,11 @@
 
 #include "testing.h"
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <voussoir/app/scene_warnings.h>
 #include <voussoir/base/nearest_name.h>
 #include <voussoir/base/units.h>
 #include <voussoir/contact/law_table.h>
+#include <voussoir/dam/load_table.h>
 
 #include <fstream>
 
@@ -124,8 +123,8 @@ namespace
          "a list \"value; value\", where each is a number from 0 to 1"}};
     for (const auto &c : cases)
       expect(pattern_in_words(c.first) == c.second, c.first + " is " + pattern_in_words(c.first));
-    dealii::ParameterHandler prm;
-    Scene                    scene;
+    Entries prm;
+    Scene   scene;
     scene.add_parameters(prm);
     for (const DeclaredEntry &entry : declared_entries(prm))
     {
@@ -148,8 +147,8 @@ namespace
   std::vector<std::string> warnings_of(const std::string &text)
   {
     std::ofstream("warnings.prm") << text;
-    dealii::ParameterHandler prm;
-    Scene                    scene;
+    Entries prm;
+    Scene   scene;
     read_scene("warnings.prm", {}, scene, prm);
     return scene.warnings;
   }
@@ -186,8 +185,8 @@ namespace
 
   void test_warnings()
   {
-    dealii::ParameterHandler prm;
-    Scene                    scene;
+    Entries prm;
+    Scene   scene;
     scene.add_parameters(prm);
     const std::vector<DeclaredEntry> declared = declared_entries(prm);
     for (const std::string &name : entries_with_warnings())
@@ -200,7 +199,7 @@ namespace
     // All defaults written out, and every default as a value of its own.
     std::ostringstream all;
     prm.print_parameters(all, dealii::ParameterHandler::PRM);
-    expect(warnings_of(all.str()).empty(), "the defaults are warned of");
+    expect(warnings_of(all.str()).empty(), "the defaults produce warnings");
 
     const std::vector<Warned> cases = {
         {"subsection Joints\nset Friction = 0.5\nset Model = FJB\nend\n",
@@ -319,7 +318,7 @@ namespace
     });
   }
 
-  /** Of the values in a file the last one holds; an included file may be overridden. */
+  /** The last value of an entry in a file is used. An included file may be overridden. */
   void test_twice()
   {
     std::ofstream("included.prm") << "subsection Joints\nset Friction = 0.7\nend\n";
@@ -333,8 +332,8 @@ namespace
     std::ofstream("double.prm") << "include included.prm\n" << other << other;
     expect_warnings(
         {{"include double.prm\n" + other, {"Joints/Friction is in the file twice, double.prm, line 3"}}});
-    dealii::ParameterHandler prm;
-    Scene                    scene;
+    Entries prm;
+    Scene   scene;
     read_scene("included.prm", {"Joints/Friction=0.5", "Joints/Friction=0.4"}, scene, prm);
     expect(scene.warnings.empty() && scene.joints.friction == .4, "twice by --set");
   }
@@ -342,23 +341,52 @@ namespace
   /** A law that is in no table may use any entry of the joints. */
   void test_own_law()
   {
-    dealii::ParameterHandler prm;
-    Scene                    scene;
+    Entries prm;
+    Scene   scene;
     scene.add_parameters(prm);
     std::vector<WrittenEntry> entries;
     for (const DeclaredEntry &declared : declared_entries(prm))
       if (declared.name() == "Joints/Friction" || declared.name() == "Joints/Keys/Height")
         entries.push_back({declared, "0.5", "a.prm, line 1"});
     scene.joints.model = "grooved";
-    expect(scene_warnings(scene, entries).empty(),
+    expect(scene_warnings(scene, entries, prm.usual_ranges()).empty(),
            "an entry of a law of one's own is said to have no effect");
     scene.joints.model = "FJB";
-    expect(scene_warnings(scene, entries).size() == 2, "two entries without effect, of different laws");
+    expect(scene_warnings(scene, entries, prm.usual_ranges()).size() == 2,
+           "two entries without effect, of different laws");
     scene.joints.overrides[2] = "grooved";
-    expect(scene_warnings(scene, entries).empty(), "a law of one's own in one joint");
+    expect(scene_warnings(scene, entries, prm.usual_ranges()).empty(), "a law of one's own in one joint");
   }
 
-  /** What the table of laws says that they read is what they read. */
+  /** Ranges are declared with the entries, in all subsections. */
+  void test_usual_ranges()
+  {
+    Entries prm;
+    Scene   scene;
+    scene.add_parameters(prm);
+    const UsualRanges &usual = prm.usual_ranges();
+    expect(usual.size() == 56, std::to_string(usual.size()) + " usual ranges");
+    for (const char *name : {"Mesh/Arch210/Rock/Depth", "Concrete/Density", "Joints/Friction",
+                             "Joints/Keys/Friction", "Loads/Silt/Density", "Limits/Slip"})
+      expect(usual.count(name) == 1, std::string("the usual range of ") + name);
+    const UsualRange &strength = usual.at("Joints/Strength");
+    expect(strength.low == 1e5 && strength.high == 6e6 && strength.or_zero, "the usual strength of a bond");
+  }
+
+  /** The default combination contains all loads of the table. By default none of them acts. */
+  void test_loads()
+  {
+    const LoadParameters loads;
+    expect(loads.combinations.at("extreme") == "weight, water, tail water, silt, temperature, uplift, "
+                                               "concentrated, crest line, earthquake",
+           loads.combinations.at("extreme"));
+    Scene scene;
+    scene.reservoir.density = 0.;
+    for (const LoadRow &load : load_table())
+      expect(!load.acts(scene), std::string("by default a dam without water has the load ") + load.name);
+  }
+
+  /** The laws read exactly the entries of their rows. */
   void test_entries_of_laws()
   {
     const std::vector<std::pair<std::string, std::function<void(LawParameters &)>>> changes = {
@@ -410,5 +438,7 @@ int main()
               {"relations", test_relations},
               {"entries twice", test_twice},
               {"a law of one's own", test_own_law},
+              {"usual ranges", test_usual_ranges},
+              {"loads", test_loads},
               {"entries of laws", test_entries_of_laws}});
 }

@@ -2,7 +2,7 @@
 // Stresses where tractions are known: on faces, edges and corners, and at joints.
 
 #include <voussoir/dam/dam_loads.h>
-#include <voussoir/dam/face_pressure.h>
+#include <voussoir/dam/load_table.h>
 #include <voussoir/dam/tractions.h>
 #include <voussoir/joints/joint_system.h>
 #include <voussoir/joints/pairs.h>

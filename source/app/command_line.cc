@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/config.h>
-#include <deal.II/base/parameter_handler.h>
 
 #include <voussoir/app/command_line.h>
 #include <voussoir/app/command_options.h>
@@ -9,6 +8,7 @@
 #include <voussoir/app/memory_need.h>
 #include <voussoir/app/modes_command.h>
 #include <voussoir/app/simulation.h>
+#include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/python_script.h>
 #include <voussoir/mesh/gmsh_io.h>
@@ -40,8 +40,8 @@ namespace Voussoir
         throw InputError(
             "`voussoir parameters` prints prm, json or markdown, of one section. Remove the argument \"" +
             words.back() + "\".");
-      ParameterHandler prm;
-      Scene            scene;
+      Entries prm;
+      Scene   scene;
       scene.add_parameters(prm);
       const std::string  section = words.empty() ? "" : words.back();
       std::ostringstream text; // deal.II does not accept streams that fail
@@ -126,7 +126,7 @@ namespace Voussoir
     void run_with_scene(const Arguments &arguments)
     {
       Scene              scene;
-      ParameterHandler   prm;
+      Entries            prm;
       std::ostringstream text;
       const std::string &command = arguments.command, file = scene_file(arguments);
       if ((command == "mesh" || command == "motion") && arguments.value("--output").empty())
@@ -164,8 +164,7 @@ namespace Voussoir
     try
     {
       const Arguments arguments = read_arguments(words);
-      return (arguments.command.empty() || arguments.command == "modes") && !arguments.words.empty() &&
-             !arguments.version && !arguments.help;
+      return arguments.command.empty() && !arguments.words.empty() && !arguments.version && !arguments.help;
     }
     catch (const InputError &)
     {

@@ -9,7 +9,6 @@
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
 
-#include <algorithm>
 #include <ostream>
 #include <sstream>
 

@@ -20,83 +20,25 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr unsigned int none = static_cast<unsigned int>(-1);
-    constexpr double       block = 9 * 8. + 4.; // of a sparse matrix: 3 x 3 numbers and a column [bytes]
+    constexpr double block = 9 * 8. + 4.; // of a sparse matrix: 3 x 3 numbers and a column [bytes]
 
     // Measured, see tests/program_memory.py [bytes].
     constexpr double program = 178e6, per_cell = 700., per_node = 700., per_rock_node = 2100.;
 
-    /** How much more there is with elements of degree 2: nodes, blocks, entries of factors, and of what lies
-     * on surfaces, squared. */
+    /** Factors of what there is with elements of degree 2: nodes, blocks, entries of the factors, and squares
+     * of what lies on surfaces. */
     struct Growth
     {
-      explicit Growth(const unsigned int degree)
-      {
-        if (degree == 2)
-          nodes = 8., blocks = 19., entries = 32., surface = 16.;
-      }
-      double nodes = 1., blocks = 1., entries = 1., surface = 1.;
+      double nodes, blocks, entries, surface;
     };
-
-    /** The nodes of some cells, their neighbours, and which of them are in pairs. */
-    struct Graph
+    Growth growth_of(const unsigned int degree)
     {
-      std::vector<std::vector<unsigned int>> neighbours;
-      std::vector<bool>                      is_interface;
-      std::vector<unsigned int>              place; ///< of the nodes in the mesh
-      double                                 n_blocks() const
-      {
-        double sum = 0.;
-        for (const auto &row : neighbours)
-          sum += row.size();
-        return sum;
-      }
-    };
-
-    /** Of the cells that @p counts, without the nodes that are @p held. */
-    Graph graph_of(const HexMesh &mesh, const std::function<bool(const HexMesh::Cell &)> &counts,
-                   const std::vector<bool> &held, const std::vector<bool> &in_pair)
-    {
-      Graph                     graph;
-      std::vector<unsigned int> number(mesh.nodes.size(), none);
-      for (const HexMesh::Cell &cell : mesh.cells)
-        for (unsigned int v = 0; v < 8 && counts(cell); ++v)
-          if (const unsigned int node = cell.nodes[v]; !held[node] && number[node] == none)
-          {
-            number[node] = graph.neighbours.size();
-            graph.neighbours.emplace_back();
-            graph.is_interface.push_back(in_pair[node]);
-            graph.place.push_back(node);
-          }
-      for (const HexMesh::Cell &cell : mesh.cells)
-        if (counts(cell))
-          for (const unsigned int a : cell.nodes)
-            for (const unsigned int b : cell.nodes)
-              if (number[a] != none && number[b] != none)
-              {
-                auto &row = graph.neighbours[number[a]];
-                if (std::find(row.begin(), row.end(), number[b]) == row.end())
-                  row.push_back(number[b]);
-              }
-      for (auto &row : graph.neighbours)
-        std::sort(row.begin(), row.end());
-      return graph;
+      return degree == 2 ? Growth{8., 19., 32., 16.} : Growth{1., 1., 1., 1.};
     }
 
-    /** Massless rock makes all nodes of the base neighbours. */
-    void couple(const std::vector<bool> &on_base, Graph &graph)
+    bool is_rock(const HexMesh::Cell &cell)
     {
-      std::vector<unsigned int> base;
-      for (unsigned int i = 0; i < graph.place.size(); ++i)
-        if (on_base[graph.place[i]])
-          base.push_back(i);
-      for (const unsigned int i : base)
-      {
-        std::vector<unsigned int> &row = graph.neighbours[i];
-        row.insert(row.end(), base.begin(), base.end());
-        std::sort(row.begin(), row.end());
-        row.erase(std::unique(row.begin(), row.end()), row.end());
-      }
+      return !is_monolith(cell.volume);
     }
 
     std::vector<bool> nodes_on(const HexMesh &mesh, const std::function<bool(int)> &surface)
@@ -108,79 +50,87 @@ namespace Voussoir
       return result;
     }
 
-    bool is_rock(const HexMesh::Cell &cell)
+    std::vector<bool> nodes_on(const HexMesh &mesh, const int id)
     {
-      return !is_monolith(cell.volume);
+      return nodes_on(mesh, [&](const int surface) { return surface == id; });
     }
 
-    /** Factors and joint operators of one size of steps, and what belongs to them. */
-    struct Factors
+    /** Neighbours of the nodes of some cells, and which nodes are in pairs. */
+    struct Graph
     {
-      double entries = 0.;   ///< of the factors
-      double dense = 0.;     ///< of the interfaces' flexibilities, until W is there
-      double kept = 0.;      ///< of these afterwards
-      double operators = 0.; ///< of W
-      double diagonal = 0.;  ///< of W's own blocks of the joints
-      double feet = 0.;      ///< of what eliminates feet on rock with steps of its own, or without mass
-      double share = 1.;     ///< of all this but the feet's, the largest of a rank
+      std::vector<std::vector<unsigned int>> neighbours;
+      std::vector<bool>                      is_interface;
+      double n_blocks = 0., n_feet = 0.; ///< feet: interface nodes of the base
     };
 
-    /** Those of FootElimination: the feet's flexibility and its factor, and what couples feet and joints. */
-    double of_feet(const Graph &body, const std::vector<bool> &on_base)
+    /** Returns the graph of the cells that @p counts, without the nodes that are @p held. */
+    Graph graph_of(const HexMesh &mesh, const std::function<bool(const HexMesh::Cell &)> &counts,
+                   const std::vector<bool> &held, const std::vector<bool> &in_pair,
+                   const std::vector<bool> &on_base)
     {
-      double feet = 0., joints = 0.;
-      for (unsigned int i = 0; i < body.place.size(); ++i)
-        (on_base[body.place[i]] ? feet : joints) += body.is_interface[i];
-      return 9. * feet * (2. * feet + joints);
+      Graph                     graph;
+      constexpr unsigned int    none = static_cast<unsigned int>(-1);
+      std::vector<unsigned int> number(mesh.nodes.size(), none);
+      for (const HexMesh::Cell &cell : mesh.cells)
+        for (unsigned int v = 0; v < 8 && counts(cell); ++v)
+          if (const unsigned int node = cell.nodes[v]; !held[node] && number[node] == none)
+          {
+            number[node] = graph.neighbours.size();
+            graph.neighbours.emplace_back();
+            graph.is_interface.push_back(in_pair[node]);
+            graph.n_feet += in_pair[node] && on_base[node];
+          }
+      for (const HexMesh::Cell &cell : mesh.cells)
+        for (unsigned int v = 0; v < 8 && counts(cell); ++v)
+          if (const unsigned int i = number[cell.nodes[v]]; i != none)
+            for (const unsigned int node : cell.nodes)
+              if (number[node] != none)
+                graph.neighbours[i].push_back(number[node]);
+      for (auto &row : graph.neighbours)
+      {
+        std::sort(row.begin(), row.end());
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+        graph.n_blocks += row.size();
+      }
+      return graph;
     }
 
-    /** Of massless rock, which couples all feet: what eliminates them, and its factor. */
-    double of_dense_feet(const std::vector<bool> &on_base)
+    /** Entries of factors and joint operators of one size of steps [8 bytes]. */
+    struct Factors
     {
-      const double unknowns = 3. * std::count(on_base.begin(), on_base.end(), true);
-      return 2. * unknowns * unknowns;
-    }
+      double entries = 0., dense = 0.,
+             kept = 0.; ///< of the factors; flexibilities of interfaces before and after W
+      double operators = 0., diagonal = 0.; ///< of W, and of its blocks of single joints
+      double feet = 0.;                     ///< of the elimination of feet
+      double share = 1.;                    ///< largest share of a rank, of all but the feet
+    };
 
-    /** @p m: unknowns of each joint. */
-    void add_operator(const std::vector<Joint> &joints, const std::vector<double> &m, Factors &factors)
+    /** Adds the joint operator. @p held: nodes without unknowns. */
+    void add_operator(const HexMesh &opened, const std::vector<Joint> &joints, const std::vector<bool> &held,
+                      const double growth, Factors &factors)
     {
+      std::vector<double> m; // unknowns of each joint: three per node on its side 1
+      for (const Joint &joint : joints)
+      {
+        const std::vector<bool> on_side = nodes_on(opened, PhysicalId::joint_side_1 + joint.number);
+        m.push_back(0.);
+        for (std::size_t i = 0; i < held.size(); ++i)
+          m.back() += on_side[i] && !held[i] ? 3. : 0.;
+      }
       for (std::size_t j = 0; j < joints.size(); ++j)
+      {
+        factors.diagonal += growth * m[j] * m[j];
         for (std::size_t k = j; k < joints.size(); ++k)
         {
           const Joint &a = joints[j], &b = joints[k];
           if (a.monolith_1 == b.monolith_1 || a.monolith_1 == b.monolith_2 || a.monolith_2 == b.monolith_1 ||
               a.monolith_2 == b.monolith_2)
-            factors.operators += m[j] * m[k];
-          if (j == k)
-            factors.diagonal += m[j] * m[k];
+            factors.operators += growth * m[j] * m[k];
         }
-    }
-
-    /** Unknowns of each joint: three for each node on its side 1. */
-    std::vector<double> joint_unknowns(const HexMesh &opened, const std::vector<Joint> &joints,
-                                       const std::vector<bool> &held)
-    {
-      std::vector<double> m;
-      for (const Joint &joint : joints)
-      {
-        std::set<unsigned int> nodes;
-        for (const HexMesh::Face &face : opened.faces)
-          if (face.surface == PhysicalId::joint_side_1 + joint.number)
-            for (const unsigned int node : face.nodes)
-              if (!held[node])
-                nodes.insert(node);
-        m.push_back(3. * nodes.size());
       }
-      return m;
     }
 
-    bool all_tied(const Scene &scene, const std::vector<Joint> &joints)
-    {
-      return std::all_of(joints.begin(), joints.end(),
-                         [&](const Joint &joint) { return scene.joints.model_of(joint.number) == "tied"; });
-    }
-
-    /** Of a rank, over the sum. */
+    /** Returns the largest sum of @p of_body of a rank, divided by the sum of all. */
     double largest_share(const std::vector<double> &of_body)
     {
       const Shares        shares(of_body);
@@ -191,87 +141,86 @@ namespace Voussoir
       return sum > 0. ? *std::max_element(of_rank.begin(), of_rank.end()) / sum : 1.;
     }
 
-    /** The dam: its matrices, and its factors in @p factors. */
+    /** Returns the memory of the dam's matrices [bytes], and its factors in @p factors. */
     double of_dam(const Scene &scene, const HexMesh &mesh, Factors &factors)
     {
-      const HexMesh            opened = open_joints(monoliths_only(mesh));
-      const std::vector<Joint> joints = joints_of(opened);
-      const bool               tied = all_tied(scene, joints);
-      const HexMesh            dam = tied ? close_joints(opened) : opened;
-      const bool massless = scene.foundation.model == "massless", one_body = Dam::is_one_body(scene, tied);
-      const std::vector<bool> on_base =
-          nodes_on(dam, [](const int surface) { return surface == PhysicalId::base; });
-      const std::vector<bool> held =
-          scene.foundation.model == "rigid" ? on_base : std::vector<bool>(dam.nodes.size(), false);
-      const bool led =
-          (scene.foundation.model == "rock" && scene.foundation.has_own_steps()) || (massless && !one_body);
-      const std::vector<bool> in_pair =
-          nodes_on(dam, [&](const int surface)
-                   { return is_joint_side(surface) || (led && surface == PhysicalId::base); });
+      const FoundationParameters &p = scene.foundation;
+      const HexMesh               opened = open_joints(monoliths_only(mesh));
+      const std::vector<Joint>    joints = joints_of(opened);
+      const bool                  tied =
+          std::all_of(joints.begin(), joints.end(),
+                      [&](const Joint &joint) { return scene.joints.model_of(joint.number) == "tied"; });
+      const HexMesh           dam = tied ? close_joints(opened) : opened;
+      const bool              massless = p.model == "massless", one_body = Dam::is_one_body(scene, tied);
+      const bool              led = (p.model == "rock" && p.has_own_steps()) || (massless && !one_body);
+      const std::vector<bool> on_base = nodes_on(dam, PhysicalId::base),
+                              held = p.model == "rigid" ? on_base : std::vector<bool>(on_base.size(), false),
+                              in_pair = nodes_on(
+                                  dam, [&](const int surface)
+                                  { return is_joint_side(surface) || (led && surface == PhysicalId::base); });
       std::set<int> volumes;
       for (const HexMesh::Cell &cell : dam.cells)
         volumes.insert(tied || (massless && one_body) ? 1 : cell.volume);
-      const Growth        growth(scene.elements.degree);
-      double              n_nodes = 0., n_blocks = 0.;
+      const Growth        growth = growth_of(scene.elements.degree);
       const bool          single = scene.has_single_factors() && !led;
-      std::vector<double> of_body; // what is shared out
-      double              largest_factor = 0.;
+      double              bytes = per_cell * dam.cells.size(), largest_factor = 0.;
+      std::vector<double> of_body; // distributed over the ranks
       for (const int volume : volumes)
       {
-        Graph graph = graph_of(
+        const Graph graph = graph_of(
             dam, [&](const HexMesh::Cell &cell) { return volumes.size() == 1 || cell.volume == volume; },
-            held, in_pair);
-        if (massless && one_body)
-          couple(on_base, graph);
+            held, in_pair, on_base);
         const FactorSize size = factor_size(graph.neighbours, graph.is_interface, single);
-        factors.entries += growth.entries * size.entries;
-        largest_factor = std::max(largest_factor, growth.entries * size.entries);
+        const double     entries = growth.entries * size.entries;
+        factors.entries += entries;
+        largest_factor = std::max(largest_factor, entries);
         factors.dense += growth.surface * size.interface;
         factors.kept += growth.surface * size.kept;
-        of_body.push_back(growth.entries * size.entries + growth.surface * (size.kept + 2. * size.interface));
+        of_body.push_back(entries + growth.surface * (size.kept + 2. * size.interface));
         if (led)
-          factors.feet += of_feet(graph, on_base);
-        n_nodes += growth.nodes * graph.neighbours.size();
-        n_blocks += growth.blocks * graph.n_blocks();
+        {
+          const double m = std::count(graph.is_interface.begin(), graph.is_interface.end(), true);
+          factors.feet += 9. * graph.n_feet * (graph.n_feet + m);
+        }
+        // Stiffness, a second matrix, and stresses.
+        bytes +=
+            2. * block * growth.blocks * graph.n_blocks + per_node * growth.nodes * graph.neighbours.size();
       }
-      if (single) // those in hand are made in double precision, one by each thread
+      if (single) // each thread computes one factor in double precision at a time
         factors.entries += largest_factor * std::min<std::size_t>(of_body.size(), omp_get_max_threads());
       factors.share = largest_share(of_body);
-      if (massless && led)
-        factors.feet += of_dense_feet(on_base);
+      if (massless && led) // couples all feet: their elimination and its factor
+        factors.feet += 18. * std::pow(std::count(on_base.begin(), on_base.end(), true), 2);
       if (!tied)
-        add_operator(joints, joint_unknowns(dam, joints, led ? on_base : held), factors);
-      factors.operators *= growth.surface;
-      factors.diagonal *= growth.surface;
+        add_operator(dam, joints, led ? on_base : held, growth.surface, factors);
       if (led && !tied)
-        factors.feet += factors.operators; // a second one while the feet are eliminated
-      return 2. * block * n_blocks + per_cell * dam.cells.size() + per_node * n_nodes; // stiffness, stress
+        factors.feet += factors.operators; // a second operator during the elimination of the feet
+      return bytes;
     }
 
-    /** Massless rock, while it is condensed: its stiffness, its factor, and what is dense at the base. */
+    /** Returns the memory of massless rock during its condensation: stiffness, factor, dense matrices of the
+     * base [bytes]. */
     double of_massless_rock(const HexMesh &mesh, const unsigned int degree)
     {
-      const auto nodes = [&](const int id)
-      { return nodes_on(mesh, [&](const int surface) { return surface == id; }); };
-      const Graph      rock = graph_of(mesh, is_rock, nodes(PhysicalId::artificial), nodes(PhysicalId::base));
+      const std::vector<bool> base = nodes_on(mesh, PhysicalId::base);
+      const Graph      rock = graph_of(mesh, is_rock, nodes_on(mesh, PhysicalId::artificial), base, base);
       const FactorSize size = factor_size(rock.neighbours, rock.is_interface, false);
-      const Growth     growth(degree);
-      return growth.blocks * block * rock.n_blocks() +
+      const Growth     growth = growth_of(degree);
+      return growth.blocks * block * rock.n_blocks +
              8. * (growth.entries * size.leading + growth.surface * 3. * size.interface);
     }
 
-    /** Rock with mass: its stiffness and, at the peak, the static state, of which the first rank has the
-     * coarse levels; @p others receives that of each other rank. */
+    /** Returns the memory of rock with mass [bytes]: its stiffness and, at the peak, the static state, whose
+     * coarse levels are on the first rank. @p others: memory of each other rank. */
     double of_rock(const Scene &scene, const HexMesh &mesh, double &others)
     {
       const std::vector<bool> no(mesh.nodes.size(), false);
-      const Graph             rock = graph_of(mesh, is_rock, no, no);
-      double                  n_blocks = rock.n_blocks();
+      const Graph             rock = graph_of(mesh, is_rock, no, no, no);
+      double                  n_blocks = rock.n_blocks;
       if (scene.foundation.nodal_everywhere) // does not couple the ends of a cell's diagonals
         n_blocks -= 8. * std::count_if(mesh.cells.begin(), mesh.cells.end(), is_rock);
       const double part = 1. / Ranks::size(), matrix = block * n_blocks; // kept of it: see make_rock_part()
-      constexpr unsigned int few = 10;                                   // layers, whose rows all ranks keep
-      const bool   is_shared = scene.foundation.nodal_everywhere && scene.foundation.layers_at_dam <= few;
+      const bool   is_shared = scene.foundation.nodal_everywhere && scene.foundation.layers_at_dam <= 10;
       const double kept = is_shared ? std::min(1., part + .13) : 1.;
       const double all = per_rock_node * rock.neighbours.size() - (1. - kept) * matrix;
       others = all + .1 * matrix;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/modes_command.h>
 #include <voussoir/base/error.h>
-#include <voussoir/base/ranks.h>
 #include <voussoir/dam/dam.h>
 #include <voussoir/dynamics/modes.h>
 #include <voussoir/output/figures.h>
@@ -105,7 +104,7 @@ namespace Voussoir
       throw InputError("`voussoir modes` requires a rigid base or massless rock, because rock with mass "
                        "radiates energy. Use --set Foundation/Model=massless or rigid.");
     if (!directory.empty())
-      Ranks::on_first([&] { make_directory(directory); });
+      make_directory(directory);
     const Dam dam(scene, true);
     for (const std::string &warning : dam.mesh_warnings)
       std::cerr << "voussoir: warning: " << warning << "\n";
@@ -114,6 +113,6 @@ namespace Voussoir
     for (std::size_t i = 0; i < modes.size(); ++i)
       std::printf("%4zu  %10.5f\n", i + 1, modes[i].frequency);
     if (!directory.empty())
-      Ranks::on_first([&] { write_modes(dam, modes, directory); });
+      write_modes(dam, modes, directory);
   }
 } // namespace Voussoir

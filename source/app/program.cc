@@ -15,7 +15,6 @@
 #include <exception>
 #include <iostream>
 #include <new>
-#include <unistd.h>
 
 namespace Voussoir
 {

@@ -173,7 +173,7 @@ namespace Voussoir
   } // namespace
 
   void read_scene(const std::string &file, const std::vector<std::string> &overrides, Scene &scene,
-                  ParameterHandler &prm)
+                  Entries &prm)
   {
     scene.add_parameters(prm);
     const std::vector<DeclaredEntry> known = declared_entries(prm);
@@ -219,7 +219,7 @@ namespace Voussoir
     for (const DeclaredEntry &declared : known)
       if (const auto found = written.find(declared.name()); found != written.end())
         in_order.push_back(found->second);
-    scene.warnings = scene_warnings(scene, in_order);
+    scene.warnings = scene_warnings(scene, in_order, prm.usual_ranges());
     scene.warnings.insert(scene.warnings.end(), twice.begin(), twice.end());
   }
 } // namespace Voussoir

@@ -12,88 +12,24 @@ namespace Voussoir
 {
   namespace
   {
-    /** What dams, rock, water and earthquakes have; in the declared units. Zero switches things off. */
-    struct Range
-    {
-      const char *entry;
-      double      low, high;
-      bool        or_zero = false;
-    };
-
-    const std::vector<Range> ranges = {{"Mesh/Arch210/Rock/Upstream", 50., 2000.},
-                                       {"Mesh/Arch210/Rock/Downstream", 50., 2000.},
-                                       {"Mesh/Arch210/Rock/Sides", 50., 2000.},
-                                       {"Mesh/Arch210/Rock/Depth", 50., 2000.},
-                                       {"Mesh/Arch210/Rock/Element size", 2., 100.},
-                                       {"Concrete/Young's modulus", 5e9, 6e10},
-                                       {"Concrete/Poisson's ratio", .1, .3, true},
-                                       {"Concrete/Density", 1800., 3000.},
-                                       {"Damping/Ratio", .001, .2, true},
-                                       {"Damping/Frequency 1", 0., 20.},
-                                       {"Damping/Frequency 2", .5, 100.},
-                                       {"Reservoir/Density", 900., 1300., true},
-                                       {"Reservoir/Factor", .1, 1.5, true},
-                                       {"Reservoir/Water level", -500., 9000.},
-                                       {"Joints/Friction", .1, 2., true},
-                                       {"Joints/Keys/Height", .005, 2., true},
-                                       {"Joints/Keys/Clearance", 0., .1},
-                                       {"Joints/Keys/Flank angle", 10., 80., true},
-                                       {"Joints/Keys/Friction", -1., 2.},
-                                       {"Joints/Strength", 1e5, 6e6, true},
-                                       {"Joints/Fracture energy", 10., 1000., true},
-                                       {"Statics/Gravity", 9.7, 9.9},
-                                       {"Motion/Duration", 0., 300.},
-                                       {"Motion/Time step", 1e-4, .05},
-                                       {"Motion/Characteristic period", .1, 2.},
-                                       {"Motion/Maximum beta", 1.5, 4.},
-                                       {"Motion/Peak acceleration", .005, 2.},
-                                       {"Motion/Vertical ratio", .2, 1.5},
-                                       {"Motion/Damping", .005, .2},
-                                       {"Loads/Temperature/Upstream face", -40., 50.},
-                                       {"Loads/Temperature/Downstream face", -40., 60.},
-                                       {"Loads/Temperature/Grouting", -10., 40.},
-                                       {"Loads/Temperature/Expansion", 5e-6, 1.5e-5},
-                                       {"Loads/Tail water/Density", 900., 1300., true},
-                                       {"Loads/Silt/Density", 300., 1300., true},
-                                       {"Loads/Silt/Friction angle", 10., 45.},
-                                       {"Loads/Silt/Coefficient", .2, 1.},
-                                       {"Limits/Tensile strength", 1e5, 2e7, true},
-                                       {"Limits/Demand-capacity ratio", .2, 10., true},
-                                       {"Limits/Overstress duration", .01, 10., true},
-                                       {"Limits/Tension", 1e5, 5e7, true},
-                                       {"Limits/Compression", 1e6, 2e8, true},
-                                       {"Limits/Opening", 1e-4, .5, true},
-                                       {"Limits/Slip", 1e-4, .5, true},
-                                       {"Limits/Waterstop depth", .1, 10.},
-                                       {"Limits/Waterstop opening", 1e-4, .5, true},
-                                       {"Limits/Waterstop slip", 1e-4, .5, true},
-                                       {"Limits/Base friction", .2, 2., true},
-                                       {"Limits/Base cohesion", 1e4, 1e7, true},
-                                       {"Limits/Sliding safety", .5, 10., true},
-                                       {"Limits/Key shear stress", 1e4, 2e7, true},
-                                       {"Foundation/Young's modulus", 5e8, 1.2e11},
-                                       {"Foundation/Poisson's ratio", .1, .4, true},
-                                       {"Foundation/Density", 1800., 3300.},
-                                       {"Foundation/Mass damping", 0., 10.},
-                                       {"Foundation/Stiffness damping", 0., .01}};
-
     const std::map<std::string, std::string> examples = {
         {"Pa", "21 GPa"}, {"kg/m^3", "2.4 t/m^3"}, {"m", "20 cm"},        {"s", "10 ms"},
         {"g", "3 m/s^2"}, {"m/s^2", "1 g"},        {"degrees", "0.5 rad"}};
   } // namespace
 
-  std::string implausible(const UsedValue &used)
+  std::string implausible(const UsedValue &used, const UsualRanges &usual)
   {
-    const auto range =
-        std::find_if(ranges.begin(), ranges.end(), [&](const Range &r) { return used.range == r.entry; });
+    const auto   found = usual.find(used.range);
     const double value = used.value;
-    if (range == ranges.end() || (value >= range->low && value <= range->high) ||
-        (range->or_zero && value == 0.))
+    if (found == usual.end())
+      return "";
+    const UsualRange &range = found->second;
+    if ((value >= range.low && value <= range.high) || (range.or_zero && value == 0.))
       return "";
     const std::string  unit = used.unit == "-" ? "" : " " + used.unit;
     std::ostringstream text;
-    text << used.what << " is " << value << unit << ": usual is " << range->low << " to " << range->high
-         << unit << ".";
+    text << used.what << " is " << value << unit << ": usual is " << range.low << " to " << range.high << unit
+         << ".";
     if (const auto example = examples.find(used.unit); example != examples.end())
       text << " A value may carry its unit, as in \"" << example->second << "\".";
     else if (used.unit == "degC" && value > 200.)
@@ -169,13 +105,5 @@ namespace Voussoir
     {
     }
     return values;
-  }
-
-  std::vector<std::string> entries_with_ranges()
-  {
-    std::vector<std::string> entries;
-    for (const Range &range : ranges)
-      entries.push_back(range.entry);
-    return entries;
   }
 } // namespace Voussoir

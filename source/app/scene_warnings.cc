@@ -3,11 +3,11 @@
 #include <voussoir/app/scene_warnings.h>
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/dam.h>
+#include <voussoir/foundation/foundation_names.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
 #include <sstream>
 
 namespace Voussoir
@@ -29,107 +29,47 @@ namespace Voussoir
              std::all_of(others.begin(), others.end(),
                          [](const auto &entry) { return entry.second == "tied"; });
     }
-    bool no_water(const Scene &scene)
+    /** Returns whether any load with the given property acts. */
+    bool any_acts(const Scene &scene, bool LoadRow::*which)
     {
-      return scene.reservoir.density == 0.;
+      const auto &loads = load_table();
+      return std::any_of(loads.begin(), loads.end(),
+                         [&](const LoadRow &load) { return load.*which && load.acts(scene); });
     }
 
-    bool nothing_is_raised(const Scene &scene)
-    {
-      const LoadParameters &loads = scene.loads;
-      return no_water(scene) && !loads.temperature.acts() && !loads.tail_water.acts() && !loads.silt.acts() &&
-             loads.concentrated.empty() && loads.crest_line.empty();
-    }
-
-    /** When the condition holds, the entries have no effect, but for the exceptions. An entry that ends in a
-     *  slash stands for all below it. */
-    struct Rule
-    {
-      const char                        *reason;
-      std::function<bool(const Scene &)> holds;
-      std::vector<std::string>           entries, exceptions;
-    };
-
-    /** The first that holds is the one that is told. */
-    const std::vector<Rule> rules = {
-        {"Mesh/Source is file", [](const Scene &s) { return !is_arch210(s); }, {"Mesh/Arch210/"}, {}},
+    /** Entries without effect because of other choices. */
+    const std::vector<IdleEntries> relations = {
+        {"Mesh/Source is file", [](const Scene &s) { return !is_arch210(s); }, {"Mesh/Arch210/"}},
         {"Mesh/Source is arch210",
          is_arch210,
-         {"Mesh/File", "Mesh/Axes", "Mesh/Length unit", "Mesh/Subdivide"},
-         {}},
+         {"Mesh/File", "Mesh/Axes", "Mesh/Length unit", "Mesh/Subdivide"}},
         {"Mesh/Arch210/Rock/Enabled is false",
          [](const Scene &s) { return !s.mesh.arch210_rock.enabled; },
          {"Mesh/Arch210/Rock/"},
          {"Mesh/Arch210/Rock/Enabled"}},
         {"Elements/Degree is 2",
          [](const Scene &s) { return s.elements.degree == 2; },
-         {"Elements/Incompatible modes"},
-         {}},
-        {"Reservoir/Density is 0", no_water, {"Reservoir/", "Loads/Uplift/Joints"}, {"Reservoir/Density"}},
+         {"Elements/Incompatible modes"}},
         {"no load is raised, neither water nor one of Loads",
-         nothing_is_raised,
-         {"Statics/Water increments"},
-         {}},
-        {"Loads/Temperature/Table has the temperatures of the faces",
-         [](const Scene &s) { return !s.loads.temperature.table.empty(); },
-         {"Loads/Temperature/Upstream face", "Loads/Temperature/Downstream face"},
-         {}},
-        {"there is no Loads/Temperature/Table",
-         [](const Scene &s) { return s.loads.temperature.table.empty(); },
-         {"Loads/Temperature/Day"},
-         {}},
-        {"the dam has the temperature of the grouting",
-         [](const Scene &s) { return !s.loads.temperature.acts(); },
-         {"Loads/Temperature/"},
-         {}},
-        {"Loads/Tail water/Level says that there is none",
-         [](const Scene &s) { return s.loads.tail_water.level <= no_level; },
-         {"Loads/Tail water/"},
-         {}},
-        {"Loads/Silt/Level says that there is none",
-         [](const Scene &s) { return s.loads.silt.level <= no_level; },
-         {"Loads/Silt/"},
-         {}},
-        {"Loads/Silt/Coefficient is given",
-         [](const Scene &s) { return s.loads.silt.coefficient >= 0.; },
-         {"Loads/Silt/Friction angle"},
-         {}},
-        {"Loads/Uplift/Base is false",
-         [](const Scene &s) { return !s.loads.uplift.base; },
-         {"Loads/Uplift/Drain position", "Loads/Uplift/Drain efficiency"},
-         {}},
+         [](const Scene &s) { return !any_acts(s, &LoadRow::is_raised); },
+         {"Statics/Water increments"}},
         {"Output/Block forces is false",
          [](const Scene &s) { return !s.output.block_forces; },
-         {"Limits/Base friction", "Limits/Base cohesion"},
-         {}},
-        {"there is no Loads/Crest line",
-         [](const Scene &s) { return s.loads.crest_line.empty(); },
-         {"Loads/Crest edge"},
-         {}},
-        {"Reservoir/Added mass is none",
-         [](const Scene &s) { return s.reservoir.added_mass == "none"; },
-         {"Reservoir/Factor", "Reservoir/Depth"},
-         {}},
+         {"Limits/Base friction", "Limits/Base cohesion"}},
         {"the dam has no joints (Mesh/Arch210/Joints)",
          is_generated_without_joints,
-         {"Joints/", "Loads/Uplift/Joints", "Contact/", "Dynamics/Impact"},
-         {}},
+         {"Joints/", "Loads/Uplift/Joints", "Contact/", "Dynamics/Impact"}},
         {"all joints are tied (Joints/Model, Joints/Overrides)",
          all_tied,
          {"Joints/", "Loads/Uplift/Joints", "Contact/", "Dynamics/Impact"},
          {"Joints/Model", "Joints/Overrides"}},
         {"Contact/Write problems is false",
          [](const Scene &s) { return !s.contact.write_problems; },
-         {"Contact/Write interval"},
-         {}},
+         {"Contact/Write interval"}},
         {"Statics/Self-weight is none and there is no water",
          [](const Scene &s)
-         {
-           return s.statics.self_weight == "none" && no_water(s) && !s.loads.tail_water.acts() &&
-                  !s.loads.silt.acts();
-         },
-         {"Statics/Gravity"},
-         {}},
+         { return s.statics.self_weight == "none" && !any_acts(s, &LoadRow::is_by_gravity); },
+         {"Statics/Gravity"}},
         {"a dam that rock with steps of its own, or massless rock, leads by its feet has them in double "
          "precision",
          [](const Scene &s)
@@ -137,42 +77,32 @@ namespace Voussoir
            return (s.foundation.model == "rock" && s.foundation.has_own_steps()) ||
                   (s.foundation.model == "massless" && !Dam::is_one_body(s, all_tied(s)));
          },
-         {"Dynamics/Factors"},
-         {}},
+         {"Dynamics/Factors"}},
         {"Motion/Source is none",
          [](const Scene &s) { return s.motion.source == "none"; },
          {"Motion/", "Dynamics/", "Damping/"},
          {"Motion/Source"}},
         {"Motion/Source is artificial",
          [](const Scene &s) { return s.motion.source == "artificial"; },
-         {"Motion/File", "Motion/File x", "Motion/File y", "Motion/File z", "Motion/Unit"},
-         {}},
+         {"Motion/File", "Motion/File x", "Motion/File y", "Motion/File z", "Motion/Unit"}},
         {"Motion/Source is file",
          [](const Scene &s) { return s.motion.source == "file"; },
          {"Motion/Spectrum", "Motion/Characteristic period", "Motion/Maximum beta",
           "Motion/Peak acceleration", "Motion/Vertical ratio", "Motion/Seed", "Motion/Rise end",
-          "Motion/Decay begin", "Motion/Decay rate", "Motion/Matching iterations"},
-         {}},
-        {"Foundation/Model is rigid",
-         [](const Scene &s) { return s.foundation.model == "rigid"; },
-         {"Foundation/"},
-         {"Foundation/Model"}},
-        {"Foundation/Model is massless",
-         [](const Scene &s) { return s.foundation.model == "massless"; },
-         {"Foundation/"},
-         {"Foundation/Model", "Foundation/Young's modulus", "Foundation/Poisson's ratio",
-          "Foundation/Zones"}},
+          "Motion/Decay begin", "Motion/Decay rate", "Motion/Matching iterations"}},
         {"Foundation/Nodal quadrature everywhere is true and Foundation/Layers at the dam is 0",
          [](const Scene &s) { return s.foundation.nodal_everywhere && s.foundation.layers_at_dam == 0; },
-         {"Foundation/Nodal layers"},
-         {}},
+         {"Foundation/Nodal layers"}},
     };
 
-    bool names(const std::vector<std::string> &list, const std::string &entry)
+    /** Returns all conditions under which entries have no effect. The first true condition is reported. */
+    std::vector<IdleEntries> rules()
     {
-      return std::any_of(list.begin(), list.end(),
-                         [&](const std::string &name)
-                         { return name.back() == '/' ? entry.rfind(name, 0) == 0 : entry == name; });
+      std::vector<IdleEntries> all;
+      for (const LoadRow &load : load_table())
+        all.insert(all.end(), load.idle.begin(), load.idle.end());
+      all.insert(all.end(), relations.begin(), relations.end());
+      return all;
     }
 
     bool is_default(const WrittenEntry &entry)
@@ -195,8 +125,10 @@ namespace Voussoir
     /** Why the entry has no effect; empty if it has one. */
     std::string why_idle(const Scene &scene, const std::string &name)
     {
-      for (const Rule &rule : rules)
-        if (names(rule.entries, name) && !names(rule.exceptions, name) && rule.holds(scene))
+      if (name.rfind("Foundation/", 0) == 0 && !foundation_reads(scene.foundation.model, name))
+        return "Foundation/Model is " + scene.foundation.model;
+      for (const IdleEntries &rule : rules())
+        if (includes(rule.entries, name) && !includes(rule.exceptions, name) && rule.holds(scene))
           return rule.reason;
       const std::string laws = joint_laws_with(name);
       return laws.empty() || scene.joints.any_reads(name)
@@ -206,7 +138,8 @@ namespace Voussoir
     }
   } // namespace
 
-  std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<WrittenEntry> &entries)
+  std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<WrittenEntry> &entries,
+                                          const UsualRanges &usual)
   {
     std::vector<std::string>                                               warnings;
     std::vector<std::pair<std::string, std::vector<const WrittenEntry *>>> idle; // by reason
@@ -227,7 +160,7 @@ namespace Voussoir
       same->second.push_back(&entry);
     }
     for (const UsedValue &value : values)
-      if (const std::string warning = implausible(value); !warning.empty())
+      if (const std::string warning = implausible(value, usual); !warning.empty())
         warnings.push_back(warning);
     for (const auto &[reason, without] : idle)
       warnings.push_back(without_effect(without, reason));
@@ -239,11 +172,9 @@ namespace Voussoir
   std::vector<std::string> entries_with_warnings()
   {
     std::vector<std::string> entries;
-    for (const Rule &rule : rules)
+    for (const IdleEntries &rule : rules())
       for (const auto *list : {&rule.entries, &rule.exceptions})
         entries.insert(entries.end(), list->begin(), list->end());
-    for (const std::string &entry : entries_with_ranges())
-      entries.push_back(entry);
     return entries;
   }
 } // namespace Voussoir

@@ -107,7 +107,7 @@ namespace Voussoir
     state.pairs_at_start = state.statics.pairs;
     counters.statics = watch.seconds();
     watch = Stopwatch();
-    state.start(contact_parameters("shaking"), log);
+    state.start(contact_parameters("shaking"));
     observers.emplace(state, log);
     counters.statics += watch.seconds();
     if (state.n_steps > 0)
@@ -165,6 +165,8 @@ namespace Voussoir
         save_if_due();
       }
       ranks.gather(state);
+      for (Observer *observer : *observers)
+        observer->gather_on_root();
       on_first([this] { finish(); });
     }
     catch (const WriteError &error)

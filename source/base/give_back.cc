@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/give_back.h>
 
-#include <cstdlib>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif

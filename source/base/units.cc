@@ -19,8 +19,8 @@ namespace Voussoir
       double      factor; ///< SI units; degrees for angles
     };
 
-    constexpr double pi = 3.14159265358979323846, standard_gravity = 9.80665, foot = .3048,
-                     pound_force = 4.4482216152605, pound = .45359237;
+    constexpr double standard_gravity = 9.80665, foot = .3048, pound_force = 4.4482216152605,
+                     pound = .45359237;
 
     const std::vector<Unit> units = {
         // Messages list the units of a dimension in this order.
@@ -67,7 +67,7 @@ namespace Voussoir
         {"degree", "angle", 1.},
         {"deg", "angle", 1.},
         {"\u00b0", "angle", 1.},
-        {"rad", "angle", 180. / pi},
+        {"rad", "angle", 180. / M_PI},
         {"N/m", "fracture energy", 1.},
         {"J/m^2", "fracture energy", 1.},
         {"N/mm", "fracture energy", 1e3},

@@ -234,4 +234,12 @@ namespace Voussoir
       throw InputError("Joints/Fracture energy must be finite and at least 0 N/m.");
     return std::make_unique<Cohesive>(parameters);
   }
+
+  std::string cohesive_law_warning(const LawParameters &parameters)
+  {
+    return parameters.strength != 0.
+               ? ""
+               : "Joints/Strength is 0: the model cohesive is then FJA. Set the tensile strength of "
+                 "the bond, such as 1 MPa.";
+  }
 } // namespace Voussoir

@@ -116,17 +116,6 @@ namespace Voussoir
 
   ContactSolver::~ContactSolver() = default;
 
-  double ContactSolver::critical_friction() const
-  {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < law.size(); ++i)
-    {
-      const Matrix3 H = W.diagonal(i);
-      smallest = std::min(smallest, H[0] / std::max(std::hypot(H[1], H[2]), 1e-300));
-    }
-    return smallest;
-  }
-
   Vector3 ContactSolver::shifted_gap(const std::size_t i, const Iterate &x) const
   {
     Vector3 g = get(x.gap, i);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/entries.h>
+#include <voussoir/base/error.h>
 #include <voussoir/contact/key_law.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <voussoir/base/error.h>
+#include <sstream>
 
 namespace Voussoir
 {
@@ -43,10 +45,11 @@ namespace Voussoir
       {
       }
 
-      /** A key that is in its seat at the start of the step touches the face and its flanks. A key that is
-       * out (opening >= height) and out of line closes on its crest. A key that is out and in line touches
-       * the face only; if the step would then pass through a flank, the step is solved again with the flanks,
-       *  and if it ends out of line on their extension, with the crest: see excess(). */
+      /** Returns the active surfaces of a step. A key in its socket at the start of the step touches the face
+       * and its flanks. A key outside (opening >= height) and out of line closes on its crest. A key outside
+       * and in line touches the face only. If the step then passes through a flank, it is solved again with
+       * the flanks. If it ends out of line on their extension, it is solved again with the crest: excess().
+       */
       PresentSurfaces present(const PairPast &past) const override
       {
         PresentSurfaces result{{surfaces[0]}, {1}, past.start};
@@ -117,7 +120,7 @@ namespace Voussoir
         }
       }
 
-      /** That of the seats. */
+      /** Returns the energy of the flank contact [J]. */
       double bond_energy(const Vector3 &gap, const double area, const double *memory) const override
       {
         double energy = 0.;
@@ -155,8 +158,8 @@ namespace Voussoir
       /** Depth behind the ends of the flanks [m]: positive for a key that is over a crest. */
       double depth_at_end(const Vector3 &gap) const { return depth({{height, gap[1], gap[2]}}); }
 
-      /** Is a key outside of its socket over a crest, by more than round-off and more than the compression of
-       *  the flank on which it left? */
+      /** Returns whether a key outside of its socket is over a crest, by more than round-off and more than
+       * the compression of the flank on which it left. */
       bool is_out_of_line(const Vector3 &gap, const PairPast &past) const
       {
         return depth_at_end(gap) > round_off * height + compression_of(past);
@@ -168,7 +171,7 @@ namespace Voussoir
         return seat > 0. && past.memory ? std::max(0., past.memory[2 * n_beside() + 1]) : 0.;
       }
 
-      /** On what the pair can touch in the step from past.start, with the events so far. */
+      /** Returns the possible contact of the pair in the step from past.start, with the events so far. */
       Contact contact_of(const PairPast &past) const
       {
         if (!is_out(past.start))
@@ -233,5 +236,47 @@ namespace Voussoir
     if (keys.height > 0. && keys.direction != "radial")
       add_flanks(2, keys, flank_friction, surfaces);
     return std::make_unique<KSM>(std::move(surfaces), keys);
+  }
+
+  /** Returns a warning about keys for which Coulomb's law has two solutions (doc/keys.md), or "". */
+  std::string key_law_warning(const LawParameters &parameters)
+  {
+    const KeyParameters &keys = parameters.keys;
+    const double         face = parameters.friction, flank = keys.friction < 0. ? face : keys.friction,
+                 degree = std::acos(-1.) / 180., needed = 90. - keys.flank_angle + std::atan(flank) / degree;
+    if (keys.height == 0. || needed >= 90. || face <= std::tan(needed * degree))
+      return "";
+    std::ostringstream text;
+    text << "Joints/Friction " << face << " with flanks of " << keys.flank_angle
+         << " degrees and flank friction " << flank << " (Joints/Keys): above " << std::tan(needed * degree)
+         << " Coulomb's law has two solutions: a key stops at its flank, or slides up the flank. The "
+            "result of the run may be either of them. Set Joints/Keys/Friction = -1, the friction of the "
+            "faces, or reduce the flank angle.";
+    return text.str();
+  }
+
+  void KeyParameters::add_parameters(Entries &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Keys");
+    prm.add_parameter("Height", height,
+                      "Height of the shear keys [m]. A joint with a larger opening slips freely.",
+                      {.005, 2., true}, Double(0.));
+    prm.add_parameter("Clearance", clearance, "Clearance normal to each flank of a key [m].", {0., .1},
+                      Double(0.));
+    prm.add_parameter("Flank angle", flank_angle,
+                      "Angle between the flanks and the normal of the joint [degrees]. 0: rectangular keys.",
+                      {10., 80., true}, Double(0., 89.));
+    prm.add_parameter("Direction", direction, "Direction of the slip that the keys restrain.",
+                      Selection("radial|vertical|both"));
+    prm.add_parameter("Friction", friction,
+                      "Coefficient of friction of the flanks [-]. -1: that of the faces (Joints/Friction).",
+                      {-1., 2.}, Double(-1.));
+    prm.add_parameter("Seat compliance", seat_compliance,
+                      "Compliance of the flank contact of the keys, per area of the joint [m/Pa]. -1: 20 "
+                      "Height/E with Young's modulus E of the concrete, the result of meshed keys "
+                      "(doc/keys.md). 0: rigid.",
+                      Double(-1., 1e-6));
+    prm.leave_subsection();
   }
 } // namespace Voussoir

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/entries.h>
 #include <voussoir/base/names.h>
 #include <voussoir/contact/cohesive_law.h>
 #include <voussoir/contact/fja_law.h>
@@ -8,40 +9,63 @@
 #include <voussoir/contact/tied_law.h>
 
 #include <algorithm>
-#include <optional>
 
 namespace Voussoir
 {
   namespace
   {
-    using Entries = std::vector<const char *>;
-
     struct LawRow
     {
       const char *name, *doc;
       std::unique_ptr<JointLaw> (*make)(const LawParameters &);
+      EntryNames entries; ///< entries of section Joints that the law reads
 
-      /** Entries of section Joints that the law reads; all of them if not declared. */
-      std::optional<Entries> entries = std::nullopt;
+      /** Addition to the name in the message about JointLaw::needs_mean_force(); null: never needed. */
+      const char *mean_force = nullptr;
 
-      bool lists(const std::string &entry) const
-      {
-        const auto is_named = [&](const char *name)
-        { return entry.rfind(std::string("Joints/") + name, 0) == 0; };
-        return entries && std::any_of(entries->begin(), entries->end(), is_named);
-      }
+      /** Returns a warning about parameters that are implausible in combination, or ""; null: no warnings. */
+      std::string (*warning)(const LawParameters &) = nullptr;
     };
 
     /** All laws. The selection and the help of the entry "Joints/Model" and the messages follow
      * from these rows. */
     const LawRow laws[] = {
-        {"tied", "no opening and no slip (monolithic dam)", make_tied_law, Entries{}},
-        {"FJA", "opening, and slip with friction", make_fja_law, Entries{"Friction", "Equations"}},
-        {"FJB", "opening, no slip", make_fjb_law, Entries{"Equations"}},
-        {"KSM", "FJA with shear keys (Joints/Keys)", make_key_law, Entries{"Friction", "Equations", "Keys/"}},
-        {"cohesive", "FJA with a tensile strength (Joints/Strength)", make_cohesive_law,
-         Entries{"Friction", "Equations", "Strength", "Fracture energy"}}};
+        {"tied", "no opening and no slip (monolithic dam)", make_tied_law, {}},
+        {"FJA", "opening, and slip with friction", make_fja_law, {"Joints/Friction", "Joints/Equations"}},
+        {"FJB", "opening, no slip", make_fjb_law, {"Joints/Equations"}},
+        {"KSM",
+         "FJA with shear keys (Joints/Keys)",
+         make_key_law,
+         {"Joints/Friction", "Joints/Equations", "Joints/Keys/"},
+         " (with a seat compliance)",
+         key_law_warning},
+        {"cohesive",
+         "FJA with a tensile strength (Joints/Strength)",
+         make_cohesive_law,
+         {"Joints/Friction", "Joints/Equations", "Joints/Strength", "Joints/Fracture energy"},
+         "",
+         cohesive_law_warning}};
+
+    /** Returns the row of a law; null if the law is not in the table. */
+    const LawRow *find_row(const std::string &name)
+    {
+      const auto row =
+          std::find_if(std::begin(laws), std::end(laws), [&](const LawRow &l) { return name == l.name; });
+      return row == std::end(laws) ? nullptr : row;
+    }
   } // namespace
+
+  void LawParameters::add_parameters(Entries &prm)
+  {
+    using dealii::Patterns::Double;
+    prm.add_parameter("Friction", friction, "Coefficient of friction [-].", {.1, 2., true}, Double(0., 1e4));
+    prm.add_parameter("Strength", strength, "Tensile strength of the joint [Pa]. Model cohesive only.",
+                      {1e5, 6e6, true}, Double(0.));
+    prm.add_parameter("Fracture energy", fracture_energy,
+                      "Fracture energy of the joint per area [N/m]. Model cohesive only. 0: the strength is "
+                      "lost immediately.",
+                      {10., 1000., true}, Double(0.));
+  }
 
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters)
   {
@@ -50,16 +74,30 @@ namespace Voussoir
 
   bool joint_law_reads(const std::string &name, const std::string &entry)
   {
-    const auto row =
-        std::find_if(std::begin(laws), std::end(laws), [&](const LawRow &l) { return name == l.name; });
-    return row == std::end(laws) || !row->entries || row->lists(entry);
+    const LawRow *row = find_row(name);
+    return !row || includes(row->entries, entry);
+  }
+
+  std::string joint_law_warning(const std::string &name, const LawParameters &parameters)
+  {
+    const LawRow *row = find_row(name);
+    return row && row->warning ? row->warning(parameters) : "";
+  }
+
+  std::string joint_laws_of_mean_force()
+  {
+    std::string names;
+    for (const LawRow &law : laws)
+      if (law.mean_force)
+        names = law.name + std::string(law.mean_force) + (names.empty() ? "" : " and ") + names;
+    return names;
   }
 
   std::string joint_laws_with(const std::string &entry)
   {
     std::string names;
     for (const LawRow &law : laws)
-      if (law.lists(entry))
+      if (includes(law.entries, entry))
         names += (names.empty() ? "" : ", ") + std::string(law.name);
     return names;
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/blas.h>
 #include <voussoir/contact/sparse_contact.h>
 
 #include <umfpack.h>
@@ -6,14 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-
-extern "C"
-{
-  void dgetrf_(const int *, const int *, double *, const int *, int *, int *);
-  void dgetrs_(const char *, const int *, const int *, const double *, const int *, const int *, double *,
-               const int *, int *);
-}
 
 namespace Voussoir
 {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/entries.h>
 #include <voussoir/dam/base_uplift.h>
 #include <voussoir/dam/face_distance.h>
 #include <voussoir/solid/for_faces.h>
@@ -8,6 +9,25 @@
 namespace Voussoir
 {
   using namespace dealii;
+
+  void UpliftParameters::add_parameters(Entries &prm)
+  {
+    prm.enter_subsection("Uplift");
+    prm.add_parameter("Joints", joints,
+                      "Water enters joints from the upstream face where they open in the static state, and "
+                      "presses them apart with the full pressure of the reservoir.");
+    prm.add_parameter("Base", base,
+                      "Write the uplift at the base: the pressure of the reservoir at the heel, of the tail "
+                      "water at the toe, linear between. A base that cannot open is not moved by it: its "
+                      "compression is carried by the water in part (doc/loads.md).");
+    prm.add_parameter("Drain position", drain_position,
+                      "Place of the drains, from upstream, over the thickness of the base [-].",
+                      Patterns::Double(0., 1.));
+    prm.add_parameter("Drain efficiency", drain_efficiency,
+                      "Share by which the drains lower the head over the tail water there [-].",
+                      Patterns::Double(0., 1.));
+    prm.leave_subsection();
+  }
 
   double uplift_head(const double s, const double heel, const double toe, const UpliftParameters &uplift)
   {

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <iomanip>
 #include <map>
-#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -186,9 +185,8 @@ namespace Voussoir
   {
     laws.assign(structure.pairs);
     if (laws.need_mean_force() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)
-      throw InputError("The joint models cohesive and KSM (with a seat compliance) require "
-                       "\"Dynamics/Impact\" = mean-force, not " +
-                       scene.impact_rule + ".");
+      throw InputError("The joint models " + joint_laws_of_mean_force() +
+                       " require \"Dynamics/Impact\" = mean-force, not " + scene.impact_rule + ".");
     std::set<unsigned int> base;
     if (foundation->base() == Foundation::Base::tied)
       base = nodes_of_base();
@@ -219,18 +217,15 @@ namespace Voussoir
         top = std::max(top, model->points[i][2]);
         bottom = std::min(bottom, model->points[i][2]);
       }
-    const auto check = [&](const bool acts, const char *entry, const double level)
-    {
-      std::ostringstream text;
-      text << std::setprecision(8) << "Entry \"" << entry << "\" is " << level
-           << " m, above the top of the dam at " << top
-           << " m. Reduce it, or check the axes and the length unit of the mesh.";
-      if (acts && level > top + 1e-6 * (top - bottom))
+    for (const LoadRow &load : load_table())
+      if (load.level && load.acts(scene) && load.level(scene) > top + 1e-6 * (top - bottom))
+      {
+        std::ostringstream text;
+        text << std::setprecision(8) << "Entry \"" << load.level_entry << "\" is " << load.level(scene)
+             << " m, above the top of the dam at " << top
+             << " m. Reduce it, or check the axes and the length unit of the mesh.";
         throw InputError(text.str());
-    };
-    check(scene.reservoir.density > 0., "Reservoir/Water level", scene.reservoir.level);
-    check(scene.loads.tail_water.acts(), "Loads/Tail water/Level", scene.loads.tail_water.level);
-    check(scene.loads.silt.acts(), "Loads/Silt/Level", scene.loads.silt.level);
+      }
     has_water =
         scene.reservoir.density > 0. && scene.reservoir.level > bottom && scene.loads.factor("water") != 0.;
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/entries.h>
 #include <voussoir/dam/face_pressure.h>
 #include <voussoir/solid/for_faces.h>
 
@@ -20,70 +21,70 @@ namespace Voussoir
     {
       return scaled(-weight * std::max(0., level - z), normal);
     }
-
-    Vector3 of_silt(const SiltParameters &silt, const double gravity, const double z, const Vector3 &normal)
-    {
-      const double vertical = silt.density * gravity * std::max(0., silt.level - z),
-                   lateral = -vertical * silt.pressure_coefficient();
-      return {{lateral * normal[0], lateral * normal[1], -vertical * std::max(0., normal[2])}};
-    }
-
-    /** Forces of traction(z, normal) on the faces of a surface [N]: with 8 x 8 points per face, since levels
-     * cut through faces. */
-    template <class Traction>
-    void add_traction(const SolidModel &model, const int surface, const Traction &traction, Unknowns &load)
-    {
-      for_faces(model, surface, 8,
-                [&](const FEFaceValues<3> &values, const auto &dofs)
-                {
-                  for (const unsigned int q : values.quadrature_point_indices())
-                  {
-                    const Tensor<1, 3> n = values.normal_vector(q);
-                    const Vector3      t = traction(values.quadrature_point(q)[2], {{n[0], n[1], n[2]}});
-                    for (unsigned int i = 0; i < dofs.size(); ++i)
-                      if (const unsigned int e = model.equation[dofs[i]]; e != rigid_ground)
-                        for (unsigned int c = 0; c < 3; ++c)
-                          load[3 * std::size_t(e) + c] += t[c] * values.shape_value(i, q) * values.JxW(q);
-                  }
-                });
-    }
   } // namespace
 
-  KnownTraction known_traction(const Scene &scene)
+  void add_traction(const SolidModel &model, const int surface,
+                    const std::function<Vector3(double z, const Vector3 &normal)> &traction, Unknowns &load)
   {
-    const double gravity = scene.statics.gravity;
-    const auto  &loads = scene.loads;
-    const double water = loads.factor("water") * scene.reservoir.density * gravity,
-                 tail = loads.factor("tail water") * loads.tail_water.density * gravity,
-                 silt = loads.factor("silt"), level = scene.reservoir.level;
-    return [=](const int surface, const double z, const Vector3 &normal)
-    {
-      Vector3 t{};
-      if (surface == PhysicalId::upstream)
-      {
-        add(t, of_water(level, water, z, normal));
-        add(t, scaled(silt, of_silt(loads.silt, gravity, z, normal)));
-      }
-      if (surface == PhysicalId::downstream)
-        add(t, of_water(loads.tail_water.level, tail, z, normal));
-      return t;
-    };
+    for_faces(model, surface, 8,
+              [&](const FEFaceValues<3> &values, const auto &dofs)
+              {
+                for (const unsigned int q : values.quadrature_point_indices())
+                {
+                  const Tensor<1, 3> n = values.normal_vector(q);
+                  const Vector3      t = traction(values.quadrature_point(q)[2], {{n[0], n[1], n[2]}});
+                  for (unsigned int i = 0; i < dofs.size(); ++i)
+                    if (const unsigned int e = model.equation[dofs[i]]; e != rigid_ground)
+                      for (unsigned int c = 0; c < 3; ++c)
+                        load[3 * std::size_t(e) + c] += t[c] * values.shape_value(i, q) * values.JxW(q);
+                }
+              });
   }
 
-  void add_tail_water(const SolidModel &model, const TailWaterParameters &water, const double gravity,
-                      Unknowns &load)
+  Vector3 water_traction(const Scene &scene, const double factor, const double z, const Vector3 &normal)
   {
-    add_traction(
-        model, PhysicalId::downstream,
-        [&](const double z, const Vector3 &normal)
-        { return of_water(water.level, water.density * gravity, z, normal); },
-        load);
+    return of_water(scene.reservoir.level, factor * scene.reservoir.density * scene.statics.gravity, z,
+                    normal);
   }
 
-  void add_silt(const SolidModel &model, const SiltParameters &silt, const double gravity, Unknowns &load)
+  Vector3 tail_water_traction(const Scene &scene, const double factor, const double z, const Vector3 &normal)
   {
-    add_traction(
-        model, PhysicalId::upstream,
-        [&](const double z, const Vector3 &normal) { return of_silt(silt, gravity, z, normal); }, load);
+    const TailWaterParameters &water = scene.loads.tail_water;
+    return of_water(water.level, factor * water.density * scene.statics.gravity, z, normal);
+  }
+
+  Vector3 silt_traction(const Scene &scene, const double factor, const double z, const Vector3 &normal)
+  {
+    const SiltParameters &silt = scene.loads.silt;
+    const double          vertical = silt.density * scene.statics.gravity * std::max(0., silt.level - z),
+                 lateral = -vertical * silt.pressure_coefficient();
+    return scaled(factor, {{lateral * normal[0], lateral * normal[1], -vertical * std::max(0., normal[2])}});
+  }
+
+  void TailWaterParameters::add_parameters(Entries &prm)
+  {
+    prm.enter_subsection("Tail water");
+    prm.add_parameter("Level", level, "z of the water surface downstream; -10000: none [m].");
+    prm.add_parameter("Density", density, "Density of the tail water [kg/m^3].", {900., 1300., true},
+                      Patterns::Double(0.));
+    prm.leave_subsection();
+  }
+
+  void SiltParameters::add_parameters(Entries &prm)
+  {
+    prm.enter_subsection("Silt");
+    prm.add_parameter("Level", level, "z of the surface of the sediment upstream; -10000: none [m].");
+    prm.add_parameter("Density", density,
+                      "Density of the sediment under water, less that of the water; a unit weight in kN/m^3 "
+                      "is taken, too [kg/m^3].",
+                      {300., 1300., true}, Patterns::Double(0.));
+    prm.add_parameter("Friction angle", friction_angle,
+                      "Angle of friction of the sediment [degrees]: lateral pressure (1 - sin)/(1 + sin) of "
+                      "the vertical one, Rankine's active pressure.",
+                      {10., 45.}, Patterns::Double(0., 89.));
+    prm.add_parameter("Coefficient", coefficient,
+                      "Lateral over vertical pressure of the sediment [-]; -1: from the friction angle.",
+                      {.2, 1.}, Patterns::Double(-1., 10.));
+    prm.leave_subsection();
   }
 } // namespace Voussoir

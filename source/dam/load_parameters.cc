@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/nearest_name.h>
+#include <voussoir/dam/load_names.h>
 #include <voussoir/dam/load_parameters.h>
 
 #include <algorithm>
@@ -16,75 +16,6 @@ namespace Voussoir
 
   namespace
   {
-    const std::vector<std::string> load_names = {"weight",       "water",       "tail water",
-                                                 "silt",         "temperature", "uplift",
-                                                 "concentrated", "crest line",  "earthquake"};
-
-    void add_temperature(TemperatureParameters &p, ParameterHandler &prm)
-    {
-      prm.enter_subsection("Temperature");
-      prm.add_parameter("Upstream face", p.upstream,
-                        "Temperature of the upstream face; through the thickness it is linear [degC].");
-      prm.add_parameter("Downstream face", p.downstream, "Temperature of the downstream face [degC].");
-      prm.add_parameter("Grouting", p.grouting,
-                        "Temperature at which the joints were closed and the dam is free of stress [degC].");
-      prm.add_parameter("Expansion", p.expansion, "Coefficient of thermal expansion of the concrete [1/K].",
-                        Patterns::Double(0., 1e-3));
-      prm.add_parameter("Table", p.table,
-                        "File with the temperatures of the faces in time, in place of the two entries: "
-                        "lines of day, upstream and downstream [degC], linear between; relative to the "
-                        "directory of this file.",
-                        Patterns::Anything());
-      prm.add_parameter("Day", p.day, "The day of the table, in its counting.");
-      prm.leave_subsection();
-    }
-
-    void add_water_and_silt(LoadParameters &p, ParameterHandler &prm)
-    {
-      prm.enter_subsection("Tail water");
-      prm.add_parameter("Level", p.tail_water.level, "z of the water surface downstream; -10000: none [m].");
-      prm.add_parameter("Density", p.tail_water.density, "Density of the tail water [kg/m^3].",
-                        Patterns::Double(0.));
-      prm.leave_subsection();
-      prm.enter_subsection("Silt");
-      prm.add_parameter("Level", p.silt.level,
-                        "z of the surface of the sediment upstream; -10000: none [m].");
-      prm.add_parameter(
-          "Density", p.silt.density,
-          "Density of the sediment under water, less that of the water; a unit weight in kN/m^3 "
-          "is taken, too [kg/m^3].",
-          Patterns::Double(0.));
-      prm.add_parameter(
-          "Friction angle", p.silt.friction_angle,
-          "Angle of friction of the sediment [degrees]: lateral pressure (1 - sin)/(1 + sin) of "
-          "the vertical one, Rankine's active pressure.",
-          Patterns::Double(0., 89.));
-      prm.add_parameter("Coefficient", p.silt.coefficient,
-                        "Lateral over vertical pressure of the sediment [-]; -1: from the friction angle.",
-                        Patterns::Double(-1., 10.));
-      prm.leave_subsection();
-    }
-
-    void add_uplift(UpliftParameters &p, ParameterHandler &prm)
-    {
-      prm.enter_subsection("Uplift");
-      prm.add_parameter("Joints", p.joints,
-                        "Water enters joints from the upstream face where they open in the static state, and "
-                        "presses them apart with the full pressure of the reservoir.");
-      prm.add_parameter(
-          "Base", p.base,
-          "Write the uplift at the base: the pressure of the reservoir at the heel, of the tail "
-          "water at the toe, linear between. A base that cannot open is not moved by it: its "
-          "compression is carried by the water in part (doc/loads.md).");
-      prm.add_parameter("Drain position", p.drain_position,
-                        "Place of the drains, from upstream, over the thickness of the base [-].",
-                        Patterns::Double(0., 1.));
-      prm.add_parameter("Drain efficiency", p.drain_efficiency,
-                        "Share by which the drains lower the head over the tail water there [-].",
-                        Patterns::Double(0., 1.));
-      prm.leave_subsection();
-    }
-
     /** The numbers in a text; empty if there is anything else. */
     std::vector<double> numbers_in(const std::string &text)
     {
@@ -122,8 +53,9 @@ namespace Voussoir
      */
     std::map<std::string, double> factors_in(const std::string &name, const std::string &text)
     {
-      const std::string             what = "Entry \"Loads/Combinations\": combination \"" + name + "\"";
-      std::map<std::string, double> factors;
+      const std::string              what = "Entry \"Loads/Combinations\": combination \"" + name + "\"";
+      const std::vector<std::string> load_names = items_of(static_load_names() + ", earthquake");
+      std::map<std::string, double>  factors;
       for (const std::string &item : items_of(text))
       {
         const auto blank = item.rfind(' ');
@@ -147,7 +79,7 @@ namespace Voussoir
     return coefficient >= 0. ? coefficient : (1. - sine) / (1. + sine);
   }
 
-  void LoadParameters::add_parameters(ParameterHandler &prm)
+  void LoadParameters::add_parameters(Entries &prm)
   {
     const auto map = [] {
       return Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";");
@@ -160,8 +92,8 @@ namespace Voussoir
     prm.add_parameter(
         "Combinations", combinations,
         "Combinations, as \"NAME: LOAD FACTOR, LOAD FACTOR; NAME: ...\"; without a factor it is "
-        "1, and what is not named does not act. Loads: weight, water (with its added mass), tail "
-        "water, silt, temperature, uplift, concentrated, crest line, earthquake.",
+        "1, and what is not named does not act. Loads: " +
+            static_load_docs() + ", earthquake.",
         map());
     prm.add_parameter(
         "Concentrated", concentrated,
@@ -173,9 +105,7 @@ namespace Voussoir
                       Patterns::Anything());
     prm.add_parameter("Crest edge", crest_edge, "The edge of the crest on which the line load acts.",
                       Patterns::Selection("upstream|downstream"));
-    add_temperature(temperature, prm);
-    add_water_and_silt(*this, prm);
-    add_uplift(uplift, prm);
+    add_load_parameters(*this, prm);
     prm.leave_subsection();
   }
 

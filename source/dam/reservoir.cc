@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/base/names.h>
 #include <voussoir/dam/reservoir.h>
 #include <voussoir/solid/for_faces.h>
@@ -12,13 +11,13 @@ namespace Voussoir
 {
   using namespace dealii;
 
-  void ReservoirParameters::add_parameters(ParameterHandler &prm)
+  void ReservoirParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Reservoir");
     prm.add_parameter("Water level", level,
-                      "Height z of the water surface in the axes of the input file [m].");
+                      "Height z of the water surface in the axes of the input file [m].", {-500., 9000.});
     prm.add_parameter("Density", density, "Density of the water [kg/m^3]. 0: empty reservoir.",
-                      Patterns::Double(0.));
+                      {900., 1300., true}, Patterns::Double(0.));
     prm.add_parameter("Added mass", added_mass,
                       "Hydrodynamic added mass on the upstream face. " + added_mass_docs() + ".",
                       Patterns::Selection(added_mass_names()));
@@ -31,7 +30,7 @@ namespace Voussoir
         "Factor", factor,
         "Factor of the added mass [-]. 0.5 is common in Chinese practice, and closer to an incompressible "
         "reservoir.",
-        Patterns::Double(0.));
+        {.1, 1.5, true}, Patterns::Double(0.));
     prm.leave_subsection();
   }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/scene.h>
@@ -14,7 +13,7 @@ namespace Voussoir
 {
   using namespace dealii;
 
-  void ElementParameters::add_parameters(ParameterHandler &prm)
+  void ElementParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Elements");
     prm.add_parameter("Degree", degree, "Polynomial degree of the hexahedra: 1 (8 nodes) or 2 (27 nodes).",
@@ -26,14 +25,14 @@ namespace Voussoir
     prm.leave_subsection();
   }
 
-  void DampingParameters::add_parameters(ParameterHandler &prm)
+  void DampingParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Damping");
     prm.add_parameter("Ratio", ratio, "Damping ratio of the Rayleigh damping at the two frequencies [-].",
-                      Patterns::Double(0., 1.));
-    prm.add_parameter("Frequency 1", frequency_1, "Lower frequency with this damping ratio [Hz].",
+                      {.001, .2, true}, Patterns::Double(0., 1.));
+    prm.add_parameter("Frequency 1", frequency_1, "Lower frequency with this damping ratio [Hz].", {0., 20.},
                       Patterns::Double(1e-6));
-    prm.add_parameter("Frequency 2", frequency_2, "Upper frequency with this damping ratio [Hz].",
+    prm.add_parameter("Frequency 2", frequency_2, "Upper frequency with this damping ratio [Hz].", {.5, 100.},
                       Patterns::Double(1e-6));
     prm.leave_subsection();
   }
@@ -56,57 +55,32 @@ namespace Voussoir
     return 2. * ratio / (two_pi * (frequency_1 + frequency_2));
   }
 
-  void JointParameters::add_parameters(ParameterHandler &prm)
+  void JointParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Joints");
     prm.add_parameter("Model", model, "Joint law. " + joint_law_docs() + ".",
                       Patterns::Selection(joint_law_names()));
-    prm.add_parameter("Friction", friction, "Coefficient of friction [-].", Patterns::Double(0., 1e4));
-    prm.add_parameter("Strength", strength, "Tensile strength of the joint [Pa]. Model cohesive only.",
-                      Patterns::Double(0.));
-    prm.add_parameter("Fracture energy", fracture_energy,
-                      "Fracture energy of the joint per area [N/m]. Model cohesive only. 0: the strength is "
-                      "lost immediately.",
-                      Patterns::Double(0.));
+    LawParameters::add_parameters(prm);
     prm.add_parameter("Overrides", overrides,
                       "Models of single joints, as \"number: model, number: model\". Joints are numbered "
                       "from the right bank.",
                       Patterns::Map(Patterns::Integer(1), Patterns::Selection(joint_law_names())));
     prm.add_parameter(
-        "Equations", equations,
+        "Equations", equations_name,
         "Form of the joint equations. alart-curnier: slip angle of the trial force, always converges. paper: "
         "slip angle of the joint force, as printed. fischer-burmeister: other function. Both are for "
         "comparison. Default alart-curnier, because it always converges.",
         Patterns::Selection(equations_names()));
-    prm.enter_subsection("Keys");
-    prm.add_parameter("Height", keys.height,
-                      "Height of the shear keys [m]. A joint with a larger opening slips freely.",
-                      Patterns::Double(0.));
-    prm.add_parameter("Clearance", keys.clearance, "Clearance normal to each flank of a key [m].",
-                      Patterns::Double(0.));
-    prm.add_parameter("Flank angle", keys.flank_angle,
-                      "Angle between the flanks and the normal of the joint [degrees]. 0: rectangular keys.",
-                      Patterns::Double(0., 89.));
-    prm.add_parameter("Direction", keys.direction, "Direction of the slip that the keys restrain.",
-                      Patterns::Selection("radial|vertical|both"));
-    prm.add_parameter("Friction", keys.friction,
-                      "Coefficient of friction of the flanks [-]. -1: that of the faces (Joints/Friction).",
-                      Patterns::Double(-1.));
-    prm.add_parameter("Seat compliance", seat_compliance,
-                      "Compliance of the flank contact of the keys, per area of the joint [m/Pa]. -1: 20 "
-                      "Height/E with Young's modulus E of the concrete, the result of meshed keys "
-                      "(doc/keys.md). 0: rigid.",
-                      Patterns::Double(-1., 1e-6));
-    prm.leave_subsection();
+    keys.add_parameters(prm);
     prm.leave_subsection();
   }
 
   LawParameters JointParameters::law(const double young) const
   {
-    LawParameters result(friction, equations_from_name(equations), keys);
-    result.keys.seat_compliance = seat_compliance < 0. ? 20. * keys.height / young : seat_compliance;
-    result.strength = strength;
-    result.fracture_energy = fracture_energy;
+    LawParameters result = *this;
+    result.equations = equations_from_name(equations_name);
+    if (keys.seat_compliance < 0.)
+      result.keys.seat_compliance = 20. * keys.height / young;
     return result;
   }
 
@@ -132,17 +106,17 @@ namespace Voussoir
     }
     // The compression of a stiffer flank contact is below the error of the previous solution.
     constexpr double stiffest = 1e-12;
-    if (seat_compliance > 0. && seat_compliance < stiffest)
+    if (keys.seat_compliance > 0. && keys.seat_compliance < stiffest)
     {
       std::ostringstream message;
       message << "Entry \"Joints/Keys/Seat compliance\" must be at least " << stiffest
-              << " m/Pa, or 0 for rigid flanks, or -1 for 20 Height/E, but it is " << seat_compliance
+              << " m/Pa, or 0 for rigid flanks, or -1 for 20 Height/E, but it is " << keys.seat_compliance
               << " m/Pa.";
       throw InputError(message.str());
     }
   }
 
-  void StaticParameters::add_parameters(ParameterHandler &prm)
+  void StaticParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Statics");
     prm.add_parameter(
@@ -155,7 +129,8 @@ namespace Voussoir
                       "Number of load increments of each static stage [-]. The result depends slightly on it "
                       "because of friction.",
                       Patterns::Integer(1));
-    prm.add_parameter("Gravity", gravity, "Acceleration of gravity [m/s^2].", Patterns::Double(0.));
+    prm.add_parameter("Gravity", gravity, "Acceleration of gravity [m/s^2].", {9.7, 9.9},
+                      Patterns::Double(0.));
     prm.add_parameter("Stages", stages,
                       "Static stages before the final stage with Reservoir/Water level, such as \"grout 140, "
                       "fill 100, day 90, grout 210\". fill Z: reservoir at the level Z [m]. grout Z: joints "
@@ -166,7 +141,7 @@ namespace Voussoir
     prm.leave_subsection();
   }
 
-  void OutputParameters::add_parameters(ParameterHandler &prm)
+  void OutputParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Output");
     prm.add_parameter(
@@ -229,16 +204,16 @@ namespace Voussoir
     return places;
   }
 
-  void Scene::add_parameters(ParameterHandler &prm)
+  void Scene::add_parameters(Entries &prm)
   {
     mesh.add_parameters(prm);
     elements.add_parameters(prm);
     prm.enter_subsection("Concrete");
     prm.add_parameter("Young's modulus", concrete.young, "Dynamic Young's modulus of the concrete [Pa].",
-                      Patterns::Double(1.));
+                      {5e9, 6e10}, Patterns::Double(1.));
     prm.add_parameter("Poisson's ratio", concrete.poisson, "Poisson's ratio of the concrete [-].",
-                      Patterns::Double(-.99, .499));
-    prm.add_parameter("Density", concrete.density, "Density of the concrete [kg/m^3].",
+                      {.1, .3, true}, Patterns::Double(-.99, .499));
+    prm.add_parameter("Density", concrete.density, "Density of the concrete [kg/m^3].", {1800., 3000.},
                       Patterns::Double(1e-3));
     prm.add_parameter(
         "Zones", concrete_zones,
@@ -329,6 +304,10 @@ namespace Voussoir
       throw InputError(
           "Entry \"Dynamics/Error estimate\" requires a rigid base or massless rock, because rock with mass "
           "has its own time steps. Remove the entry, and use `voussoir accuracy` to estimate the error.");
+    if (foundation.model == "rock" && foundation.substeps > 1 && !foundation.has_own_steps())
+      throw InputError("\"Foundation/Coupling\" = partition with \"Foundation/Substeps\" above 1 was removed "
+                       "in version 0.4.0. Set \"Foundation/Coupling\" to auto or mean traction, or "
+                       "\"Foundation/Substeps\" to 1.");
     if (foundation.model == "rock" && foundation.has_own_steps() && impact_rule != "mean-force")
       throw InputError("Subcycled rock (\"Foundation/Substeps\" above 1, or \"Foundation/Coupling\" = mean "
                        "traction) requires \"Dynamics/Impact\" = mean-force, not " +

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/dam/face_distance.h>
 #include <voussoir/dam/temperature.h>
@@ -51,6 +52,29 @@ namespace Voussoir
       return rows;
     }
   } // namespace
+
+  void TemperatureParameters::add_parameters(Entries &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Temperature");
+    prm.add_parameter("Upstream face", upstream,
+                      "Temperature of the upstream face; through the thickness it is linear [degC].",
+                      {-40., 50.});
+    prm.add_parameter("Downstream face", downstream, "Temperature of the downstream face [degC].",
+                      {-40., 60.});
+    prm.add_parameter("Grouting", grouting,
+                      "Temperature at which the joints were closed and the dam is free of stress [degC].",
+                      {-10., 40.});
+    prm.add_parameter("Expansion", expansion, "Coefficient of thermal expansion of the concrete [1/K].",
+                      {5e-6, 1.5e-5}, Double(0., 1e-3));
+    prm.add_parameter("Table", table,
+                      "File with the temperatures of the faces in time, in place of the two entries: "
+                      "lines of day, upstream and downstream [degC], linear between; relative to the "
+                      "directory of this file.",
+                      Anything());
+    prm.add_parameter("Day", day, "The day of the table, in its counting.");
+    prm.leave_subsection();
+  }
 
   std::array<double, 2> face_temperatures(const TemperatureParameters &temperature,
                                           const std::string           &directory)

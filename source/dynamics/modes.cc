@@ -49,8 +49,6 @@ namespace Voussoir
     if (2 * n_modes + 2 > n)
       throw InputError("The dam has only " + std::to_string(n) +
                        " unknowns. Reduce the number of modes (--count).");
-    if (Ranks::size() > 1)
-      return modes_of_ranks(structure, n_modes);
     JointSystem    system(structure, JointLaws(), ContactParameters(), 0., 1., 0.);
     Unknowns       load(n), u;
     const Operator mass{
@@ -90,19 +88,11 @@ namespace Voussoir
       Vector<double> &phi = eigenvectors[k], Mphi(n);
       mass.vmult(Mphi, phi);
       phi /= std::sqrt(phi * Mphi);
-      modes.push_back({std::sqrt(eigenvalues[k].real()) / (2. * 3.14159265358979323846),
+      modes.push_back({std::sqrt(eigenvalues[k].real()) / (2. * M_PI),
                        Unknowns(phi.begin(), phi.end())});
     }
     std::sort(modes.begin(), modes.end(),
               [](const NaturalMode &a, const NaturalMode &b) { return a.frequency < b.frequency; });
     return modes;
-  }
-
-  std::vector<double> natural_frequencies(const Structure &structure, const unsigned int n_modes)
-  {
-    std::vector<double> frequencies;
-    for (const NaturalMode &mode : natural_modes(structure, n_modes))
-      frequencies.push_back(mode.frequency);
-    return frequencies;
   }
 } // namespace Voussoir

@@ -96,30 +96,6 @@ namespace Voussoir
           structure.mass[node][4 * c] += model.mass[f.rock] / f.nodes.size();
   }
 
-  double ExplicitRock::add_interface_mass(Structure &structure, const TimeGrid &steps) const
-  {
-    if (steps.substeps == 1)
-      return 0.;
-    std::vector<bool> is_foot(n_nodes(), false);
-    for (const Foot &f : foot)
-      is_foot[f.rock] = true;
-    const BlockSparseMatrix &K = model.stiffness;
-    double                   sum = 0.;
-    for (const Foot &f : foot)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        double bound = 0.; // Gershgorin bound
-        for (std::size_t k = K.start[f.rock]; k < K.start[f.rock + 1]; ++k)
-          for (unsigned int d = 0; is_foot[K.column[k]] && d < 3; ++d)
-            bound += std::abs(K.value[k][3 * c + d]);
-        const double added = .5 * steps.dt * steps.dt * bound;
-        for (const unsigned int node : f.nodes)
-          structure.mass[node][4 * c] += added / f.nodes.size();
-        sum += added / 3.;
-      }
-    return sum;
-  }
-
   Vector3 ExplicitRock::arrival() const
   {
     double lowest = std::numeric_limits<double>::max();
@@ -164,8 +140,7 @@ namespace Voussoir
   void ExplicitRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
   {
     make_rock(outcrop, steps, 0.);
-    if (grid.substeps == 1)
-      model.stiffness = BlockSparseMatrix(); // frees memory; not used by the region
+    model.stiffness = BlockSparseMatrix(); // frees memory; not used by the region
     region->set_prescribed(feet_of_rock());
     const std::size_t n = 3 * foot.size();
     rest.assign(n, 0.);
@@ -179,38 +154,27 @@ namespace Voussoir
 
   void ExplicitRock::advance(Unknowns &load)
   {
-    const Stopwatch    watch;
-    const double       worked = Ranks::work();
-    const double       dt = grid.dt;
-    const unsigned int m = grid.substeps;
-    const std::size_t  n = 3 * foot.size();
-    const Unknowns     u_before = u_predicted, v_before = v_predicted;
+    const Stopwatch watch;
+    const double    worked = Ranks::work();
+    const double    dt = grid.dt;
+    Unknowns        u = u_predicted, v_now = v_predicted;
     for (std::size_t i = 0; i < foot.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * i + c;
         u_predicted[k] = u_feet[k] + dt * v[k] + .25 * dt * dt * a[k];
         v_predicted[k] = v[k] + .5 * dt * a[k];
+        u[k] += u_predicted[k] - u[k]; // the sum, whose rounding all results have
+        v_now[k] += v_predicted[k] - v_now[k];
       }
-    Unknowns        u(n), v_now(n);
-    const Unknowns *taken = nullptr;
-    for (unsigned int j = 1; j <= m; ++j)
-    {
-      const double part = double(j) / m;
-      for (std::size_t k = 0; k < n; ++k)
-      {
-        u[k] = u_before[k] + part * (u_predicted[k] - u_before[k]);
-        v_now[k] = v_before[k] + part * (v_predicted[k] - v_before[k]);
-      }
-      taken = &region->advance(u, v_now);
-    }
+    const Unknowns &taken = region->advance(u, v_now);
     force_before.swap(force);
     for (std::size_t i = 0; i < foot.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
       {
         // The dam applies the mass-proportional damping of the rock mass at the base.
         const std::size_t k = 3 * i + c;
-        force[k] = parameters.mass_damping * model.mass[foot[i].rock] * v_predicted[k] - (*taken)[k];
+        force[k] = parameters.mass_damping * model.mass[foot[i].rock] * v_predicted[k] - taken[k];
         for (const unsigned int node : foot[i].nodes)
           load[3 * node + c] += force[k] / foot[i].nodes.size();
       }

@@ -101,8 +101,6 @@ namespace Voussoir
       text << ", \"Foundation/Nodal quadrature everywhere\" = true";
     if (p.layers_at_dam > 0)
       text << ", \"Foundation/Layers at the dam\" = 0";
-    if (p.substeps > 1 && !p.has_own_steps())
-      text << ", fewer \"Foundation/Substeps\"";
     text << ", or a smaller time step (\"Dynamics/Steps per sample\"); see doc/boundary.md.";
     return text.str();
   }

@@ -1,38 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/foundation/foundation.h>
 #include <voussoir/foundation/foundation_names.h>
 #include <voussoir/rock/boundary_table.h>
 
 namespace Voussoir
 {
-  void FoundationParameters::add_parameters(dealii::ParameterHandler &prm)
+  void FoundationParameters::add_parameters(Entries &prm)
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Foundation");
     prm.add_parameter("Model", model, "Foundation of the dam. " + foundation_docs() + ".",
                       Selection(foundation_names()));
-    prm.add_parameter("Young's modulus", rock.young,
-                      "Young's modulus of rock volumes without an entry in \"Zones\" [Pa].", Double(1.));
-    prm.add_parameter("Poisson's ratio", rock.poisson,
-                      "Poisson's ratio of the same volumes [-]. With a transmitting boundary of order 2 or "
-                      "higher, values of 0.3 or more may require \"Stiffness damping\".",
-                      Double(0., largest_poisson));
-    prm.add_parameter("Density", rock.density, "Density of the same volumes [kg/m^3].", Double(1e-3));
-    prm.add_parameter(
-        "Zones", zones,
-        "Materials of rock zones, as \"NAME: E nu rho, NAME: E nu rho\". E is Young's modulus, nu "
-        "Poisson's ratio and rho the density, with units or in Pa and kg/m^3. NAME is the zone of "
-        "the mesh volumes \"rock NAME\".",
-        Map(Anything(), Anything()));
-    prm.add_parameter("Mass damping", mass_damping,
-                      "Factor of the mass matrix in the Rayleigh damping of the rock [1/s].",
-                      Double(0., 1e3));
-    prm.add_parameter("Stiffness damping", stiffness_damping,
-                      "Factor of the stiffness matrix in the Rayleigh damping of the rock [s]. It reduces "
-                      "the critical time step.",
-                      Double(0., 1.));
+    add_materials(prm);
     prm.add_parameter("Boundary", boundary,
                       "Artificial boundary at the edge of the rock mesh. " + boundary_help() + ".",
                       Selection(boundary_names("|")));
@@ -64,20 +44,46 @@ namespace Voussoir
         "Coupling", coupling,
         "Time coupling of dam and rock. mean traction: the forces are constant during a time step of the "
         "dam, and the displacements agree at its end. This conserves energy for any number of substeps. "
-        "partition: the rock receives the predicted motion of the base. With substeps the base nodes then "
-        "need additional mass, whose error is in doc/rock.md. auto: partition for one substep, otherwise "
-        "mean traction.",
+        "partition: the rock receives the predicted motion of the base, with one substep only. auto: "
+        "partition for one substep, otherwise mean traction.",
         Selection("auto|mean traction|partition"));
     prm.leave_subsection();
   }
 
-  std::string Foundation::about_steps() const
+  void FoundationParameters::add_materials(Entries &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.add_parameter("Young's modulus", rock.young,
+                      "Young's modulus of rock volumes without an entry in \"Zones\" [Pa].", {5e8, 1.2e11},
+                      Double(1.));
+    prm.add_parameter("Poisson's ratio", rock.poisson,
+                      "Poisson's ratio of the same volumes [-]. With a transmitting boundary of order 2 or "
+                      "higher, values of 0.3 or more may require \"Stiffness damping\".",
+                      {.1, .4, true}, Double(0., largest_poisson));
+    prm.add_parameter("Density", rock.density, "Density of the same volumes [kg/m^3].", {1800., 3300.},
+                      Double(1e-3));
+    prm.add_parameter(
+        "Zones", zones,
+        "Materials of rock zones, as \"NAME: E nu rho, NAME: E nu rho\". E is Young's modulus, nu "
+        "Poisson's ratio and rho the density, with units or in Pa and kg/m^3. NAME is the zone of "
+        "the mesh volumes \"rock NAME\".",
+        Map(Anything(), Anything()));
+    prm.add_parameter("Mass damping", mass_damping,
+                      "Factor of the mass matrix in the Rayleigh damping of the rock [1/s].", {0., 10.},
+                      Double(0., 1e3));
+    prm.add_parameter("Stiffness damping", stiffness_damping,
+                      "Factor of the stiffness matrix in the Rayleigh damping of the rock [s]. It reduces "
+                      "the critical time step.",
+                      {0., .01}, Double(0., 1.));
+  }
+
+  std::string FoundationSetup::about_steps() const
   {
     return "; the scheme is implicit: there is no critical time step";
   }
 
-  ContactResult Foundation::settle(const DamSolve &solve, const Unknowns &, const Unknowns &, Unknowns &load,
-                                   Log &)
+  ContactResult BaseSupport::settle(const DamSolve &solve, const Unknowns &, const Unknowns &, Unknowns &load,
+                                    Log &)
   {
     return solve(load);
   }

@@ -8,35 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 namespace Voussoir
 {
-  namespace
-  {
-    std::string number(const double x)
-    {
-      char text[20];
-      std::snprintf(text, sizeof(text), "%.3g", x);
-      return text;
-    }
-
-    /** Throws InputError for more than two substeps with "partition" and too little damping. In
-     * tests/rock_implicit.cc, damping of 0.1 rock time steps was not always sufficient. */
-    void check_substeps(const FoundationParameters &p, const TimeGrid &steps)
-    {
-      const double damping = .15 * steps.substep();
-      if (steps.substeps > 2 && !p.has_own_steps() &&
-          p.stiffness_damping < .99 * damping) // .99: the message has three digits
-        throw InputError(
-            "\"Foundation/Coupling\" = partition is unstable with more than two \"Foundation/Substeps\" and "
-            "little damping. Set \"Foundation/Coupling\" to mean traction, \"Foundation/Substeps\" to at "
-            "most 2, or \"Foundation/Stiffness damping\" to at least " +
-            number(damping) + " s (0.15 rock time steps).");
-    }
-  } // namespace
-
   namespace
   {
     /** Returns the artificial boundary of the sections of the free field. */
@@ -120,7 +95,6 @@ namespace Voussoir
 
   void ExplicitRock::check_stability(const TimeGrid &steps) const
   {
-    check_substeps(parameters, steps);
     const RockRegionParameters p = region_parameters(parameters, centre, steps.substep());
     const auto                 boundary = make_boundary(p);
     boundary->check(p, dt_critical);

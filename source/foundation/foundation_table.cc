@@ -14,6 +14,7 @@ namespace Voussoir
     {
       const char *name, *doc;
       std::unique_ptr<Foundation> (*make)(const FoundationSite &);
+      EntryNames entries; ///< entries of section Foundation that the model reads
     };
 
     std::unique_ptr<Foundation> make_rigid_ground(const FoundationSite &)
@@ -23,11 +24,21 @@ namespace Voussoir
 
     /** Table of all foundations. It defines the options and the help text of the entry "Foundation/Model". */
     const FoundationRow rows[] = {
-        {"rigid", "prescribed ground motion at the base of the dam", make_rigid_ground},
-        {"rock", "elastic rock with mass and explicit time integration, the earthquake enters from below",
-         make_explicit_rock},
-        {"massless", "elastic rock without mass, the ground motion is prescribed at its outer boundary",
-         make_massless_rock}};
+        {"rigid", "prescribed ground motion at the base of the dam", make_rigid_ground, {"Foundation/Model"}},
+        {"rock",
+         "elastic rock with mass and explicit time integration, the earthquake enters from below",
+         make_explicit_rock,
+         {"Foundation/"}},
+        {"massless",
+         "elastic rock without mass, the ground motion is prescribed at its outer boundary",
+         make_massless_rock,
+         {"Foundation/Model", "Foundation/Young's modulus", "Foundation/Poisson's ratio",
+          "Foundation/Zones"}}};
+
+    const FoundationRow &row_of_model(const std::string &model)
+    {
+      return row_of(rows, model, "is no foundation", "They are:");
+    }
 
     void check_mesh(const FoundationSite &site, const Foundation &foundation)
     {
@@ -47,8 +58,7 @@ namespace Voussoir
 
   std::unique_ptr<Foundation> make_foundation(const FoundationSite &site)
   {
-    const FoundationRow        &row = row_of(rows, site.parameters.model, "is no foundation", "They are:");
-    std::unique_ptr<Foundation> foundation = row.make(site);
+    std::unique_ptr<Foundation> foundation = row_of_model(site.parameters.model).make(site);
     check_mesh(site, *foundation);
     return foundation;
   }
@@ -61,5 +71,10 @@ namespace Voussoir
   std::string foundation_docs()
   {
     return docs_of(rows);
+  }
+
+  bool foundation_reads(const std::string &model, const std::string &entry)
+  {
+    return includes(row_of_model(model).entries, entry);
   }
 } // namespace Voussoir

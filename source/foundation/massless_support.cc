@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/blas.h>
 #include <voussoir/foundation/massless_support.h>
 
 #include <algorithm>
 #include <cmath>
-
-extern "C" void dgemv_(const char *, const int *, const int *, const double *, const double *, const int *,
-                       const double *, const int *, const double *, double *, const int *);
 
 namespace Voussoir
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/exceptions.h>
 
+#include <voussoir/base/blas.h>
 #include <voussoir/base/error.h>
 #include <voussoir/joints/body_factor.h>
 
@@ -11,13 +12,6 @@
 #include <new>
 #include <numeric>
 #include <string>
-
-extern "C"
-{
-  void dsyrk_(const char *, const char *, const int *, const int *, const double *, const double *,
-              const int *, const double *, double *, const int *);
-  void dpotri_(const char *, const int *, double *, const int *, int *);
-}
 
 namespace Voussoir
 {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/blas.h>
 #include <voussoir/joints/condensed_body.h>
 
 #include <algorithm>
 #include <utility>
-
-extern "C" void dsymv_(const char *, const int *, const double *, const double *, const int *, const double *,
-                       const int *, const double *, double *, const int *);
 
 namespace Voussoir
 {

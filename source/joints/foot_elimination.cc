@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/blas.h>
 #include <voussoir/joints/foot_elimination.h>
 
 #include <algorithm>
-
-extern "C"
-{
-  void dgemm_(const char *, const char *, const int *, const int *, const int *, const double *,
-              const double *, const int *, const double *, const int *, const double *, double *,
-              const int *);
-  void dgemv_(const char *, const int *, const int *, const double *, const double *, const int *,
-              const double *, const int *, const double *, double *, const int *);
-}
 
 namespace Voussoir
 {

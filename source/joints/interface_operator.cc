@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/exceptions.h>
 
+#include <voussoir/base/blas.h>
 #include <voussoir/base/parallel.h>
 #include <voussoir/joints/dense_kernels.h>
 #include <voussoir/joints/foot_elimination.h>
@@ -8,9 +9,6 @@
 
 #include <algorithm>
 #include <set>
-
-extern "C" void sgemv_(const char *, const int *, const int *, const float *, const float *, const int *,
-                       const float *, const int *, const float *, float *, const int *);
 
 namespace Voussoir
 {

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/blas.h>
 #include <voussoir/joints/dense_kernels.h>
 #include <voussoir/joints/joint_block.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-
-extern "C"
-{
-  void dpotrf_(const char *, const int *, double *, const int *, int *);
-  void dpotri_(const char *, const int *, double *, const int *, int *);
-}
 
 namespace Voussoir
 {

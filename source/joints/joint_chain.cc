@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/blas.h>
 #include <voussoir/joints/joint_chain.h>
-
-extern "C"
-{
-  void sgemm_(const char *, const char *, const int *, const int *, const int *, const float *, const float *,
-              const int *, const float *, const int *, const float *, float *, const int *);
-  void sgemv_(const char *, const int *, const int *, const float *, const float *, const int *,
-              const float *, const int *, const float *, float *, const int *);
-}
 
 namespace Voussoir
 {

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/blas.h>
 #include <voussoir/joints/joint_factor.h>
-
-extern "C"
-{
-  void sgetrf_(const int *, const int *, float *, const int *, int *, int *);
-  void sgetrs_(const char *, const int *, const int *, const float *, const int *, const int *, float *,
-               const int *, int *);
-}
 
 namespace Voussoir
 {

@@ -29,7 +29,7 @@ namespace Voussoir
     void add_to_planes(std::vector<Tensor<1, 3>> &planes, const Tensor<1, 3> &area)
     {
       for (Tensor<1, 3> &plane : planes)
-        if (plane * area > std::cos(20. * numbers::PI / 180.) * plane.norm() * area.norm())
+        if (plane * area > std::cos(20. * M_PI / 180.) * plane.norm() * area.norm())
         {
           plane += area;
           return;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/mesh/arch210_rock.h>
 
 namespace Voussoir
 {
-  void Arch210RockParameters::add_parameters(dealii::ParameterHandler &prm)
+  void Arch210RockParameters::add_parameters(Entries &prm)
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Mesh");
@@ -15,15 +14,18 @@ namespace Voussoir
     prm.add_parameter("Enabled", enabled,
                       "true: the mesh includes the rock around the dam. false: the base is rigid.", Bool());
     const std::string from = " [m], from the outermost base nodes of the dam to the artificial boundary.";
-    prm.add_parameter("Upstream", upstream, "Length of the rock upstream" + from, Double(50, 1e5));
-    prm.add_parameter("Downstream", downstream, "Length of the rock downstream" + from, Double(50, 1e5));
-    prm.add_parameter("Sides", sides, "Length of the rock on either side" + from, Double(50, 1e5));
-    prm.add_parameter("Depth", depth, "Depth of the rock" + from, Double(50, 1e5));
+    prm.add_parameter("Upstream", upstream, "Length of the rock upstream" + from, {50., 2000.},
+                      Double(50, 1e5));
+    prm.add_parameter("Downstream", downstream, "Length of the rock downstream" + from, {50., 2000.},
+                      Double(50, 1e5));
+    prm.add_parameter("Sides", sides, "Length of the rock on either side" + from, {50., 2000.},
+                      Double(50, 1e5));
+    prm.add_parameter("Depth", depth, "Depth of the rock" + from, {50., 2000.}, Double(50, 1e5));
     prm.add_parameter("Element size", element_size,
                       "Size of the rock elements far from the dam [m]. They are smaller where the rock is "
                       "thinnest, and up to 1.7 times as large where it is thickest. Across the valley, "
                       "\"Elements along\" determines their number.",
-                      Double(1, 1e4));
+                      {2., 100.}, Double(1, 1e4));
     prm.add_parameter("Boundary layers", n_layers,
                       "Number of layers of equal elements along the artificial boundary [-]. A transmitting "
                       "boundary requires them.",

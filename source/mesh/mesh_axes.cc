@@ -10,8 +10,6 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double pi = 3.14159265358979323846;
-
     using Vector = std::array<double, 3>;
 
     constexpr double lowest_dam = 5., highest_dam = 400.; ///< [m]
@@ -177,7 +175,7 @@ namespace Voussoir
 
       static std::string degrees_off_x(const Vector &v)
       {
-        return std::to_string(std::lround(std::abs(std::atan2(v[1], v[0])) * 180. / pi));
+        return std::to_string(std::lround(std::abs(std::atan2(v[1], v[0])) * 180. / M_PI));
       }
 
       bool are_numbered_to_the_right() const

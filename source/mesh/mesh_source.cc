@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/mesh/foreign_mesh.h>
 #include <voussoir/mesh/gmsh_io.h>
@@ -45,7 +44,7 @@ namespace Voussoir
     return units.at(unit);
   }
 
-  void MeshParameters::add_parameters(dealii::ParameterHandler &prm)
+  void MeshParameters::add_parameters(Entries &prm)
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Mesh");

@@ -2,7 +2,6 @@
 #include <voussoir/base/output_file.h>
 #include <voussoir/motion/ground_motion.h>
 
-#include <algorithm>
 #include <iomanip>
 
 namespace Voussoir
@@ -15,20 +14,6 @@ namespace Voussoir
   std::array<double, 3> GroundMotion::sample(const std::size_t k) const
   {
     return k < acceleration.size() ? acceleration[k] : std::array<double, 3>{};
-  }
-
-  std::array<double, 3> GroundMotion::at(double t) const
-  {
-    std::array<double, 3> a = {{0., 0., 0.}};
-    // Times are often sums of time steps: the last sample is valid in spite of round-off.
-    const double position = t / dt, last = double(acceleration.size()) - 1., rounding = 1e-9 * last;
-    if (!(position >= 0.) || position > last + rounding)
-      return a;
-    const std::size_t k = std::min<std::size_t>(position, acceleration.size() - 1);
-    const std::size_t next = std::min(k + 1, acceleration.size() - 1);
-    for (unsigned int d = 0; d < 3; ++d)
-      a[d] = acceleration[k][d] + (position - k) * (acceleration[next][d] - acceleration[k][d]);
-    return a;
   }
 
   std::vector<double> GroundMotion::component(unsigned int direction) const

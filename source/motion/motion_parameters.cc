@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/motion/motion_parameters.h>
@@ -18,7 +17,7 @@ namespace Voussoir
     const char *const names[] = {"x", "y", "z"};
   } // namespace
 
-  void MotionParameters::add_parameters(dealii::ParameterHandler &prm)
+  void MotionParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Motion");
     prm.add_parameter("Source", source,
@@ -29,12 +28,14 @@ namespace Voussoir
         "Duration", duration,
         "Length of the ground motion and of the run [s]. Longer records are cut. Shorter records are an "
         "error. -1: length of the shortest record, or 20.48 s for an artificial motion. On rock, -1 extends "
-        "the run by the travel time of the waves to the base of the dam, in whole time steps of the motion.");
+        "the run by the travel time of the waves to the base of the dam, in whole time steps of the motion.",
+        {0., 300.});
     prm.add_parameter(
         "Time step", time_step,
         "Sampling interval of the ground motion [s]. Duration must be a multiple of it. Records with a "
         "longer interval are interpolated linearly. Records with a shorter interval are low-pass filtered at "
-        "0.5/Time step before sampling. Each component may have another interval.");
+        "0.5/Time step before sampling. Each component may have another interval.",
+        {1e-4, .05});
     prm.add_parameter("Factor", factor, "Factor of all components [-], for every source.");
     for (unsigned int d = 0; d < 3; ++d)
       prm.add_parameter(std::string("Scale ") + names[d], scale[d],
@@ -45,7 +46,7 @@ namespace Voussoir
     prm.leave_subsection();
   }
 
-  void MotionParameters::add_file_parameters(dealii::ParameterHandler &prm)
+  void MotionParameters::add_file_parameters(Entries &prm)
   {
     prm.add_parameter("File", file,
                       "Source = file: table with the columns t [s], a_x, a_y, a_z, separated by blanks or "
@@ -64,7 +65,7 @@ namespace Voussoir
                       Patterns::Selection("g|m/s^2|cm/s^2"));
   }
 
-  void MotionParameters::add_artificial_parameters(dealii::ParameterHandler &prm)
+  void MotionParameters::add_artificial_parameters(Entries &prm)
   {
     prm.add_parameter("Spectrum", spectrum.code,
                       "Source = artificial: standard design spectrum. Beyond the characteristic period T_g "
@@ -72,17 +73,21 @@ namespace Voussoir
                       Patterns::Selection("DL5073-2000|NB35047-2015"));
     prm.add_parameter("Characteristic period", spectrum.characteristic_period,
                       "Source = artificial: characteristic period T_g of the site [s], at which the descent "
-                      "of the spectrum begins. 0.2 s on rock.");
+                      "of the spectrum begins. 0.2 s on rock.",
+                      {.1, 2.});
     prm.add_parameter("Maximum beta", spectrum.maximum_beta,
                       "Source = artificial: ratio of the largest spectral acceleration to the peak "
-                      "acceleration [-]. 2.5 for arch dams.");
+                      "acceleration [-]. 2.5 for arch dams.",
+                      {1.5, 4.});
     prm.add_parameter("Peak acceleration", peak_acceleration,
-                      "Source = artificial: peak acceleration in x and in y [g].");
+                      "Source = artificial: peak acceleration in x and in y [g].", {.005, 2.});
     prm.add_parameter("Vertical ratio", vertical_ratio,
-                      "Source = artificial: ratio of peak and spectrum in z to those in x and y [-].");
+                      "Source = artificial: ratio of peak and spectrum in z to those in x and y [-].",
+                      {.2, 1.5});
     prm.add_parameter("Damping", damping,
                       "Damping ratio [-] of the response spectra in spectrum.csv, and with Source = "
-                      "artificial of the design spectrum.");
+                      "artificial of the design spectrum.",
+                      {.005, .2});
     prm.add_parameter(
         "Seed", seed,
         "Source = artificial: number [-] that selects the random phases. Equal seeds give equal motions.",

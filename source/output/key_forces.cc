@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/contact/law_table.h>
 #include <voussoir/dam/scene.h>
 #include <voussoir/output/key_forces.h>
 
@@ -15,7 +16,7 @@ namespace Voussoir
       double area = 0.;
       for (const Pair &pair : pairs)
         area += pair.joint == j ? pair.area : 0.;
-      if (area > 0. && parameters.model_of(j + 1) == "KSM")
+      if (area > 0. && joint_law_reads(parameters.model_of(j + 1), "Joints/Keys/Height"))
         joints.push_back({j, area, 0., 0.});
     }
   }

@@ -13,26 +13,12 @@ namespace Voussoir
       for (std::size_t k = 0; dam.foundation->moves_base() && k < load.size(); ++k)
         load[k] += a[0] * dam.inertia[0][k] + a[1] * dam.inertia[1][k] + a[2] * dam.inertia[2][k];
     }
-
-    void start_foundation(const RunState &run, Log &log)
-    {
-      Dam &dam = *run.dam;
-      dam.foundation->start(run.motion, run.grid(), run.statics.u);
-      if (const double added = dam.foundation->add_interface_mass(dam.structure, run.grid()); added > 0.)
-      {
-        double mass = 0.;
-        for (const Matrix3 &m : dam.structure.mass)
-          mass += m[0];
-        log.line("Feet      %.3g kg heavier for the sub-steps, %.1f %% of dam, water and feet", added,
-                 100. * added / mass);
-      }
-    }
   } // namespace
 
-  void RunState::start(const ContactParameters &parameters, Log &log)
+  void RunState::start(const ContactParameters &parameters)
   {
     if (n_steps > 0)
-      start_foundation(*this, log);
+      dam->foundation->start(motion, grid(), statics.u);
     Support *const support = n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr;
     newmark =
         std::make_unique<Newmark>(dam->structure, dam->laws, parameters, motion.dt,

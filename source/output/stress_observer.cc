@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/dam/face_pressure.h>
+#include <voussoir/dam/load_table.h>
 #include <voussoir/mesh/mesh.h>
 #include <voussoir/output/archive.h>
 #include <voussoir/output/assessment.h>

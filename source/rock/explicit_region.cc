@@ -120,12 +120,6 @@ namespace Voussoir
     }
   }
 
-  void ExplicitRegion::fix_nodes(const std::vector<unsigned int> &nodes)
-  {
-    for (const unsigned int node : nodes)
-      fix({3 * node, 3 * node + 1, 3 * node + 2});
-  }
-
   namespace
   {
     void exclude(std::vector<double> &inverse_mass, const unsigned int node)
@@ -327,26 +321,6 @@ namespace Voussoir
     for (const unsigned int i : boundary_kept)
       std::copy_n(w.begin() + 3 * std::size_t(nodes[i]), 3, boundary_w.begin() + 3 * std::size_t(i));
     return step_of_region();
-  }
-
-  Unknowns ExplicitRegion::velocity() const
-  {
-    Unknowns  v = w;
-    const int n = v.size();
-#pragma omp parallel for schedule(static)
-    for (int i = 0; i < n; ++i)
-      if (inverse_mass[i] != 0.) // half a step back by the acceleration a: w = w_before + dt a
-      {
-        const double f = (force.empty() ? 0. : force[i]) - K_x[i];
-        const double before = (w[i] - dt * inverse_mass[i] * f) / (1. - dt * damping.mass);
-        v[i] = .5 * (before + w[i]);
-      }
-    for (std::size_t i = 0; i < boundary_w.size(); ++i)
-    {
-      const std::size_t k = 3 * std::size_t(boundary->nodes()[i / 3]) + i % 3;
-      v[k] = .5 * (boundary_w[i] + w[k]);
-    }
-    return v;
   }
 
   void ExplicitRegion::start(const Unknowns &displacement, const Unknowns &velocity)

@@ -183,10 +183,4 @@ namespace Voussoir
     }
     return result;
   }
-
-  double RockPatch::memory() const
-  {
-    return 4. * (node.size() + column.size()) + 8. * (inverse_mass.size() + start.size()) +
-           72. * value.size();
-  }
 } // namespace Voussoir

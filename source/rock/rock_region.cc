@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace Voussoir
 {
@@ -30,31 +29,6 @@ namespace Voussoir
       region->split_up(std::move(split), std::move(part));
     }
     return region;
-  }
-
-  double noise_growth(const RockModel &model, const RockRegionParameters &parameters,
-                      const unsigned int n_steps, const std::vector<unsigned int> &fixed)
-  {
-    const auto region = make_region(model, parameters);
-    region->fix(fixed);
-    std::mt19937 engine(7);
-    Unknowns     u(3 * std::size_t(region->n_nodes()), 0.), v = u;
-    for (double &x : v)
-      x = engine() / 2147483647.5 - 1.;
-    for (const BoundaryLine &line : model.lines)
-      std::fill_n(v.begin() + 3 * std::size_t(line.nodes[0]), 3, 0.);
-    region->keep_energy();
-    region->start(u, v);
-    double early = 0.;
-    for (unsigned int i = 1; i <= n_steps; ++i)
-    {
-      region->advance();
-      if (i == n_steps / 10)
-        early = region->energy().kinetic;
-      if (!(region->energy().kinetic < 1e100))
-        return HUGE_VAL;
-    }
-    return region->energy().kinetic / early;
   }
 
   namespace

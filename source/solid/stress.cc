@@ -24,7 +24,7 @@ namespace Voussoir
                        s[5] * (double(s[3]) * s[4] - y * s[5]);
     const double angle = std::acos(std::clamp(det / (2. * p * p * p), -1., 1.)) / 3.;
     return {{float(mean + 2. * p * std::cos(angle)),
-             float(mean + 2. * p * std::cos(angle + 2. * 3.14159265358979323846 / 3.))}};
+             float(mean + 2. * p * std::cos(angle + 2. * M_PI / 3.))}};
   }
 
   StressRecovery::StressRecovery(const SolidModel &model, const std::vector<Material> &materials,

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mesh of the scene that is the argument, in numbers; its joints opened.
 
-#include <deal.II/base/parameter_handler.h>
-
+#include <voussoir/base/entries.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/mesh/mesh_source.h>
 
@@ -11,8 +10,8 @@
 int main(int, char **argv)
 {
   using namespace Voussoir;
-  dealii::ParameterHandler prm;
-  MeshParameters           parameters;
+  Entries        prm;
+  MeshParameters parameters;
   parameters.add_parameters(prm);
   prm.parse_input(argv[1]);
   const HexMesh mesh = make_mesh(parameters, "."), opened = open_joints(mesh);

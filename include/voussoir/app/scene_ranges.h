@@ -3,6 +3,7 @@
 #define voussoir_scene_ranges_h
 
 #include <voussoir/app/declared_entries.h>
+#include <voussoir/base/entries.h>
 #include <voussoir/dam/scene.h>
 
 namespace Voussoir
@@ -30,11 +31,8 @@ namespace Voussoir
   /** Returns the numbers of entries with several numbers: materials of zones, temperature table. */
   std::vector<UsedValue> values_of_sources(const Scene &scene);
 
-  /** Returns a warning about a value outside of its usual range. Empty: plausible, or no range. */
-  std::string implausible(const UsedValue &value);
-
-  /** Returns the names of all entries with a usual range. */
-  std::vector<std::string> entries_with_ranges();
+  /** Returns a warning about a value outside of its range in @p usual. Empty: plausible, or no range. */
+  std::string implausible(const UsedValue &value, const UsualRanges &usual);
 } // namespace Voussoir
 
 #endif

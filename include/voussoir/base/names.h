@@ -4,6 +4,7 @@
 
 #include <voussoir/base/error.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -13,6 +14,17 @@ namespace Voussoir
 {
   /** Values of an enumeration with their names in input and output files. */
   template <typename T> using Names = std::vector<std::pair<const char *, T>>;
+
+  /** Names of entries, "Section/Entry". A name with a slash at the end means all entries of a section. */
+  using EntryNames = std::vector<std::string>;
+
+  /** Returns whether @p names include the entry. */
+  inline bool includes(const EntryNames &names, const std::string &entry)
+  {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string &name)
+                       { return name.back() == '/' ? entry.rfind(name, 0) == 0 : entry == name; });
+  }
 
   // Tables have rows {name, doc, ...}. All lists keep the order of the rows.
 

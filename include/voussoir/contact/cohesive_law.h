@@ -30,6 +30,9 @@ namespace Voussoir
    * Throws InputError for a negative strength or fracture energy, and for equations
    * other than "alart-curnier". */
   std::unique_ptr<JointLaw> make_cohesive_law(const LawParameters &parameters);
+
+  /** Returns the warning of joint_law_warning(). */
+  std::string cohesive_law_warning(const LawParameters &parameters);
 } // namespace Voussoir
 
 #endif

@@ -54,8 +54,8 @@ namespace Voussoir
      * is_in_blocks() is true. */
     virtual void sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const = 0;
 
-    /** Distributes @p values that the pair solver has written on several ranks in sweep(). Entries begin[p]
-     * to begin[p+1] - 1 belong to pair p. */
+    /** Distributes values that the pair solver has written on several ranks in sweep(). Entries begin[p] to
+     * begin[p+1] - 1 of the first argument belong to pair p. */
     virtual void gather_pairs(Unknowns & /*values*/, const std::vector<std::size_t> & /*begin*/) const {}
 
     /** Returns whether sweep() uses all entries of W. If not, the gap must be computed

@@ -58,10 +58,6 @@ namespace Voussoir
     const std::vector<PairState>     &states() const { return state; }   ///< returns the state of each pair
     const std::vector<unsigned char> &touching() const { return touch; } ///< see PairEquations
 
-    /** Returns the smallest ratio W_nn/|W_nt| of a pair. Pairs with more friction may
-     * jam (Klarbring 1990). */
-    double critical_friction() const;
-
   private:
     struct Iterate
     {

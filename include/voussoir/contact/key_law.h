@@ -10,6 +10,9 @@ namespace Voussoir
   /** Makes the law KSM: a flat face with trapezoidal shear keys. Throws InputError for keys with an
    * impossible geometry or friction, and for equations other than "alart-curnier". */
   std::unique_ptr<JointLaw> make_key_law(const LawParameters &parameters);
+
+  /** Returns the warning of joint_law_warning(). */
+  std::string key_law_warning(const LawParameters &parameters);
 } // namespace Voussoir
 
 #endif

@@ -6,6 +6,8 @@
 
 namespace Voussoir
 {
+  class Entries;
+
   /** Formulation of the equations of a joint law. */
   enum class Equations
   {
@@ -26,9 +28,13 @@ namespace Voussoir
     std::string direction = "both";   ///< slip that the keys restrain: radial, vertical, both
     double      friction = -1.;       ///< coefficient of friction of the flanks [-]; -1: as the face
     double      seat_compliance = 0.; ///< contact compliance of the flanks per joint area [m/Pa]; 0: rigid
+
+    /** Declares the entries of the subsection. */
+    void add_parameters(Entries &prm);
   };
 
-  /** Parameters of all joint laws. Section "Joints" of the input file. */
+  /** Parameters of all joint laws. Section "Joints" of the input file. A new law adds its parameters here,
+   * and their entries in law_table.cc. */
   struct LawParameters
   {
     LawParameters(const double friction = .8, const Equations equations = Equations::alart_curnier,
@@ -41,6 +47,9 @@ namespace Voussoir
     Equations     equations;
     KeyParameters keys;
     double        strength = 0., fracture_energy = 0.; ///< of law cohesive [Pa], [N/m]
+
+    /** Declares the entries of the section, without "Equations" and the subsection "Keys". */
+    void add_parameters(Entries &prm);
   };
 } // namespace Voussoir
 

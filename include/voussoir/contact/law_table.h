@@ -23,11 +23,18 @@ namespace Voussoir
   }
 
   /** Returns whether the law uses the entry, such as "Joints/Friction". Also true if the law is not in the
-   * table or its row does not declare entries. */
+   * table. */
   bool joint_law_reads(const std::string &name, const std::string &entry);
 
   /** Returns the names of the laws that declare the entry, such as "FJA, KSM". Empty if there is none. */
   std::string joint_laws_with(const std::string &entry);
+
+  /** Returns a warning about parameters of the law that are plausible alone, but not in combination. Empty if
+   * there is none, or if the law is not in the table. */
+  std::string joint_law_warning(const std::string &name, const LawParameters &parameters);
+
+  /** Returns the laws that may require mean forces: "cohesive and KSM (with a seat compliance)". */
+  std::string joint_laws_of_mean_force();
 
   /** Returns the names of the laws as a ParameterHandler selection: "tied|FJA|FJB|KSM|cohesive". */
   std::string joint_law_names();

@@ -10,7 +10,6 @@
 #include <voussoir/solid/solid_model.h>
 #include <voussoir/solid/stress.h>
 
-#include <optional>
 #include <set>
 
 namespace Voussoir

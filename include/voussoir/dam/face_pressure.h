@@ -3,23 +3,29 @@
 #define voussoir_face_pressure_h
 
 #include <voussoir/dam/scene.h>
-#include <voussoir/dam/tractions.h>
 #include <voussoir/solid/solid_model.h>
+
+#include <functional>
 
 namespace Voussoir
 {
-  /** Hydrostatic pressure on the surface "downstream" [N]. */
-  void add_tail_water(const SolidModel &model, const TailWaterParameters &water, double gravity,
-                      Unknowns &load);
+  /** Adds the nodal forces [N] of a traction [Pa] on the faces of a surface. Each face has 8 x 8 quadrature
+   * points, because a level may cut through a face. */
+  void add_traction(const SolidModel &model, int surface,
+                    const std::function<Vector3(double z, const Vector3 &normal)> &traction, Unknowns &load);
 
-  /** Sediment on the surface "upstream": at the depth h its vertical pressure is p = density gravity h, its
-   *  horizontal one K p. It pushes with K p the horizontal part of a face, and rests with p on what looks up;
-   * under what leans over it, it bears nothing [N]. K: SiltParameters::pressure_coefficient(). */
-  void add_silt(const SolidModel &model, const SiltParameters &silt, double gravity, Unknowns &load);
+  // Tractions of loads times a factor [Pa]. @p z: height of the point [m]; @p normal: outward normal.
 
-  /** What reservoir, tail water and silt put on the faces, with the factors of the combination; the water
-   * that moves along with the dam is not in it [Pa]. */
-  KnownTraction known_traction(const Scene &scene);
+  /** Returns the hydrostatic pressure of the reservoir. */
+  Vector3 water_traction(const Scene &scene, double factor, double z, const Vector3 &normal);
+
+  /** Returns the hydrostatic pressure of the tail water. */
+  Vector3 tail_water_traction(const Scene &scene, double factor, double z, const Vector3 &normal);
+
+  /** Returns the traction of the sediment. At the depth h the vertical pressure is p = density gravity h and
+   * the horizontal pressure K p, with K = SiltParameters::pressure_coefficient(). The horizontal pressure
+   * acts on all faces, the vertical pressure only on faces with an upward normal. */
+  Vector3 silt_traction(const Scene &scene, double factor, double z, const Vector3 &normal);
 } // namespace Voussoir
 
 #endif

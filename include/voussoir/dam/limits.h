@@ -2,13 +2,10 @@
 #ifndef voussoir_limits_h
 #define voussoir_limits_h
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Voussoir
 {
+  class Entries;
+
   /** Parameters of the subsection "Limits": limit values of the results. Zero: no limit. */
   struct LimitParameters
   {
@@ -29,7 +26,11 @@ namespace Voussoir
     double key_shear_stress = 0.;  ///< shear force of the keys of a joint, divided by its area [Pa]
 
     /** Declares the entries of the subsection. */
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
+
+  private:
+    void add_stresses(Entries &prm);
+    void add_joints_and_base(Entries &prm);
   };
 } // namespace Voussoir
 

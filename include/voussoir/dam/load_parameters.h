@@ -3,15 +3,11 @@
 #define voussoir_load_parameters_h
 
 #include <voussoir/base/tensor3.h>
+#include <voussoir/dam/load_names.h>
 
 #include <map>
 #include <string>
 #include <vector>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
 
 namespace Voussoir
 {
@@ -24,6 +20,7 @@ namespace Voussoir
     std::string table;                          ///< file: day, upstream, downstream; or empty
     double      day = 0.;                       ///< of the table
 
+    void add_parameters(Entries &prm);
     bool acts() const { return !table.empty() || upstream != grouting || downstream != grouting; }
   };
 
@@ -33,6 +30,7 @@ namespace Voussoir
   struct TailWaterParameters
   {
     double level = no_level, density = 1000.; ///< [m], [kg/m^3]
+    void   add_parameters(Entries &prm);
     bool   acts() const { return level > no_level && density > 0.; }
   };
 
@@ -41,7 +39,8 @@ namespace Voussoir
   {
     double level = no_level, density = 900.; ///< [m], submerged [kg/m^3]
     double friction_angle = 30.,
-           coefficient = -1.;            ///< [degrees]; of earth pressure, -1: Rankine's active one
+           coefficient = -1.; ///< [degrees]; of earth pressure, -1: Rankine's active one
+    void   add_parameters(Entries &prm);
     double pressure_coefficient() const; ///< the one that holds [-]
     bool   acts() const { return level > no_level && density > 0.; }
   };
@@ -51,6 +50,8 @@ namespace Voussoir
   {
     bool   joints = false, base = false;
     double drain_position = .1, drain_efficiency = 0.; ///< of the thickness from upstream [-], [-]
+    void   add_parameters(Entries &prm);
+    bool   acts() const { return joints || base; }
   };
 
   /** A force on the node nearest to a place. */
@@ -70,17 +71,15 @@ namespace Voussoir
     std::string                        crest_line;              ///< "qx qy qz" [N/m], or empty
     std::string                        crest_edge = "upstream"; ///< or downstream
     std::string                        combination;             ///< chosen one; empty: all loads once
-    std::map<std::string, std::string> combinations = {
-        {"usual", "weight, water, tail water, silt, temperature, uplift, concentrated, crest line"},
-        {"extreme",
-         "weight, water, tail water, silt, temperature, uplift, concentrated, crest line, earthquake"}};
+    std::map<std::string, std::string> combinations = {{"usual", static_load_names()},
+                                                       {"extreme", static_load_names() + ", earthquake"}};
 
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
     void check() const; ///< throws InputError for entries that cannot be read
 
-    /** Factor of a load in the combination that is chosen, 1 if none is: "weight", "water", "tail water",
-     *  "silt", "temperature", "uplift", "concentrated", "crest line", "earthquake". What a combination does
-     * not name has 0. */
+    /** Returns the factor of a load in the chosen combination [-]; 1 if no combination is chosen, 0 if the
+     * combination does not contain the load.
+     * @param load name of static_load_names(), or "earthquake" */
     double factor(const std::string &load) const;
 
     std::map<std::string, PointLoad> point_loads() const; ///< throws InputError for malformed ones

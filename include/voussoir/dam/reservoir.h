@@ -6,13 +6,10 @@
 
 #include <string>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Voussoir
 {
+  class Entries;
+
   class SolidModel;
 
   /** Parameters of the subsection "Reservoir". */
@@ -25,7 +22,7 @@ namespace Voussoir
     double      factor = 1.;                ///< of the added mass [-]
 
     /** Declares the entries of the subsection. */
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
   };
 
   /** Adds the hydrostatic pressure on the surface "upstream" to @p load [N]. @p gravity: [m/s^2]. */

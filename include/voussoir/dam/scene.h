@@ -24,30 +24,28 @@ namespace Voussoir
   {
     unsigned int degree = 1;                ///< 1: 8 nodes, 2: 27 nodes
     bool         incompatible_modes = true; ///< in elements of degree 1
-    void         add_parameters(dealii::ParameterHandler &prm);
+    void         add_parameters(Entries &prm);
   };
 
   /** Rayleigh damping C = a0 M + a1 K with a damping ratio at two frequencies. */
   struct DampingParameters
   {
     double ratio = .05, frequency_1 = 1.2, frequency_2 = 6.; ///< [-], [Hz], [Hz]
-    void   add_parameters(dealii::ParameterHandler &prm);
+    void   add_parameters(Entries &prm);
     void   check() const;
     double mass_factor() const;      ///< a0 [1/s]
     double stiffness_factor() const; ///< a1 [s]
   };
 
-  /** Parameters of the subsection "Joints". */
-  struct JointParameters
+  /** Parameters of the subsection "Joints": joint laws and their parameters. */
+  struct JointParameters : LawParameters
   {
-    std::string                         model = "FJA";                       ///< joint law
-    double                              friction = .8;                       ///< coefficient of friction [-]
-    std::string                         equations = "alart-curnier";         ///< form of the joint equations
-    double                              strength = 0., fracture_energy = 0.; ///< of law cohesive [Pa], [N/m]
-    KeyParameters                       keys;                                ///< of law KSM
-    double                              seat_compliance = -1.; ///< of the keys [m/Pa]; -1: 20 height/E
-    std::map<unsigned int, std::string> overrides;             ///< model by joint number
-    void                                add_parameters(dealii::ParameterHandler &prm);
+    JointParameters() { keys.seat_compliance = -1.; } ///< [m/Pa]; -1: 20 height/E
+
+    std::string                         model = "FJA";                    ///< joint law
+    std::string                         equations_name = "alart-curnier"; ///< form of the joint equations
+    std::map<unsigned int, std::string> overrides;                        ///< model by joint number
+    void                                add_parameters(Entries &prm);
     void                                check() const;
 
     /** Returns the parameters of the joint laws. @p young: Young's modulus of the concrete [Pa]. */
@@ -71,7 +69,7 @@ namespace Voussoir
     unsigned int water_increments = 1;   ///< steps per stage
     double       gravity = 9.81;         ///< [m/s^2]
     std::string  stages;                 ///< stages before the final water level: static_stages()
-    void         add_parameters(dealii::ParameterHandler &prm);
+    void         add_parameters(Entries &prm);
   };
 
   /** Parameters of the subsection "Output". */
@@ -86,7 +84,7 @@ namespace Voussoir
     bool                               block_forces = true;           ///< write blocks.csv
     std::string                        stress_recovery = "tractions"; ///< tractions or elements
     double                             tensile_strength = 0.;         ///< [Pa], 0: none
-    void                               add_parameters(dealii::ParameterHandler &prm);
+    void                               add_parameters(Entries &prm);
     void                               check() const;
 
     /** Returns true if the stress recovery uses the known tractions. */
@@ -133,7 +131,7 @@ namespace Voussoir
     std::vector<std::string> warnings; ///< of read_scene()
 
     /** Declares all entries. */
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
 
     /** Checks all entries. Throws InputError for invalid values or combinations of values. */
     void check() const;
@@ -159,7 +157,7 @@ namespace Voussoir
    *
    * Throws InputError with file, line and entry. For an unknown entry it names the most similar one. */
   void read_scene(const std::string &file, const std::vector<std::string> &overrides, Scene &scene,
-                  dealii::ParameterHandler &prm);
+                  Entries &prm);
 } // namespace Voussoir
 
 #endif

@@ -21,18 +21,9 @@ namespace Voussoir
   Vector3 free_mass(const Structure &structure);
 
   /** Returns the @p n_modes lowest modes of a structure without pairs, by ascending frequency. Solves
-   * K phi = omega^2 M phi by inverse iteration with ARPACK, or by modes_of_ranks() with several MPI
-   * processes. Throws InputError if the structure has too few unknowns, and ComputationError if the iteration
-   * does not converge. */
+   * K phi = omega^2 M phi by inverse iteration with ARPACK, on one MPI process. Throws InputError if the
+   * structure has too few unknowns, and ComputationError if the iteration does not converge. */
   std::vector<NaturalMode> natural_modes(const Structure &structure, unsigned int n_modes);
-
-  /** The same by several ranks: Krylov and Schur's method of SLEPc, the factor of the stiffness by MUMPS,
-   * shared out. In another order of operations, so with other bits than one rank has. To be called by all;
-   * all get all modes. */
-  std::vector<NaturalMode> modes_of_ranks(const Structure &structure, unsigned int n_modes);
-
-  /** Returns the @p n_modes lowest natural frequencies, ascending [Hz]. */
-  std::vector<double> natural_frequencies(const Structure &structure, unsigned int n_modes);
 } // namespace Voussoir
 
 #endif

@@ -23,13 +23,7 @@ namespace Voussoir
    * (1978). The base nodes belong to the dam and carry the lumped mass of the rock. The forces of the rock on
    * these nodes follow from their predicted displacement u + dt v + dt^2/4 a. Displacements of the rock are
    * those of the earthquake only. The static displacements are superposed.
-   *
-   * With "Foundation/Coupling" = partition the rock may have m substeps per time step of the dam. The base
-   * nodes then move linearly between two predictions (Belytschko, Yen and Mullen 1979). The force at the end
-   * of the last substep acts on the dam. For m > 1 each base node needs the additional mass k dt^2/2 for
-   * stability. k bounds the rock stiffness between the base nodes. The error of this mass is of order dt^2
-   * (doc/rock.md). For m > 2 a slow instability remains. Stiffness-proportional damping of 0.15 rock time
-   * steps suppresses it, and check() requires this damping. Other couplings: OwnStepRock. */
+   * Dam and rock have the same time step. For other couplings see OwnStepRock. */
   class ExplicitRock : public Foundation
   {
   public:
@@ -69,11 +63,10 @@ namespace Voussoir
 
     /** Throws InputError in these cases:
      *  - the time step of the rock exceeds the critical one,
-     *  - the artificial boundary would be unstable (ArtificialBoundary::check()) or is too close to the base,
-     *  - there are more than two substeps without the required damping. */
+     *  - the artificial boundary would be unstable (ArtificialBoundary::check()) or is too close to the
+     *    base. */
     void check(const TimeGrid &grid, unsigned int steps_per_sample) const override;
 
-    double  add_interface_mass(Structure &structure, const TimeGrid &grid) const override;
     void    start(const GroundMotion &outcrop, const TimeGrid &grid, const Unknowns &u) override;
     void    advance(Unknowns &load) override;
     void    follow(const DynamicState &state) override;

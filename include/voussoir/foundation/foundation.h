@@ -40,47 +40,18 @@ namespace Voussoir
   /** Solves for the static state of the dam under a load [N]. */
   using DamSolve = std::function<ContactResult(const Unknowns &load)>;
 
-  /** Foundation of the dam. The base class is the rigid foundation with prescribed ground motion.
-   * Displacements of the dam are then relative to the ground. Derived classes are other foundations.
-   *
-   * Order of the calls:
-   *  1. assembly of the dam: base(), add_stiffness(), add_mass(),
-   *  2. before the run: delay(), check(), report(), about_steps(),
-   *  3. static state: static_springs(), static_feet(), and settle() for each load stage,
-   *  4. start of the dynamic analysis: start(), add_interface_mass(), support(), watch(),
-   *  5. time step: advance(), base_velocity(), step of the dam by Newmark, follow(),
-   *  6. after the time step: energies(), trouble_of_energy(), trouble_of_motion(). */
-  class Foundation
+  /** Part of a foundation that is known before a run: what it requires of mesh and time step, and its
+   * description. */
+  class FoundationSetup
   {
   public:
-    virtual ~Foundation() = default;
-
-    /** Treatment of the base nodes. */
-    enum class Base
-    {
-      held,   ///< fixed, without unknowns
-      shared, ///< free, one node for all monoliths that meet there
-      tied,   ///< free, one node per monolith, joint pairs at the base are tied
-      led     ///< free, one node per monolith, without joint pairs, coupled to the support()
-    };
-    virtual Base base() const { return Base::held; }
+    virtual ~FoundationSetup() = default;
 
     /** Returns true if the mesh must contain rock. */
     virtual bool uses_rock() const { return false; }
 
-    /** Returns true if displacements are relative to the ground and the dam has an inertia load. Returns
-     * false if displacements are absolute. */
-    virtual bool moves_base() const { return true; }
-
     /** Returns true if a run can be resumed only with the same or a longer ground motion. */
     virtual bool resumes_longer_only() const { return false; }
-
-    /** Adds the stiffness of the foundation to the structure and stores the base nodes. The nodes of the dam
-     * are final and treated according to base(). */
-    virtual void add_stiffness(const SolidModel &, Structure &) {}
-
-    /** Adds the rock mass of the base nodes to the structure, after the inertia loads were computed. */
-    virtual void add_mass(Structure &) const {}
 
     /** Writes properties and warnings to the log. */
     virtual void report(Log &, const TimeGrid &) const {}
@@ -97,6 +68,35 @@ namespace Voussoir
     /** Throws InputError if the time integration would be unstable. The second argument is the number of time
      * steps of the dam per sample of the ground motion. */
     virtual void check(const TimeGrid &, unsigned int /*steps_per_sample*/) const {}
+  };
+
+  /** Part of a foundation under the base nodes of the dam: stiffness, mass, static state, and the support in
+   * a time step. */
+  class BaseSupport
+  {
+  public:
+    virtual ~BaseSupport() = default;
+
+    /** Treatment of the base nodes. */
+    enum class Base
+    {
+      held,   ///< fixed, without unknowns
+      shared, ///< free, one node for all monoliths that meet there
+      tied,   ///< free, one node per monolith, joint pairs at the base are tied
+      led     ///< free, one node per monolith, without joint pairs, coupled to the support()
+    };
+    virtual Base base() const { return Base::held; }
+
+    /** Returns true if displacements are relative to the ground and the dam has an inertia load. Returns
+     * false if displacements are absolute. */
+    virtual bool moves_base() const { return true; }
+
+    /** Adds the stiffness of the foundation to the structure and stores the base nodes. The nodes of the dam
+     * are final and treated according to base(). */
+    virtual void add_stiffness(const SolidModel &, Structure &) {}
+
+    /** Adds the rock mass of the base nodes to the structure, after the inertia loads were computed. */
+    virtual void add_mass(Structure &) const {}
 
     /** Returns the auxiliary springs at the base nodes in the static solution, three values per node of the
      * dam [N/m], or an empty vector. */
@@ -119,9 +119,8 @@ namespace Voussoir
     virtual ContactResult settle(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
                                  Unknowns &load, Log &log);
 
-    /** Adds the mass that substeps require at the base nodes. Returns the added mass [kg]. Must be called
-     * before the Newmark object of the dam is created. */
-    virtual double add_interface_mass(Structure &, const TimeGrid &) const { return 0.; }
+    /** Returns the strain energy of massless rock in the static state [J], otherwise zero. */
+    virtual double strain_at_start() const { return 0.; }
 
     /** Returns the support of the base nodes, or nullptr. Marks the base nodes as interface nodes of their
      * bodies. Must be called after start(), and before the Newmark object of the dam is created. */
@@ -133,6 +132,13 @@ namespace Voussoir
     {
       return nullptr;
     }
+  };
+
+  /** Part of the model beside the dam that exchanges forces with it in time, such as rock. */
+  class Neighbour
+  {
+  public:
+    virtual ~Neighbour() = default;
 
     /** Prepares the time steps, from rest. The third argument is the static displacement of the dam, three
      * values per node [m]. */
@@ -147,9 +153,6 @@ namespace Voussoir
     /** Returns the mean predicted velocity of the base nodes at the end of the time step [m/s]. Must be
      * called after advance(). */
     virtual Vector3 base_velocity() const { return {}; }
-
-    /** Returns the strain energy of massless rock in the static state [J], otherwise zero. */
-    virtual double strain_at_start() const { return 0.; }
 
     /** Returns the wall time of the foundation in all time steps so far [s]. */
     virtual double seconds() const { return 0.; }
@@ -184,6 +187,20 @@ namespace Voussoir
 
     /** Returns what to change in the input file after an instability, or an empty string. */
     virtual std::string remedies() const { return {}; }
+  };
+
+  /** Foundation of the dam. The base class is the rigid foundation with prescribed ground motion.
+   * Displacements of the dam are then relative to the ground. Derived classes are other foundations.
+   *
+   * Order of the calls:
+   *  1. assembly of the dam: base(), add_stiffness(), add_mass(),
+   *  2. before the run: delay(), check(), report(), about_steps(),
+   *  3. static state: static_springs(), static_feet(), and settle() for each load stage,
+   *  4. start of the dynamic analysis: start(), support(), watch(),
+   *  5. time step: advance(), base_velocity(), step of the dam by Newmark, follow(),
+   *  6. after the time step: energies(), trouble_of_energy(), trouble_of_motion(). */
+  class Foundation : public FoundationSetup, public BaseSupport, public Neighbour
+  {
   };
 } // namespace Voussoir
 

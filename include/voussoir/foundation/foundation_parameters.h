@@ -7,13 +7,10 @@
 
 #include <string>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Voussoir
 {
+  class Entries;
+
   /** Parameters of the subsection "Foundation" of the input file. */
   struct FoundationParameters
   {
@@ -34,7 +31,7 @@ namespace Voussoir
     bool has_own_steps() const { return coupling == "mean traction" || (coupling == "auto" && substeps > 1); }
 
     /** Declares the entries of the subsection. */
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
 
     /** Returns the materials of the zones by name. Throws the InputErrors of Voussoir::zone_materials(). */
     std::map<std::string, Material> zone_materials() const;
@@ -46,6 +43,8 @@ namespace Voussoir
     HexMesh volumes_by_material(const HexMesh &mesh) const;
 
   private:
+    void add_materials(Entries &prm);
+
     /** Returns the volume id of a zone. Zones of equal material have the same id. */
     int volume_of(const std::string &zone) const;
   };

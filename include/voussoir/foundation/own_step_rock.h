@@ -23,7 +23,6 @@ namespace Voussoir
     Base        base() const override { return Base::led; }
     void        add_mass(Structure &) const override {} ///< none: the mass stays in the rock
     std::string about_steps() const override;
-    double      add_interface_mass(Structure &, const TimeGrid &) const override { return 0.; }
     Support    *support(Structure &structure) override;
 
     /** Checks as ExplicitRock does. Throws InputError, too, if there are fewer element layers between base

@@ -30,7 +30,7 @@ namespace Voussoir
     /** Returns the number of aggregates. */
     unsigned int n() const { return static_cast<unsigned int>(members.size()); }
 
-    /** Returns the aggregate of a node, or @p none if the node is held. */
+    /** Returns the aggregate of a node, or RockAggregates::none if the node is held. */
     unsigned int of_node(const unsigned int node) const { return group[node]; }
 
     /** Returns the nodes of an aggregate, ascending. */

@@ -6,6 +6,8 @@
 
 namespace Voussoir
 {
+  class Entries;
+
   /** Parameters of the rock around arch210, subsection "Mesh/Arch210/Rock". The rock is a block with a valley
    * along x. The cross section of the valley is arch210_valley(). */
   struct Arch210RockParameters
@@ -16,7 +18,7 @@ namespace Voussoir
     double element_size = 22;                ///< far from the dam [m]
     unsigned int n_layers = 6;               ///< layers of equal elements along the artificial boundary
 
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
 
     /** Throws InputError if a number is out of range. */
     void check() const;

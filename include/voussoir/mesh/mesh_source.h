@@ -9,6 +9,8 @@
 
 namespace Voussoir
 {
+  class Entries;
+
   /** Source of the mesh: subsection "Mesh" of the input file. */
   struct MeshParameters
   {
@@ -20,7 +22,7 @@ namespace Voussoir
     Arch210Parameters     arch210;
     Arch210RockParameters arch210_rock;
 
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
 
     /** Throws InputError if source is "file" and file is empty, if axes is not three different axes, or if
      * the parameters of arch210 are wrong. */

@@ -30,10 +30,6 @@ namespace Voussoir
     /** Returns the acceleration at t = @p k dt [m/s^2]. It is zero after the last sample. */
     std::array<double, 3> sample(std::size_t k) const;
 
-    /** Returns the acceleration at the time @p t [s] by linear interpolation [m/s^2], zero outside the
-     * duration of the motion. */
-    std::array<double, 3> at(double t) const;
-
     /** Returns all samples of one component [m/s^2]. @p direction: 0, 1 or 2 for x, y or z. */
     std::vector<double> component(unsigned int direction) const;
 

@@ -7,13 +7,10 @@
 #include <array>
 #include <string>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Voussoir
 {
+  class Entries;
+
   /** Envelope of an artificial motion: (t / rise_end)^2, then 1, then exp(-decay_rate (t - decay_begin)). */
   struct MotionEnvelope
   {
@@ -49,7 +46,7 @@ namespace Voussoir
     double         decay_rate = automatic;     ///< [1/s]
     unsigned int   matching_iterations = 20;   ///< largest number of passes of match_spectrum()
 
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(Entries &prm);
 
     /** Checks the entries. Throws InputError with the name of a wrong entry. */
     void check() const;
@@ -76,8 +73,8 @@ namespace Voussoir
     double target(unsigned int direction, double period) const;
 
   private:
-    void add_file_parameters(dealii::ParameterHandler &prm);
-    void add_artificial_parameters(dealii::ParameterHandler &prm);
+    void add_file_parameters(Entries &prm);
+    void add_artificial_parameters(Entries &prm);
   };
 
   /** Acceptance criteria of ground motions. Those of artificial motions follow Chinese hydraulic practice. */

@@ -41,7 +41,7 @@ namespace Voussoir
 
     /** Makes foundation and time integration ready for the first step from the static state. @p parameters:
      * of the contact solver. */
-    void start(const ContactParameters &parameters, Log &log);
+    void start(const ContactParameters &parameters);
 
     /** Loads at the end of the next step, without those of the foundation, 3 per node [N]. */
     Unknowns next_load() const;

@@ -60,8 +60,6 @@ namespace Voussoir
 
     /** Fixes the given components, with the index 3 node + component. */
     void fix(const std::vector<unsigned int> &components);
-    /** Fixes all three components of the given nodes. */
-    void fix_nodes(const std::vector<unsigned int> &nodes);
 
     /** Declares nodes whose motion the caller prescribes. The region ignores their masses. Throws InputError
      * if the nodes are too close to the artificial boundary. */
@@ -109,9 +107,6 @@ namespace Voussoir
     const Unknowns &displacement() const { return u; } ///< displacement u at t, three values per node [m]
     /** Returns w = (u(t + dt) - u(t)) / dt, three values per node [m/s]. */
     const Unknowns &half_step_velocity() const { return w; }
-    /** Returns the velocity at time(), three values per node [m/s]. The values of prescribed nodes belong to
-     * half a step earlier. */
-    Unknowns velocity() const;
 
     /** Returns the largest stable time step of the region, with damping [s]. */
     double critical_time_step() const { return dt_critical; }

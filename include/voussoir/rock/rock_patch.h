@@ -37,7 +37,6 @@ namespace Voussoir
     const std::vector<unsigned int> &nodes() const { return node; } ///< nodes of the region in the patch
 
     unsigned int n_feet() const { return n_layer[0]; } ///< number of base nodes
-    double       memory() const;                       ///< memory consumption [bytes]
 
   private:
     void add_layers(const RockModel &model, unsigned int n_steps);

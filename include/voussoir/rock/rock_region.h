@@ -15,12 +15,6 @@ namespace Voussoir
   std::unique_ptr<ExplicitRegion> make_region(const RockModel &model, const RockRegionParameters &parameters,
                                               RockSplit split = RockSplit());
 
-  /** Returns the growth of noise, as a stability check: the kinetic energy of the region after @p n_steps
-   * steps from random motion, relative to that after a tenth of the steps. The result of a stable region is
-   * below 1. @p fixed: components without motion, with the index 3 node + component. */
-  double noise_growth(const RockModel &model, const RockRegionParameters &parameters,
-                      unsigned int n_steps = 2000, const std::vector<unsigned int> &fixed = {});
-
   /** Returns the parameters of the sections of the free field. They equal those of the region, except for a
    * reflecting boundary. It is replaced by the default boundary, because scattered waves must
    * leave the sections. */

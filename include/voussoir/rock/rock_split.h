@@ -27,8 +27,9 @@ namespace Voussoir
     bool is_trivial() const { return steps.empty(); }
     /** Returns the process that owns @p node. */
     unsigned int owner(unsigned int node) const;
-    /** Returns true if this process, or the process @p rank, integrates @p node. */
+    /** Returns true if this process integrates @p node. */
     bool is_stepped(const unsigned int node) const { return steps[Ranks::rank()][node]; }
+    /** Returns true if the process @p rank integrates @p node. */
     bool is_stepped(const unsigned int node, const unsigned int rank) const { return steps[rank][node]; }
 
     /** Returns for each node whether this process integrates it. */
