@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <voussoir/base/error.h>
 
 namespace Voussoir
 {

@@ -88,8 +88,7 @@ namespace Voussoir
       Vector<double> &phi = eigenvectors[k], Mphi(n);
       mass.vmult(Mphi, phi);
       phi /= std::sqrt(phi * Mphi);
-      modes.push_back({std::sqrt(eigenvalues[k].real()) / (2. * M_PI),
-                       Unknowns(phi.begin(), phi.end())});
+      modes.push_back({std::sqrt(eigenvalues[k].real()) / (2. * M_PI), Unknowns(phi.begin(), phi.end())});
     }
     std::sort(modes.begin(), modes.end(),
               [](const NaturalMode &a, const NaturalMode &b) { return a.frequency < b.frequency; });

@@ -23,8 +23,8 @@ namespace Voussoir
     const double det = x * (y * z - double(s[4]) * s[4]) - s[3] * (double(s[3]) * z - double(s[4]) * s[5]) +
                        s[5] * (double(s[3]) * s[4] - y * s[5]);
     const double angle = std::acos(std::clamp(det / (2. * p * p * p), -1., 1.)) / 3.;
-    return {{float(mean + 2. * p * std::cos(angle)),
-             float(mean + 2. * p * std::cos(angle + 2. * M_PI / 3.))}};
+    return {
+        {float(mean + 2. * p * std::cos(angle)), float(mean + 2. * p * std::cos(angle + 2. * M_PI / 3.))}};
   }
 
   StressRecovery::StressRecovery(const SolidModel &model, const std::vector<Material> &materials,
