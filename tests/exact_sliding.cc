@@ -174,7 +174,7 @@ namespace
       message = error.what();
     }
     report("a law that needs the rule mean-force: " + message, 0., "-",
-           message.find("mean-force (Dynamics/Impact)") != std::string::npos &&
+           message.find("\"Dynamics/Impact\" to mean-force") != std::string::npos &&
                message.find("cohesive") == std::string::npos);
   }
 

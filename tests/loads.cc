@@ -600,7 +600,7 @@ namespace
       expect_error([&] { add_concentrated(model, loads, load); },
                    {"Loads/Concentrated", "\"far\"", "from the dam"});
       loads.concentrated = {{"foot", "0 10 0 1 0 0"}};
-      expect_error([&] { add_concentrated(model, loads, load); }, {"\"foot\"", "held"});
+      expect_error([&] { add_concentrated(model, loads, load); }, {"\"foot\"", "fixed base"});
       loads.concentrated = {{"short", "0 10 0 1 0"}};
       expect_error([&] { loads.check(); }, {"\"short\"", "six numbers"});
       loads.concentrated.clear();

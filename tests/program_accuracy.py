@@ -193,7 +193,7 @@ def asked_for(accuracy, np):
         ladder.start(accuracy.FIRST, {}, Path("nowhere"))
         raise AssertionError("the scene itself is run with other steps")
     except accuracy.InputError as error:
-        expect(str(error).endswith("says: Beyond. Raise \"Dynamics/Steps per sample\" to 12 or \"Foundation/Substeps\" to 7, "
+        expect(str(error).endswith("failed: Beyond. Raise \"Dynamics/Steps per sample\" to 12 or \"Foundation/Substeps\" to 7, "
                                    "or larger elements."), str(error))
     ladder.areas[accuracy.FIRST] = np.array([3., 1.])
     for name, size in ((accuracy.FIRST, 1.), ("fine", 2.), ("wish", 8.)):

@@ -201,7 +201,7 @@ def joints():
     first = min(i for i, (m, _) in enumerate(hexes) if m == 2)
     half = [(1 if m == 2 and (i - first) % n_up == 0 else m, c) for i, (m, c) in enumerate(hexes)]
     meshes.write("half.msh", nodes, half, quads)
-    refused([scene("half", "half.msh", Joints={"Model": "FJA"})], "half.msh", "monolith 2", '"base"', "reach")
+    refused([scene("half", "half.msh", Joints={"Model": "FJA"})], "half.msh", "monolith 2", '"base"', "Extend")
     refused([scene("half", "half.msh", Joints={"Model": "FJA"}), "--validate"], "monolith 2", '"base"')
     runs(scene("half", "half.msh", Joints={"Model": "tied"}, Statics={"Self-weight": "monolithic"}), "--validate")
 

@@ -242,7 +242,7 @@ namespace
         {"subsection Statics\nset Gravity = 0\nend\n", {"Statics/Gravity", "is 0 m/s^2"}},
         {"subsection Loads\nset Combinations = odd: weight, water -1, earthquake -1\nset Combination = "
          "odd\nend\n",
-         {"Loads/Combination is odd, with water -1:"}},
+         {"Loads/Combination is odd, with water -1."}},
         {"subsection Reservoir\nset Water level = 150000\nend\n", {"Reservoir/Water level"}}};
     expect_warnings(cases);
   }
@@ -308,7 +308,7 @@ namespace
         {level("Silt", "60"), {}},
         {level("Silt", "196"), {"Loads/Silt/Level is 196 m, above the reservoir", "under water"}},
         {loads + named + end,
-         {"flood names loads that the scene does not have: silt, crest line", "Loads/Silt/Level",
+         {"flood contains loads that are not defined: silt, crest line", "Loads/Silt/Level",
           "Loads/Crest line"}},
         {loads + "set Crest line = 0 0 -1e4\n" + named + "subsection Silt\nset Level = 60\nend\n" + end, {}},
         {loads + "set Combination = extreme\n" + end, {}},
