@@ -37,9 +37,7 @@ namespace Voussoir
      * area if the force is twice the mean over the step (impact rule mean-force). The quotient is
      * then the mean stress. */
     double area = 1.;
-    bool   is_mean =
-        false; ///< JointLaw::n_memory() history variables of the pair: those at the start of the step,
-               ///< changed by the events of this step. Laws without history variables ignore the pointer.
+    bool   is_mean = false; ///< true: forces are means over the step; false: forces at its end
 
     /** JointLaw::n_memory() history variables of the pair: those at the start of the step, changed by the
      * events of this step. Null if the law has none. */
