@@ -20,25 +20,83 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double block = 9 * 8. + 4.; // sparse matrix: 3 x 3 numbers and a column index [bytes]
+    constexpr unsigned int none = static_cast<unsigned int>(-1);
+    constexpr double       block = 9 * 8. + 4.; // of a sparse matrix: 3 x 3 numbers and a column [bytes]
 
-    // Measured by tests/program_memory.py [bytes].
+    // Measured, see tests/program_memory.py [bytes].
     constexpr double program = 178e6, per_cell = 700., per_node = 700., per_rock_node = 2100.;
 
-    /** Ratios of sizes with elements of degree 2 to those with degree 1: nodes, blocks of matrices, entries
-     * of factors, and squared number of surface nodes. */
+    /** How much more there is with elements of degree 2: nodes, blocks, entries of factors, and of what lies
+     * on surfaces, squared. */
     struct Growth
     {
-      double nodes, blocks, entries, surface;
+      explicit Growth(const unsigned int degree)
+      {
+        if (degree == 2)
+          nodes = 8., blocks = 19., entries = 32., surface = 16.;
+      }
+      double nodes = 1., blocks = 1., entries = 1., surface = 1.;
     };
-    Growth growth_of(const unsigned int degree)
+
+    /** The nodes of some cells, their neighbours, and which of them are in pairs. */
+    struct Graph
     {
-      return degree == 2 ? Growth{8., 19., 32., 16.} : Growth{1., 1., 1., 1.};
+      std::vector<std::vector<unsigned int>> neighbours;
+      std::vector<bool>                      is_interface;
+      std::vector<unsigned int>              place; ///< of the nodes in the mesh
+      double                                 n_blocks() const
+      {
+        double sum = 0.;
+        for (const auto &row : neighbours)
+          sum += row.size();
+        return sum;
+      }
+    };
+
+    /** Of the cells that @p counts, without the nodes that are @p held. */
+    Graph graph_of(const HexMesh &mesh, const std::function<bool(const HexMesh::Cell &)> &counts,
+                   const std::vector<bool> &held, const std::vector<bool> &in_pair)
+    {
+      Graph                     graph;
+      std::vector<unsigned int> number(mesh.nodes.size(), none);
+      for (const HexMesh::Cell &cell : mesh.cells)
+        for (unsigned int v = 0; v < 8 && counts(cell); ++v)
+          if (const unsigned int node = cell.nodes[v]; !held[node] && number[node] == none)
+          {
+            number[node] = graph.neighbours.size();
+            graph.neighbours.emplace_back();
+            graph.is_interface.push_back(in_pair[node]);
+            graph.place.push_back(node);
+          }
+      for (const HexMesh::Cell &cell : mesh.cells)
+        if (counts(cell))
+          for (const unsigned int a : cell.nodes)
+            for (const unsigned int b : cell.nodes)
+              if (number[a] != none && number[b] != none)
+              {
+                auto &row = graph.neighbours[number[a]];
+                if (std::find(row.begin(), row.end(), number[b]) == row.end())
+                  row.push_back(number[b]);
+              }
+      for (auto &row : graph.neighbours)
+        std::sort(row.begin(), row.end());
+      return graph;
     }
 
-    bool is_rock(const HexMesh::Cell &cell)
+    /** Massless rock makes all nodes of the base neighbours. */
+    void couple(const std::vector<bool> &on_base, Graph &graph)
     {
-      return !is_monolith(cell.volume);
+      std::vector<unsigned int> base;
+      for (unsigned int i = 0; i < graph.place.size(); ++i)
+        if (on_base[graph.place[i]])
+          base.push_back(i);
+      for (const unsigned int i : base)
+      {
+        std::vector<unsigned int> &row = graph.neighbours[i];
+        row.insert(row.end(), base.begin(), base.end());
+        std::sort(row.begin(), row.end());
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+      }
     }
 
     std::vector<bool> nodes_on(const HexMesh &mesh, const std::function<bool(int)> &surface)
@@ -50,87 +108,79 @@ namespace Voussoir
       return result;
     }
 
-    std::vector<bool> nodes_on(const HexMesh &mesh, const int id)
+    bool is_rock(const HexMesh::Cell &cell)
     {
-      return nodes_on(mesh, [&](const int surface) { return surface == id; });
+      return !is_monolith(cell.volume);
     }
 
-    /** Neighbours of the nodes of some cells, and which nodes are in pairs. */
-    struct Graph
-    {
-      std::vector<std::vector<unsigned int>> neighbours;
-      std::vector<bool>                      is_interface;
-      double n_blocks = 0., n_feet = 0.; ///< n_feet: interface nodes of the base
-    };
-
-    /** Returns the graph of the cells for which @p counts is true, without the fixed nodes @p held. */
-    Graph graph_of(const HexMesh &mesh, const std::function<bool(const HexMesh::Cell &)> &counts,
-                   const std::vector<bool> &held, const std::vector<bool> &in_pair,
-                   const std::vector<bool> &on_base)
-    {
-      Graph                     graph;
-      constexpr unsigned int    none = static_cast<unsigned int>(-1);
-      std::vector<unsigned int> number(mesh.nodes.size(), none);
-      for (const HexMesh::Cell &cell : mesh.cells)
-        for (unsigned int v = 0; v < 8 && counts(cell); ++v)
-          if (const unsigned int node = cell.nodes[v]; !held[node] && number[node] == none)
-          {
-            number[node] = graph.neighbours.size();
-            graph.neighbours.emplace_back();
-            graph.is_interface.push_back(in_pair[node]);
-            graph.n_feet += in_pair[node] && on_base[node];
-          }
-      for (const HexMesh::Cell &cell : mesh.cells)
-        for (unsigned int v = 0; v < 8 && counts(cell); ++v)
-          if (const unsigned int i = number[cell.nodes[v]]; i != none)
-            for (const unsigned int node : cell.nodes)
-              if (number[node] != none)
-                graph.neighbours[i].push_back(number[node]);
-      for (auto &row : graph.neighbours)
-      {
-        std::sort(row.begin(), row.end());
-        row.erase(std::unique(row.begin(), row.end()), row.end());
-        graph.n_blocks += row.size();
-      }
-      return graph;
-    }
-
-    /** Entries of factors and joint operators of one size of time steps [8 bytes]. */
+    /** Factors and joint operators of one size of steps, and what belongs to them. */
     struct Factors
     {
-      double entries = 0., dense = 0.,
-             kept = 0.; ///< of the factors; flexibilities of interfaces before and after W
-      double operators = 0., diagonal = 0.; ///< of W, and of its blocks of single joints
-      double feet = 0.;                     ///< elimination of base nodes
-      double share = 1.;                    ///< largest share of a rank, except the base nodes
+      double entries = 0.;   ///< of the factors
+      double dense = 0.;     ///< of the interfaces' flexibilities, until W is there
+      double kept = 0.;      ///< of these afterwards
+      double operators = 0.; ///< of W
+      double diagonal = 0.;  ///< of W's own blocks of the joints
+      double feet = 0.;      ///< of what eliminates feet on rock with steps of its own, or without mass
+      double share = 1.;     ///< of all this but the feet's, the largest of a rank
     };
 
-    /** Adds the joint operator. @p held: nodes without unknowns. */
-    void add_operator(const HexMesh &opened, const std::vector<Joint> &joints, const std::vector<bool> &held,
-                      const double growth, Factors &factors)
+    /** Those of FootElimination: the feet's flexibility and its factor, and what couples feet and joints. */
+    double of_feet(const Graph &body, const std::vector<bool> &on_base)
     {
-      std::vector<double> m; // unknowns of each joint: three per node on its side 1
-      for (const Joint &joint : joints)
-      {
-        const std::vector<bool> on_side = nodes_on(opened, PhysicalId::joint_side_1 + joint.number);
-        m.push_back(0.);
-        for (std::size_t i = 0; i < held.size(); ++i)
-          m.back() += on_side[i] && !held[i] ? 3. : 0.;
-      }
+      double feet = 0., joints = 0.;
+      for (unsigned int i = 0; i < body.place.size(); ++i)
+        (on_base[body.place[i]] ? feet : joints) += body.is_interface[i];
+      return 9. * feet * (2. * feet + joints);
+    }
+
+    /** Of massless rock, which couples all feet: what eliminates them, and its factor. */
+    double of_dense_feet(const std::vector<bool> &on_base)
+    {
+      const double unknowns = 3. * std::count(on_base.begin(), on_base.end(), true);
+      return 2. * unknowns * unknowns;
+    }
+
+    /** @p m: unknowns of each joint. */
+    void add_operator(const std::vector<Joint> &joints, const std::vector<double> &m, Factors &factors)
+    {
       for (std::size_t j = 0; j < joints.size(); ++j)
-      {
-        factors.diagonal += growth * m[j] * m[j];
         for (std::size_t k = j; k < joints.size(); ++k)
         {
           const Joint &a = joints[j], &b = joints[k];
           if (a.monolith_1 == b.monolith_1 || a.monolith_1 == b.monolith_2 || a.monolith_2 == b.monolith_1 ||
               a.monolith_2 == b.monolith_2)
-            factors.operators += growth * m[j] * m[k];
+            factors.operators += m[j] * m[k];
+          if (j == k)
+            factors.diagonal += m[j] * m[k];
         }
-      }
     }
 
-    /** Returns the largest sum of @p of_body of a rank, divided by the sum of all. */
+    /** Unknowns of each joint: three for each node on its side 1. */
+    std::vector<double> joint_unknowns(const HexMesh &opened, const std::vector<Joint> &joints,
+                                       const std::vector<bool> &held)
+    {
+      std::vector<double> m;
+      for (const Joint &joint : joints)
+      {
+        std::set<unsigned int> nodes;
+        for (const HexMesh::Face &face : opened.faces)
+          if (face.surface == PhysicalId::joint_side_1 + joint.number)
+            for (const unsigned int node : face.nodes)
+              if (!held[node])
+                nodes.insert(node);
+        m.push_back(3. * nodes.size());
+      }
+      return m;
+    }
+
+    bool all_tied(const Scene &scene, const std::vector<Joint> &joints)
+    {
+      return std::all_of(joints.begin(), joints.end(),
+                         [&](const Joint &joint) { return scene.joints.model_of(joint.number) == "tied"; });
+    }
+
+    /** Of a rank, over the sum. */
     double largest_share(const std::vector<double> &of_body)
     {
       const Shares        shares(of_body);
@@ -141,86 +191,87 @@ namespace Voussoir
       return sum > 0. ? *std::max_element(of_rank.begin(), of_rank.end()) / sum : 1.;
     }
 
-    /** Returns the memory of the dam's matrices [bytes], and its factors in @p factors. */
+    /** The dam: its matrices, and its factors in @p factors. */
     double of_dam(const Scene &scene, const HexMesh &mesh, Factors &factors)
     {
-      const FoundationParameters &p = scene.foundation;
-      const HexMesh               opened = open_joints(monoliths_only(mesh));
-      const std::vector<Joint>    joints = joints_of(opened);
-      const bool                  tied =
-          std::all_of(joints.begin(), joints.end(),
-                      [&](const Joint &joint) { return scene.joints.model_of(joint.number) == "tied"; });
-      const HexMesh           dam = tied ? close_joints(opened) : opened;
-      const bool              massless = p.model == "massless", one_body = Dam::is_one_body(scene, tied);
-      const bool              led = (p.model == "rock" && p.has_own_steps()) || (massless && !one_body);
-      const std::vector<bool> on_base = nodes_on(dam, PhysicalId::base),
-                              held = p.model == "rigid" ? on_base : std::vector<bool>(on_base.size(), false),
-                              in_pair = nodes_on(
-                                  dam, [&](const int surface)
-                                  { return is_joint_side(surface) || (led && surface == PhysicalId::base); });
+      const HexMesh            opened = open_joints(monoliths_only(mesh));
+      const std::vector<Joint> joints = joints_of(opened);
+      const bool               tied = all_tied(scene, joints);
+      const HexMesh            dam = tied ? close_joints(opened) : opened;
+      const bool massless = scene.foundation.model == "massless", one_body = Dam::is_one_body(scene, tied);
+      const std::vector<bool> on_base =
+          nodes_on(dam, [](const int surface) { return surface == PhysicalId::base; });
+      const std::vector<bool> held =
+          scene.foundation.model == "rigid" ? on_base : std::vector<bool>(dam.nodes.size(), false);
+      const bool led =
+          (scene.foundation.model == "rock" && scene.foundation.has_own_steps()) || (massless && !one_body);
+      const std::vector<bool> in_pair =
+          nodes_on(dam, [&](const int surface)
+                   { return is_joint_side(surface) || (led && surface == PhysicalId::base); });
       std::set<int> volumes;
       for (const HexMesh::Cell &cell : dam.cells)
         volumes.insert(tied || (massless && one_body) ? 1 : cell.volume);
-      const Growth        growth = growth_of(scene.elements.degree);
+      const Growth        growth(scene.elements.degree);
+      double              n_nodes = 0., n_blocks = 0.;
       const bool          single = scene.has_single_factors() && !led;
-      double              bytes = per_cell * dam.cells.size(), largest_factor = 0.;
-      std::vector<double> of_body; // distributed over the ranks
+      std::vector<double> of_body; // what is shared out
+      double              largest_factor = 0.;
       for (const int volume : volumes)
       {
-        const Graph graph = graph_of(
+        Graph graph = graph_of(
             dam, [&](const HexMesh::Cell &cell) { return volumes.size() == 1 || cell.volume == volume; },
-            held, in_pair, on_base);
+            held, in_pair);
+        if (massless && one_body)
+          couple(on_base, graph);
         const FactorSize size = factor_size(graph.neighbours, graph.is_interface, single);
-        const double     entries = growth.entries * size.entries;
-        factors.entries += entries;
-        largest_factor = std::max(largest_factor, entries);
+        factors.entries += growth.entries * size.entries;
+        largest_factor = std::max(largest_factor, growth.entries * size.entries);
         factors.dense += growth.surface * size.interface;
         factors.kept += growth.surface * size.kept;
-        of_body.push_back(entries + growth.surface * (size.kept + 2. * size.interface));
+        of_body.push_back(growth.entries * size.entries + growth.surface * (size.kept + 2. * size.interface));
         if (led)
-        {
-          const double m = std::count(graph.is_interface.begin(), graph.is_interface.end(), true);
-          factors.feet += 9. * graph.n_feet * (graph.n_feet + m);
-        }
-        // Stiffness, a second matrix, and stresses.
-        bytes +=
-            2. * block * growth.blocks * graph.n_blocks + per_node * growth.nodes * graph.neighbours.size();
+          factors.feet += of_feet(graph, on_base);
+        n_nodes += growth.nodes * graph.neighbours.size();
+        n_blocks += growth.blocks * graph.n_blocks();
       }
-      if (single) // each thread computes one factor in double precision at a time
+      if (single) // those in hand are made in double precision, one by each thread
         factors.entries += largest_factor * std::min<std::size_t>(of_body.size(), omp_get_max_threads());
       factors.share = largest_share(of_body);
-      if (massless && led) // couples all base nodes: elimination and factor
-        factors.feet += 18. * std::pow(std::count(on_base.begin(), on_base.end(), true), 2);
+      if (massless && led)
+        factors.feet += of_dense_feet(on_base);
       if (!tied)
-        add_operator(dam, joints, led ? on_base : held, growth.surface, factors);
+        add_operator(joints, joint_unknowns(dam, joints, led ? on_base : held), factors);
+      factors.operators *= growth.surface;
+      factors.diagonal *= growth.surface;
       if (led && !tied)
-        factors.feet += factors.operators; // a second operator during the elimination of base nodes
-      return bytes;
+        factors.feet += factors.operators; // a second one while the feet are eliminated
+      return 2. * block * n_blocks + per_cell * dam.cells.size() + per_node * n_nodes; // stiffness, stress
     }
 
-    /** Returns the memory of massless rock during its condensation: stiffness, factor, dense matrices of the
-     * base [bytes]. */
+    /** Massless rock, while it is condensed: its stiffness, its factor, and what is dense at the base. */
     double of_massless_rock(const HexMesh &mesh, const unsigned int degree)
     {
-      const std::vector<bool> base = nodes_on(mesh, PhysicalId::base);
-      const Graph      rock = graph_of(mesh, is_rock, nodes_on(mesh, PhysicalId::artificial), base, base);
+      const auto nodes = [&](const int id)
+      { return nodes_on(mesh, [&](const int surface) { return surface == id; }); };
+      const Graph      rock = graph_of(mesh, is_rock, nodes(PhysicalId::artificial), nodes(PhysicalId::base));
       const FactorSize size = factor_size(rock.neighbours, rock.is_interface, false);
-      const Growth     growth = growth_of(degree);
-      return growth.blocks * block * rock.n_blocks +
+      const Growth     growth(degree);
+      return growth.blocks * block * rock.n_blocks() +
              8. * (growth.entries * size.leading + growth.surface * 3. * size.interface);
     }
 
-    /** Returns the memory of rock with mass [bytes]: its stiffness and, at the peak, the static state, whose
-     * coarse levels are on the first rank. @p others: memory of each other rank. */
+    /** Rock with mass: its stiffness and, at the peak, the static state, of which the first rank has the
+     * coarse levels; @p others receives that of each other rank. */
     double of_rock(const Scene &scene, const HexMesh &mesh, double &others)
     {
       const std::vector<bool> no(mesh.nodes.size(), false);
-      const Graph             rock = graph_of(mesh, is_rock, no, no, no);
-      double                  n_blocks = rock.n_blocks;
-      if (scene.foundation.nodal_everywhere) // no coupling along the diagonals of cells
+      const Graph             rock = graph_of(mesh, is_rock, no, no);
+      double                  n_blocks = rock.n_blocks();
+      if (scene.foundation.nodal_everywhere) // does not couple the ends of a cell's diagonals
         n_blocks -= 8. * std::count_if(mesh.cells.begin(), mesh.cells.end(), is_rock);
-      const double part = 1. / Ranks::size(), matrix = block * n_blocks; // see make_rock_part()
-      const bool   is_shared = scene.foundation.nodal_everywhere && scene.foundation.layers_at_dam <= 10;
+      const double part = 1. / Ranks::size(), matrix = block * n_blocks; // kept of it: see make_rock_part()
+      constexpr unsigned int few = 10;                                   // layers, whose rows all ranks keep
+      const bool   is_shared = scene.foundation.nodal_everywhere && scene.foundation.layers_at_dam <= few;
       const double kept = is_shared ? std::min(1., part + .13) : 1.;
       const double all = per_rock_node * rock.neighbours.size() - (1. - kept) * matrix;
       others = all + .1 * matrix;
@@ -233,7 +284,7 @@ namespace Voussoir
     Factors      factors;
     MemoryNeed   need;
     const double dam = of_dam(scene, mesh, factors);
-    // Operator in double and single precision; inverses and LU factors of the diagonal blocks in single.
+    // Of the operator also single precision; inverses and LU factors of the joints' blocks in that, too.
     need.halved_step =
         factors.share *
             (8. * factors.entries + std::max(8. * factors.dense, 8. * factors.kept + 12. * factors.operators +
@@ -246,7 +297,7 @@ namespace Voussoir
       need.run += of_rock(scene, mesh, others);
       need.of_others += others;
     }
-    else if (scene.foundation.model == "massless") // before the factors of the dam exist
+    else if (scene.foundation.model == "massless") // before the dam has factors
       need.run = need.of_others =
           std::max(need.run, program + dam + of_massless_rock(mesh, scene.elements.degree));
     return need;
@@ -257,7 +308,7 @@ namespace Voussoir
     constexpr double gib = 1024. * 1024. * 1024.;
     char             others[60] = "", text[200];
     if (Ranks::size() > 1)
-      std::snprintf(others, sizeof(others), " for the first rank, %.2f GiB for each other rank",
+      std::snprintf(others, sizeof(others), " for the first rank, %.2f GiB for each other one",
                     need.of_others / gib);
     std::snprintf(text, sizeof(text), "about %.2f GiB%s, and %.2f GiB more for each halving of a step",
                   need.run / gib, others, need.halved_step / gib);
@@ -270,7 +321,7 @@ namespace Voussoir
     {
       return "There is not enough memory: this scene needs " +
              in_words(memory_need(scene, make_mesh(scene.mesh, scene.directory))) +
-             ". Use fewer elements, or a machine with more memory.";
+             ". Use fewer elements, or a machine that has as much.";
     }
     catch (const std::bad_alloc &)
     {

@@ -9,7 +9,7 @@ namespace Voussoir
   {
     if (run.scene().output.block_forces)
       list.push_back(&blocks.emplace(run));
-    if (run.scene().error_estimate && run.n_steps > 1)
+    if (run.scene().error_estimate)
       list.push_back(&time_error.emplace(run, joints.joints, stresses, log));
     list.insert(list.end(), {&stresses, &fields});
   }

@@ -110,7 +110,7 @@ namespace Voussoir
         memory[0] = 0.;
         if (seat > 0.)
           memory[2 * n_beside() + 1] =
-              !is_out(gap) ? 0. : (is_out(past.start) ? left_with : depth_at_end(gap));
+              !is_out(gap) ? 0. : (is_out(past.start) ? left_with : depth_at_exit(past.start, gap));
         for (std::size_t k = 1; k < surfaces.size() && seat > 0.; ++k)
         {
           const bool    carries = !is_out(gap) && k < now.surfaces.size();
@@ -159,6 +159,15 @@ namespace Voussoir
       /** Returns the penetration at the ends of the flanks [m]. Positive: the key is above a crest. */
       double depth_at_end(const Vector3 &gap) const { return depth({{height, gap[1], gap[2]}}); }
 
+      /** Returns the penetration of the flanks where a step from @p start in the socket to @p end outside of
+       * it reaches the height [m]. The path of the step is straight. */
+      double depth_at_exit(const Vector3 &start, const Vector3 &end) const
+      {
+        const double rise = end[0] - start[0];
+        const double s = rise > 0. ? std::min(1., std::max(0., (height - start[0]) / rise)) : 1.;
+        return depth_at_end({{0., start[1] + s * (end[1] - start[1]), start[2] + s * (end[2] - start[2])}});
+      }
+
       /** Returns true if a key out of its socket is above a crest. The tolerance is round-off and the
        *  compression of the flank when the key left its socket. */
       bool is_out_of_line(const Vector3 &gap, const PairPast &past) const
@@ -169,7 +178,8 @@ namespace Voussoir
       /** Returns the compression of a flank when the key left its socket [m]. */
       double compression_of(const PairPast &past) const
       {
-        return seat > 0. && past.memory ? std::max(0., past.memory[2 * n_beside() + 1]) : 0.;
+        return seat > 0. && n_beside() > 0 && past.memory ? std::max(0., past.memory[2 * n_beside() + 1])
+                                                          : 0.;
       }
 
       /** Returns the possible contact in the step from past.start, after the events so far. */

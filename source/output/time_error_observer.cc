@@ -11,6 +11,8 @@ namespace Voussoir
                                        StressObserver &stresses, Log &log)
       : run(run), joints(joints), stresses(stresses), log(log)
   {
+    if (run.n_steps == 0)
+      return;
     const Scene      &scene = run.scene();
     ContactParameters parameters = scene.contact;
     parameters.write_problems = false;
@@ -54,7 +56,7 @@ namespace Voussoir
 
   void TimeErrorObserver::report(Log &log) const
   {
-    if (!companion)
+    if (!has_estimate())
       return;
     const TimeError error = this->error();
     if (!run.dam->structure.pairs.empty())
@@ -80,7 +82,7 @@ namespace Voussoir
 
   void TimeErrorObserver::save(boost::archive::binary_oarchive &archive) const
   {
-    const bool is_estimating = has_estimate();
+    const bool is_estimating = companion != nullptr;
     archive << is_estimating;
     if (!is_estimating)
       return;

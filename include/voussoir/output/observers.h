@@ -159,7 +159,7 @@ namespace Voussoir
     void load(boost::archive::binary_iarchive &archive) override;
 
     /** Returns false if the comparison run has failed. */
-    bool has_estimate() const { return companion != nullptr; }
+    bool has_estimate() const { return companion != nullptr && run.n_steps > 1; }
 
     /** Returns "error_estimate" of summary.json. */
     Json json() const;
