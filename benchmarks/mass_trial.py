@@ -3,7 +3,7 @@
 """The trial of a consistent mass inside the monoliths and a lumped one at the joints' nodes: frequencies, and error of openings
 and tension on three meshes, against the lumped mass.
 
-    git apply benchmarks/mass_trial.patch     (fits the sources of 0.3.0; else --3way), build, then
+    git apply benchmarks/mass_trial.patch     (fits the sources of version 0.3.0 only), build, then
     benchmarks/mass_trial.py [--seconds 3] [--voussoir PROGRAM]
 
 The patched program takes from the environment which share of the consistent mass it adds and of the lumped one it leaves out:

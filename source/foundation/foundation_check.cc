@@ -84,11 +84,12 @@ namespace Voussoir
     if (!(rock_dt <= dt_critical)) // or not a number
     {
       std::ostringstream message;
-      message
-          << beyond_critical_step(rock_dt, dt_critical) << " Increase \"Dynamics/Steps per sample\" to "
-          << std::ceil(steps_per_sample * rock_dt / dt_critical) << " or \"Foundation/Substeps\" to "
-          << std::ceil(steps.dt / dt_critical)
-          << " (with \"Foundation/Coupling\" = auto and \"Dynamics/Impact\" = mean-force), enlarge the rock elements, or reduce \"Foundation/Stiffness damping\".";
+      message << beyond_critical_step(rock_dt, dt_critical) << " Increase \"Dynamics/Steps per sample\" to "
+              << std::ceil(steps_per_sample * rock_dt / dt_critical) << " or \"Foundation/Substeps\" to "
+              << std::ceil(steps.dt / dt_critical)
+              << " (with \"Foundation/Coupling\" = auto and "
+                 "\"Dynamics/Impact\" = mean-force), enlarge the rock elements, or reduce "
+                 "\"Foundation/Stiffness damping\".";
       throw InputError(message.str());
     }
     check_stability(steps);
