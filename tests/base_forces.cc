@@ -355,7 +355,7 @@ namespace
       scene.statics.self_weight = weighing;
       Dam              dam(scene);
       const BaseForces forces(dam);
-      JointSystem      system(dam.structure, JointLaws(), ContactParameters(), 0., 1., 0.);
+      JointSystem      system(dam.structure, JointLaws(), ContactParameters(), {});
       Unknowns         load(3 * dam.structure.n_nodes(), 0.), u;
       for (const StaticLoad &one : dam.loads)
         for (std::size_t k = 0; k < load.size(); ++k)

@@ -102,7 +102,8 @@ namespace
     Unknowns                               springs(n), b(n), u(n), free(n);
     for (std::size_t i = 0; i < n; ++i)
       springs[i] = i % 7 == 0 ? 1e8 : 0., b[i] = 1e6 * number(random);
-    CondensedBody condensed(structure, body, mass_factor, stiffness_factor, dashpot_factor, springs, single);
+    CondensedBody     condensed(structure, body, {mass_factor, stiffness_factor, dashpot_factor}, springs,
+                                single);
     const std::size_t m = condensed.n_interface();
     expect(m == 3 * body.interface.size(), name + ": size of the interface");
     if (m > 0)

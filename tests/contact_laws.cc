@@ -864,7 +864,7 @@ namespace
     const JointLaws   laws[2] = {laws_of(structure, name[0], mu, k), laws_of(structure, name[1], mu, k)};
     const std::size_t n = structure.pairs.size();
     double            statics = 0.;
-    JointSystem a(structure, laws[0], tight(), 1e6, .8, 0.), b(structure, laws[1], tight(), 1e6, .8, 0.);
+    JointSystem       a(structure, laws[0], tight(), {1e6, .8}), b(structure, laws[1], tight(), {1e6, .8});
     for (unsigned int trial = 0; trial < 5; ++trial)
     {
       Unknowns load(3 * structure.n_nodes()), offset(3 * n), none(3 * n, 0.);

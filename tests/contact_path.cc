@@ -137,7 +137,7 @@ namespace
     {
       ContactParameters parameters;
       parameters.method = method.first;
-      JointSystem system(structure, laws, parameters, 0., 1., 0.);
+      JointSystem system(structure, laws, parameters, {});
       Unknowns    load(3 * structure.n_nodes()), none(3 * n, 0.), force(none), gap, u;
       for (double &f : load)
         f = 1e7 * random_number();

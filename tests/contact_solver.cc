@@ -788,7 +788,7 @@ namespace
     const std::size_t n = structure.pairs.size();
     const double      mu = .4, m_factor = 1e6, k_factor = .8;
     const JointLaws   laws = make_laws(structure, "FJA", mu);
-    JointSystem       system(structure, laws, tight(), m_factor, k_factor, 0.);
+    JointSystem       system(structure, laws, tight(), {m_factor, k_factor});
     for (unsigned int trial = 0; trial < 4; ++trial)
     {
       Unknowns load(3 * structure.n_nodes()), offset(3 * n), start(3 * n, 0.), force(3 * n, 0.), gap, u,

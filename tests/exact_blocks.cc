@@ -84,7 +84,7 @@ namespace
     const JointLaws   laws = make_laws(structure, "FJA", mu);
     ContactParameters contact = tight();
     contact.tolerance = 1e-14; // a single pair may be ten times as far off as their norm
-    JointSystem   system(structure, laws, contact, 0., 1., 0.);
+    JointSystem   system(structure, laws, contact, {});
     ContactResult result = system.solve(load, offset, Unknowns(offset.size(), 0.), force, gap, u);
     const double  scale = -traction[0] * 3. / n;
     for (std::size_t p = 0; p < n; ++p)
@@ -139,7 +139,7 @@ namespace
     const Structure  jointed = with_joints(two, {Material()}),
                     whole = assemble_structure(one, {Material()}, true);
     const JointLaws laws = make_laws(jointed, "tied", 0.), none;
-    JointSystem     system(jointed, laws, tight(), 0., 1., 0.), reference(whole, none, tight(), 0., 1., 0.);
+    JointSystem     system(jointed, laws, tight(), {}), reference(whole, none, tight(), {});
     Unknowns        offset(3 * jointed.pairs.size(), 0.), force = offset, gap, u, v;
     const auto      result =
         system.solve(smooth_load(two, 1e6), offset, Unknowns(offset.size(), 0.), force, gap, u);
@@ -162,7 +162,7 @@ namespace
     SolidModel tied(blocks(2, false), degree);
     tie_joints(tied, 1);
     const Structure merged = assemble_structure(tied, {Material()}, true);
-    JointSystem     plain(merged, none, tight(), 0., 1., 0.);
+    JointSystem     plain(merged, none, tight(), {});
     plain.solve_free(smooth_load(tied, 1e6), v);
     error = 0.;
     for (unsigned int i = 0; i < two.n_nodes(); ++i) // the same nodes in the same order
@@ -176,7 +176,7 @@ namespace
     const SolidModel model(blocks(2, false), 1);
     const Structure  structure = with_joints(model, {Material()});
     const JointLaws  laws = make_laws(structure, "FJB", 0.);
-    JointSystem      system(structure, laws, tight(), 0., 1., 0.);
+    JointSystem      system(structure, laws, tight(), {});
     const auto       n = structure.pairs.size();
     Unknowns         offset(3 * n, 0.), force = offset, gap, u;
     for (std::size_t p = 0; p < n; ++p)

@@ -26,7 +26,7 @@ namespace
     }
     const JointLaws   laws = make_laws(structure, law, .4);
     const double      m_factor = 1e6, k_factor = .8, d_factor = 2e3;
-    JointSystem       system(structure, laws, tight(), m_factor, k_factor, d_factor);
+    JointSystem       system(structure, laws, tight(), {m_factor, k_factor, d_factor});
     const std::size_t n = structure.pairs.size();
     Unknowns          load(3 * structure.n_nodes()), offset(3 * n), force(3 * n, 0.), gap, u, Ku;
     for (double &f : load)
@@ -75,7 +75,7 @@ namespace
     const SolidModel model(blocks(3, false), 1);
     const Structure  structure = with_joints(model, {Material()});
     const JointLaws  laws = make_laws(structure, law, .6);
-    JointSystem      system(structure, laws, ContactParameters(), 1e4, 1., 0.);
+    JointSystem      system(structure, laws, ContactParameters(), {1e4});
     unsigned int     failures = 0, iterations = 0;
     for (unsigned int trial = 0; trial < 100; ++trial)
     {

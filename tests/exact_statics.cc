@@ -98,7 +98,7 @@ namespace
     column.structure.collect_interfaces();
     const double    mu = .6, compression = 4e-4;
     const JointLaws laws = make_laws(column.structure, "FJA", mu);
-    JointSystem     system(column.structure, laws, tight(), 0., 1., 0.);
+    JointSystem     system(column.structure, laws, tight(), {});
     double          normal = 0., tangential = 0.; // flexibilities
     for (const Bar &b : bars)
     {
@@ -139,7 +139,7 @@ namespace
       column.structure.pairs.push_back(wall(node, 2)); // n = z, a = x
     column.structure.collect_interfaces();
     const JointLaws     laws = make_laws(column.structure, "FJA", 1.);
-    JointSystem         system(column.structure, laws, ContactParameters(), 0., 1., 0.);
+    JointSystem         system(column.structure, laws, ContactParameters(), {});
     const double        Fm = .8;
     std::vector<double> path, exact;
     const auto          U = [](const double F) { return F * F / 2.; };

@@ -17,7 +17,7 @@ extern "C"
 
 namespace
 {
-  constexpr double mass_factor = 4e6, stiffness_factor = 1.02; // of a step of 1 ms, with damping
+  constexpr StepOperator step = {4e6, 1.02, 0., 2.}; // step of 1 ms with damping, mean forces
 
   /** Three blocks in a row, which stand on feet at some of their nodes: A u = load + G^T force + L^T
    * foot_force, L u = place - R foot_force. */
@@ -76,12 +76,12 @@ namespace
       {
         const Vector3 Mu = structure.mass[i] * get(u, i);
         for (unsigned int c = 0; c < 3; ++c)
-          Au[3 * i + c] = stiffness_factor * Au[3 * i + c] + mass_factor * Mu[c];
+          Au[3 * i + c] = step.stiffness * Au[3 * i + c] + step.mass * Mu[c];
       }
       return Au;
     }
 
-    /** Of all unknowns, displacements and forces of the feet: A u - L^T f, then L u + R f. */
+    /** Of all unknowns, displacements and forces of the feet: A u - share L^T f, then L u + R f. */
     Unknowns product(const Unknowns &x) const
     {
       const Unknowns u(x.begin(), x.begin() + n_u()), f(x.begin() + n_u(), x.end());
@@ -90,7 +90,7 @@ namespace
       for (std::size_t k = 0; k < f.size(); ++k)
       {
         const std::size_t at = 3 * std::size_t(feet.node[k / 3]) + k % 3;
-        result[at] -= f[k];
+        result[at] -= step.share * f[k];
         result.push_back(u[at] + Rf[k]);
       }
       return result;
@@ -121,8 +121,7 @@ namespace
 
   JointSystem system_of(const Standing &dam, const JointLaws &laws)
   {
-    return JointSystem(dam.structure, laws, tight(), mass_factor, stiffness_factor, 0., ForceMeaning(),
-                       Unknowns(), &dam.feet);
+    return JointSystem(dam.structure, laws, tight(), step, Unknowns(), &dam.feet);
   }
 
   /** What unit forces of the joints open, column by column. */
@@ -138,7 +137,7 @@ namespace
     {
       Unknowns unit(dam.n_u(), 0.);
       Vector3  f{};
-      f[k % 3] = 1.;
+      f[k % 3] = step.share;
       dam.structure.add_pair_force(dam.structure.pairs[k / 3], f, unit);
       std::copy(unit.begin(), unit.end(), x.begin() + k * dam.n());
     }
@@ -169,7 +168,7 @@ namespace
           single = std::max(single, std::abs(block[std::size_t(k) * W.size(g) + i] -
                                              dense[(W.begin(g) + k) * n + W.begin(g) + i]));
     }
-    const JointSystem loose(dam.structure, laws, tight(), mass_factor, stiffness_factor, 0.); // without feet
+    const JointSystem loose(dam.structure, laws, tight(), step); // without feet
     for (std::size_t k = 0; k < n; ++k)
     {
       Unknowns unit(n, 0.), gap;
@@ -205,7 +204,12 @@ namespace
     x.insert(x.end(), feet.force.begin(), feet.force.end());
     Unknowns expected = load;
     for (std::size_t p = 0; p < n / 3; ++p)
-      dam.structure.add_pair_force(dam.structure.pairs[p], get(force, p), expected);
+    {
+      Vector3 f = get(force, p);
+      for (double &x : f)
+        x *= step.share;
+      dam.structure.add_pair_force(dam.structure.pairs[p], f, expected);
+    }
     const double forces = largest(expected), places = largest(feet.place);
     expected.insert(expected.end(), feet.place.begin(), feet.place.end());
     const Unknowns left = dam.product(x);

@@ -67,7 +67,7 @@ namespace
     {
       laws.of_joint.push_back(make_joint_law(law, face_friction, Equations::alart_curnier, keys));
       laws.assign(structure.pairs);
-      system = std::make_unique<JointSystem>(structure, laws, tight(), 0., 1., 0.);
+      system = std::make_unique<JointSystem>(structure, laws, tight(), StepOperator());
       force.assign(3 * structure.pairs.size(), 0.);
       gap = force;
       memory = laws.initial_memory();
@@ -96,7 +96,7 @@ namespace
     }
     void accept()
     {
-      laws.commit(gap, ForceMeaning(), trial_force, trial_gap, memory);
+      laws.commit(gap, false, trial_force, trial_gap, memory);
       force = trial_force;
       gap = trial_gap;
     }

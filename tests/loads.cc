@@ -200,8 +200,7 @@ namespace
   void free_ring()
   {
     Heated      disc(ring(64, 4, .5), 2, heat(10., 30.), 0.);
-    JointSystem system(disc.structure, JointLaws(), ContactParameters(), 1e-3, 1.,
-                       0.); // held by hardly anything
+    JointSystem system(disc.structure, JointLaws(), ContactParameters(), {1e-3}); // held by hardly anything
     Unknowns    u;
     system.solve_free(disc.thermal.load, u);
     const auto   stress = disc.stress(u);
@@ -319,7 +318,7 @@ namespace
       laws.of_joint.push_back(make_joint_law("FJA", LawParameters(.8)));
       laws.assign(structure.pairs);
       load = temperature_load(model, {concrete}, true, heat(10. + dt, 10. + dt), ".").load;
-      system = std::make_unique<JointSystem>(structure, laws, ContactParameters(), 0., 1., 0.);
+      system = std::make_unique<JointSystem>(structure, laws, ContactParameters(), StepOperator());
     }
 
     static HexMesh mesh()

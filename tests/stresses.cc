@@ -273,7 +273,7 @@ namespace
     water.level = 26.;
     Unknowns load(3 * structure.n_nodes(), 0.), u;
     add_water_pressure(model, water, 9.81, load);
-    JointSystem(structure, JointLaws(), ContactParameters(), 0., 1., 0.).solve_free(load, u);
+    JointSystem(structure, JointLaws(), ContactParameters(), {}).solve_free(load, u);
     Scene scene;
     scene.reservoir = water;
     scene.statics.gravity = 9.81;
@@ -315,7 +315,7 @@ namespace
         const Structure structure = assemble_structure(model, {m}, modes);
         Unknowns        load(3 * structure.n_nodes(), 0.), u;
         add_weight(structure, 9.81, load);
-        JointSystem(structure, JointLaws(), ContactParameters(), 0., 1., 0.).solve_free(load, u);
+        JointSystem(structure, JointLaws(), ContactParameters(), {}).solve_free(load, u);
         std::vector<Stress> plain, known;
         StressRecovery(model, {m}, modes).apply(u, {}, plain);
         StressRecovery(model, {m}, modes, {}, true).apply(u, {}, known);

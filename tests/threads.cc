@@ -79,7 +79,7 @@ namespace
     const std::string message = thrown<ComputationError>(
         [&]
         {
-          JointSystem    system(column.structure, laws, ContactParameters(), 0., 1., 0.);
+          JointSystem    system(column.structure, laws, ContactParameters(), {});
           const Unknowns zero(3 * column.structure.pairs.size(), 0.), apart(zero.size(), 1e-3);
           Unknowns       force = zero, gap, u;
           system.solve(column.zero(), apart, zero, force, gap, u);

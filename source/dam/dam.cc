@@ -255,7 +255,7 @@ namespace Voussoir
   {
     Unknowns load(3 * structure.n_nodes(), 0.), u;
     add_weight(structure, scene.loads.factor("weight") * scene.statics.gravity, load);
-    JointSystem system(structure, JointLaws(), ContactParameters(), 0., 1., 0.);
+    JointSystem system(structure, JointLaws(), ContactParameters(), {});
     system.solve_free(load, u);
     StressRecovery(*model, materials, scene.elements.incompatible_modes,
                    scene.output.knows_tractions() ? faces_at_nodes(*model) : std::vector<NodeFace>(),

@@ -84,8 +84,8 @@ namespace Voussoir
         close_pairs(dam.structure, before, grouted, state.u, state.closed, gap);
         ContactParameters of_system = parameters;
         of_system.write_problems = parameters.write_problems && grouted == INFINITY;
-        system = std::make_unique<JointSystem>(dam.structure, laws_up_to(grouted, dam, *free), of_system, 0.,
-                                               1., 0., ForceMeaning(), springs, feet.get());
+        system = std::make_unique<JointSystem>(dam.structure, laws_up_to(grouted, dam, *free), of_system,
+                                               StepOperator(), springs, feet.get());
       }
 
       /** Solves a step, repeatedly until water spreads to no further pair. */

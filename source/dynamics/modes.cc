@@ -49,7 +49,7 @@ namespace Voussoir
     if (2 * n_modes + 2 > n)
       throw InputError("The dam has only " + std::to_string(n) +
                        " unknowns. Reduce the number of modes (--count).");
-    JointSystem    system(structure, JointLaws(), ContactParameters(), 0., 1., 0.);
+    JointSystem    system(structure, JointLaws(), ContactParameters(), {});
     Unknowns       load(n), u;
     const Operator mass{
         [&](Vector<double> &y, const Vector<double> &x)

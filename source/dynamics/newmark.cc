@@ -20,7 +20,8 @@ namespace Voussoir
   Newmark::Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters,
                    const double dt, const ImpactRule rule, Support *support, const bool single_factors)
       : structure(structure), laws(laws), parameters(parameters), rule(rule), support(support),
-        is_single(single_factors && !support), impact(structure, laws, rule)
+        single_factors(single_factors && !support), share(rule == ImpactRule::mean_force ? 2. : 1.),
+        impact(structure, laws, rule), equation(step_equation(structure, share, this->single_factors))
   {
     if (laws.need_mean_force() && rule != ImpactRule::mean_force)
       throw InputError(
@@ -55,8 +56,7 @@ namespace Voussoir
     now.v = v;
     now.load = load;
     now.force = force;
-    now.carried.left.assign(is_single ? u.size() : 0, 0.);
-    now.carried.moved = now.carried.resisted = now.carried.left;
+    equation->start(now);
     structure.multiply_stiffness(now.u, now.Ku);
     account_states();
     const JointEnergy joints = joint_energy();
@@ -115,38 +115,6 @@ namespace Voussoir
     return scale > 0. ? std::abs(now.energy.balance(first)) / scale : 0.;
   }
 
-  /** Returns the right-hand side of a step: the sum of the equations of motion at both ends, in which the
-   * accelerations cancel. S u_new = load + load_old + M (4/dt^2 u + 4/dt v) + 2/dt C u - K u
-   * + G^T (force + force_old), plus the damping by the motion of the base. With factors in single precision
-   * the unknown is u_new - u. S u is then subtracted, and the residual of the last step is added. */
-  Unknowns Newmark::right_hand_side(const double dt, const Unknowns &load, const Vector3 &base_velocity) const
-  {
-    Unknowns     rhs(load.size());
-    const double c_m = is_single ? 0. : 4. / (dt * dt) + 2. / dt * structure.mass_damping,
-                 c_k = is_single ? -2. : 2. / dt * structure.stiffness_damping - 1.;
-#pragma omp parallel for schedule(static)
-    for (int i = 0; i < static_cast<int>(structure.n_nodes()); ++i)
-    {
-      Vector3 x;
-      for (unsigned int c = 0; c < 3; ++c)
-        x[c] = c_m * now.u[3 * i + c] + 4. / dt * now.v[3 * i + c] +
-               structure.mass_damping * (now.base_velocity[c] + base_velocity[c]);
-      const Vector3 Mx = structure.mass[i] * x;
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        const std::size_t k = 3 * i + c;
-        rhs[k] = load[k] + now.load[k] + Mx[c] + c_k * now.Ku[k];
-        if (is_single)
-          rhs[k] += 2. / dt * now.carried.left[k];
-        else if (!structure.dashpots.empty())
-          rhs[k] += 2. / dt * structure.dashpots[k] * now.u[k];
-      }
-    }
-    if (rule != ImpactRule::mean_force) // for mean_force the unknown is the sum of the forces
-      add_joint_forces(now.force, rhs);
-    return rhs;
-  }
-
   ContactResult Newmark::advance(const Unknowns &load, const Vector3 &base_velocity)
   {
     AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
@@ -154,24 +122,23 @@ namespace Voussoir
   }
 
   /** Tries one step. Returns false, with the state unchanged, if the joints do not converge. */
-  bool Newmark::step(Level &level, const Unknowns &load, const Vector3 &base_velocity, ContactResult &result)
+  bool Newmark::step(Level &level, const StepLoad &step, ContactResult &result)
   {
-    const double dt = level.dt;
-    Unknowns     force, u_new, left;
+    const double dt = step.dt;
+    Unknowns     force, u_new;
     FeetOfStep   feet;
-    result = solve(level, load, base_velocity, force, u_new, left, feet);
+    result = solve(level, step, force, u_new, feet);
     if (!result.converged)
       return false;
-    const double half_dt = .5 * dt; // impulse of each pair, from the mean force of the step
     for (std::size_t k = 0; k < force.size(); ++k)
-      impulse[k] = half_dt * (rule == ImpactRule::mean_force ? force[k] : now.force[k] + force[k]);
+      impulse[k] = rule == ImpactRule::mean_force ? dt * force[k] : .5 * dt * (now.force[k] + force[k]);
 
     Work     work;
     Unknowns change; // change of the jumps
     add_work_of_joints(dt, u_new, change, work);
     if (support)
       work.input += push_support(level, feet, u_new);
-    move(dt, load, base_velocity, u_new, left, work);
+    move(step, u_new, work);
     if (!std::isfinite(work.input))
       throw ComputationError("The displacements are not finite at t = " + std::to_string(now.time) + " s.");
     const double                kinetic_before = kinetic_energy_of_pairs();
@@ -180,88 +147,28 @@ namespace Voussoir
       impact.correct_velocity(level.system, pasts, dt, change, now.v, impulse);
     account(work, kinetic_before);
 
-    if (rule == ImpactRule::mean_force)
-      for (std::size_t k = 0; k < force.size(); ++k)
-        now.force[k] = .5 * force[k];
-    else if (rule == ImpactRule::none || structure.pairs.empty())
+    if (rule == ImpactRule::mean_force || rule == ImpactRule::none || structure.pairs.empty())
       now.force = force;
     else
       now.force = impact.end_force(level.system, pasts, force, now.v, force_without_joints());
     return true;
   }
 
-  /** Returns true if the right-hand side @p forces is closer to that of the last increment than to zero. */
-  bool Newmark::continues(const double dt, const Unknowns &forces) const
-  {
-    if (now.carried.dt != dt)
-      return false;
-    double change = 0., whole = 0.;
-    for (std::size_t k = 0; k < forces.size(); ++k)
-    {
-      const double more = forces[k] - now.carried.resisted[k];
-      change += more * more;
-      whole += forces[k] * forces[k];
-    }
-    return change < whole;
-  }
-
-  void Newmark::add_joint_forces(const Unknowns &force, Unknowns &nodal_force) const
-  {
-    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-      structure.add_pair_force(structure.pairs[p], get(force, p), nodal_force);
-  }
-
-  /** Variant for factors in single precision: the unknown is an increment to the displacement of the last
-   * step, or to zero. @p left: right-hand side, to which the joint forces are added. */
-  ContactResult Newmark::solve_for_increment(Level &level, const Unknowns &start, Unknowns &memory,
-                                             Unknowns &force, Unknowns &u_new, Unknowns &left)
-  {
-    Unknowns expected = left;
-    add_joint_forces(force, expected); // joint forces of the last step
-    const bool goes_on = continues(level.dt, expected);
-    Unknowns   reduced = left, offset = start;
-    if (goes_on)
-    {
-      for (std::size_t k = 0; k < reduced.size(); ++k)
-        reduced[k] -= now.carried.resisted[k];
-      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-      {
-        const Vector3 moved = structure.jump(structure.pairs[p], now.carried.moved);
-        for (unsigned int c = 0; c < 3; ++c)
-          offset[3 * p + c] += moved[c];
-      }
-    }
-    const ContactResult result = level.system.solve(reduced, offset, start, memory, force, gap, u_new);
-    for (std::size_t k = 0; k < u_new.size(); ++k)
-      u_new[k] += goes_on ? now.u[k] + now.carried.moved[k] : now.u[k];
-    add_joint_forces(force, left);
-    return result;
-  }
-
-  /** Solves for displacements and joint forces at the end of a step. Stores the history variables of the laws
-   * if the joints converge. @p left: forces of the equation of motion without S (u_new - u), for factors in
-   * single precision. */
-  ContactResult Newmark::solve(Level &level, const Unknowns &load, const Vector3 &base_velocity,
-                               Unknowns &force, Unknowns &u_new, Unknowns &left, FeetOfStep &feet)
+  /** Solves for displacements and joint forces of a step. Stores the history variables of the laws if the
+   * joints converge. */
+  ContactResult Newmark::solve(Level &level, const StepLoad &step, Unknowns &force, Unknowns &u_new,
+                               FeetOfStep &feet)
   {
     if (support)
       feet.place = support->predict(level.n_substeps, at_feet(now.u));
-    const std::size_t n_pairs = structure.pairs.size();
-    Unknowns          offset(3 * n_pairs), start(3 * n_pairs), memory = now.memory;
-    for (std::size_t p = 0; p < n_pairs; ++p)
-    {
+    Unknowns offset = reference, start(reference.size()), memory = now.memory;
+    for (double &x : offset)
+      x = -x;
+    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
       set(start, p, opening_and_slip(p));
-      for (unsigned int c = 0; c < 3; ++c)
-        offset[3 * p + c] = -reference[3 * p + c];
-    }
     force = now.force;
-    if (rule == ImpactRule::mean_force)
-      for (double &f : force)
-        f *= 2.;
-    left = right_hand_side(level.dt, load, base_velocity);
     const ContactResult result =
-        is_single ? solve_for_increment(level, start, memory, force, u_new, left)
-                  : level.system.solve(left, offset, start, memory, force, gap, u_new, &feet);
+        equation->solve(level.system, now, step, {offset, start, memory, force, gap, u_new, feet});
     if (result.converged)
     {
       of_friction = level.system.friction_correction(start, force, gap, memory);
@@ -295,18 +202,18 @@ namespace Voussoir
   }
 
   /** Sets displacement, velocity, load and time at the end of the step, without joint forces and velocity
-   * correction. Computes the work of loads and damping. @p left: see solve(). */
-  void Newmark::move(const double dt, const Unknowns &load, const Vector3 &base_velocity,
-                     const Unknowns &u_new, const Unknowns &left, Work &work)
+   * correction. Computes the work of loads and damping. */
+  void Newmark::move(const StepLoad &step, const Unknowns &u_new, Work &work)
   {
-    const double c_m = 4. / (dt * dt) + 2. / dt * structure.mass_damping,
-                 c_k = 1. + 2. / dt * structure.stiffness_damping;
-    Unknowns Ku;
+    const double    dt = step.dt;
+    const Unknowns &load = step.load;
+    Unknowns        Ku;
     structure.multiply_stiffness(u_new, Ku);
+    equation->carry(now, dt, u_new, Ku);
     double  input = 0., damping = 0.;
     Vector3 base; // mean velocity of the base
     for (unsigned int c = 0; c < 3; ++c)
-      base[c] = .5 * (now.base_velocity[c] + base_velocity[c]);
+      base[c] = .5 * (now.base_velocity[c] + step.base_velocity[c]);
     for (unsigned int i = 0; i < structure.n_nodes(); ++i)
     {
       Vector3 du;
@@ -318,24 +225,8 @@ namespace Voussoir
         damping += structure.stiffness_damping / dt * (Ku[k] - now.Ku[k]) * du[c];
         if (!structure.dashpots.empty())
           damping += structure.dashpots[k] / dt * du[c] * du[c];
-        if (is_single)
-        {
-          now.carried.resisted[k] = c_k * (Ku[k] - now.Ku[k]);
-          if (!structure.dashpots.empty())
-            now.carried.resisted[k] += 2. / dt * structure.dashpots[k] * du[c];
-          now.carried.moved[k] = du[c];
-        }
         now.v[k] = 2. / dt * du[c] - now.v[k];
         now.u[k] = u_new[k];
-      }
-      if (is_single)
-      {
-        const Vector3 Md = structure.mass[i] * du;
-        for (unsigned int c = 0; c < 3; ++c)
-        {
-          now.carried.resisted[3 * i + c] += c_m * Md[c];
-          now.carried.left[3 * i + c] = .5 * dt * (left[3 * i + c] - now.carried.resisted[3 * i + c]);
-        }
       }
       const Vector3 relative = {{du[0] - dt * base[0], du[1] - dt * base[1], du[2] - dt * base[2]}};
       const Vector3 momentum = structure.mass[i] * relative;
@@ -345,9 +236,8 @@ namespace Voussoir
     work.input += input;
     work.damping = damping;
     now.Ku.swap(Ku);
-    now.carried.dt = dt;
     now.load = load;
-    now.base_velocity = base_velocity;
+    now.base_velocity = step.base_velocity;
     now.time += dt;
   }
 

@@ -9,24 +9,15 @@ namespace Voussoir
 {
   void Newmark::add_level(const Part &part)
   {
-    const double      dt = part.dt;
     ContactParameters of_level = parameters;
     of_level.write_problems = parameters.write_problems && levels.empty();
-    // Rule mean-force: the unknown is the sum of the forces at both ends.
-    const ForceMeaning    meaning = rule == ImpactRule::mean_force ? ForceMeaning{2., true} : ForceMeaning();
     FootElimination::Feet feet;
     if (support)
-    {
       feet = {support->feet(), support->compliance(part.n_substeps)};
-      for (Matrix3 &block : feet.compliance.value) // compliance for the sum of the forces at both ends
-        for (double &x : block)
-          x *= .5;
-    }
     levels.emplace_back(
-        new Level{dt, part.n_substeps,
-                  JointSystem(structure, laws, of_level, 4. / (dt * dt) + 2. / dt * structure.mass_damping,
-                              1. + 2. / dt * structure.stiffness_damping, 2. / dt, meaning, Unknowns(),
-                              support ? &feet : nullptr, is_single)});
+        new Level{part.dt, part.n_substeps,
+                  JointSystem(structure, laws, of_level, trapezoidal_rule(structure, part.dt, share),
+                              Unknowns(), support ? &feet : nullptr, single_factors)});
   }
 
   /** Returns the index in levels for the step size of @p part. Adds the level if it is missing. */
@@ -44,7 +35,7 @@ namespace Voussoir
   {
     const unsigned int level = level_of(part);
     ContactResult      result;
-    if (!step(*levels[level], load, base_velocity, result))
+    if (!step(*levels[level], {levels[level]->dt, load, base_velocity}, result))
       return advance_in_halves(part, load, base_velocity, result);
     last_level = level;
     return result;
@@ -97,15 +88,12 @@ namespace Voussoir
 
   /** Advances the support under the mean base force of the step. Returns the work of this force on
    * the dam [J]. */
-  double Newmark::push_support(const Level &level, FeetOfStep &feet, const Unknowns &u_new)
+  double Newmark::push_support(const Level &level, const FeetOfStep &feet, const Unknowns &u_new)
   {
     const Unknowns before = at_feet(now.u), after = at_feet(u_new);
     double         work = 0.;
     for (std::size_t k = 0; k < before.size(); ++k)
-    {
-      feet.force[k] *= .5;
       work += feet.force[k] * (after[k] - before[k]);
-    }
     support->push(level.n_substeps, feet.force, after, work);
     return work;
   }

@@ -59,7 +59,7 @@ namespace Voussoir
         body.interface.push_back(foot.rock);
       try
       {
-        BodyFactor factor(ground, body, 0., 1., 0.);
+        BodyFactor factor(ground, body, StepOperator());
         factor.analyse(BodyFactor::Order::interface_last);
         factor.factorise();
         return factor.condensed_stiffness();

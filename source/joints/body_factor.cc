@@ -45,8 +45,7 @@ namespace Voussoir
       cholmod_common &common;
     };
     /** Assembles the lower triangle of the operator A in the matrix @p A. */
-    void fill(const Structure &structure, const Body &body, const double mass_factor,
-              const double stiffness_factor, const double dashpot_factor, const Unknowns &springs,
+    void fill(const Structure &structure, const Body &body, const StepOperator &step, const Unknowns &springs,
               cholmod_sparse *A)
     {
       const BlockSparseMatrix &K = body.stiffness;
@@ -63,12 +62,12 @@ namespace Voussoir
             for (unsigned int j = 0; j < 3; ++j)
               if (3 * K.column[e] + j >= 3 * row + i)
               {
-                double            a = stiffness_factor * K.value[e][3 * i + j];
+                double            a = step.stiffness * K.value[e][3 * i + j];
                 const std::size_t node = body.first_node + row;
                 if (K.column[e] == row)
-                  a += mass_factor * structure.mass[node][3 * i + j];
+                  a += step.mass * structure.mass[node][3 * i + j];
                 if (K.column[e] == row && i == j && !structure.dashpots.empty())
-                  a += dashpot_factor * structure.dashpots[3 * node + i];
+                  a += step.dashpot * structure.dashpots[3 * node + i];
                 if (K.column[e] == row && i == j && !springs.empty())
                   a += springs[3 * node + i];
                 index[k] = 3 * K.column[e] + j;
@@ -183,15 +182,15 @@ namespace Voussoir
     }
   };
 
-  BodyFactor::BodyFactor(const Structure &structure, const Body &body, const double mass_factor,
-                         const double stiffness_factor, const double dashpot_factor, const Unknowns &springs)
+  BodyFactor::BodyFactor(const Structure &structure, const Body &body, const StepOperator &step,
+                         const Unknowns &springs)
       : body(body), cholmod(std::make_unique<Cholmod>())
   {
     AssertIndexRange(body.first_node + body.n_nodes(), structure.n_nodes() + 1);
     cholmod->A = cholmod_allocate_sparse(n(), n(), 9 * body.stiffness.value.size() / 2 + 3 * n(), 1, 1, -1,
                                          CHOLMOD_REAL, &cholmod->common);
     check_memory(cholmod->common);
-    fill(structure, body, mass_factor, stiffness_factor, dashpot_factor, springs, cholmod->A);
+    fill(structure, body, step, springs, cholmod->A);
   }
 
   BodyFactor::~BodyFactor() = default;

@@ -19,12 +19,11 @@ namespace Voussoir
     }
   } // namespace
 
-  CondensedBody::CondensedBody(const Structure &structure, const Body &body, const double mass_factor,
-                               const double stiffness_factor, const double dashpot_factor,
+  CondensedBody::CondensedBody(const Structure &structure, const Body &body, const StepOperator &step,
                                const Unknowns &springs, const bool single)
   {
     const double       entry = single ? .5 : 1.; // in units of eight bytes
-    BodyFactor         A(structure, body, mass_factor, stiffness_factor, dashpot_factor, springs);
+    BodyFactor         A(structure, body, step, springs);
     const unsigned int m = A.n_interface();
     A.analyse(BodyFactor::Order::any);
     const double free_entries = A.n_entries();

@@ -38,7 +38,7 @@ namespace Voussoir
                        [](const JointLaw *law) { return law->needs_mean_force(); });
   }
 
-  std::vector<PairPast> PairLaws::pasts(const Unknowns &start, const ForceMeaning &meaning,
+  std::vector<PairPast> PairLaws::pasts(const Unknowns &start, const bool is_mean,
                                         const Unknowns &memory) const
   {
     AssertDimension(start.size(), 3 * of_pair.size());
@@ -48,19 +48,19 @@ namespace Voussoir
     for (std::size_t p = 0; p < of_pair.size(); ++p)
     {
       list.emplace_back(get(start, p));
-      list.back().area = meaning.factor * area[p];
-      list.back().is_mean = meaning.is_mean;
+      list.back().area = area[p];
+      list.back().is_mean = is_mean;
       list.back().memory = memory.data() + memory_begin(p);
     }
     return list;
   }
 
-  unsigned int PairLaws::revise(const Unknowns &start, const ForceMeaning &meaning, const Unknowns &gap,
+  unsigned int PairLaws::revise(const Unknowns &start, const bool is_mean, const Unknowns &gap,
                                 Unknowns &force, Unknowns &memory) const
   {
     AssertDimension(force.size(), 3 * of_pair.size());
     constexpr double            among_the_worst = .9;
-    const std::vector<PairPast> past = pasts(start, meaning, memory);
+    const std::vector<PairPast> past = pasts(start, is_mean, memory);
     std::vector<double>         excess(of_pair.size());
     double                      largest = 0.;
     for (std::size_t p = 0; p < of_pair.size(); ++p)
@@ -79,14 +79,14 @@ namespace Voussoir
     return count;
   }
 
-  void PairLaws::commit(const Unknowns &start, const ForceMeaning &meaning, const Unknowns &force,
-                        const Unknowns &gap, Unknowns &memory) const
+  void PairLaws::commit(const Unknowns &start, const bool is_mean, const Unknowns &force, const Unknowns &gap,
+                        Unknowns &memory) const
   {
     if (!have_memory())
       return;
     AssertDimension(force.size(), 3 * of_pair.size());
     AssertDimension(gap.size(), 3 * of_pair.size());
-    const std::vector<PairPast> past = pasts(start, meaning, memory);
+    const std::vector<PairPast> past = pasts(start, is_mean, memory);
     for (std::size_t p = 0; p < of_pair.size(); ++p)
       of_pair[p]->commit(get(force, p), get(gap, p), past[p], memory.data() + memory_begin(p));
   }
@@ -112,18 +112,17 @@ namespace Voussoir
                        { return law->n_memory() > 0 && (law->surfaces_law() != nullptr) == surfaces; });
   }
 
-  double PairLaws::friction_correction(const Unknowns &start, const ForceMeaning &meaning,
-                                       const Unknowns &force, const Unknowns &gap,
-                                       const Unknowns &memory) const
+  double PairLaws::friction_correction(const Unknowns &start, const bool is_mean, const Unknowns &force,
+                                       const Unknowns &gap, const Unknowns &memory) const
   {
-    if (!meaning.is_mean || std::none_of(of_pair.begin(), of_pair.end(),
-                                         [](const JointLaw *law) { return law->surfaces_law() != nullptr; }))
+    if (!is_mean || std::none_of(of_pair.begin(), of_pair.end(),
+                                 [](const JointLaw *law) { return law->surfaces_law() != nullptr; }))
       return 0.;
-    const std::vector<PairPast> past = pasts(start, meaning, memory);
+    const std::vector<PairPast> past = pasts(start, is_mean, memory);
     double                      sum = 0.;
     for (std::size_t p = 0; p < of_pair.size(); ++p)
       if (const SurfacesLaw *law = of_pair[p]->surfaces_law())
         sum += law->friction_correction(get(force, p), get(gap, p), past[p]);
-    return sum / meaning.factor;
+    return sum;
   }
 } // namespace Voussoir

@@ -58,13 +58,12 @@ namespace Voussoir
   } // namespace
 
   JointSystem::JointSystem(const Structure &structure, const PairLaws &laws,
-                           const ContactParameters &parameters, const double mass_factor,
-                           const double stiffness_factor, const double dashpot_factor,
-                           const ForceMeaning meaning, const Unknowns &springs,
-                           const FootElimination::Feet *given_feet, const bool single_factors)
-      : structure(structure), parameters(parameters), laws(laws), meaning(meaning),
-        is_static(mass_factor == 0.), sides(structure.pairs.size()),
-        W(pairs_per_joint(structure), shares_of_joints(structure)), n_solved(parameters.first_problem)
+                           const ContactParameters &parameters, const StepOperator &step,
+                           const Unknowns &springs, const FootElimination::Feet *given_feet,
+                           const bool single_factors)
+      : structure(structure), parameters(parameters), laws(laws), step(step), is_static(step.mass == 0.),
+        sides(structure.pairs.size()), W(pairs_per_joint(structure), shares_of_joints(structure)),
+        n_solved(parameters.first_problem)
   {
     for (const JointLaw *law : laws.of_pair)
       if (parameters.write_problems && law->flat_friction() < 0. && !law->surfaces_law())
@@ -75,8 +74,7 @@ namespace Voussoir
         [&](const unsigned int b)
         {
           bodies[b] =
-              std::make_unique<CondensedBody>(structure, structure.bodies[b], mass_factor, stiffness_factor,
-                                              dashpot_factor, springs, single_factors);
+              std::make_unique<CondensedBody>(structure, structure.bodies[b], step, springs, single_factors);
         });
     for (const Body &body : structure.bodies)
       interface.begin.push_back(interface.begin.back() + 3 * body.interface.size());
@@ -100,15 +98,19 @@ namespace Voussoir
                       });
   }
 
-  /** Returns the flexibility of the interface of a body, computed here, or by another process if rows of W on
-   * this process require it. Otherwise empty. */
+  /** Returns share times the flexibility of the interface of a body, computed here, or by another process if
+   * rows of W on this process require it. Otherwise empty. */
   std::vector<double>
   JointSystem::flexibility_of(const unsigned int                                        b,
                               const std::vector<std::pair<unsigned int, unsigned int>> &sides_of_body)
   {
     std::vector<double> F;
     if (structure.share.is_mine(b))
+    {
       F = bodies[b]->take_flexibility();
+      for (double &x : F)
+        x *= step.share;
+    }
     const unsigned int owner = structure.share.owner(b);
     const bool         needed_elsewhere =
         Ranks::size() > 1 &&
@@ -123,7 +125,7 @@ namespace Voussoir
     return F;
   }
 
-  /** Assembles W = G A^-1 G^T from the flexibilities of the bodies. */
+  /** Assembles W = share G A^-1 G^T from the flexibilities of the bodies. */
   void JointSystem::condense()
   {
     std::vector<std::vector<std::pair<unsigned int, unsigned int>>> of_body(bodies.size()); // pair, side
@@ -213,8 +215,9 @@ namespace Voussoir
     return b;
   }
 
-  /** Sets the work array of the interface to G^T force. */
-  void JointSystem::put_on_interface(const Unknowns &force)
+  /** Sets the work array of the interface to share times the forces of joints and base nodes. Completes the
+   * forces on the base nodes by the part of the joint forces. */
+  void JointSystem::put_on_interface(const Unknowns &force, FeetOfStep &of_step)
   {
     std::fill(interface.value.begin(), interface.value.end(), 0.);
     for (unsigned int p = 0; p < sides.size(); ++p)
@@ -224,6 +227,17 @@ namespace Voussoir
             for (unsigned int i = 0; i < 3; ++i)
               interface.of_body(s.body)[3 * s.node + c] +=
                   (side == 0 ? -1. : 1.) * structure.pairs[p].frame[i][c] * force[3 * p + i];
+    if (feet)
+    {
+      Unknowns by_joints;
+      feet->take_gaps(force.data(), by_joints);
+      feet->solve(by_joints);
+      for (std::size_t k = 0; k < by_joints.size(); ++k)
+        of_step.force[k] -= by_joints[k];
+      feet->add_to(interface, of_step.force);
+    }
+    for (double &f : interface.value)
+      f *= step.share;
   }
 
   /** Computes the forces on the base nodes without joint forces. */
@@ -272,16 +286,7 @@ namespace Voussoir
         solver->guess_bonded(b, force);
       result = solve_pairs(b, start, memory, force, gap);
     }
-    put_on_interface(force);
-    if (feet)
-    {
-      Unknowns by_joints;
-      feet->take_gaps(force.data(), by_joints);
-      feet->solve(by_joints);
-      for (std::size_t k = 0; k < by_joints.size(); ++k)
-        of_step->force[k] -= by_joints[k];
-      feet->add_to(interface, of_step->force);
-    }
+    put_on_interface(force, *of_step);
 
     const double after = now();
     for_each_own_body(
@@ -304,11 +309,12 @@ namespace Voussoir
     total.converged = true;
     for (bool again = true; again;)
     {
-      const ContactResult result = solver->solve(b, laws.pasts(start, meaning, memory), force, gap);
+      const ContactResult result =
+          solver->solve(b, laws.pasts(start, step.has_mean_forces(), memory), force, gap);
       if (!laws.have_memory())
         return result;
       total += result;
-      again = result.converged && laws.revise(start, meaning, gap, force, memory) > 0;
+      again = result.converged && laws.revise(start, step.has_mean_forces(), gap, force, memory) > 0;
     }
     return total;
   }
@@ -350,7 +356,7 @@ namespace Voussoir
         [&]
         {
           const FrictionProblem problem =
-              friction_problem(whole, laws, laws.pasts(start, meaning, memory), b);
+              friction_problem(whole, laws, laws.pasts(start, step.has_mean_forces(), memory), b);
           char name[40];
           std::snprintf(name, sizeof(name), "/problem-%06u.hdf5", n_solved);
           std::filesystem::remove(parameters.write_directory + name); // file of a step that is repeated

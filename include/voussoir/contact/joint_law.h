@@ -33,10 +33,7 @@ namespace Voussoir
 
     Vector3 start; ///< gap at the start of the step [m]
 
-    /** Divisor that converts the force to a stress [m^2]. It is the tributary area, or twice that
-     * area if the force is twice the mean over the step (impact rule mean-force). The quotient is
-     * then the mean stress. */
-    double area = 1.;
+    double area = 1.;       ///< tributary area: force over stress [m^2]
     bool   is_mean = false; ///< true: forces are means over the step; false: forces at its end
 
     /** JointLaw::n_memory() history variables of the pair: those at the start of the step, changed by the

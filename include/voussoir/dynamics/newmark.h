@@ -3,55 +3,11 @@
 #define voussoir_newmark_h
 
 #include <voussoir/dynamics/impact.h>
+#include <voussoir/dynamics/step_equation.h>
 #include <voussoir/dynamics/support.h>
 
 namespace Voussoir
 {
-  /** Terms of the energy balance [J]. The kinetic energies, the strain energy and the joint energies are
-   * current values. The other terms are works since Newmark::start(). */
-  struct Energy
-  {
-    /** Kinetic energy of the concrete, kinetic energy of the added mass, strain energy of the concrete. */
-    double kinetic = 0., added_mass = 0., strain = 0.;
-
-    /** Dissipation by Rayleigh damping, dissipation by friction, loss in the normal direction of the joints,
-     * and work of all loads and of the support. */
-    double damping = 0., friction = 0., impact = 0., input = 0.;
-    double joint_stored = 0.;   ///< current energy of the flank contacts of shear keys
-    double joint_fracture = 0.; ///< energy of bonds (cohesive law): current energy plus energy lost so far
-
-    /** Returns the error of the energy balance with respect to the state @p start [J]. It is zero up to
-     * round-off in a correct run. */
-    double balance(const Energy &start) const;
-  };
-
-  /** Data passed from one step to the next if the factors are in single precision. The vectors have three
-   * values per node; they are empty for double precision. */
-  struct Carried
-  {
-    Unknowns left;     ///< residual impulse: dt/2 times the residual of the equation of motion [N s]
-    Unknowns moved;    ///< displacement increment of the last step [m]
-    Unknowns resisted; ///< operator of the step applied to moved [N]
-    double   dt = 0.;  ///< length of the last step [s]; 0: there was none
-  };
-
-  /** State of the structure at one time. Displacements are relative to the base on a rigid or massless
-   * foundation, and absolute on explicit rock. */
-  struct DynamicState
-  {
-    double   time = 0.; ///< [s]
-    Unknowns u, v;      ///< displacement [m] and velocity [m/s], three values per node
-    /** Joint forces, three values per pair in the frame of the pair [N]. With ImpactRule::mean_force they are
-     * means over the last step, otherwise values at this time. */
-    Unknowns force;
-    Unknowns load;    ///< nodal loads at this time [N]
-    Unknowns Ku;      ///< stiffness matrix times u [N]
-    Unknowns memory;  ///< history variables of all pairs; at first JointLaws::initial_memory()
-    Carried  carried; ///< for factors in single precision only
-    Vector3  base_velocity = {{0., 0., 0.}}; ///< velocity of the base, see Newmark::advance() [m/s]
-    Energy   energy;
-  };
-
   /** Time integration of a structure with joints by the trapezoidal rule: M a + C v + K u = load + G^T force,
    * with Rayleigh damping C.
    *
@@ -70,8 +26,7 @@ namespace Voussoir
      * @param support subcycled or massless foundation, or nullptr. Its displacement must equal that of the
      * base nodes at start(). A step is not divided below one substep of the support.
      * @param single_factors stores the factors in single precision, which halves the memory traffic of a
-     * step. The unknown is then an increment to the last step, and the residual is carried to the next step.
-     * Ignored with a @p support.
+     * step. The unknown of the step is then an increment, see StepEquation. Ignored with a @p support.
      *
      * Throws InputError if @p rule is not ImpactRule::mean_force but a law or the support requires it. */
     Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters, double dt,
@@ -156,33 +111,29 @@ namespace Voussoir
     ContactResult advance(const Part &part, const Unknowns &load, const Vector3 &base_velocity);
     ContactResult advance_in_halves(const Part &part, const Unknowns &load, const Vector3 &base_velocity,
                                     const ContactResult &failed);
-    bool step(Level &level, const Unknowns &load, const Vector3 &base_velocity, ContactResult &result);
-    ContactResult solve(Level &level, const Unknowns &load, const Vector3 &base_velocity, Unknowns &force,
-                        Unknowns &u_new, Unknowns &left, FeetOfStep &feet);
+    bool          step(Level &level, const StepLoad &step, ContactResult &result);
+    ContactResult solve(Level &level, const StepLoad &step, Unknowns &force, Unknowns &u_new,
+                        FeetOfStep &feet);
     Unknowns      at_feet(const Unknowns &u) const;
-    double        push_support(const Level &level, FeetOfStep &feet, const Unknowns &u_new);
+    double        push_support(const Level &level, const FeetOfStep &feet, const Unknowns &u_new);
     void          add_work_of_joints(double dt, const Unknowns &u_new, Unknowns &change, Work &work) const;
-    bool          continues(double dt, const Unknowns &forces) const;
-    void          add_joint_forces(const Unknowns &force, Unknowns &nodal_force) const;
-    ContactResult solve_for_increment(Level &level, const Unknowns &start, Unknowns &memory, Unknowns &force,
-                                      Unknowns &u_new, Unknowns &left);
-    void          move(double dt, const Unknowns &load, const Vector3 &base_velocity, const Unknowns &u_new,
-                       const Unknowns &left, Work &work);
+    void          move(const StepLoad &step, const Unknowns &u_new, Work &work);
     void          account(const Work &work, double kinetic_before);
-    Unknowns      right_hand_side(double dt, const Unknowns &load, const Vector3 &base_velocity) const;
     Unknowns      force_without_joints() const;
     double        kinetic_energy_of_pairs() const;
     JointEnergy   joint_energy() const;
     void          account_states();
 
-    const Structure        &structure;
-    const JointLaws        &laws;
-    const ContactParameters parameters;
-    const ImpactRule        rule;
-    Support *const          support;
-    const bool              is_single; ///< factors in single precision
-    Impact                  impact;
-    Unknowns                reference, impulse, gap;
+    const Structure              &structure;
+    const JointLaws              &laws;
+    const ContactParameters       parameters;
+    const ImpactRule              rule;
+    Support *const                support;
+    const bool                    single_factors;
+    const double                  share; ///< StepOperator::share of the rule
+    Impact                        impact;
+    std::unique_ptr<StepEquation> equation;
+    Unknowns                      reference, impulse, gap;
     Unknowns     step_start, step_memory; ///< gaps [m] and history variables at the start of the last step
     DynamicState now;
     Energy       first; ///< energies at the start

@@ -9,8 +9,19 @@
 
 namespace Voussoir
 {
-  /** Operator A = mass_factor M + stiffness_factor K + dashpot_factor D + springs of a body, and its Cholesky
-   * factor L by CHOLMOD. The interface is in natural order: component c of node i of body.interface has the
+  /** Linear system of a step: A u = load + share G^T f with A = mass M + stiffness K + dashpot D + springs,
+   * and the joint forces f. A static system has the mass 0. */
+  struct StepOperator
+  {
+    double mass = 0.;      ///< factor of the mass matrix M [1/s^2]
+    double stiffness = 1.; ///< factor of the stiffness matrix K [-]
+    double dashpot = 0.;   ///< factor of the dashpots D [1/s]
+    double share = 1.;     ///< 1: f are forces at the end of the step; 2: means over the step [-]
+
+    bool has_mean_forces() const { return share != 1.; } ///< true if f are means over the step
+  };
+
+  /** Operator A of a body, see StepOperator, and its Cholesky factor L by CHOLMOD. The interface is in natural order: component c of node i of body.interface has the
    * number 3 i + c.
    *
    * Call analyse(), then factorise(), then one of the functions that return parts of the factor. */
@@ -26,8 +37,8 @@ namespace Voussoir
 
     /** Assembles A. @p springs: springs to the ground, per component of the structure [N/m]; empty: none.
      * Throws std::bad_alloc. */
-    BodyFactor(const Structure &structure, const Body &body, double mass_factor, double stiffness_factor,
-               double dashpot_factor, const Unknowns &springs = Unknowns());
+    BodyFactor(const Structure &structure, const Body &body, const StepOperator &step,
+               const Unknowns &springs = Unknowns());
     ~BodyFactor();
     BodyFactor(const BodyFactor &) = delete;
 

@@ -17,14 +17,14 @@ namespace Voussoir
   class CondensedBody
   {
   public:
-    /** Factorises A = mass_factor M + stiffness_factor K + dashpot_factor D + springs of @p body. @p springs:
-     * springs to the ground, per component of the structure [N/m]; empty: none. @p single: stores the factor
-     * in single precision, with a relative error of 6e-8.
+    /** Factorises the operator A of @p step for @p body. @p springs: springs to the ground, per component of
+     * the structure [N/m]; empty: none. @p single: stores the factor in single precision, with a relative
+     * error of 6e-8.
      *
      * Throws ComputationError if A is not positive definite (no support, or distorted
      * elements), and std::bad_alloc. */
-    CondensedBody(const Structure &structure, const Body &body, double mass_factor, double stiffness_factor,
-                  double dashpot_factor, const Unknowns &springs = Unknowns(), bool single = false);
+    CondensedBody(const Structure &structure, const Body &body, const StepOperator &step,
+                  const Unknowns &springs = Unknowns(), bool single = false);
 
     /** Computes the displacement of the interface without joint forces.
      * @param b load of the body, three values per node [N]

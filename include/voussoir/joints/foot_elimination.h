@@ -22,7 +22,7 @@ namespace Voussoir
    * base nodes is place - R f, with their displacement place without forces, the forces f on them and the
    * compliance R of the support.
    *
-   * With F = L A^-1 L^T, B = G A^-1 L^T and H = F + R,
+   * With F = share L A^-1 L^T, B = share G A^-1 L^T and H = F + R,
    *
    * f = H^-1 (place - L u_0 - B^T f_joints),
    *
@@ -44,8 +44,8 @@ namespace Voussoir
      * the object. */
     FootElimination(const Structure &structure, Feet feet);
 
-    /** Adds the flexibility S^-1 of the interface of @p body, see CondensedBody::take_flexibility(). Call it
-     * for all bodies. */
+    /** Adds share times the flexibility S^-1 of the interface of @p body (CondensedBody::take_flexibility(),
+     * StepOperator::share). Call it for all bodies. */
     void add_body(unsigned int body, const std::vector<double> &flexibility);
     void factorise(); ///< factorises H; after add_body() of all bodies
 

@@ -7,14 +7,6 @@
 
 namespace Voussoir
 {
-  /** Convention for the force of a pair in a linear system: factor times the force at the end of the step, or
-   * times the mean over the step. */
-  struct ForceMeaning
-  {
-    double factor = 1.;     ///< ratio of the unknown to the force [-]
-    bool   is_mean = false; ///< true: mean over the step; false: force at its end
-  };
-
   /** Energy in joints [J]. */
   struct JointEnergy
   {
@@ -34,21 +26,20 @@ namespace Voussoir
 
     /** Returns the data of each pair for its law. The result points into @p memory.
      * @param start gap at the start of the step, three values per pair [m]
-     * @param meaning convention of the forces
+     * @param is_mean true: forces are means over the step; false: forces at its end
      * @param memory history variables of all pairs */
-    std::vector<PairPast> pasts(const Unknowns &start, const ForceMeaning &meaning,
-                                const Unknowns &memory) const;
+    std::vector<PairPast> pasts(const Unknowns &start, bool is_mean, const Unknowns &memory) const;
 
     /** Applies crack events to the pairs with the highest utilisation above 1: all pairs within a tenth of
      * the largest one. Other pairs may be relieved by these events. Sets the history variables in @p memory
      * and the forces of these pairs to 0, as a first guess. Returns the number of events. */
-    unsigned int revise(const Unknowns &start, const ForceMeaning &meaning, const Unknowns &gap,
-                        Unknowns &force, Unknowns &memory) const;
+    unsigned int revise(const Unknowns &start, bool is_mean, const Unknowns &gap, Unknowns &force,
+                        Unknowns &memory) const;
 
     /** Updates the history variables @p memory for an accepted step. @p start: gap at the start of the step,
      * three values per pair [m]. */
-    void commit(const Unknowns &start, const ForceMeaning &meaning, const Unknowns &force,
-                const Unknowns &gap, Unknowns &memory) const;
+    void commit(const Unknowns &start, bool is_mean, const Unknowns &force, const Unknowns &gap,
+                Unknowns &memory) const;
 
     /** Returns the energy in the joints [J]. @p gap: three values per pair [m]. */
     JointEnergy joint_energy(const Unknowns &gap, const Unknowns &memory) const;
@@ -59,7 +50,7 @@ namespace Voussoir
 
     /** Returns the sum of SurfacesLaw::friction_correction() over all pairs in a step with mean forces [J]; 0
      * for forces at the end of a step. @p memory: history variables before commit(). */
-    double friction_correction(const Unknowns &start, const ForceMeaning &meaning, const Unknowns &force,
+    double friction_correction(const Unknowns &start, bool is_mean, const Unknowns &force,
                                const Unknowns &gap, const Unknowns &memory) const;
 
     /** Appends a pair with its law and tributary area [m^2]. */

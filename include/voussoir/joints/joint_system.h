@@ -19,12 +19,11 @@ namespace Voussoir
   struct FeetOfStep
   {
     Unknowns place; ///< displacement of the base nodes without forces on them [m]
-    Unknowns force; ///< forces of the solution on the base nodes, in the convention of the joint forces [N]
+    Unknowns force; ///< forces of the solution on the base nodes, means or values as the joint forces [N]
   };
 
-  /** Condensed bodies for one operator A = mass_factor M + stiffness_factor K + dashpot_factor D + springs,
-   * and the joints between them. It solves A u = load + G^T force and gap = G u + offset with the joint laws
-   * between force and gap. */
+  /** Condensed bodies for one operator A and the joints between them. It solves A u = load + share G^T force
+   * (StepOperator) and gap = G u + offset with the joint laws between force and gap. */
   class JointSystem
   {
   public:
@@ -32,20 +31,16 @@ namespace Voussoir
      * @param structure bodies and pairs; must outlive the object
      * @param laws joint laws of the pairs
      * @param parameters parameters of the contact solver
-     * @param mass_factor factor of M; 0: static system
-     * @param stiffness_factor factor of K
-     * @param dashpot_factor factor of D
-     * @param meaning convention of the forces of this system, for the laws
+     * @param step factors of the operator, and what the joint forces are
      * @param springs springs to the ground, per component [N/m]; empty: none
-     * @param feet base nodes and compliance of the support for forces of this convention, or nullptr
+     * @param feet base nodes and compliance of the support, or nullptr
      * @param single_factors factors of the bodies in single precision (CondensedBody). The joint operator is
      * in double precision in either case.
      *
      * Throws InputError if a problem file is requested for a law without Coulomb friction, and
      * ComputationError if a body cannot be factorised. */
     JointSystem(const Structure &structure, const PairLaws &laws, const ContactParameters &parameters,
-                double mass_factor, double stiffness_factor, double dashpot_factor,
-                ForceMeaning meaning = ForceMeaning(), const Unknowns &springs = Unknowns(),
+                const StepOperator &step, const Unknowns &springs = Unknowns(),
                 const FootElimination::Feet *feet = nullptr, bool single_factors = false);
     JointSystem(const JointSystem &) = delete; // the solver has a pointer to the joint operator
 
@@ -74,14 +69,14 @@ namespace Voussoir
      * The result points into @p memory. */
     std::vector<PairPast> pasts(const Unknowns &start, const Unknowns &memory) const
     {
-      return laws.pasts(start, meaning, memory);
+      return laws.pasts(start, step.has_mean_forces(), memory);
     }
 
     /** Updates the history variables @p memory for an accepted step with the solution @p force [N], @p gap
      * [m]. @p start: gap at the start of the step [m]. */
     void commit(const Unknowns &start, const Unknowns &force, const Unknowns &gap, Unknowns &memory) const
     {
-      laws.commit(start, meaning, force, gap, memory);
+      laws.commit(start, step.has_mean_forces(), force, gap, memory);
     }
 
     /** Returns PairLaws::friction_correction() [J]: work of friction on inclined surfaces, beyond the work of
@@ -89,7 +84,7 @@ namespace Voussoir
     double friction_correction(const Unknowns &start, const Unknowns &force, const Unknowns &gap,
                                const Unknowns &memory) const
     {
-      return laws.friction_correction(start, meaning, force, gap, memory);
+      return laws.friction_correction(start, step.has_mean_forces(), force, gap, memory);
     }
 
     /** Solves A u = load without joint forces, three values per node. */
@@ -117,7 +112,7 @@ namespace Voussoir
     void          make_whole();
     Unknowns      gaps_without_forces(const Unknowns &offset, const Unknowns &foot_force) const;
     void          release_joints(FeetOfStep &of_step) const;
-    void          put_on_interface(const Unknowns &force);
+    void          put_on_interface(const Unknowns &force, FeetOfStep &of_step);
     ContactResult solve_pairs(const Unknowns &b, const Unknowns &start, Unknowns &memory, Unknowns &force,
                               Unknowns &gap);
     void          write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &memory,
@@ -126,8 +121,8 @@ namespace Voussoir
     const Structure                            &structure;
     const ContactParameters                     parameters;
     const PairLaws                              laws;
-    const ForceMeaning                          meaning;
-    const bool                                  is_static; ///< mass_factor is 0
+    const StepOperator                          step;
+    const bool                                  is_static; ///< without mass
     std::vector<std::unique_ptr<CondensedBody>> bodies;    ///< nullptr for bodies of other processes
     std::vector<std::array<Side, 2>>            sides;     ///< nodes of each pair
     InterfaceOperator                           W;

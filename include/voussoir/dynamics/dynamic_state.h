@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_dynamic_state_h
+#define voussoir_dynamic_state_h
+
+#include <voussoir/base/tensor3.h>
+
+namespace Voussoir
+{
+  /** Terms of the energy balance [J]. The kinetic energies, the strain energy and the joint energies are
+   * current values. The other terms are works since Newmark::start(). */
+  struct Energy
+  {
+    /** Kinetic energy of the concrete, kinetic energy of the added mass, strain energy of the concrete. */
+    double kinetic = 0., added_mass = 0., strain = 0.;
+
+    /** Dissipation by Rayleigh damping, dissipation by friction, loss in the normal direction of the joints,
+     * and work of all loads and of the support. */
+    double damping = 0., friction = 0., impact = 0., input = 0.;
+    double joint_stored = 0.;   ///< current energy of the flank contacts of shear keys
+    double joint_fracture = 0.; ///< energy of bonds (cohesive law): current energy plus energy lost so far
+
+    /** Returns the error of the energy balance with respect to the state @p start [J]. It is zero up to
+     * round-off in a correct run. */
+    double balance(const Energy &start) const;
+  };
+
+  /** Data passed from one step to the next if the unknown is an increment (StepEquation). The vectors have
+   * three values per node; they are empty if the unknown is the displacement. */
+  struct Carried
+  {
+    Unknowns residual; ///< residual impulse: dt/2 times the residual of the equation of motion [N s]
+    Unknowns moved;    ///< displacement increment of the last step [m]
+    Unknowns resisted; ///< operator of the step applied to moved [N]
+    double   dt = 0.;  ///< length of the last step [s]; 0: there was none
+  };
+
+  /** State of the structure at one time. Displacements are relative to the base on a rigid or massless
+   * foundation, and absolute on explicit rock. */
+  struct DynamicState
+  {
+    double   time = 0.; ///< [s]
+    Unknowns u, v;      ///< displacement [m] and velocity [m/s], three values per node
+    /** Joint forces, three values per pair in the frame of the pair [N]. With ImpactRule::mean_force they are
+     * means over the last step, otherwise values at this time. */
+    Unknowns force;
+    Unknowns load;    ///< nodal loads at this time [N]
+    Unknowns Ku;      ///< stiffness matrix times u [N]
+    Unknowns memory;  ///< history variables of all pairs; at first JointLaws::initial_memory()
+    Carried  carried; ///< see StepEquation
+    Vector3  base_velocity = {{0., 0., 0.}}; ///< velocity of the base, see Newmark::advance() [m/s]
+    Energy   energy;
+  };
+} // namespace Voussoir
+
+#endif
