@@ -96,7 +96,7 @@ namespace Voussoir
   void FootElimination::factorise()
   {
     H.bodies[0].stiffness.symmetrise();
-    factor.emplace_back(H, H.bodies[0], 0., 1., 0.);
+    factor.emplace_back(H, H.bodies[0], StepOperator());
     H = Structure(); // releases memory
   }
 
