@@ -182,7 +182,7 @@ namespace
       const DynamicState  before = newmark.state();
       const ContactResult result = newmark.advance(load, dam.foundation->base_velocity());
       expect(result.path != ContactPath::smaller_step, "no step is halved");
-      dam.foundation->follow(newmark.state());
+      dam.foundation->update_from_dam(newmark.state());
       for (const PairState state : newmark.pair_states())
         moved = moved || state != PairState::stick;
       const DynamicState &after = newmark.state();

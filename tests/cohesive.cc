@@ -27,15 +27,15 @@ namespace
 
     explicit Bond(const LawParameters &p = parameters()) : law(make_joint_law("cohesive", p)) {}
 
-    PairPast past(const Vector3 &start, const bool is_mean = false) const
+    PairHistory past(const Vector3 &start, const bool is_mean = false) const
     {
-      PairPast result(start);
+      PairHistory result(start);
       result.area = area;
       result.is_mean = is_mean;
       result.memory = memory;
       return result;
     }
-    double residual(const Vector3 &force, const Vector3 &gap, const PairPast &past) const
+    double residual(const Vector3 &force, const Vector3 &gap, const PairHistory &past) const
     {
       PairEquations e;
       law->evaluate(force, gap, past, 1e9, e);
@@ -44,8 +44,8 @@ namespace
     /** Opens to @p w under the tension @p stress, which the law must allow, and accepts it. */
     void open(const std::string &what, const double from, const double w, const double stress)
     {
-      const Vector3  force = {{-stress * area, 0., 0.}}, gap = {{w, 0., 0.}};
-      const PairPast before = past({{from, 0., 0.}});
+      const Vector3     force = {{-stress * area, 0., 0.}}, gap = {{w, 0., 0.}};
+      const PairHistory before = past({{from, 0., 0.}});
       below(what, residual(force, gap, before) / (strength * area), 1e-12);
       above("  and no other stress", residual({{-1.01 * stress * area - 1., 0., 0.}}, gap, before), .5);
       law->commit(force, gap, before, memory);
@@ -54,16 +54,17 @@ namespace
 
   void softening()
   {
-    Bond           bond;
-    const Vector3  pull = {{-.999 * strength * area, 5e6, -7e6}};
-    const PairPast at_rest = bond.past({});
+    Bond              bond;
+    const Vector3     pull = {{-.999 * strength * area, 5e6, -7e6}};
+    const PairHistory at_rest = bond.past({});
     below("bonded: tied below its strength, whatever the shear", bond.residual(pull, {}, at_rest), 1e-300);
     above("  so it is against any movement", bond.residual(pull, {{0., 1e-6, 0.}}, at_rest), 100.);
-    above("  no event: 1 - excess", 1. - bond.law->excess(pull, {}, at_rest), 5e-4);
+    above("  no event: 1 - excess", 1. - bond.law->utilisation(pull, {}, at_rest), 5e-4);
     const Vector3 tear = {{-1.001 * strength * area, 0., 0.}};
-    above("beyond it is to crack: excess - 1", bond.law->excess(tear, {}, at_rest) - 1., 5e-4);
-    bond.law->release(bond.memory);
-    report("  once", bond.law->excess(tear, {}, at_rest), "0", bond.law->excess(tear, {}, at_rest) == 0.);
+    above("beyond it is to crack: excess - 1", bond.law->utilisation(tear, {}, at_rest) - 1., 5e-4);
+    bond.law->apply_event(bond.memory);
+    report("  once", bond.law->utilisation(tear, {}, at_rest), "0",
+           bond.law->utilisation(tear, {}, at_rest) == 0.);
     bond.open("stress at a third of the last opening", 0., end / 3., strength * 2. / 3.);
     below("  energy: held and lost, over the law's integral",
           bond.law->bond_energy({{end / 3., 0., 0.}}, area, bond.memory) /
@@ -95,8 +96,8 @@ namespace
     for (const bool slid : {false, true})
     {
       Bond bond;
-      bond.law->release(bond.memory);
-      const PairPast at_rest = bond.past({});
+      bond.law->apply_event(bond.memory);
+      const PairHistory at_rest = bond.past({});
       bond.law->commit({{-.5 * strength * area, 0., 0.}}, {{0., slid ? .1 * end : 0., 0.}}, at_rest,
                        bond.memory);
       const double shear = bond.residual({{0., 1e6, 0.}}, {}, at_rest);
@@ -138,9 +139,9 @@ namespace
             force[c] = 2. * strength * area * random_number();
             gap[c] = end * random_number();
           }
-          const PairPast   past = bond.past({{.3 * end * std::abs(random_number()), .1 * end, 0.}}, is_mean);
-          constexpr double rho = 1e11, h = 1e-7;
-          PairEquations    e, low, high;
+          const PairHistory past = bond.past({{.3 * end * std::abs(random_number()), .1 * end, 0.}}, is_mean);
+          constexpr double  rho = 1e11, h = 1e-7;
+          PairEquations     e, low, high;
           bond.law->evaluate(force, gap, past, rho, e);
           for (unsigned int k = 0; k < 6; ++k)
           {
@@ -176,9 +177,9 @@ namespace
           Vector3      b;
           for (double &x : b)
             x = 1.5 * end * random_number();
-          const PairPast past = bond.past({{.2 * end, 0., 0.}}, is_mean);
-          const Vector3  force = bond.law->solve(H, b, past);
-          Vector3        gap = H * force;
+          const PairHistory past = bond.past({{.2 * end, 0., 0.}}, is_mean);
+          const Vector3     force = bond.law->solve(H, b, past);
+          Vector3           gap = H * force;
           add(gap, b);
           worst = std::max(worst, norm(bond.law->error(force, gap, past, 1. / h)) / (strength * area));
         }

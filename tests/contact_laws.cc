@@ -310,7 +310,7 @@ namespace
     {
       const Matrix3 H = random_flexibility();
       const Vector3 b = random_vector(1.), w = random_vector(1.),
-                    f = law->solve_acceleration(H, b, w, 1e-12, PairPast(), 1), a = plus(b, H * f);
+                    f = law->solve_acceleration(H, b, w, 1e-12, PairHistory(), 1), a = plus(b, H * f);
       const double speed = std::hypot(w[1], w[2]);
       if (H[0] <= mu * (H[1] * w[1] + H[2] * w[2]) / speed) // Painleve's paradox: has no such solution
         continue;
@@ -636,7 +636,7 @@ namespace
     const double area = 3.;
     const auto   law = make_joint_law("KSM", 0., Equations::alart_curnier, k);
     double       memory[6] = {};
-    PairPast     past;
+    PairHistory  past;
     past.area = area;
     past.memory = memory;
     past.start = {{.01, 0., 0.}};
@@ -695,7 +695,7 @@ namespace
   {
     std::unique_ptr<JointLaw> law;
     std::vector<double>       memory;
-    PairPast                  past;
+    PairHistory               past;
 
     LedKey(const KeyParameters &k, const double friction)
         : law(make_joint_law("KSM", friction, Equations::alart_curnier, k)), memory(law->n_memory(), 0.)
@@ -711,9 +711,9 @@ namespace
       for (unsigned int events = 0; events < 10; ++events)
       {
         const Vector3 force = law->solve(H, b, past), gap = plus(H * force, b);
-        if (law->excess(force, gap, past) > 1.)
+        if (law->utilisation(force, gap, past) > 1.)
         {
-          law->release(memory.data());
+          law->apply_event(memory.data());
           continue;
         }
         law->commit(force, gap, past, memory.data());
@@ -737,7 +737,7 @@ namespace
       p.keys.seat_compliance = seat;
       const auto          law = make_joint_law("KSM", p);
       std::vector<double> memory(law->n_memory(), 0.);
-      PairPast            past(Vector3{{.16, 0., 0.}});
+      PairHistory         past(Vector3{{.16, 0., 0.}});
       past.area = 1.;
       past.memory = memory.data();
       const Matrix3 H = {{flexibility, 0., 0., 0., flexibility, 0., 0., 0., flexibility}};
@@ -745,13 +745,13 @@ namespace
       {
         const Vector3 b = {{.05, sign * side, 0.}};
         memory[0] = 0.;
-        expect(law->excess({}, b, past) > 1., "past the flank: the next event");
+        expect(law->utilisation({}, b, past) > 1., "past the flank: the next event");
         memory[0] = 1.;
         const Vector3 force = law->solve(H, b, past), gap = plus(b, H * force);
         compression =
             std::max(compression, std::abs(std::abs(gap[1]) - side * seat / (seat + flexibility)) / side);
         expect(std::abs(gap[0] - .05) < 1e-12, "the opening is free");
-        expect(law->excess(force, gap, past) == 0., "stopped by its flank, not on its crest");
+        expect(law->utilisation(force, gap, past) == 0., "stopped by its flank, not on its crest");
       }
     }
     below("key on its elastic seat again: compression, relative error", compression, 1e-9);

@@ -20,7 +20,7 @@ namespace
   public:
     explicit Limited(const double limit) : limit(limit), law(make_joint_law("FJA", LawParameters(.5))) {}
 
-    void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
+    void evaluate(const Vector3 &force, const Vector3 &gap, const PairHistory &past, const double rho,
                   PairEquations &e) const override
     {
       law->evaluate(force, gap, past, rho, e);
@@ -30,11 +30,11 @@ namespace
         e.state = PairState::slip;
       }
     }
-    Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const override
+    Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairHistory &past) const override
     {
       return law->solve(H, b, past);
     }
-    Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &past,
+    Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &past,
                           const unsigned char touching) const override
     {
       return law->solve_impulse(H, v, past, touching);
@@ -251,7 +251,7 @@ namespace
   public:
     std::vector<unsigned int> pushes; ///< its steps, push by push
 
-    const std::vector<unsigned int> &feet() const override { return node; }
+    const std::vector<unsigned int> &base_nodes() const override { return node; }
     unsigned int                     n_substeps() const override { return 5; }
     BlockSparseMatrix                compliance(unsigned int) const override
     {
@@ -260,7 +260,7 @@ namespace
       return R;
     }
     Unknowns predict(unsigned int, const Unknowns &) override { return {0., 0., 0.}; }
-    void     push(const unsigned int n, const Unknowns &, const Unknowns &, double) override
+    void     advance(const unsigned int n, const Unknowns &, const Unknowns &, double) override
     {
       pushes.push_back(n);
     }

@@ -118,34 +118,38 @@ namespace
   public:
     static constexpr double fresh = .8, worn = .2;
 
-    void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
+    void evaluate(const Vector3 &force, const Vector3 &gap, const PairHistory &past, const double rho,
                   PairEquations &e) const override
     {
       law(past).evaluate(force, gap, past, rho, e);
     }
-    Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &past,
+    Vector3 error(const Vector3 &force, const Vector3 &gap, const PairHistory &past,
                   const double rho) const override
     {
       return law(past).error(force, gap, past, rho);
     }
-    Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const override
+    Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairHistory &past) const override
     {
       return law(past).solve(H, b, past);
     }
-    Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &past,
+    Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &past,
                           const unsigned char touching) const override
     {
       return law(past).solve_impulse(H, v, past, touching);
     }
     unsigned int n_memory() const override { return 1; }
-    void commit(const Vector3 &force, const Vector3 &gap, const PairPast &past, double *memory) const override
+    void         commit(const Vector3 &force, const Vector3 &gap, const PairHistory &past,
+                        double *memory) const override
     {
       if (force[0] > 0. && std::hypot(gap[1] - past.start[1], gap[2] - past.start[2]) > 1e-6)
         memory[0] = 1.;
     }
 
   private:
-    const JointLaw &law(const PairPast &past) const { return past.memory[0] == 0. ? *faces[0] : *faces[1]; }
+    const JointLaw &law(const PairHistory &past) const
+    {
+      return past.memory[0] == 0. ? *faces[0] : *faces[1];
+    }
 
     const std::unique_ptr<JointLaw> faces[2] = {make_joint_law("FJA", fresh), make_joint_law("FJA", worn)};
   };

@@ -114,9 +114,9 @@ namespace
       expect(info == 0, "the whole system has a solution");
     }
 
-    SolidModel            model;
-    Structure             structure;
-    FootElimination::Feet feet;
+    SolidModel             model;
+    Structure              structure;
+    BaseElimination::Nodes feet;
   };
 
   JointSystem system_of(const Standing &dam, const JointLaws &laws)
@@ -191,13 +191,13 @@ namespace
     JointSystem       system = system_of(dam, laws);
     const std::size_t n = 3 * dam.structure.pairs.size();
     Unknowns          load(dam.n_u()), none(n, 0.), offset(n), force(n, 0.), gap, u, memory;
-    FeetOfStep        feet;
+    BaseOfStep        feet;
     for (double &f : load)
       f = 1e6 * random_number();
     for (double &x : offset)
       x = 1e-4 * random_number();
     for (std::size_t k = 0; k < 3 * dam.feet.node.size(); ++k)
-      feet.place.push_back(1e-3 * random_number());
+      feet.displacement.push_back(1e-3 * random_number());
     const ContactResult result = system.solve(load, offset, none, memory, force, gap, u, &feet);
     report("joints on feet: residual", result.residual, "converged", result.converged);
     Unknowns x = u;
@@ -210,20 +210,20 @@ namespace
         x *= step.share;
       dam.structure.add_pair_force(dam.structure.pairs[p], f, expected);
     }
-    const double forces = largest(expected), places = largest(feet.place);
-    expected.insert(expected.end(), feet.place.begin(), feet.place.end());
+    const double forces = largest(expected), places = largest(feet.displacement);
+    expected.insert(expected.end(), feet.displacement.begin(), feet.displacement.end());
     const Unknowns left = dam.product(x);
-    double         of_bodies = 0., of_feet = 0., of_gaps = 0.;
+    double         of_bodies = 0., of_base = 0., of_gaps = 0.;
     for (std::size_t k = 0; k < left.size(); ++k)
     {
-      double &worst = k < dam.n_u() ? of_bodies : of_feet;
+      double &worst = k < dam.n_u() ? of_bodies : of_base;
       worst = std::max(worst, std::abs(left[k] - expected[k]));
     }
     for (std::size_t k = 0; k < n; ++k)
       of_gaps = std::max(
           of_gaps, std::abs(dam.structure.jump(dam.structure.pairs[k / 3], u)[k % 3] + offset[k] - gap[k]));
     below("  equations of motion / largest force", of_bodies / forces, 1e-12);
-    below("  feet: place - R force / largest place", of_feet / places, 1e-12);
+    below("  feet: place - R force / largest place", of_base / places, 1e-12);
     below("  gaps / largest", of_gaps / largest(gap), 1e-10);
     above("  forces of the joints", largest(force), 0.);
     above("  forces on the feet / largest force", largest(feet.force) / forces, .01);
@@ -233,14 +233,14 @@ namespace
   void test_parts()
   {
     CondensedRock rock;
-    rock.feet = {{0, {0}}};
+    rock.base_nodes = {{0, {0}}};
     rock.stiffness = {3e9, 1e9, 0., 1e9, 2e9, 0., 0., 0., 4e9};
-    const StandingNodes standing(rock.feet);
-    constexpr double    damping = 2e-3, dt = 1e-2;
-    MasslessSupport     whole(rock, standing, damping, dt), quarter(rock, standing, damping, dt / 4);
-    const unsigned int  n = whole.n_substeps();
-    const Unknowns      at = {1., -2., 3.}, a = whole.predict(n / 4, at), b = quarter.predict(n, at);
-    const auto          c = whole.compliance(n / 4), d = quarter.compliance(n);
+    const DamNodes     standing(rock.base_nodes);
+    constexpr double   damping = 2e-3, dt = 1e-2;
+    MasslessSupport    whole(rock, standing, damping, dt), quarter(rock, standing, damping, dt / 4);
+    const unsigned int n = whole.n_substeps();
+    const Unknowns     at = {1., -2., 3.}, a = whole.predict(n / 4, at), b = quarter.predict(n, at);
+    const auto         c = whole.compliance(n / 4), d = quarter.compliance(n);
     for (unsigned int i = 0; i < 3; ++i)
       below("massless rock, a quarter of a step: place", a[i] / b[i] - 1., 1e-14);
     for (unsigned int i = 0; i < 9; ++i)

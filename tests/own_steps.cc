@@ -106,12 +106,12 @@ namespace
       largest = std::max(largest, newmark.largest_energy());
       dam = std::max(dam, std::abs(newmark.state().energy.balance(newmark.initial_energy())));
       rock = std::max(rock, foundation.balance_error());
-      interface = std::max(interface, std::abs(foundation.work_of_feet() + foundation.work_on_dam()));
-      auto          &own = dynamic_cast<OwnStepRock &>(foundation);
+      interface = std::max(interface, std::abs(foundation.work_of_base() + foundation.work_on_dam()));
+      auto          &own = dynamic_cast<SubcycledRock &>(foundation);
       const Unknowns places = own.predict(0, {}); // where they are
       for (std::size_t k = 0; k < places.size(); ++k)
       {
-        const double u = newmark.state().u[3 * std::size_t(own.feet()[k / 3]) + k % 3];
+        const double u = newmark.state().u[3 * std::size_t(own.base_nodes()[k / 3]) + k % 3];
         apart = std::max(apart, std::abs(u - places[k]));
         far = std::max(far, std::abs(u));
       }
@@ -175,11 +175,11 @@ namespace
       partitioned(box(6), c, false,
                   [&](const Newmark &n, ExplicitRock &r)
                   {
-                    auto   &own = dynamic_cast<OwnStepRock &>(r);
+                    auto   &own = dynamic_cast<SubcycledRock &>(r);
                     Vector3 mean{};
-                    for (const unsigned int node : own.feet())
+                    for (const unsigned int node : own.base_nodes())
                       for (unsigned int d = 0; d < 3; ++d)
-                        mean[d] += n.state().v[3 * std::size_t(node) + d] / own.feet().size();
+                        mean[d] += n.state().v[3 * std::size_t(node) + d] / own.base_nodes().size();
                     const Vector3 predicted = own.base_velocity() - mean, last = before - mean;
                     off += dot(predicted, predicted);
                     of_last += dot(last, last);

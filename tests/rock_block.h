@@ -4,7 +4,7 @@
 
 #include "column.h"
 
-#include <voussoir/foundation/own_step_rock.h>
+#include <voussoir/foundation/subcycled_rock.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/motion/motion.h>
@@ -237,11 +237,11 @@ namespace Blocks
     p.coupling = c.coupling;
     p.layers_at_dam = c.layers_at_dam;
     p.free_field = "columns"; // no earthquake: the box has too few layers for sections beside "fixed"
-    const HexMesh both = make_mesh(ground, true, cut);
-    const auto    made = make_explicit_rock({p, both, "test"});
-    auto         &foundation = dynamic_cast<ExplicitRock &>(*made);
-    Dam dam(cut ? open_joints(block) : block, c.stiffness_damping, foundation.base() == Foundation::Base::led,
-            c.law);
+    const HexMesh  both = make_mesh(ground, true, cut);
+    const auto     made = make_explicit_rock({p, both, "test"});
+    auto          &foundation = dynamic_cast<ExplicitRock &>(*made);
+    Dam            dam(cut ? open_joints(block) : block, c.stiffness_damping,
+            foundation.base() == Foundation::Base::coupled, c.law);
     const Unknowns unit = dam.load(c.direction);
     foundation.add_stiffness(dam.model, dam.structure);
     foundation.add_mass(dam.structure);
@@ -254,7 +254,7 @@ namespace Blocks
         [&](Unknowns &load) { foundation.advance(load); },
         [&]
         {
-          foundation.follow(newmark.state());
+          foundation.update_from_dam(newmark.state());
           if (watch)
             watch(newmark, foundation);
         });

@@ -406,7 +406,7 @@ namespace
       std::vector<double> all;
       for (const bool opens : {false, true})
       {
-        PairPast past(Vector3{{opens ? .1 : 0., 0., 0.}});
+        PairHistory past(Vector3{{opens ? .1 : 0., 0., 0.}});
         past.memory = memory.data();
         const Matrix3 H = {{1e-9, 0., 0., 0., 1e-9, 0., 0., 0., 1e-9}};
         for (const double normal : {-1e-4, 1e-4, .1})

@@ -7,7 +7,7 @@
 #include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/output/energy_check.h>
-#include <voussoir/output/stability_watch.h>
+#include <voussoir/output/stability_monitor.h>
 
 namespace
 {
@@ -140,14 +140,14 @@ namespace
     dam.foundation->start(motion, {motion.dt, 1, n}, zero);
     Newmark newmark(dam.structure, dam.laws, scene.contact, motion.dt, ImpactRule::mean_force);
     newmark.start(zero, zero, {}, zero, {});
-    const StabilityWatch watch(dam, motion, newmark);
+    const StabilityMonitor watch(dam, motion, newmark);
     for (step = 1; step <= n; ++step)
     {
       Unknowns load = zero;
       dam.foundation->advance(load);
       newmark.advance(load, dam.foundation->base_velocity());
-      dam.foundation->follow(newmark.state());
-      const std::string trouble = watch.trouble(newmark, step, step == n);
+      dam.foundation->update_from_dam(newmark.state());
+      const std::string trouble = watch.instability(newmark, step, step == n);
       if (!trouble.empty())
         return trouble;
     }

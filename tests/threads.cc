@@ -50,7 +50,7 @@ namespace
   class Refusing : public JointLaw
   {
   public:
-    void evaluate(const Vector3 &force, const Vector3 &, const PairPast &, double,
+    void evaluate(const Vector3 &force, const Vector3 &, const PairHistory &, double,
                   PairEquations &e) const override
     {
       e = {};
@@ -58,11 +58,11 @@ namespace
       e.residual[0] -= 1.;
       e.d_force = {{1., 0., 0., 0., 1., 0., 0., 0., 1.}};
     }
-    Vector3 solve(const Matrix3 &, const Vector3 &, const PairPast &) const override
+    Vector3 solve(const Matrix3 &, const Vector3 &, const PairHistory &) const override
     {
       throw ComputationError("this pair has no solution");
     }
-    Vector3 solve_impulse(const Matrix3 &, const Vector3 &, const PairPast &, unsigned char) const override
+    Vector3 solve_impulse(const Matrix3 &, const Vector3 &, const PairHistory &, unsigned char) const override
     {
       return {};
     }

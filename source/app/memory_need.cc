@@ -121,21 +121,21 @@ namespace Voussoir
       double kept = 0.;      ///< of these afterwards
       double operators = 0.; ///< of W
       double diagonal = 0.;  ///< of W's own blocks of the joints
-      double feet = 0.;      ///< of what eliminates feet on rock with steps of its own, or without mass
-      double share = 1.;     ///< of all this but the feet's, the largest of a rank
+      double base = 0.;      ///< elimination of the base nodes on subcycled or massless rock
+      double share = 1.;     ///< of all except base, the largest of a rank
     };
 
-    /** Those of FootElimination: the feet's flexibility and its factor, and what couples feet and joints. */
-    double of_feet(const Graph &body, const std::vector<bool> &on_base)
+    /** Numbers of BaseElimination: flexibility of the base nodes, its factor, and coupling of base nodes and joints. */
+    double of_base(const Graph &body, const std::vector<bool> &on_base)
     {
-      double feet = 0., joints = 0.;
+      double base = 0., joints = 0.;
       for (unsigned int i = 0; i < body.place.size(); ++i)
-        (on_base[body.place[i]] ? feet : joints) += body.is_interface[i];
-      return 9. * feet * (2. * feet + joints);
+        (on_base[body.place[i]] ? base : joints) += body.is_interface[i];
+      return 9. * base * (2. * base + joints);
     }
 
-    /** Of massless rock, which couples all feet: what eliminates them, and its factor. */
-    double of_dense_feet(const std::vector<bool> &on_base)
+    /** On massless rock, which couples all base nodes: dense matrix and its factor. */
+    double of_dense_base(const std::vector<bool> &on_base)
     {
       const double unknowns = 3. * std::count(on_base.begin(), on_base.end(), true);
       return 2. * unknowns * unknowns;
@@ -203,17 +203,17 @@ namespace Voussoir
           nodes_on(dam, [](const int surface) { return surface == PhysicalId::base; });
       const std::vector<bool> held =
           scene.foundation.model == "rigid" ? on_base : std::vector<bool>(dam.nodes.size(), false);
-      const bool led =
-          (scene.foundation.model == "rock" && scene.foundation.has_own_steps()) || (massless && !one_body);
+      const bool coupled =
+          (scene.foundation.model == "rock" && scene.foundation.is_subcycled()) || (massless && !one_body);
       const std::vector<bool> in_pair =
           nodes_on(dam, [&](const int surface)
-                   { return is_joint_side(surface) || (led && surface == PhysicalId::base); });
+                   { return is_joint_side(surface) || (coupled && surface == PhysicalId::base); });
       std::set<int> volumes;
       for (const HexMesh::Cell &cell : dam.cells)
         volumes.insert(tied || (massless && one_body) ? 1 : cell.volume);
       const Growth        growth(scene.elements.degree);
       double              n_nodes = 0., n_blocks = 0.;
-      const bool          single = scene.has_single_factors() && !led;
+      const bool          single = scene.has_single_factors() && !coupled;
       std::vector<double> of_body; // what is shared out
       double              largest_factor = 0.;
       for (const int volume : volumes)
@@ -229,22 +229,22 @@ namespace Voussoir
         factors.dense += growth.surface * size.interface;
         factors.kept += growth.surface * size.kept;
         of_body.push_back(growth.entries * size.entries + growth.surface * (size.kept + 2. * size.interface));
-        if (led)
-          factors.feet += of_feet(graph, on_base);
+        if (coupled)
+          factors.base += of_base(graph, on_base);
         n_nodes += growth.nodes * graph.neighbours.size();
         n_blocks += growth.blocks * graph.n_blocks();
       }
       if (single) // those in hand are made in double precision, one by each thread
         factors.entries += largest_factor * std::min<std::size_t>(of_body.size(), omp_get_max_threads());
       factors.share = largest_share(of_body);
-      if (massless && led)
-        factors.feet += of_dense_feet(on_base);
+      if (massless && coupled)
+        factors.base += of_dense_base(on_base);
       if (!tied)
-        add_operator(joints, joint_unknowns(dam, joints, led ? on_base : held), factors);
+        add_operator(joints, joint_unknowns(dam, joints, coupled ? on_base : held), factors);
       factors.operators *= growth.surface;
       factors.diagonal *= growth.surface;
-      if (led && !tied)
-        factors.feet += factors.operators; // a second one while the feet are eliminated
+      if (coupled && !tied)
+        factors.base += factors.operators; // a second one during the elimination
       return 2. * block * n_blocks + per_cell * dam.cells.size() + per_node * n_nodes; // stiffness, stress
     }
 
@@ -289,7 +289,7 @@ namespace Voussoir
         factors.share *
             (8. * factors.entries + std::max(8. * factors.dense, 8. * factors.kept + 12. * factors.operators +
                                                                      8. * factors.diagonal)) +
-        8. * factors.feet;
+        8. * factors.base;
     need.run = need.of_others = program + dam + need.halved_step * (scene.error_estimate ? 2. : 1.);
     if (scene.foundation.model == "rock")
     {

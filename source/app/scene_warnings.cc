@@ -70,11 +70,10 @@ namespace Voussoir
          [](const Scene &s)
          { return s.statics.self_weight == "none" && !any_acts(s, &LoadRow::is_by_gravity); },
          {"Statics/Gravity"}},
-        {"a dam that rock with steps of its own, or massless rock, leads by its feet has them in double "
-         "precision",
+        {"the factors of a dam on subcycled or massless rock are in double precision",
          [](const Scene &s)
          {
-           return (s.foundation.model == "rock" && s.foundation.has_own_steps()) ||
+           return (s.foundation.model == "rock" && s.foundation.is_subcycled()) ||
                   (s.foundation.model == "massless" && !Dam::is_one_body(s, all_tied(s)));
          },
          {"Dynamics/Factors"}},

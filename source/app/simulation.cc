@@ -233,7 +233,7 @@ namespace Voussoir
       log.line("          reduced time steps from t = %.4g s, required by the joints: additional factors of "
                "%.2f GiB%s",
                newmark.state().time, more / std::pow(2., 30), Ranks::size() > 1 ? " on the first rank" : "");
-    foundation.follow(newmark.state());
+    foundation.update_from_dam(newmark.state());
     state.acceleration =
         mean_acceleration(v_before, newmark.state().v, state.motion.dt, state.ground_acceleration(state.step),
                           state.ground_acceleration(state.step + 1));
@@ -300,7 +300,7 @@ namespace Voussoir
   /** Sends the state of foundation and observers to the first rank. */
   void Simulation::gather_on_root()
   {
-    state.dam->foundation->collect();
+    state.dam->foundation->gather_on_root();
     for (Observer *observer : *observers)
       observer->gather_on_root();
   }

@@ -75,45 +75,46 @@ namespace Voussoir
       unsigned int n_memory() const override { return 2; }
       bool         needs_mean_force() const override { return true; }
 
-      void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
+      void evaluate(const Vector3 &force, const Vector3 &gap, const PairHistory &history, const double rho,
                     PairEquations &e) const override
       {
-        if (is_bonded(past.memory))
+        if (is_bonded(history.memory))
         {
-          tie->evaluate(force, gap, past, rho, e);
+          tie->evaluate(force, gap, history, rho, e);
           e.touching = face_bit | bond_bit;
           return;
         }
         double        slope;
-        const Vector3 contact = without_tension(force, gap[0], past, slope);
-        face->evaluate(contact, gap, past, rho, e);
+        const Vector3 contact = without_tension(force, gap[0], history, slope);
+        face->evaluate(contact, gap, history, rho, e);
         for (unsigned int i = 0; i < 3; ++i)
           e.d_gap[3 * i] += e.d_force[3 * i] * slope;
-        if (e.touching && strength > 0. && past.memory[condition] == cracked && past.memory[largest] == 0.)
+        if (e.touching && strength > 0. && history.memory[condition] == cracked &&
+            history.memory[largest] == 0.)
           e.touching |= bond_bit; // no opening yet: an impact must not return the tension of this step
       }
 
-      Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &past,
+      Vector3 error(const Vector3 &force, const Vector3 &gap, const PairHistory &history,
                     const double rho) const override
       {
-        if (is_bonded(past.memory))
-          return tie->error(force, gap, past, rho);
+        if (is_bonded(history.memory))
+          return tie->error(force, gap, history, rho);
         double slope;
-        return face->error(without_tension(force, gap[0], past, slope), gap, past, rho);
+        return face->error(without_tension(force, gap[0], history, slope), gap, history, rho);
       }
 
-      Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const override
+      Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairHistory &history) const override
       {
-        if (is_bonded(past.memory))
-          return tie->solve(H, b, past);
+        if (is_bonded(history.memory))
+          return tie->solve(H, b, history);
         double     slope;
         const auto tension = [&](const double opening)
-        { return without_tension({}, opening, past, slope)[0]; };
+        { return without_tension({}, opening, history, slope)[0]; };
         const double at_contact = tension(0.); // mean tension of a step that ends closed
         if (b[0] < H[0] * at_contact)
         {
           Vector3 force = face->solve(
-              H, {{b[0] - H[0] * at_contact, b[1] - H[3] * at_contact, b[2] - H[6] * at_contact}}, past);
+              H, {{b[0] - H[0] * at_contact, b[1] - H[3] * at_contact, b[2] - H[6] * at_contact}}, history);
           force[0] -= at_contact;
           return force;
         }
@@ -126,10 +127,10 @@ namespace Voussoir
         return {{-tension(high), 0., 0.}};
       }
 
-      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &past,
+      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &history,
                             const unsigned char touching) const override
       {
-        return (touching & bond_bit ? tie : face)->solve_impulse(H, v, past, touching);
+        return (touching & bond_bit ? tie : face)->solve_impulse(H, v, history, touching);
       }
 
       Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
@@ -142,23 +143,23 @@ namespace Voussoir
         return held;
       }
 
-      double excess(const Vector3 &force, const Vector3 &, const PairPast &past) const override
+      double utilisation(const Vector3 &force, const Vector3 &, const PairHistory &history) const override
       {
-        return is_bonded(past.memory) ? -force[0] / (strength * past.area) : 0.;
+        return is_bonded(history.memory) ? -force[0] / (strength * history.area) : 0.;
       }
 
-      void release(double *memory) const override { memory[condition] = end > 0. ? cracked : lost; }
+      void apply_event(double *memory) const override { memory[condition] = end > 0. ? cracked : lost; }
 
-      void commit(const Vector3 &force, const Vector3 &gap, const PairPast &past,
+      void commit(const Vector3 &force, const Vector3 &gap, const PairHistory &history,
                   double *memory) const override
       {
         if (memory[condition] != cracked)
           return;
         if (memory[largest] == 0. && gap[0] <= nothing * end)
         {
-          if (length(gap[1] - past.start[1], gap[2] - past.start[2]) > nothing * end)
+          if (length(gap[1] - history.start[1], gap[2] - history.start[2]) > nothing * end)
             memory[largest] = nothing * end; // it slipped and remains cracked
-          else if (-force[0] < (1. - nothing) * strength * past.area)
+          else if (-force[0] < (1. - nothing) * strength * history.area)
             memory[condition] = bonded; // unloaded by other cracks before it moved
           return;
         }
@@ -192,14 +193,15 @@ namespace Voussoir
 
       /** Returns the contact force: @p force without the tension of a step that ends at @p opening. @p slope
        * receives the derivative of that tension [N/m]. */
-      Vector3 without_tension(Vector3 force, const double opening, const PairPast &past, double &slope) const
+      Vector3 without_tension(Vector3 force, const double opening, const PairHistory &history,
+                              double &slope) const
       {
         slope = 0.;
-        if (strength == 0. || past.memory[condition] == lost)
+        if (strength == 0. || history.memory[condition] == lost)
           return force;
-        const Softening law(strength * past.area, end, past.memory[largest]);
-        const double    before = std::max(past.start[0], 0.), moved = opening - before;
-        if (!past.is_mean)
+        const Softening law(strength * history.area, end, history.memory[largest]);
+        const double    before = std::max(history.start[0], 0.), moved = opening - before;
+        if (!history.is_mean)
         {
           force[0] += law.tension(opening);
           slope = law.slope(opening);

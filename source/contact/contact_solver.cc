@@ -27,10 +27,10 @@ namespace Voussoir
     }
 
     /** Returns the squared norm of the gaps at the start of the step. */
-    double norm_square(const std::vector<PairPast> &past)
+    double norm_square(const std::vector<PairHistory> &history)
     {
       double sum = 0.;
-      for (const PairPast &pair : past)
+      for (const PairHistory &pair : history)
         for (const double y : pair.start)
           sum += y * y;
       return sum;
@@ -133,7 +133,7 @@ namespace Voussoir
                        {
                          if (number[i] == no_surfaces)
                          {
-                           law[i]->evaluate(get(x.force, i), shifted_gap(i, x), (*past)[i], rho[i],
+                           law[i]->evaluate(get(x.force, i), shifted_gap(i, x), (*history)[i], rho[i],
                                             equations[i]);
                            return;
                          }
@@ -165,7 +165,7 @@ namespace Voussoir
                          const Vector3 g = shifted_gap(i, x), r = get(x.force, i);
                          if (number[i] == no_surfaces)
                          {
-                           const Vector3 e = law[i]->error(r, g, (*past)[i], mean_rho);
+                           const Vector3 e = law[i]->error(r, g, (*history)[i], mean_rho);
                            of_pair[i] = dot(e, e);
                            return;
                          }
@@ -176,7 +176,7 @@ namespace Voussoir
     double f = 0., p = 0., q = 0., u = 0.;
     for (std::size_t i = 0; i < law.size(); ++i)
     {
-      const Vector3 g = shifted_gap(i, x), s = (*past)[i].start, r = get(x.force, i);
+      const Vector3 g = shifted_gap(i, x), s = (*history)[i].start, r = get(x.force, i);
       f += of_pair[i];
       p += dot(r, r);
       for (unsigned int c = 0; c < 3; ++c) // friction depends on the displacement of the step only
@@ -188,7 +188,7 @@ namespace Voussoir
     }
     // If slip is a small part of the gap, the round-off of the gap limits the accuracy.
     const double force_size = std::sqrt(p), load_size = mean_rho * std::sqrt(q), error = std::sqrt(f),
-                 round_off = 1e-15 * mean_rho * std::sqrt(norm_square(*past));
+                 round_off = 1e-15 * mean_rho * std::sqrt(norm_square(*history));
     scale = std::max({force_size, load_size, mean_rho * std::sqrt(u), round_off / parameters.tolerance});
     result.force_over_load = load_size > 0. ? force_size / load_size : 0.;
     result.residual = scale > 0. ? error / scale : 0.;
@@ -244,7 +244,7 @@ namespace Voussoir
     const auto   solve_pair = [&](const unsigned int pair, const Matrix3 &H, const Vector3 &free)
     {
       if (number[pair] == no_surfaces)
-        return law[pair]->solve(H, free, (*past)[pair]);
+        return law[pair]->solve(H, free, (*history)[pair]);
       WithSurfaces &with = with_surfaces[number[pair]];
       return with.surfaces.solve(H, free, accuracy, get(x.force, pair), x.beside.data() + with.begin);
     };

@@ -21,10 +21,10 @@ namespace Voussoir
       return std::all_of(x.begin(), x.end(), [](const double y) { return std::isfinite(y); });
     }
 
-    bool is_finite(const std::vector<PairPast> &past)
+    bool is_finite(const std::vector<PairHistory> &history)
     {
-      return std::all_of(past.begin(), past.end(),
-                         [](const PairPast &pair) { return std::isfinite(dot(pair.start, pair.start)); });
+      return std::all_of(history.begin(), history.end(),
+                         [](const PairHistory &pair) { return std::isfinite(dot(pair.start, pair.start)); });
     }
   } // namespace
 
@@ -176,7 +176,7 @@ namespace Voussoir
   ContactResult ContactSolver::solve(const Unknowns &right_hand_side, const Unknowns &start, Unknowns &force,
                                      Unknowns &gap)
   {
-    std::vector<PairPast> pairs;
+    std::vector<PairHistory> pairs;
     for (std::size_t i = 0; i < law.size(); ++i)
       pairs.emplace_back(get(start, i));
     return solve(right_hand_side, pairs, force, gap);
@@ -203,11 +203,11 @@ namespace Voussoir
 
   /** Starts a solution and returns the first iterate. Its forces are @p force, or zero if @p force has values
    * that are not finite. */
-  ContactSolver::Iterate ContactSolver::first_guess(const Unknowns              &right_hand_side,
-                                                    const std::vector<PairPast> &pairs, Unknowns &force)
+  ContactSolver::Iterate ContactSolver::first_guess(const Unknowns                 &right_hand_side,
+                                                    const std::vector<PairHistory> &pairs, Unknowns &force)
   {
     b = &right_hand_side;
-    past = &pairs;
+    history = &pairs;
     result = ContactResult();
     proximal.alpha = 0.;
     tolerance = parameters.tolerance;
@@ -228,7 +228,7 @@ namespace Voussoir
     return x;
   }
 
-  ContactResult ContactSolver::solve(const Unknowns &right_hand_side, const std::vector<PairPast> &pairs,
+  ContactResult ContactSolver::solve(const Unknowns &right_hand_side, const std::vector<PairHistory> &pairs,
                                      Unknowns &force, Unknowns &gap)
   {
     Iterate    x = first_guess(right_hand_side, pairs, force);

@@ -15,35 +15,35 @@ namespace Voussoir
     public:
       explicit FJA(const double friction) : mu(friction) {}
 
-      void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
+      void evaluate(const Vector3 &force, const Vector3 &gap, const PairHistory &history, const double rho,
                     PairEquations &e) const override
       {
-        alart_curnier(force, gap[0], {{gap[1] - past.start[1], gap[2] - past.start[2]}}, mu, rho, e);
+        alart_curnier(force, gap[0], {{gap[1] - history.start[1], gap[2] - history.start[2]}}, mu, rho, e);
       }
 
-      Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &past,
+      Vector3 error(const Vector3 &force, const Vector3 &gap, const PairHistory &history,
                     const double rho) const override
       {
-        return natural_map(force, {{gap[0], gap[1] - past.start[1], gap[2] - past.start[2]}}, mu, rho);
+        return natural_map(force, {{gap[0], gap[1] - history.start[1], gap[2] - history.start[2]}}, mu, rho);
       }
 
-      Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const override
+      Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairHistory &history) const override
       {
-        return solve_coulomb(H, {{b[0], b[1] - past.start[1], b[2] - past.start[2]}}, mu);
+        return solve_coulomb(H, {{b[0], b[1] - history.start[1], b[2] - history.start[2]}}, mu);
       }
 
-      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &,
+      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &,
                             const unsigned char touching) const override
       {
         return touching ? solve_coulomb(H, v, mu) : Vector3{};
       }
 
       Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &w, const double still,
-                                 const PairPast &past, const unsigned char touching) const override
+                                 const PairHistory &history, const unsigned char touching) const override
       {
         const double speed = length(w[1], w[2]);
         if (speed <= still || !touching)
-          return solve_impulse(H, b, past, touching);
+          return solve_impulse(H, b, history, touching);
         const double e1 = w[1] / speed, e2 = w[2] / speed, h = H[0] - mu * (H[1] * e1 + H[2] * e2);
         const double normal = h > 0. ? std::max(0., -b[0] / h) : std::max(0., -b[0] / H[0]);
         return {{normal, -mu * normal * e1, -mu * normal * e2}};
@@ -62,12 +62,12 @@ namespace Voussoir
     public:
       using FJA::FJA;
 
-      void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
+      void evaluate(const Vector3 &force, const Vector3 &gap, const PairHistory &history, const double rho,
                     PairEquations &e) const override
       {
         e = {};
         const bool   closed = normal_condition(force[0], gap[0], rho, e);
-        const double g1 = gap[1] - past.start[1], g2 = gap[2] - past.start[2];
+        const double g1 = gap[1] - history.start[1], g2 = gap[2] - history.start[2];
         const double p = length(force[1], force[2]), c = p > 0. ? force[1] / p : 1.,
                      s = p > 0. ? force[2] / p : 0.;
         // d(c, s)/d(force_1, force_2)
@@ -142,10 +142,10 @@ namespace Voussoir
     public:
       using FJA::FJA;
 
-      void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
+      void evaluate(const Vector3 &force, const Vector3 &gap, const PairHistory &history, const double rho,
                     PairEquations &e) const override
       {
-        alart_curnier(force, gap[0], {{gap[1] - past.start[1], gap[2] - past.start[2]}}, mu, rho,
+        alart_curnier(force, gap[0], {{gap[1] - history.start[1], gap[2] - history.start[2]}}, mu, rho,
                       e); // sets the state
         const PairState state = e.state;
         e = {};
@@ -160,7 +160,7 @@ namespace Voussoir
           e.state = state;
           return;
         }
-        const double  s1 = gap[1] - past.start[1], s2 = gap[2] - past.start[2], slip = length(s1, s2);
+        const double  s1 = gap[1] - history.start[1], s2 = gap[2] - history.start[2], slip = length(s1, s2);
         const Vector3 X = {{rho * (gap[0] + mu * slip), rho * mu * s1, rho * mu * s2}},
                       Y = {{mu * force[0], force[1], force[2]}};
         const double w0 = dot(X, X) + dot(Y, Y), w1 = 2. * (X[0] * X[1] + Y[0] * Y[1]),

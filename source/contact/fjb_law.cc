@@ -16,7 +16,7 @@ namespace Voussoir
     public:
       explicit FJB(const bool smooth) : smooth(smooth) {}
 
-      void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &, const double rho,
+      void evaluate(const Vector3 &force, const Vector3 &gap, const PairHistory &, const double rho,
                     PairEquations &e) const override
       {
         e = {};
@@ -27,20 +27,20 @@ namespace Voussoir
         no_slip(gap[1], gap[2], rho, e);
         e.state = e.touching ? PairState::stick : PairState::open;
       }
-      Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &,
+      Vector3 error(const Vector3 &force, const Vector3 &gap, const PairHistory &,
                     const double rho) const override
       {
         return {{std::min(force[0], rho * gap[0]), rho * gap[1], rho * gap[2]}};
       }
-      Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &) const override
+      Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairHistory &) const override
       {
         const Vector3 f = tie_rows(H, b, all);
         return f[0] > 0. ? f : tie_rows(H, b, tangential);
       }
-      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &past,
+      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &history,
                             const unsigned char touching) const override
       {
-        return touching ? solve(H, v, past) : tie_rows(H, v, tangential);
+        return touching ? solve(H, v, history) : tie_rows(H, v, tangential);
       }
       bool is_tangentially_tied() const override { return true; }
 

@@ -8,7 +8,7 @@ namespace Voussoir
     class Free : public JointLaw
     {
     public:
-      void evaluate(const Vector3 &force, const Vector3 &, const PairPast &, double,
+      void evaluate(const Vector3 &force, const Vector3 &, const PairHistory &, double,
                     PairEquations &e) const override
       {
         e = {};
@@ -17,8 +17,9 @@ namespace Voussoir
           e.d_force[4 * c] = 1.;
         e.state = PairState::open;
       }
-      Vector3 solve(const Matrix3 &, const Vector3 &, const PairPast &) const override { return {}; }
-      Vector3 solve_impulse(const Matrix3 &, const Vector3 &, const PairPast &, unsigned char) const override
+      Vector3 solve(const Matrix3 &, const Vector3 &, const PairHistory &) const override { return {}; }
+      Vector3 solve_impulse(const Matrix3 &, const Vector3 &, const PairHistory &,
+                            unsigned char) const override
       {
         return {};
       }

@@ -5,11 +5,11 @@
 
 namespace Voussoir
 {
-  Vector3 JointLaw::error(const Vector3 &force, const Vector3 &gap, const PairPast &past,
+  Vector3 JointLaw::error(const Vector3 &force, const Vector3 &gap, const PairHistory &history,
                           const double rho) const
   {
     PairEquations e;
-    evaluate(force, gap, past, rho, e);
+    evaluate(force, gap, history, rho, e);
     return e.residual;
   }
 
@@ -21,8 +21,8 @@ namespace Voussoir
   }
 
   Vector3 JointLaw::solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &, double,
-                                       const PairPast &past, const unsigned char touching) const
+                                       const PairHistory &history, const unsigned char touching) const
   {
-    return solve_impulse(H, b, past, touching);
+    return solve_impulse(H, b, history, touching);
   }
 } // namespace Voussoir

@@ -49,11 +49,11 @@ namespace Voussoir
        * flanks. A key that is out of the socket (opening >= height) and misaligned has its crest. A key that
        * is out and aligned has the face only. If the step then passes through a flank, the step is repeated
        * with the flanks. If the repeated step ends on the extension of a flank, it is repeated with the
-       * crest: see excess(). */
-      PresentSurfaces present(const PairPast &past) const override
+       * crest: see utilisation(). */
+      PresentSurfaces present(const PairHistory &history) const override
       {
-        PresentSurfaces result{{surfaces[0]}, {1}, past.start};
-        const Contact   contact = contact_of(past);
+        PresentSurfaces result{{surfaces[0]}, {1}, history.start};
+        const Contact   contact = contact_of(history);
         if (contact == Contact::crest)
           result.surfaces[0].clearance = -height;
         if (contact == Contact::face || contact == Contact::crest)
@@ -67,9 +67,9 @@ namespace Voussoir
             flank.clearance = std::max(flank.clearance, -(flank.axes * result.start)[0]);
           else
           {
-            const double *friction = friction_of(past.memory, k);
-            flank.compliance = seat / past.area;
-            flank.rest = {{0., friction[0] * past.area, friction[1] * past.area}};
+            const double *friction = friction_of(history.memory, k);
+            flank.compliance = seat / history.area;
+            flank.rest = {{0., friction[0] * history.area, friction[1] * history.area}};
           }
           result.surfaces.push_back(flank);
           result.bits.push_back(static_cast<unsigned char>(1u << k));
@@ -88,35 +88,36 @@ namespace Voussoir
       bool needs_mean_force() const override { return seat > 0.; }
 
       /** Returns 2 if the step passes through a flank or beyond its end and requires the next event, else 0. */
-      double excess(const Vector3 &, const Vector3 &gap, const PairPast &past) const override
+      double utilisation(const Vector3 &, const Vector3 &gap, const PairHistory &history) const override
       {
-        if (!is_out(past.start))
+        if (!is_out(history.start))
           return 0.;
-        const Contact contact = contact_of(past);
+        const Contact contact = contact_of(history);
         return (contact == Contact::face && !is_out(gap) && depth(gap) > round_off * height) ||
-                       (contact == Contact::flanks && is_out(gap) && is_out_of_line(gap, past))
+                       (contact == Contact::flanks && is_out(gap) && is_out_of_line(gap, history))
                    ? 2.
                    : 0.;
       }
 
-      void release(double *memory) const override { ++memory[0]; }
+      void apply_event(double *memory) const override { ++memory[0]; }
 
-      void commit(const Vector3 &, const Vector3 &gap, const PairPast &past, double *memory) const override
+      void commit(const Vector3 &, const Vector3 &gap, const PairHistory &history,
+                  double *memory) const override
       {
         if (n_beside() == 0)
           return;
-        const PresentSurfaces now = present(past);
-        const double          left_with = compression_of(past);
+        const PresentSurfaces now = present(history);
+        const double          left_with = compression_of(history);
         memory[0] = 0.;
         if (seat > 0.)
           memory[2 * n_beside() + 1] =
-              !is_out(gap) ? 0. : (is_out(past.start) ? left_with : depth_at_exit(past.start, gap));
+              !is_out(gap) ? 0. : (is_out(history.start) ? left_with : depth_at_exit(history.start, gap));
         for (std::size_t k = 1; k < surfaces.size() && seat > 0.; ++k)
         {
           const bool    carries = !is_out(gap) && k < now.surfaces.size();
           const Vector3 force = carries ? now.surfaces[k].seat_force(gap, now.start) : Vector3{};
-          memory[2 * k - 1] = force[1] / past.area;
-          memory[2 * k] = force[2] / past.area;
+          memory[2 * k - 1] = force[1] / history.area;
+          memory[2 * k] = force[2] / history.area;
         }
       }
 
@@ -170,26 +171,27 @@ namespace Voussoir
 
       /** Returns true if a key out of its socket is above a crest. The tolerance is round-off and the
        *  compression of the flank when the key left its socket. */
-      bool is_out_of_line(const Vector3 &gap, const PairPast &past) const
+      bool is_out_of_line(const Vector3 &gap, const PairHistory &history) const
       {
-        return depth_at_end(gap) > round_off * height + compression_of(past);
+        return depth_at_end(gap) > round_off * height + compression_of(history);
       }
 
       /** Returns the compression of a flank when the key left its socket [m]. */
-      double compression_of(const PairPast &past) const
+      double compression_of(const PairHistory &history) const
       {
-        return seat > 0. && n_beside() > 0 && past.memory ? std::max(0., past.memory[2 * n_beside() + 1])
-                                                          : 0.;
+        return seat > 0. && n_beside() > 0 && history.memory
+                   ? std::max(0., history.memory[2 * n_beside() + 1])
+                   : 0.;
       }
 
-      /** Returns the possible contact in the step from past.start, after the events so far. */
-      Contact contact_of(const PairPast &past) const
+      /** Returns the possible contact in the step from history.start, after the events so far. */
+      Contact contact_of(const PairHistory &history) const
       {
-        if (!is_out(past.start))
+        if (!is_out(history.start))
           return Contact::flanks;
-        if (is_out_of_line(past.start, past))
+        if (is_out_of_line(history.start, history))
           return Contact::crest;
-        const double events = past.memory && n_beside() > 0 ? past.memory[0] : 0.;
+        const double events = history.memory && n_beside() > 0 ? history.memory[0] : 0.;
         return events == 0. ? Contact::face : events == 1. ? Contact::flanks : Contact::crest;
       }
 

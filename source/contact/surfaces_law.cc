@@ -13,19 +13,19 @@ namespace Voussoir
   {
   }
 
-  PresentSurfaces SurfacesLaw::present(const PairPast &past) const
+  PresentSurfaces SurfacesLaw::present(const PairHistory &history) const
   {
-    PresentSurfaces result{surfaces, {}, past.start};
+    PresentSurfaces result{surfaces, {}, history.start};
     for (std::size_t k = 0; k < surfaces.size(); ++k)
       result.bits.push_back(static_cast<unsigned char>(1u << k));
     return result;
   }
 
-  void SurfacesLaw::evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, const double rho,
-                             PairEquations &e) const
+  void SurfacesLaw::evaluate(const Vector3 &force, const Vector3 &gap, const PairHistory &history,
+                             const double rho, PairEquations &e) const
   {
     PairSurfaces pair;
-    pair.start(present(past), rho, 1e-3 / rho);
+    pair.start(present(history), rho, 1e-3 / rho);
     std::vector<double> beside(3 * pair.n_beside());
     for (std::size_t k = 0; k < pair.n_beside(); ++k)
     {
@@ -64,9 +64,9 @@ namespace Voussoir
     return force;
   }
 
-  Vector3 SurfacesLaw::solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const
+  Vector3 SurfacesLaw::solve(const Matrix3 &H, const Vector3 &b, const PairHistory &history) const
   {
-    return solve_surfaces(present(past), H, b);
+    return solve_surfaces(present(history), H, b);
   }
 
   std::vector<double> SurfacesLaw::forces_beside(const PresentSurfaces &now, const Vector3 &force,
@@ -102,11 +102,11 @@ namespace Voussoir
   }
 
   double SurfacesLaw::friction_correction(const Vector3 &force, const Vector3 &gap,
-                                          const PairPast &past) const
+                                          const PairHistory &history) const
   {
-    const PresentSurfaces     now = present(past);
+    const PresentSurfaces     now = present(history);
     const std::vector<double> beside = forces_beside(now, force, gap);
-    const Vector3             change = gap - past.start;
+    const Vector3             change = gap - history.start;
     const auto along = [](const Vector3 &f, const Vector3 &d) { return f[1] * d[1] + f[2] * d[2]; };
     Vector3    on_face = force;
     double     taken = 0.;
@@ -138,7 +138,7 @@ namespace Voussoir
     return result;
   }
 
-  Vector3 SurfacesLaw::solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &,
+  Vector3 SurfacesLaw::solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &,
                                      const unsigned char touching) const
   {
     return touching ? solve_surfaces(touching_surfaces(touching, false), H, v) : Vector3{};
@@ -156,10 +156,10 @@ namespace Voussoir
   }
 
   Vector3 SurfacesLaw::solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
-                                          const double still, const PairPast &past,
+                                          const double still, const PairHistory &history,
                                           const unsigned char touching) const
   {
-    return touching == 1 ? face->solve_acceleration(H, b, slip_velocity, still, past, touching)
-                         : solve_impulse(H, b, past, touching);
+    return touching == 1 ? face->solve_acceleration(H, b, slip_velocity, still, history, touching)
+                         : solve_impulse(H, b, history, touching);
   }
 } // namespace Voussoir

@@ -10,7 +10,7 @@ namespace Voussoir
     class Tied : public JointLaw
     {
     public:
-      void evaluate(const Vector3 &, const Vector3 &gap, const PairPast &, const double rho,
+      void evaluate(const Vector3 &, const Vector3 &gap, const PairHistory &, const double rho,
                     PairEquations &e) const override
       {
         e = {};
@@ -20,11 +20,11 @@ namespace Voussoir
         e.state = PairState::stick;
         e.touching = 1;
       }
-      Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &) const override
+      Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairHistory &) const override
       {
         return tie_rows(H, b, {{true, true, true}});
       }
-      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &,
+      Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &,
                             unsigned char) const override
       {
         return tie_rows(H, v, {{true, true, true}});

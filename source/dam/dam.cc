@@ -137,14 +137,14 @@ namespace Voussoir
     initial_stress.assign(model->n_nodes(), Stress{});
     if (scene.statics.self_weight == "staged")
       stage_self_weight(); // on a rigid base; later displacements are relative to this state
-    if (foundation->base() != Foundation::Base::held)
+    if (foundation->base() != Foundation::Base::fixed)
     {
       model->free_base();
-      if (foundation->base() == Foundation::Base::shared)
+      if (foundation->base() == Foundation::Base::merged)
         tie_joints(*model, n_joints, true); // the monoliths share their base nodes
       structure = assemble_structure(*model, materials, incompatible_modes);
       pairs = find_pairs(*model, n_joints);
-      if (foundation->base() == Foundation::Base::led)
+      if (foundation->base() == Foundation::Base::coupled)
         remove_feet(pairs);
       geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
     }

@@ -304,11 +304,11 @@ namespace Voussoir
       throw InputError(
           "Entry \"Dynamics/Error estimate\" requires a rigid base or massless rock, because rock with mass "
           "has its own time steps. Remove the entry, and use `voussoir accuracy` to estimate the error.");
-    if (foundation.model == "rock" && foundation.substeps > 1 && !foundation.has_own_steps())
+    if (foundation.model == "rock" && foundation.substeps > 1 && !foundation.is_subcycled())
       throw InputError("\"Foundation/Coupling\" = partition with \"Foundation/Substeps\" above 1 was removed "
                        "in version 0.4.0. Set \"Foundation/Coupling\" to auto or mean traction, or "
                        "\"Foundation/Substeps\" to 1.");
-    if (foundation.model == "rock" && foundation.has_own_steps() && impact_rule != "mean-force")
+    if (foundation.model == "rock" && foundation.is_subcycled() && impact_rule != "mean-force")
       throw InputError("Subcycled rock (\"Foundation/Substeps\" above 1, or \"Foundation/Coupling\" = mean "
                        "traction) requires \"Dynamics/Impact\" = mean-force, not " +
                        impact_rule + ".");

@@ -37,7 +37,7 @@ namespace Voussoir
                     const std::function<void()> &stop_if_asked)
           : dam(dam), parameters(parameters), log(log), stop_if_asked(stop_if_asked),
             springs(dam.foundation->static_springs(dam.structure)),
-            feet(dam.foundation->static_feet(dam.structure)), path(dam), free(make_free_law())
+            base(dam.foundation->static_base(dam.structure)), path(dam), free(make_free_law())
       {
         const Scene &scene = dam.scene;
         state.force.assign(3 * dam.structure.pairs.size(), 0.);
@@ -85,7 +85,7 @@ namespace Voussoir
         ContactParameters of_system = parameters;
         of_system.write_problems = parameters.write_problems && grouted == INFINITY;
         system = std::make_unique<JointSystem>(dam.structure, laws_up_to(grouted, dam, *free), of_system,
-                                               StepOperator(), springs, feet.get());
+                                               StepOperator(), springs, base.get());
       }
 
       /** Solves a step, repeatedly until water spreads to no further pair. */
@@ -111,7 +111,7 @@ namespace Voussoir
           state.load = path.load(i);
           if (water)
             water->add_forces(pressure, state.load);
-          const ContactResult result = dam.foundation->settle(solve, springs, state.u, state.load, log);
+          const ContactResult result = dam.foundation->solve_static(solve, springs, state.u, state.load, log);
           total += result;
           if (!result.converged)
           {
@@ -164,7 +164,7 @@ namespace Voussoir
       const std::function<void()> &stop_if_asked;
       const Unknowns               springs;
 
-      const std::unique_ptr<FootElimination::Feet> feet;
+      const std::unique_ptr<BaseElimination::Nodes> base;
 
       const StaticPath                path;
       const std::unique_ptr<JointLaw> free;

@@ -69,7 +69,7 @@ namespace Voussoir
     }
   }
 
-  void Impact::add_kick(const Pair &pair, const Vector3 &f, Unknowns &v) const
+  void Impact::add_impulse(const Pair &pair, const Vector3 &f, Unknowns &v) const
   {
     Vector3 x;
     for (unsigned int c = 0; c < 3; ++c)
@@ -83,15 +83,15 @@ namespace Voussoir
       }
   }
 
-  void Impact::correct_velocity(const JointSystem &system, const std::vector<PairPast> &pasts,
+  void Impact::correct_velocity(const JointSystem &system, const std::vector<PairHistory> &histories,
                                 const double dt, const Unknowns &change, Unknowns &v, Unknowns &impulse) const
   {
     for_each_in_chunks(structure.pairs.size(), // no node belongs to two pairs
                        [&](const std::size_t p)
-                       { correct_pair(system, pasts[p], dt, p, change, v, impulse); });
+                       { correct_pair(system, histories[p], dt, p, change, v, impulse); });
   }
 
-  void Impact::correct_pair(const JointSystem &system, const PairPast &past, const double dt,
+  void Impact::correct_pair(const JointSystem &system, const PairHistory &history, const double dt,
                             const std::size_t p, const Unknowns &change, Unknowns &v, Unknowns &impulse) const
   {
     const Pair     &pair = structure.pairs[p];
@@ -105,7 +105,7 @@ namespace Voussoir
       const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
       const bool    face = system.touching()[p] & 1; // not for a pair with flank contact only
       const Vector3 f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
-      add_kick(pair, f, v);
+      add_impulse(pair, f, v);
       for (unsigned int c = 0; c < 3; ++c)
         impulse[3 * p + c] += f[c];
       return;
@@ -116,13 +116,13 @@ namespace Voussoir
       // The mean friction of the step has an error of second order. Friction from the velocity at the end
       // would have one of first order.
       const Vector3 kept = law.stop_normal(pair_inverse[p], jump, spent, system.touching()[p]);
-      add_kick(pair, kept - spent, v);
+      add_impulse(pair, kept - spent, v);
       set(impulse, p, kept);
       return;
     }
     // Velocity without the joint forces of this step, then the impulse that the law allows.
     const Vector3 lost = pair_inverse[p] * spent;
-    Vector3       allowed = law.solve_impulse(pair_inverse[p], jump - lost, past, system.touching()[p]);
+    Vector3       allowed = law.solve_impulse(pair_inverse[p], jump - lost, history, system.touching()[p]);
     if (rule == ImpactRule::mean_force && !law.is_tangentially_tied())
     {
       // If loads tear at a pair more than the impact, the new friction impulse could supply more energy than
@@ -138,11 +138,11 @@ namespace Voussoir
       if (gain > -dot(spent, get(change, p)) / dt + 1e-12 * size)
         allowed = law.stop_normal(pair_inverse[p], jump, spent, system.touching()[p]);
     }
-    add_kick(pair, allowed - spent, v);
+    add_impulse(pair, allowed - spent, v);
     set(impulse, p, allowed);
   }
 
-  Unknowns Impact::end_force(const JointSystem &system, const std::vector<PairPast> &pasts,
+  Unknowns Impact::end_force(const JointSystem &system, const std::vector<PairHistory> &histories,
                              const Unknowns &force, const Unknowns &v, const Unknowns &nodal_force) const
   {
     Unknowns a(nodal_force.size()), result(force.size(), 0.);
@@ -150,7 +150,7 @@ namespace Voussoir
       set(a, i, inverse_mass[i] * get(nodal_force, i));
     if (rule == ImpactRule::paper)
       for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-        add_kick(structure.pairs[p], get(force, p), a);
+        add_impulse(structure.pairs[p], get(force, p), a);
 
     double fastest = 0.;
     for (const double x : v)
@@ -167,15 +167,15 @@ namespace Voussoir
         const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
         const bool    face = system.touching()[p] & 1;
         const Vector3 f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
-        add_kick(pair, f, a);
+        add_impulse(pair, f, a);
         for (unsigned int c = 0; c < 3; ++c)
           result[3 * p + c] = force[3 * p + c] + f[c];
       }
       else if (closed || law.is_tangentially_tied())
       {
         const Vector3 f = law.solve_acceleration(pair_inverse[p], jump, structure.jump(pair, v), still,
-                                                 pasts[p], system.touching()[p]);
-        add_kick(pair, f, a);
+                                                 histories[p], system.touching()[p]);
+        add_impulse(pair, f, a);
         set(result, p, f);
       }
     }

@@ -126,8 +126,8 @@ namespace Voussoir
   {
     const double dt = step.dt;
     Unknowns     force, u_new;
-    FeetOfStep   feet;
-    result = solve(level, step, force, u_new, feet);
+    BaseOfStep   base;
+    result = solve(level, step, force, u_new, base);
     if (!result.converged)
       return false;
     for (std::size_t k = 0; k < force.size(); ++k)
@@ -137,30 +137,30 @@ namespace Voussoir
     Unknowns change; // change of the jumps
     add_work_of_joints(dt, u_new, change, work);
     if (support)
-      work.input += push_support(level, feet, u_new);
+      work.input += advance_support(level, base, u_new);
     move(step, u_new, work);
     if (!std::isfinite(work.input))
       throw ComputationError("The displacements are not finite at t = " + std::to_string(now.time) + " s.");
-    const double                kinetic_before = kinetic_energy_of_pairs();
-    const std::vector<PairPast> pasts = level.system.pasts(step_start, step_memory);
+    const double                   kinetic_before = kinetic_energy_of_pairs();
+    const std::vector<PairHistory> histories = level.system.histories(step_start, step_memory);
     if (rule != ImpactRule::none)
-      impact.correct_velocity(level.system, pasts, dt, change, now.v, impulse);
+      impact.correct_velocity(level.system, histories, dt, change, now.v, impulse);
     account(work, kinetic_before);
 
     if (rule == ImpactRule::mean_force || rule == ImpactRule::none || structure.pairs.empty())
       now.force = force;
     else
-      now.force = impact.end_force(level.system, pasts, force, now.v, force_without_joints());
+      now.force = impact.end_force(level.system, histories, force, now.v, force_without_joints());
     return true;
   }
 
   /** Solves for displacements and joint forces of a step. Stores the history variables of the laws if the
    * joints converge. */
   ContactResult Newmark::solve(Level &level, const StepLoad &step, Unknowns &force, Unknowns &u_new,
-                               FeetOfStep &feet)
+                               BaseOfStep &base)
   {
     if (support)
-      feet.place = support->predict(level.n_substeps, at_feet(now.u));
+      base.displacement = support->predict(level.n_substeps, at_base(now.u));
     Unknowns offset = reference, start(reference.size()), memory = now.memory;
     for (double &x : offset)
       x = -x;
@@ -168,7 +168,7 @@ namespace Voussoir
       set(start, p, opening_and_slip(p));
     force = now.force;
     const ContactResult result =
-        equation->solve(level.system, now, step, {offset, start, memory, force, gap, u_new, feet});
+        equation->solve(level.system, now, step, {offset, start, memory, force, gap, u_new, base});
     if (result.converged)
     {
       of_friction = level.system.friction_correction(start, force, gap, memory);

@@ -11,13 +11,13 @@ namespace Voussoir
   {
     ContactParameters of_level = parameters;
     of_level.write_problems = parameters.write_problems && levels.empty();
-    FootElimination::Feet feet;
+    BaseElimination::Nodes base;
     if (support)
-      feet = {support->feet(), support->compliance(part.n_substeps)};
+      base = {support->base_nodes(), support->compliance(part.n_substeps)};
     levels.emplace_back(
         new Level{part.dt, part.n_substeps,
                   JointSystem(structure, laws, of_level, trapezoidal_rule(structure, part.dt, share),
-                              Unknowns(), support ? &feet : nullptr, single_factors)});
+                              Unknowns(), support ? &base : nullptr, single_factors)});
   }
 
   /** Returns the index in levels for the step size of @p part. Adds the level if it is missing. */
@@ -77,24 +77,24 @@ namespace Voussoir
     return result;
   }
 
-  Unknowns Newmark::at_feet(const Unknowns &u) const
+  Unknowns Newmark::at_base(const Unknowns &u) const
   {
     Unknowns result;
-    result.reserve(3 * support->feet().size());
-    for (const unsigned int node : support->feet())
+    result.reserve(3 * support->base_nodes().size());
+    for (const unsigned int node : support->base_nodes())
       result.insert(result.end(), u.begin() + 3 * std::size_t(node), u.begin() + 3 * std::size_t(node) + 3);
     return result;
   }
 
   /** Advances the support under the mean base force of the step. Returns the work of this force on
    * the dam [J]. */
-  double Newmark::push_support(const Level &level, const FeetOfStep &feet, const Unknowns &u_new)
+  double Newmark::advance_support(const Level &level, const BaseOfStep &base, const Unknowns &u_new)
   {
-    const Unknowns before = at_feet(now.u), after = at_feet(u_new);
+    const Unknowns before = at_base(now.u), after = at_base(u_new);
     double         work = 0.;
     for (std::size_t k = 0; k < before.size(); ++k)
-      work += feet.force[k] * (after[k] - before[k]);
-    support->push(level.n_substeps, feet.force, after, work);
+      work += base.force[k] * (after[k] - before[k]);
+    support->advance(level.n_substeps, base.force, after, work);
     return work;
   }
 } // namespace Voussoir

@@ -63,7 +63,7 @@ namespace Voussoir
         for (std::size_t k = 0; k < structure.dashpots.size(); ++k)
           rhs[k] += 2. / dt * structure.dashpots[k] * now.u[k];
         return system.solve(rhs, joints.offset, joints.start, joints.memory, joints.force, joints.gap,
-                            joints.u_new, &joints.feet);
+                            joints.u_new, &joints.base);
       }
 
       void carry(DynamicState &, double, const Unknowns &, const Unknowns &) const override {}

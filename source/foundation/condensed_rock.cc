@@ -51,12 +51,12 @@ namespace Voussoir
     }
 
     /** Returns the stiffness matrix of the rock, condensed to the base nodes. */
-    std::vector<double> condensed_stiffness(Structure &ground, const std::vector<Foot> &feet,
+    std::vector<double> condensed_stiffness(Structure &ground, const std::vector<BaseNode> &base_nodes,
                                             const std::string &source)
     {
       Body &body = ground.bodies[0];
-      for (const Foot &foot : feet) // ascending
-        body.interface.push_back(foot.rock);
+      for (const BaseNode &base_node : base_nodes) // ascending
+        body.interface.push_back(base_node.rock);
       try
       {
         BodyFactor factor(ground, body, StepOperator());
@@ -87,7 +87,7 @@ namespace Voussoir
       if (rock.equation[i] != rigid_ground)
         points[rock.equation[i]] = {{rock.points[i][0], rock.points[i][1], rock.points[i][2]}};
     CondensedRock result;
-    result.feet = find_feet(dam, points, source);
+    result.base_nodes = find_base_nodes(dam, points, source);
     result.stiffness.resize(std::size_t(result.n()) * result.n());
     Ranks::on_first(
         [&]
@@ -95,7 +95,7 @@ namespace Voussoir
           Structure ground =
               assemble_structure(rock, materials_of(mesh.zones, parameters.rock, parameters.zone_materials()),
                                  incompatible_modes);
-          result.stiffness = condensed_stiffness(ground, result.feet, source);
+          result.stiffness = condensed_stiffness(ground, result.base_nodes, source);
         });
     Ranks::broadcast(result.stiffness.data(), result.stiffness.size(), 0);
     return result;
@@ -103,7 +103,7 @@ namespace Voussoir
 
   BlockSparseMatrix CondensedRock::matrix() const
   {
-    return in_blocks(stiffness, feet.size());
+    return in_blocks(stiffness, base_nodes.size());
   }
 
   BlockSparseMatrix CondensedRock::compliance(const std::vector<double> &springs) const
@@ -128,6 +128,6 @@ namespace Voussoir
     for (unsigned int i = 0; i < n(); ++i)
       for (unsigned int j = 0; j < n(); ++j)
         C[std::size_t(j) * n() + i] = A(i, j);
-    return in_blocks(C, feet.size());
+    return in_blocks(C, base_nodes.size());
   }
 } // namespace Voussoir

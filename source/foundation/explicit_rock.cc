@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
-#include <voussoir/base/give_back.h>
+#include <voussoir/base/free_memory.h>
 #include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/rock/arrival.h>
@@ -36,15 +36,15 @@ namespace Voussoir
   {
     /** Returns the CPU time of a time step at each node, relative to a node with nodal quadrature only. The
      * nodes
-     * @p near_feet are also needed for RockPatch. */
-    std::vector<double> work_of_nodes(const RockModel &model, const std::vector<unsigned int> &near_feet)
+     * @p near_base are also needed for RockPatch. */
+    std::vector<double> work_of_nodes(const RockModel &model, const std::vector<unsigned int> &near_base)
     {
       constexpr double    of_row = 2.5, of_look_ahead = 1.5; // measured, see doc/parallel.md
       std::vector<double> result(model.points.size(), 1.);
       for (std::size_t i = 0; i < result.size(); ++i)
         if (model.in_other_cell[i])
           result[i] += of_row;
-      for (const unsigned int i : near_feet)
+      for (const unsigned int i : near_base)
         result[i] += of_look_ahead;
       return result;
     }
@@ -74,14 +74,14 @@ namespace Voussoir
       c /= count;
     const auto find = [&](const std::vector<Vector3> &points)
     {
-      foot = find_feet(dam, points, source);
-      return feet_of_rock();
+      base_nodes = find_base_nodes(dam, points, source);
+      return rock_nodes_at_base();
     };
     RockParameters rock = region_parameters(parameters, centre, 0.).rock;
     rock.incompatible_modes = incompatible_modes;
     model = make_rock_part(mesh, rock, find, parameters.substeps);
     mesh = HexMesh(); // no longer needed
-    give_back_memory();
+    release_free_memory();
     RayleighDamping damping;
     damping.mass = parameters.mass_damping;
     damping.stiffness = parameters.stiffness_damping;
@@ -90,7 +90,7 @@ namespace Voussoir
 
   void ExplicitRock::add_mass(Structure &structure) const
   {
-    for (const Foot &f : foot)
+    for (const BaseNode &f : base_nodes)
       for (const unsigned int node : f.nodes)
         for (unsigned int c = 0; c < 3; ++c)
           structure.mass[node][4 * c] += model.mass[f.rock] / f.nodes.size();
@@ -99,7 +99,7 @@ namespace Voussoir
   Vector3 ExplicitRock::arrival() const
   {
     double lowest = std::numeric_limits<double>::max();
-    for (const Foot &f : foot)
+    for (const BaseNode &f : base_nodes)
       lowest = std::min(lowest, model.points[f.rock][2]);
     return travel_times(model, lowest);
   }
@@ -107,21 +107,21 @@ namespace Voussoir
   /** P waves enter later than the slower S waves, so that all components of the ground motion arrive at the
    * lowest base node at the same time. */
   void ExplicitRock::make_rock(const GroundMotion &outcrop, const TimeGrid &steps, const double delay,
-                               const std::vector<unsigned int> &near_feet)
+                               const std::vector<unsigned int> &near_base)
   {
     statics.reset();
-    give_back_memory();
+    release_free_memory();
     grid = steps;
     const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
-    RockSplit                  split(work_of_nodes(model, near_feet));
-    split.step_everywhere(feet_of_rock());
-    if (!split.is_trivial() && !near_feet.empty())
+    RockSplit                  split(work_of_nodes(model, near_base));
+    split.step_everywhere(rock_nodes_at_base());
+    if (!split.is_trivial() && !near_base.empty())
     {
       std::vector<unsigned int> count(Ranks::size(), 0);
-      for (const unsigned int i : near_feet)
+      for (const unsigned int i : near_base)
         ++count[split.owner(i)];
       ahead = std::max_element(count.begin(), count.end()) - count.begin();
-      split.step(near_feet, ahead);
+      split.step(near_base, ahead);
     }
     region = make_region(model, p, std::move(split));
     const IncidentWave wave = incident_wave(outcrop);
@@ -141,15 +141,15 @@ namespace Voussoir
   {
     make_rock(outcrop, steps, 0.);
     model.stiffness = BlockSparseMatrix(); // frees memory; not used by the region
-    region->set_prescribed(feet_of_rock());
-    const std::size_t n = 3 * foot.size();
+    region->set_prescribed(rock_nodes_at_base());
+    const std::size_t n = 3 * base_nodes.size();
     rest.assign(n, 0.);
-    for (std::size_t i = 0; i < foot.size(); ++i)
-      for (const unsigned int node : foot[i].nodes)
+    for (std::size_t i = 0; i < base_nodes.size(); ++i)
+      for (const unsigned int node : base_nodes[i].nodes)
         for (unsigned int c = 0; c < 3; ++c)
-          rest[3 * i + c] += u[3 * node + c] / foot[i].nodes.size();
+          rest[3 * i + c] += u[3 * node + c] / base_nodes[i].nodes.size();
     v.assign(n, 0.);
-    a = u_feet = u_predicted = v_predicted = force = force_before = v;
+    a = u_base_nodes = u_predicted = v_predicted = force = force_before = v;
   }
 
   void ExplicitRock::advance(Unknowns &load)
@@ -158,56 +158,56 @@ namespace Voussoir
     const double    worked = Ranks::work();
     const double    dt = grid.dt;
     Unknowns        u = u_predicted, v_now = v_predicted;
-    for (std::size_t i = 0; i < foot.size(); ++i)
+    for (std::size_t i = 0; i < base_nodes.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * i + c;
-        u_predicted[k] = u_feet[k] + dt * v[k] + .25 * dt * dt * a[k];
+        u_predicted[k] = u_base_nodes[k] + dt * v[k] + .25 * dt * dt * a[k];
         v_predicted[k] = v[k] + .5 * dt * a[k];
         u[k] += u_predicted[k] - u[k]; // the sum, whose rounding all results have
         v_now[k] += v_predicted[k] - v_now[k];
       }
     const Unknowns &taken = region->advance(u, v_now);
     force_before.swap(force);
-    for (std::size_t i = 0; i < foot.size(); ++i)
+    for (std::size_t i = 0; i < base_nodes.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
       {
         // The dam applies the mass-proportional damping of the rock mass at the base.
         const std::size_t k = 3 * i + c;
-        force[k] = parameters.mass_damping * model.mass[foot[i].rock] * v_predicted[k] - taken[k];
-        for (const unsigned int node : foot[i].nodes)
-          load[3 * node + c] += force[k] / foot[i].nodes.size();
+        force[k] = parameters.mass_damping * model.mass[base_nodes[i].rock] * v_predicted[k] - taken[k];
+        for (const unsigned int node : base_nodes[i].nodes)
+          load[3 * node + c] += force[k] / base_nodes[i].nodes.size();
       }
     seconds_advancing += watch.seconds();
     work_advancing += Ranks::work() - worked;
   }
 
-  void ExplicitRock::follow(const DynamicState &state)
+  void ExplicitRock::update_from_dam(const DynamicState &state)
   {
-    for (std::size_t i = 0; i < foot.size(); ++i)
+    for (std::size_t i = 0; i < base_nodes.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * i + c;
-        const double      part = 1. / foot[i].nodes.size();
+        const double      part = 1. / base_nodes[i].nodes.size();
         double            u_new = 0., v_new = 0.;
-        for (const unsigned int node : foot[i].nodes)
+        for (const unsigned int node : base_nodes[i].nodes)
         {
           u_new += part * state.u[3 * node + c];
           v_new += part * state.v[3 * node + c];
         }
         u_new -= rest[k];
-        account[0] += .5 * (force_before[k] + force[k]) * (u_new - u_feet[k]);
-        u_feet[k] = u_new;
+        account[0] += .5 * (force_before[k] + force[k]) * (u_new - u_base_nodes[k]);
+        u_base_nodes[k] = u_new;
         a[k] = 2. / grid.dt * (v_new - v[k]) - a[k];
         v[k] = v_new;
       }
     keep_account(state.time);
   }
 
-  std::vector<unsigned int> ExplicitRock::feet_of_rock() const
+  std::vector<unsigned int> ExplicitRock::rock_nodes_at_base() const
   {
     std::vector<unsigned int> result;
-    for (const Foot &f : foot)
+    for (const BaseNode &f : base_nodes)
       result.push_back(f.rock);
     return result;
   }
@@ -215,7 +215,7 @@ namespace Voussoir
   void ExplicitRock::keep_account(const double time)
   {
     region->gather_energy();
-    constexpr unsigned int interval = 10; // number of steps between two checks of StabilityWatch
+    constexpr unsigned int interval = 10; // number of steps between two checks of StabilityMonitor
     const auto             step = static_cast<unsigned int>(std::lround(time / grid.dt));
     if (region->is_split() && bounds.velocity > 0. && (step % interval == 0 || step == grid.n))
       if (Ranks::any(region->exceeds(bounds.velocity, bounds.displacement)))
@@ -229,9 +229,9 @@ namespace Voussoir
   Vector3 ExplicitRock::base_velocity() const
   {
     Vector3 result{};
-    for (std::size_t i = 0; i < foot.size(); ++i)
+    for (std::size_t i = 0; i < base_nodes.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        result[c] += v_predicted[3 * i + c] / foot.size();
+        result[c] += v_predicted[3 * i + c] / base_nodes.size();
     return result;
   }
 
@@ -240,7 +240,7 @@ namespace Voussoir
     if (!region)
       return {};
     std::vector<std::vector<double> *> arrays = region->state();
-    for (Unknowns *array : {&rest, &u_feet, &v, &a, &u_predicted, &v_predicted, &force, &account})
+    for (Unknowns *array : {&rest, &u_base_nodes, &v, &a, &u_predicted, &v_predicted, &force, &account})
       arrays.push_back(array);
     return arrays;
   }

@@ -84,7 +84,7 @@ namespace Voussoir
             {"rock_feet", e.prescribed + e.external},
             {"transmitted", e.transmitted},
             {"rock_balance", e.balance()},
-            {"interface", work_of_feet() + work_on_dam()}};
+            {"interface", work_of_base() + work_on_dam()}};
   }
 
   double ExplicitRock::balance_error() const

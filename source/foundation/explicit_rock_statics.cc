@@ -87,7 +87,7 @@ namespace Voussoir
     Unknowns springs(3 * structure.n_nodes(), 0.);
     double   largest = 0.;
     for (const Body &body : structure.bodies)
-      for (const Foot &f : foot)
+      for (const BaseNode &f : base_nodes)
         for (const unsigned int node : f.nodes)
           if (node >= body.first_node && node < body.first_node + body.n_nodes())
           {
@@ -96,7 +96,7 @@ namespace Voussoir
               if (body.stiffness.column[k] == i)
                 largest = std::max(largest, body.stiffness.value[k][0]);
           }
-    for (const Foot &f : foot)
+    for (const BaseNode &f : base_nodes)
       for (const unsigned int node : f.nodes)
         for (unsigned int c = 0; c < 3; ++c)
           springs[3 * node + c] = 10. * largest;
@@ -116,7 +116,7 @@ namespace Voussoir
                statics->n_unknowns(), statics->seconds_setup());
     }
     Unknowns b(3 * std::size_t(n_nodes()), 0.), u;
-    for (const Foot &f : foot)
+    for (const BaseNode &f : base_nodes)
       for (const unsigned int node : f.nodes)
         for (unsigned int c = 0; c < 3; ++c)
           b[3 * f.rock + c] += r[3 * node + c];
@@ -124,18 +124,18 @@ namespace Voussoir
     constexpr double   tolerance = 1e-11;
     const unsigned int iterations = statics->solve(b, u, log, tolerance, part);
     log.line("          load %u: %u iterations, %.1f s", ++n_settled, iterations, watch.seconds());
-    u_base.resize(3 * foot.size());
-    for (std::size_t i = 0; i < foot.size(); ++i)
+    u_base.resize(3 * base_nodes.size());
+    for (std::size_t i = 0; i < base_nodes.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        u_base[3 * i + c] = u[3 * foot[i].rock + c];
+        u_base[3 * i + c] = u[3 * base_nodes[i].rock + c];
   }
 
   Unknowns ExplicitRock::with_springs(const Unknowns &external, const Unknowns &springs, const Unknowns &base,
                                       const Unknowns &r) const
   {
     Unknowns load = external;
-    for (std::size_t i = 0; i < foot.size(); ++i)
-      for (const unsigned int node : foot[i].nodes)
+    for (std::size_t i = 0; i < base_nodes.size(); ++i)
+      for (const unsigned int node : base_nodes[i].nodes)
         for (unsigned int c = 0; c < 3; ++c)
           load[3 * node + c] += springs[3 * node + c] * base[3 * i + c] - r[3 * node + c];
     return load;
@@ -145,8 +145,8 @@ namespace Voussoir
                                  Unknowns &r) const
   {
     double slack = 0.;
-    for (std::size_t i = 0; i < foot.size(); ++i)
-      for (const unsigned int node : foot[i].nodes)
+    for (std::size_t i = 0; i < base_nodes.size(); ++i)
+      for (const unsigned int node : base_nodes[i].nodes)
         for (unsigned int c = 0; c < 3; ++c)
         {
           const double difference = u[3 * node + c] - base[3 * i + c];
@@ -159,11 +159,11 @@ namespace Voussoir
   /** Fixed-point iteration for the displacements of the base, with Anderson acceleration (Walker and Ni
    * 2011). The dam is solved on stiff springs and the forces of the previous iteration. The rock is solved
    * under the resulting base forces. At convergence the springs are free of force. */
-  ContactResult ExplicitRock::settle(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
-                                     Unknowns &load, Log &log)
+  ContactResult ExplicitRock::solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
+                                           Unknowns &load, Log &log)
   {
     constexpr double  enough = 1e-9;
-    const std::size_t n = 3 * foot.size();
+    const std::size_t n = 3 * base_nodes.size();
     Unknowns          base(n, 0.), r(load.size(), 0.), settled;
     Differences       differences;
     double            error = 1.;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Detection of an unstable rock: see StabilityWatch.
+// Detection of an unstable rock: see StabilityMonitor.
 
 #include <voussoir/base/excess.h>
 #include <voussoir/base/tensor3.h>
@@ -38,16 +38,16 @@ namespace Voussoir
     }
   } // namespace
 
-  void ExplicitRock::watch(const GroundMotion &motion, const WatchBounds &limits)
+  void ExplicitRock::monitor(const GroundMotion &motion, const RockBounds &limits)
   {
     bounds = limits;
     energy_bound = energy_factor * (incident_energy(model, motion) + std::max(0., limits.strain));
   }
 
-  std::string ExplicitRock::trouble_of_energy() const
+  std::string ExplicitRock::energy_excess() const
   {
     const RegionEnergy rock = energy();
-    const double       coupling = work_of_feet() + work_on_dam();
+    const double       coupling = work_of_base() + work_on_dam();
     std::ostringstream text;
     text.precision(3);
     if (region->artificial_boundary()->absorbs() && !(-rock.transmitted <= energy_bound))
@@ -61,7 +61,7 @@ namespace Voussoir
     return text.str();
   }
 
-  std::string ExplicitRock::trouble_of_motion() const
+  std::string ExplicitRock::motion_excess() const
   {
     const Unknowns    &u = region->displacement(), &w = region->half_step_velocity();
     std::ostringstream text;
@@ -87,7 +87,7 @@ namespace Voussoir
     return text.str();
   }
 
-  std::string ExplicitRock::remedies() const
+  std::string ExplicitRock::suggestions() const
   {
     const FoundationParameters &p = parameters;
     std::ostringstream          text;

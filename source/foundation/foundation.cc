@@ -82,8 +82,8 @@ namespace Voussoir
     return "; the scheme is implicit: there is no critical time step";
   }
 
-  ContactResult BaseSupport::settle(const DamSolve &solve, const Unknowns &, const Unknowns &, Unknowns &load,
-                                    Log &)
+  ContactResult BaseSupport::solve_static(const DamSolve &solve, const Unknowns &, const Unknowns &,
+                                          Unknowns       &load, Log &)
   {
     return solve(load);
   }

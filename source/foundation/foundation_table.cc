@@ -2,7 +2,7 @@
 #include <voussoir/base/names.h>
 #include <voussoir/foundation/foundation_table.h>
 #include <voussoir/foundation/massless_rock.h>
-#include <voussoir/foundation/own_step_rock.h>
+#include <voussoir/foundation/subcycled_rock.h>
 
 #include <algorithm>
 

@@ -43,25 +43,25 @@ namespace Voussoir
       {
       }
 
-      Base base() const override { return one_body ? Base::shared : Base::led; }
+      Base base() const override { return one_body ? Base::merged : Base::coupled; }
       bool uses_rock() const override { return true; }
 
       void add_stiffness(const SolidModel &dam, Structure &structure) override
       {
         rock = condense_rock(parameters, mesh, dam, incompatible_modes, source);
-        standing = StandingNodes(rock.feet);
+        dam_nodes = DamNodes(rock.base_nodes);
         if (!one_body)
         {
           spring = static_spring();
           return;
         }
-        for (const Foot &foot : rock.feet)
-          if (foot.nodes.size() != 1)
+        for (const BaseNode &base_node : rock.base_nodes)
+          if (base_node.nodes.size() != 1)
             throw InputError(
                 source +
                 ": two nodes of one monolith have the same position on the dam's base. Correct the mesh.");
         BlockSparseMatrix &K = structure.bodies[0].stiffness;
-        K = with_block(K, standing.node, standing.matrix(rock.matrix()));
+        K = with_block(K, dam_nodes.node, dam_nodes.matrix(rock.matrix()));
         K.symmetrise();
       }
 
@@ -70,29 +70,29 @@ namespace Voussoir
         log.line("Rock      massless: %s", in_words(parameters.rock).c_str());
       }
 
-      /** Springs that make the stiffness matrix of a monolith regular. static_feet() subtracts them from the
+      /** Springs that make the stiffness matrix of a monolith regular. static_base() subtracts them from the
        * rock, which must remain positive definite. Their stiffness is half of the upper bound. */
       Unknowns static_springs(const Structure &structure) const override
       {
         if (one_body)
           return {};
         Unknowns springs(3 * std::size_t(structure.n_nodes()), 0.);
-        for (const unsigned int node : standing.node)
+        for (const unsigned int node : dam_nodes.node)
           for (unsigned int c = 0; c < 3; ++c)
             springs[3 * std::size_t(node) + c] = spring;
         return springs;
       }
 
-      std::unique_ptr<FootElimination::Feet> static_feet(Structure &structure) const override
+      std::unique_ptr<BaseElimination::Nodes> static_base(Structure &structure) const override
       {
         if (one_body)
           return nullptr;
-        standing.mark(structure);
+        dam_nodes.mark(structure);
         std::vector<double> springs;
-        for (const Foot &foot : rock.feet)
-          springs.push_back(spring * foot.nodes.size());
-        return std::make_unique<FootElimination::Feet>(
-            FootElimination::Feet{standing.node, standing.matrix(rock.compliance(springs))});
+        for (const BaseNode &base_node : rock.base_nodes)
+          springs.push_back(spring * base_node.nodes.size());
+        return std::make_unique<BaseElimination::Nodes>(
+            BaseElimination::Nodes{dam_nodes.node, dam_nodes.matrix(rock.compliance(springs))});
       }
 
       void start(const GroundMotion &, const TimeGrid &steps, const Unknowns &u) override
@@ -105,7 +105,7 @@ namespace Voussoir
       {
         if (one_body)
           return nullptr;
-        standing.mark(structure);
+        dam_nodes.mark(structure);
         supported = make_support(structure, grid.dt);
         supported->start_account(at_rest);
         at_rest.clear();
@@ -142,12 +142,12 @@ namespace Voussoir
     private:
       std::unique_ptr<MasslessSupport> make_support(const Structure &structure, const double dt) const
       {
-        return std::make_unique<MasslessSupport>(rock, standing, structure.stiffness_damping, dt);
+        return std::make_unique<MasslessSupport>(rock, dam_nodes, structure.stiffness_damping, dt);
       }
 
       double static_spring() const
       {
-        const BlockSparseMatrix C = rock.compliance(std::vector<double>(rock.feet.size(), 0.));
+        const BlockSparseMatrix C = rock.compliance(std::vector<double>(rock.base_nodes.size(), 0.));
         double                  softest = 0.; // upper bound of the compliance [m/N]
         for (unsigned int i = 0; i < C.n_rows(); ++i)
           for (unsigned int c = 0; c < 3; ++c)
@@ -159,8 +159,8 @@ namespace Voussoir
             softest = std::max(softest, sum);
           }
         std::size_t most = 1;
-        for (const Foot &foot : rock.feet)
-          most = std::max(most, foot.nodes.size());
+        for (const BaseNode &base_node : rock.base_nodes)
+          most = std::max(most, base_node.nodes.size());
         return .5 / (softest * most);
       }
 
@@ -169,7 +169,7 @@ namespace Voussoir
       const std::string                source;
       const bool                       incompatible_modes, one_body;
       CondensedRock                    rock;
-      StandingNodes                    standing;
+      DamNodes                         dam_nodes;
       TimeGrid                         grid;
       Unknowns                         at_rest;
       double                           spring = 0.; ///< at the base nodes in the static state [N/m]

@@ -20,19 +20,19 @@ namespace Voussoir
     };
   } // namespace
 
-  MasslessSupport::MasslessSupport(const CondensedRock &rock, const StandingNodes &standing,
+  MasslessSupport::MasslessSupport(const CondensedRock &rock, const DamNodes &dam_nodes,
                                    const double stiffness_damping, const double dt)
-      : rock(rock), standing(standing), damping(stiffness_damping), dt(dt)
+      : rock(rock), dam_nodes(dam_nodes), damping(stiffness_damping), dt(dt)
   {
   }
 
   BlockSparseMatrix MasslessSupport::compliance(const unsigned int n) const
   {
-    BlockSparseMatrix result = rock.compliance(std::vector<double>(rock.feet.size(), 0.));
+    BlockSparseMatrix result = rock.compliance(std::vector<double>(rock.base_nodes.size(), 0.));
     for (Matrix3 &block : result.value)
       for (double &x : block)
         x *= 2. / (1. + ratio(n));
-    return standing.matrix(result);
+    return dam_nodes.matrix(result);
   }
 
   Unknowns MasslessSupport::predict(const unsigned int n, const Unknowns &at)
@@ -48,8 +48,8 @@ namespace Voussoir
   Unknowns MasslessSupport::of_rock(const Unknowns &of_nodes) const
   {
     Unknowns result(rock.n());
-    for (std::size_t i = 0; i < standing.node.size(); ++i)
-      std::copy_n(of_nodes.begin() + 3 * i, 3, result.begin() + 3 * std::size_t(standing.foot[i]));
+    for (std::size_t i = 0; i < dam_nodes.node.size(); ++i)
+      std::copy_n(of_nodes.begin() + 3 * i, 3, result.begin() + 3 * std::size_t(dam_nodes.base_node[i]));
     return result;
   }
 
@@ -69,13 +69,14 @@ namespace Voussoir
   void MasslessSupport::start_account(const Unknowns &u)
   {
     Unknowns at;
-    for (const unsigned int node : standing.node)
+    for (const unsigned int node : dam_nodes.node)
       at.insert(at.end(), u.begin() + 3 * std::size_t(node), u.begin() + 3 * std::size_t(node) + 3);
     account.assign(n_entries, 0.);
     account[strain] = account[at_start] = energy(of_rock(at));
   }
 
-  void MasslessSupport::push(const unsigned int n, const Unknowns &, const Unknowns &place, const double work)
+  void MasslessSupport::advance(const unsigned int n, const Unknowns &, const Unknowns &place,
+                                const double work)
   {
     if (account.empty())
       return;

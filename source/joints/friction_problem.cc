@@ -9,7 +9,7 @@
 namespace Voussoir
 {
   FrictionProblem friction_problem(const InterfaceOperator &W, const PairLaws &laws,
-                                   const std::vector<PairPast> &past, const Unknowns &b)
+                                   const std::vector<PairHistory> &history, const Unknowns &b)
   {
     FrictionProblem problem;
     problem.title = "joints of a dam, gap = W force + q [m, N]";
@@ -27,12 +27,12 @@ namespace Voussoir
     for (unsigned int p = 0; p < laws.of_pair.size(); ++p)
       if (const SurfacesLaw *law = laws.of_pair[p]->surfaces_law())
       {
-        const PresentSurfaces present = law->present(past[p]);
+        const PresentSurfaces present = law->present(history[p]);
         for (const ContactSurface &surface : present.surfaces)
           add_surface(p, surface, present.start);
       }
       else
-        add_surface(p, {one, 0., laws.of_pair[p]->flat_friction()}, past[p].start);
+        add_surface(p, {one, 0., laws.of_pair[p]->flat_friction()}, history[p].start);
     problem.W = sparse_matrix(W);
     if (std::none_of(laws.of_pair.begin(), laws.of_pair.end(),
                      [](const JointLaw *law) { return law->surfaces_law(); }))

@@ -3,8 +3,8 @@
 
 #include <voussoir/base/blas.h>
 #include <voussoir/base/parallel.h>
+#include <voussoir/joints/base_elimination.h>
 #include <voussoir/joints/dense_kernels.h>
-#include <voussoir/joints/foot_elimination.h>
 #include <voussoir/joints/interface_operator.h>
 
 #include <algorithm>
@@ -94,9 +94,9 @@ namespace Voussoir
     }
   }
 
-  void InterfaceOperator::finish(std::shared_ptr<const FootElimination> feet)
+  void InterfaceOperator::finish(std::shared_ptr<const BaseElimination> base)
   {
-    eliminated = std::move(feet);
+    eliminated = std::move(base);
     single.clear();
     diagonals.clear();
     if (eliminated)

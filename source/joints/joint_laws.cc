@@ -38,12 +38,12 @@ namespace Voussoir
                        [](const JointLaw *law) { return law->needs_mean_force(); });
   }
 
-  std::vector<PairPast> PairLaws::pasts(const Unknowns &start, const bool is_mean,
-                                        const Unknowns &memory) const
+  std::vector<PairHistory> PairLaws::histories(const Unknowns &start, const bool is_mean,
+                                               const Unknowns &memory) const
   {
     AssertDimension(start.size(), 3 * of_pair.size());
     AssertDimension(memory.size(), n_memory());
-    std::vector<PairPast> list;
+    std::vector<PairHistory> list;
     list.reserve(of_pair.size());
     for (std::size_t p = 0; p < of_pair.size(); ++p)
     {
@@ -59,20 +59,20 @@ namespace Voussoir
                                 Unknowns &force, Unknowns &memory) const
   {
     AssertDimension(force.size(), 3 * of_pair.size());
-    constexpr double            among_the_worst = .9;
-    const std::vector<PairPast> past = pasts(start, is_mean, memory);
-    std::vector<double>         excess(of_pair.size());
-    double                      largest = 0.;
+    constexpr double               among_the_worst = .9;
+    const std::vector<PairHistory> history = histories(start, is_mean, memory);
+    std::vector<double>            utilisation(of_pair.size());
+    double                         largest = 0.;
     for (std::size_t p = 0; p < of_pair.size(); ++p)
     {
-      excess[p] = of_pair[p]->excess(get(force, p), get(gap, p), past[p]);
-      largest = std::max(largest, excess[p]);
+      utilisation[p] = of_pair[p]->utilisation(get(force, p), get(gap, p), history[p]);
+      largest = std::max(largest, utilisation[p]);
     }
     unsigned int count = 0;
     for (std::size_t p = 0; p < of_pair.size(); ++p)
-      if (excess[p] > 1. && excess[p] >= among_the_worst * largest)
+      if (utilisation[p] > 1. && utilisation[p] >= among_the_worst * largest)
       {
-        of_pair[p]->release(memory.data() + memory_begin(p));
+        of_pair[p]->apply_event(memory.data() + memory_begin(p));
         set(force, p, {});
         ++count;
       }
@@ -86,9 +86,9 @@ namespace Voussoir
       return;
     AssertDimension(force.size(), 3 * of_pair.size());
     AssertDimension(gap.size(), 3 * of_pair.size());
-    const std::vector<PairPast> past = pasts(start, is_mean, memory);
+    const std::vector<PairHistory> history = histories(start, is_mean, memory);
     for (std::size_t p = 0; p < of_pair.size(); ++p)
-      of_pair[p]->commit(get(force, p), get(gap, p), past[p], memory.data() + memory_begin(p));
+      of_pair[p]->commit(get(force, p), get(gap, p), history[p], memory.data() + memory_begin(p));
   }
 
   JointEnergy PairLaws::joint_energy(const Unknowns &gap, const Unknowns &memory) const
@@ -118,11 +118,11 @@ namespace Voussoir
     if (!is_mean || std::none_of(of_pair.begin(), of_pair.end(),
                                  [](const JointLaw *law) { return law->surfaces_law() != nullptr; }))
       return 0.;
-    const std::vector<PairPast> past = pasts(start, is_mean, memory);
-    double                      sum = 0.;
+    const std::vector<PairHistory> history = histories(start, is_mean, memory);
+    double                         sum = 0.;
     for (std::size_t p = 0; p < of_pair.size(); ++p)
       if (const SurfacesLaw *law = of_pair[p]->surfaces_law())
-        sum += law->friction_correction(get(force, p), get(gap, p), past[p]);
+        sum += law->friction_correction(get(force, p), get(gap, p), history[p]);
     return sum;
   }
 } // namespace Voussoir

@@ -59,7 +59,7 @@ namespace Voussoir
 
   JointSystem::JointSystem(const Structure &structure, const PairLaws &laws,
                            const ContactParameters &parameters, const StepOperator &step,
-                           const Unknowns &springs, const FootElimination::Feet *given_feet,
+                           const Unknowns &springs, const BaseElimination::Nodes *given_feet,
                            const bool single_factors)
       : structure(structure), parameters(parameters), laws(laws), step(step), is_static(step.mass == 0.),
         sides(structure.pairs.size()), W(pairs_per_joint(structure), shares_of_joints(structure)),
@@ -80,11 +80,11 @@ namespace Voussoir
       interface.begin.push_back(interface.begin.back() + 3 * body.interface.size());
     interface.value.resize(interface.begin.back());
     if (given_feet)
-      feet = std::make_shared<FootElimination>(structure, *given_feet);
+      base = std::make_shared<BaseElimination>(structure, *given_feet);
     condense();
-    if (feet && is_static)
+    if (base && is_static)
       make_whole();
-    W.finish(is_static ? nullptr : feet);
+    W.finish(is_static ? nullptr : base);
     solver = std::make_unique<ContactSolver>(W, laws.of_pair, parameters);
   }
 
@@ -114,7 +114,7 @@ namespace Voussoir
     const unsigned int owner = structure.share.owner(b);
     const bool         needed_elsewhere =
         Ranks::size() > 1 &&
-        (feet || std::any_of(sides_of_body.begin(), sides_of_body.end(),
+        (base || std::any_of(sides_of_body.begin(), sides_of_body.end(),
                              [&](const auto &side)
                              { return W.shares().owner(structure.pairs[side.first].joint) != owner; }));
     if (needed_elsewhere)
@@ -151,8 +151,8 @@ namespace Voussoir
     {
       const std::vector<double> F = flexibility_of(b, of_body[b]);
       const std::size_t         m = 3 * structure.bodies[b].interface.size();
-      if (feet)
-        feet->add_body(b, F);
+      if (base)
+        base->add_body(b, F);
       for (const auto &q : of_body[b]) // columns
         for (const auto &p : of_body[b])
         {
@@ -177,8 +177,8 @@ namespace Voussoir
               block[(column + j) * rows + row + i] += w[3 * i + j];
         }
     }
-    if (feet)
-      feet->factorise();
+    if (base)
+      base->factorise();
   }
 
   /** Replaces W by W - B H^-1 B^T in all blocks. In statics the base nodes couple distant joints as strongly
@@ -188,7 +188,7 @@ namespace Voussoir
     for (unsigned int k = 0; k < W.n_groups(); ++k)
       for (unsigned int j = 0; j <= k; ++j)
         W.block(j, k);
-    feet->for_blocks([&](const unsigned int j, const unsigned int k) { return W.holds(j, k); },
+    base->for_blocks([&](const unsigned int j, const unsigned int k) { return W.holds(j, k); },
                      [&](const unsigned int j, const unsigned int k, const std::vector<double> &part)
                      {
                        std::vector<double> &block = W.block(j, k);
@@ -198,7 +198,7 @@ namespace Voussoir
   }
 
   /** Returns G u + offset for the current displacements of the interface and the forces on the base nodes. */
-  Unknowns JointSystem::gaps_without_forces(const Unknowns &offset, const Unknowns &foot_force) const
+  Unknowns JointSystem::gaps_without_forces(const Unknowns &offset, const Unknowns &base_force) const
   {
     Unknowns b = offset;
     for (unsigned int p = 0; p < sides.size(); ++p)
@@ -210,14 +210,14 @@ namespace Voussoir
             for (unsigned int i = 0; i < 3; ++i)
               b[3 * p + i] += structure.pairs[p].frame[i][c] * x;
           }
-    if (feet)
-      feet->add_gaps(1., foot_force, b.data());
+    if (base)
+      base->add_gaps(1., base_force, b.data());
     return b;
   }
 
   /** Sets the work array of the interface to share times the forces of joints and base nodes. Completes the
    * forces on the base nodes by the part of the joint forces. */
-  void JointSystem::put_on_interface(const Unknowns &force, FeetOfStep &of_step)
+  void JointSystem::put_on_interface(const Unknowns &force, BaseOfStep &of_step)
   {
     std::fill(interface.value.begin(), interface.value.end(), 0.);
     for (unsigned int p = 0; p < sides.size(); ++p)
@@ -227,32 +227,32 @@ namespace Voussoir
             for (unsigned int i = 0; i < 3; ++i)
               interface.of_body(s.body)[3 * s.node + c] +=
                   (side == 0 ? -1. : 1.) * structure.pairs[p].frame[i][c] * force[3 * p + i];
-    if (feet)
+    if (base)
     {
       Unknowns by_joints;
-      feet->take_gaps(force.data(), by_joints);
-      feet->solve(by_joints);
+      base->take_gaps(force.data(), by_joints);
+      base->solve(by_joints);
       for (std::size_t k = 0; k < by_joints.size(); ++k)
         of_step.force[k] -= by_joints[k];
-      feet->add_to(interface, of_step.force);
+      base->add_to(interface, of_step.force);
     }
     for (double &f : interface.value)
       f *= step.share;
   }
 
   /** Computes the forces on the base nodes without joint forces. */
-  void JointSystem::release_joints(FeetOfStep &of_step) const
+  void JointSystem::release_joints(BaseOfStep &of_step) const
   {
-    of_step.place.resize(feet->n(), 0.); // zero displacement unless given
-    feet->take_from(interface, of_step.force);
+    of_step.displacement.resize(base->n(), 0.); // zero displacement unless given
+    base->take_from(interface, of_step.force);
     for (std::size_t k = 0; k < of_step.force.size(); ++k)
-      of_step.force[k] = of_step.place[k] - of_step.force[k];
-    feet->solve(of_step.force);
+      of_step.force[k] = of_step.displacement[k] - of_step.force[k];
+    base->solve(of_step.force);
   }
 
   ContactResult JointSystem::solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
                                    Unknowns &memory, Unknowns &force, Unknowns &gap, Unknowns &u,
-                                   FeetOfStep *of_step)
+                                   BaseOfStep *of_step)
   {
     AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
     AssertDimension(offset.size(), 3 * sides.size());
@@ -272,9 +272,9 @@ namespace Voussoir
     const double  middle = now();
     ContactResult result;
     result.converged = true;
-    FeetOfStep at_rest;
+    BaseOfStep at_rest;
     of_step = of_step ? of_step : &at_rest;
-    if (feet)
+    if (base)
       release_joints(*of_step);
     if (!sides.empty())
     {
@@ -310,7 +310,7 @@ namespace Voussoir
     for (bool again = true; again;)
     {
       const ContactResult result =
-          solver->solve(b, laws.pasts(start, step.has_mean_forces(), memory), force, gap);
+          solver->solve(b, laws.histories(start, step.has_mean_forces(), memory), force, gap);
       if (!laws.have_memory())
         return result;
       total += result;
@@ -356,7 +356,7 @@ namespace Voussoir
         [&]
         {
           const FrictionProblem problem =
-              friction_problem(whole, laws, laws.pasts(start, step.has_mean_forces(), memory), b);
+              friction_problem(whole, laws, laws.histories(start, step.has_mean_forces(), memory), b);
           char name[40];
           std::snprintf(name, sizeof(name), "/problem-%06u.hdf5", n_solved);
           std::filesystem::remove(parameters.write_directory + name); // file of a step that is repeated

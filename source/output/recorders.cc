@@ -194,11 +194,11 @@ namespace Voussoir
     }
   }
 
-  void EnvelopeRecorder::collect()
+  void EnvelopeRecorder::gather_on_root()
   {
     for (auto *values : {&maximum, &minimum, &time_of_maximum, &time_of_minimum})
       Ranks::gather(values->data(), begin);
-    overstress.collect(begin);
+    overstress.gather_on_root(begin);
   }
 
   Extreme EnvelopeRecorder::extreme(const SolidModel &model, const int surface, const bool largest) const

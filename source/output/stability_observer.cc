@@ -6,8 +6,8 @@ namespace Voussoir
 {
   void StabilityObserver::record()
   {
-    const std::string trouble = watch.trouble(*run.newmark, run.step, run.is_last());
-    if (!trouble.empty())
-      throw ComputationError(trouble);
+    const std::string instability = monitor.instability(*run.newmark, run.step, run.is_last());
+    if (!instability.empty())
+      throw ComputationError(instability);
   }
 } // namespace Voussoir

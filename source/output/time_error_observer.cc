@@ -46,7 +46,7 @@ namespace Voussoir
   void TimeErrorObserver::gather_on_root()
   {
     if (companion)
-      companion->collect();
+      companion->gather_on_root();
   }
 
   double TimeErrorObserver::memory_consumption() const

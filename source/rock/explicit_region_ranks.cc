@@ -41,7 +41,7 @@ namespace Voussoir
     split.gather(w, 3);
   }
 
-  void ExplicitRegion::collect()
+  void ExplicitRegion::gather_on_root()
   {
     if (!is_split())
       return;
@@ -50,15 +50,15 @@ namespace Voussoir
     split.gather(K_u, 3);
     split.gather_chunks(work, n_region_works);
     if (free_field)
-      free_field->collect();
+      free_field->gather_on_root();
     if (!boundary)
       return;
-    split.collect(boundary_w, 3, boundary->nodes());
+    split.gather_on_root(boundary_w, 3, boundary->nodes());
     const std::vector<unsigned int> node = boundary->nodes_of_points();
     for (Unknowns *values : {&field, &field_before, &field_next})
-      split.collect(*values, 3, node);
+      split.gather_on_root(*values, 3, node);
     for (auto *values : boundary->state())
       if (values->size() == 3 * node.size())
-        split.collect(*values, 3, node);
+        split.gather_on_root(*values, 3, node);
   }
 } // namespace Voussoir

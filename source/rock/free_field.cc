@@ -288,13 +288,13 @@ namespace Voussoir
       }
   }
 
-  void FreeField::collect()
+  void FreeField::gather_on_root()
   {
     for (unsigned int c = 0; is_split && c < columns.size(); ++c)
       for (auto *array : columns[c]->state())
         Ranks::broadcast(array->data(), array->size(), share.owner(c));
     for (const auto &section : sections)
-      section->region->collect();
+      section->region->gather_on_root();
   }
 
   std::vector<std::vector<double> *> FreeField::state()

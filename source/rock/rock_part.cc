@@ -16,7 +16,7 @@ namespace Voussoir
     std::vector<bool> needed_rows(const RockGrid &grid, const Corners &cells,
                                   const std::vector<Integration>    &kind,
                                   const std::vector<ArtificialFace> &faces,
-                                  const std::vector<unsigned int> &feet, const unsigned int n_layers)
+                                  const std::vector<unsigned int> &find, const unsigned int n_layers)
     {
       constexpr unsigned int  of_coarse_space = 4; // layers
       const unsigned int      n = grid.n_nodes();
@@ -26,7 +26,7 @@ namespace Voussoir
       for (unsigned int i = 0; i < n; ++i)
         result[i] = split.owner(i) == Ranks::rank();
       add_layers(cells, of_coarse_space, result);
-      for (const unsigned int i : feet)
+      for (const unsigned int i : find)
         near[i] = true;
       add_layers(cells, n_layers, near);
       join(near, result);
@@ -40,13 +40,13 @@ namespace Voussoir
     }
   } // namespace
 
-  RockModel make_rock_part(const HexMesh &mesh, const RockParameters &parameters, const FindFeet &feet,
+  RockModel make_rock_part(const HexMesh &mesh, const RockParameters &parameters, const FindBaseNodes &find,
                            const unsigned int n_layers)
   {
     const auto choose = [&](const RockGrid &grid, const Corners &cells, const std::vector<Integration> &kind,
                             const std::vector<ArtificialFace> &faces)
     {
-      const std::vector<unsigned int> found = feet(grid.points);
+      const std::vector<unsigned int> found = find(grid.points);
       return Ranks::size() > 1 && nodal_kernel() != nullptr
                  ? needed_rows(grid, cells, kind, faces, found, n_layers)
                  : std::vector<bool>(grid.n_nodes(), true);

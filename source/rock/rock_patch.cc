@@ -10,8 +10,8 @@
 namespace Voussoir
 {
   RockPatch::RockPatch(const RockModel &model, const RayleighDamping &damping, const double dt,
-                       const std::vector<unsigned int> &feet, const unsigned int n_steps)
-      : damping(damping), dt(dt), node(feet), n_layer(1, feet.size())
+                       const std::vector<unsigned int> &base_nodes, const unsigned int n_steps)
+      : damping(damping), dt(dt), node(base_nodes), n_layer(1, base_nodes.size())
   {
     add_layers(model, n_steps);
     std::vector<bool> on_boundary(model.points.size(), false);
@@ -71,7 +71,8 @@ namespace Voussoir
   void RockPatch::step(const unsigned int n_left, const double *force, Unknowns &u, Unknowns &w,
                        Unknowns &x) const
   {
-    const int n_moved = 3 * n_layer[n_left + 1], n_rows = n_layer[n_left], n_forces = force ? n_feet() : 0;
+    const int n_moved = 3 * n_layer[n_left + 1], n_rows = n_layer[n_left],
+              n_forces = force ? n_base_nodes() : 0;
 #pragma omp parallel for simd schedule(static)
     for (int k = 0; k < n_moved; ++k)
     {
@@ -100,7 +101,7 @@ namespace Voussoir
 
   Unknowns RockPatch::feet_of(const Unknowns &u, const Unknowns &w) const
   {
-    Unknowns place(3 * std::size_t(n_feet()));
+    Unknowns place(3 * std::size_t(n_base_nodes()));
     for (std::size_t k = 0; k < place.size(); ++k)
       place[k] = u[k] + .5 * dt * w[k];
     return place;
@@ -125,19 +126,19 @@ namespace Voussoir
    * n_steps - 1 layers away. */
   std::vector<std::vector<unsigned int>> RockPatch::reach(const unsigned int n_steps) const
   {
-    std::vector<std::vector<unsigned int>> result(n_feet());
-    for (unsigned int foot = 0; foot < n_feet(); ++foot)
+    std::vector<std::vector<unsigned int>> result(n_base_nodes());
+    for (unsigned int base_node = 0; base_node < n_base_nodes(); ++base_node)
     {
-      std::set<unsigned int>    found = {foot};
-      std::vector<unsigned int> edge = {foot}, next;
+      std::set<unsigned int>    found = {base_node};
+      std::vector<unsigned int> edge = {base_node}, next;
       for (unsigned int layer = 1; layer < n_steps; ++layer, edge.swap(next), next.clear())
         for (const unsigned int i : edge)
           for (std::size_t e = start[i]; i < n_layer[n_steps - 1] && e < start[i + 1]; ++e)
             if (found.insert(column[e]).second)
               next.push_back(column[e]);
       for (const unsigned int i : found)
-        if (i < n_feet())
-          result[foot].push_back(i);
+        if (i < n_base_nodes())
+          result[base_node].push_back(i);
     }
     return result;
   }
@@ -146,38 +147,38 @@ namespace Voussoir
   {
     const auto        reached = reach(n_steps);
     BlockSparseMatrix result(reached);
-    std::vector<bool> done(n_feet(), false);
+    std::vector<bool> done(n_base_nodes(), false);
     const std::size_t n = 3 * std::size_t(n_layer[n_steps]);
-    for (unsigned int first = 0; first < n_feet(); ++first)
+    for (unsigned int first = 0; first < n_base_nodes(); ++first)
     {
       if (done[first])
         continue;
       std::vector<unsigned int> together; // base nodes whose forces move disjoint sets of base nodes
-      std::vector<bool>         taken(n_feet(), false);
-      for (unsigned int foot = first; foot < n_feet(); ++foot)
-        if (!done[foot] && std::none_of(reached[foot].begin(), reached[foot].end(),
-                                        [&](const unsigned int i) { return taken[i]; }))
+      std::vector<bool>         taken(n_base_nodes(), false);
+      for (unsigned int base_node = first; base_node < n_base_nodes(); ++base_node)
+        if (!done[base_node] && std::none_of(reached[base_node].begin(), reached[base_node].end(),
+                                             [&](const unsigned int i) { return taken[i]; }))
         {
-          done[foot] = true;
-          together.push_back(foot);
-          for (const unsigned int i : reached[foot])
+          done[base_node] = true;
+          together.push_back(base_node);
+          for (const unsigned int i : reached[base_node])
             taken[i] = true;
         }
       for (unsigned int c = 0; c < 3; ++c)
       {
-        Unknowns u(n, 0.), w(n, 0.), x(n, 0.), force(3 * std::size_t(n_feet()), 0.);
-        for (const unsigned int foot : together)
-          force[3 * foot + c] = 1.;
+        Unknowns u(n, 0.), w(n, 0.), x(n, 0.), force(3 * std::size_t(n_base_nodes()), 0.);
+        for (const unsigned int base_node : together)
+          force[3 * base_node + c] = 1.;
         for (unsigned int left = n_steps; left-- > 0;)
           step(left, force.data(), u, w, x);
         const Unknowns place = feet_of(u, w);
-        for (const unsigned int foot : together)
-          for (const unsigned int i : reached[foot])
+        for (const unsigned int base_node : together)
+          for (const unsigned int i : reached[base_node])
           {
             Matrix3 block{};
             for (unsigned int r = 0; r < 3; ++r)
               block[3 * r + c] = place[3 * i + r];
-            result.add(i, foot, block);
+            result.add(i, base_node, block);
           }
       }
     }

@@ -42,10 +42,11 @@ namespace Voussoir
 
     /** Solves a contact problem. If the solver does not converge, @p force and @p gap are the best iterate.
      * @param b gaps without joint forces, three values per pair [m]
-     * @param past history of each pair
+     * @param history history of each pair
      * @param force receives the solution, three values per pair [N]; its initial value is the initial guess
      * @param gap receives W force + b, three values per pair [m] */
-    ContactResult solve(const Unknowns &b, const std::vector<PairPast> &past, Unknowns &force, Unknowns &gap);
+    ContactResult solve(const Unknowns &b, const std::vector<PairHistory> &history, Unknowns &force,
+                        Unknowns &gap);
 
     /** Solves a contact problem with laws without history variables. @p start: gap at the start of the step,
      * three values per pair [m]. */
@@ -80,7 +81,7 @@ namespace Voussoir
       const SurfacesLaw *law;
       PairSurfaces       surfaces;
     };
-    Iterate      first_guess(const Unknowns &b, const std::vector<PairPast> &past, Unknowns &force);
+    Iterate      first_guess(const Unknowns &b, const std::vector<PairHistory> &history, Unknowns &force);
     bool         stages(Iterate &x);
     void         rigid_seats(Iterate &x);
     void         regularise(double alpha, const Iterate &x);
@@ -117,17 +118,17 @@ namespace Voussoir
     std::vector<unsigned char> touch;
     std::vector<double>        of_pair; ///< work space
 
-    Unknowns                     multiplied, product; ///< product = W multiplied, of the last refresh
-    const Unknowns              *b = nullptr;         ///< load of the present problem
-    const std::vector<PairPast> *past = nullptr;
-    double                       scale = 0.;                         ///< divisor of the last residual [N]
-    double                       tolerance = 0.;                     ///< of the present stage
-    double                       beside_merit = 0., seat_alpha = 0.; ///< seat_alpha: see rigid_seats()
-    double                       drift = 0.; ///< error of gap by single precision, relative like the residual
-    Proximal                     proximal;
-    Best                         best;
-    ContactResult                result;
-    double                       deadline = 0.;
+    Unknowns                        multiplied, product; ///< product = W multiplied, of the last refresh
+    const Unknowns                 *b = nullptr;         ///< load of the present problem
+    const std::vector<PairHistory> *history = nullptr;
+    double                          scale = 0.;                         ///< divisor of the last residual [N]
+    double                          tolerance = 0.;                     ///< of the present stage
+    double                          beside_merit = 0., seat_alpha = 0.; ///< seat_alpha: see rigid_seats()
+    double        drift = 0.; ///< error of gap by single precision, relative like the residual
+    Proximal      proximal;
+    Best          best;
+    ContactResult result;
+    double        deadline = 0.;
   };
 } // namespace Voussoir
 

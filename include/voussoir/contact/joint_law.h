@@ -27,9 +27,9 @@ namespace Voussoir
   };
 
   /** Data of a pair that a joint law requires besides force and gap. */
-  struct PairPast
+  struct PairHistory
   {
-    PairPast(const Vector3 &start = {}) : start(start) {}
+    PairHistory(const Vector3 &start = {}) : start(start) {}
 
     Vector3 start; ///< gap at the start of the step [m]
 
@@ -55,7 +55,7 @@ namespace Voussoir
    * commit() updates them when a step is accepted.
    *
    * For each time step the solver calls evaluate(), error() and solve() until the pairs converge. Then it
-   * calls excess(), and release() at pairs that fail; in that case the step is solved again. Finally commit()
+   * calls utilisation(), and apply_event() at pairs that fail; in that case the step is solved again. Finally commit()
    * is called once per pair. */
   class JointLaw
   {
@@ -65,30 +65,31 @@ namespace Voussoir
     /** Computes the equations of a pair and their derivatives.
      * @param force force at the end of the step, or its mean [N]
      * @param gap gap at the end of the step [m]
-     * @param past data of the pair
+     * @param history data of the pair
      * @param rho positive scaling factor [N/m]; the solution does not depend on it
      * @param equations receives the result */
-    virtual void evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, double rho,
+    virtual void evaluate(const Vector3 &force, const Vector3 &gap, const PairHistory &history, double rho,
                           PairEquations &equations) const = 0;
 
     /** Returns the error of a force and a gap [N], by which the solver measures convergence. It does not
      * depend on the formulation of the law. For Coulomb's law it is the natural map (De Saxce and Feng 1998).
      * The default is the residual of evaluate(). */
-    virtual Vector3 error(const Vector3 &force, const Vector3 &gap, const PairPast &past, double rho) const;
+    virtual Vector3 error(const Vector3 &force, const Vector3 &gap, const PairHistory &history,
+                          double rho) const;
 
     /** Returns the exact force of a pair alone [N], for gap = H force + b.
      * @param H flexibility of the pair [m/N], positive definite
      * @param b gap without the force [m]
-     * @param past data of the pair */
-    virtual Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const = 0;
+     * @param history data of the pair */
+    virtual Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairHistory &history) const = 0;
 
     /** Returns the impulse that the law allows in an impact [N s]. The velocity after the impact is H
      * impulse + v.
      * @param H inverse mass of the pair [1/kg]
      * @param v relative velocity without the impulse [m/s]
-     * @param past data of the pair, as in evaluate()
+     * @param history data of the pair, as in evaluate()
      * @param touching active surfaces, see PairEquations */
-    virtual Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &past,
+    virtual Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &history,
                                   unsigned char touching) const = 0;
 
     /** Returns the impulse of a step after a correction that never adds energy [N s]. The correction removes
@@ -105,10 +106,11 @@ namespace Voussoir
      * @param b relative acceleration without the force [m/s^2]
      * @param slip_velocity velocity of side 2 relative to side 1 [m/s]
      * @param still speed up to which a pair does not slip [m/s]
-     * @param past data of the pair
+     * @param history data of the pair
      * @param touching active surfaces, see PairEquations */
     virtual Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
-                                       double still, const PairPast &past, unsigned char touching) const;
+                                       double still, const PairHistory &history,
+                                       unsigned char touching) const;
 
     /** Returns whether slip is zero for open and closed pairs. */
     virtual bool is_tangentially_tied() const { return false; }
@@ -121,15 +123,15 @@ namespace Voussoir
 
     /** Returns the utilisation of a pair for a force and a gap, such as tensile stress over strength [-]. A
      * converged solution with values above 1 is not accepted: the pairs with the largest values get an event,
-     * see release(), and the step is solved again. */
-    virtual double excess(const Vector3 &, const Vector3 &, const PairPast &) const { return 0.; }
+     * see apply_event(), and the step is solved again. */
+    virtual double utilisation(const Vector3 &, const Vector3 &, const PairHistory &) const { return 0.; }
 
     /** Stores an event of the step (a crack, a key that meets its flank) in the history variables. */
-    virtual void release(double *) const {}
+    virtual void apply_event(double *) const {}
 
     /** Updates the history variables after a step is accepted with this force and gap. The last argument
-     * points to the same values as past.memory. */
-    virtual void commit(const Vector3 &, const Vector3 &, const PairPast &, double *) const {}
+     * points to the same values as history.memory. */
+    virtual void commit(const Vector3 &, const Vector3 &, const PairHistory &, double *) const {}
 
     /** Returns the energy of a pair for a gap, the tributary area [m^2] and the history variables at the same
      * time [J]. It is the energy that the bond stores and has dissipated, or the energy stored by the contact

@@ -22,7 +22,7 @@ namespace Voussoir
 
     /** Returns the surfaces that can touch in a step, with the reference forces of
      * their contact compliances. */
-    virtual PresentSurfaces present(const PairPast &past) const;
+    virtual PresentSurfaces present(const PairHistory &history) const;
 
     /** Returns the largest number of secondary surfaces. */
     std::size_t n_beside() const { return surfaces.size() - 1; }
@@ -35,20 +35,20 @@ namespace Voussoir
      * work is normal to the surfaces.
      * @param force force of the pair at the end of the step [N]
      * @param gap gap at the end of the step [m]
-     * @param past data of the pair */
-    double friction_correction(const Vector3 &force, const Vector3 &gap, const PairPast &past) const;
+     * @param history data of the pair */
+    double friction_correction(const Vector3 &force, const Vector3 &gap, const PairHistory &history) const;
 
     /** Computes the condensed equations for the secondary forces that correspond to the gap. Rigid flanks get
      * the compliance 1e-3/rho. */
-    void    evaluate(const Vector3 &force, const Vector3 &gap, const PairPast &past, double rho,
+    void    evaluate(const Vector3 &force, const Vector3 &gap, const PairHistory &history, double rho,
                      PairEquations &equations) const override;
-    Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairPast &past) const override;
-    Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairPast &past,
+    Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairHistory &history) const override;
+    Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &history,
                           unsigned char touching) const override;
     Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
                         unsigned char touching) const override;
     Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity, double still,
-                               const PairPast &past, unsigned char touching) const override;
+                               const PairHistory &history, unsigned char touching) const override;
 
   private:
     /** Returns the forces of the secondary surfaces for a solution, three values per surface [N]. */

@@ -37,29 +37,29 @@ namespace Voussoir
 
     /** Corrects the velocities and impulses of all pairs at the end of a step.
      * @param system joint system that has solved the step
-     * @param pasts data of the pairs in the equations of the step
+     * @param histories data of the pairs in the equations of the step
      * @param dt time step [s]
      * @param change change of the jumps in the step, three values per pair [m]
      * @param v velocity at the end of the step, three values per node [m/s]
      * @param impulse impulses of the joint forces, three values per pair [N s] */
-    void correct_velocity(const JointSystem &system, const std::vector<PairPast> &pasts, double dt,
+    void correct_velocity(const JointSystem &system, const std::vector<PairHistory> &histories, double dt,
                           const Unknowns &change, Unknowns &v, Unknowns &impulse) const;
 
     /** Returns the joint forces at the end of the step from the accelerations there, three values per pair
      * [N]. For the rules paper and impulse_consistent.
      * @param system joint system that has solved the step
-     * @param pasts data of the pairs in the equations of the step
+     * @param histories data of the pairs in the equations of the step
      * @param force joint forces of the displacements, three values per pair [N]
      * @param v corrected velocity, three values per node [m/s]
      * @param nodal_force all nodal forces except the joint forces, three values per node [N] */
-    Unknowns end_force(const JointSystem &system, const std::vector<PairPast> &pasts, const Unknowns &force,
-                       const Unknowns &v, const Unknowns &nodal_force) const;
+    Unknowns end_force(const JointSystem &system, const std::vector<PairHistory> &histories,
+                       const Unknowns &force, const Unknowns &v, const Unknowns &nodal_force) const;
 
   private:
-    void correct_pair(const JointSystem &system, const PairPast &past, double dt, std::size_t p,
+    void correct_pair(const JointSystem &system, const PairHistory &history, double dt, std::size_t p,
                       const Unknowns &change, Unknowns &v, Unknowns &impulse) const;
     /** Adds M^-1 G^T f of one pair to the velocity @p v. */
-    void add_kick(const Pair &pair, const Vector3 &f, Unknowns &v) const;
+    void add_impulse(const Pair &pair, const Vector3 &f, Unknowns &v) const;
 
     const Structure     &structure;
     const JointLaws     &laws;

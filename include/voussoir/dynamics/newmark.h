@@ -113,9 +113,9 @@ namespace Voussoir
                                     const ContactResult &failed);
     bool          step(Level &level, const StepLoad &step, ContactResult &result);
     ContactResult solve(Level &level, const StepLoad &step, Unknowns &force, Unknowns &u_new,
-                        FeetOfStep &feet);
-    Unknowns      at_feet(const Unknowns &u) const;
-    double        push_support(const Level &level, const FeetOfStep &feet, const Unknowns &u_new);
+                        BaseOfStep &base);
+    Unknowns      at_base(const Unknowns &u) const;
+    double        advance_support(const Level &level, const BaseOfStep &base, const Unknowns &u_new);
     void          add_work_of_joints(double dt, const Unknowns &u_new, Unknowns &change, Work &work) const;
     void          move(const StepLoad &step, const Unknowns &u_new, Work &work);
     void          account(const Work &work, double kinetic_before);

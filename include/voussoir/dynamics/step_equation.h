@@ -39,7 +39,7 @@ namespace Voussoir
     {
       const Unknowns &offset, &start;
       Unknowns       &memory, &force, &gap, &u_new;
-      FeetOfStep     &feet;
+      BaseOfStep     &base;
     };
 
     /** Prepares the initial state @p now. */

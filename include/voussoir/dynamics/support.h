@@ -2,7 +2,7 @@
 #ifndef voussoir_support_h
 #define voussoir_support_h
 
-#include <voussoir/joints/foot_elimination.h>
+#include <voussoir/joints/base_elimination.h>
 
 namespace Voussoir
 {
@@ -13,14 +13,14 @@ namespace Voussoir
    * The work of these forces is the same on both sides, so the coupling conserves energy for any number of
    * substeps (macro-scale link of Gravouil and Combescure, in displacements).
    *
-   * Each step calls predict(), then advances the dam, then calls push(). */
+   * Each step calls predict(), then advances the dam, then calls advance(). */
   class Support
   {
   public:
     virtual ~Support() = default;
 
     /** Returns the base nodes of the dam on the support, ascending. */
-    virtual const std::vector<unsigned int> &feet() const = 0;
+    virtual const std::vector<unsigned int> &base_nodes() const = 0;
 
     virtual unsigned int n_substeps() const = 0; ///< returns the number of substeps in a full step of the dam
 
@@ -37,7 +37,7 @@ namespace Voussoir
      * @param force constant coupling forces, on the base nodes of the dam, three values each [N]
      * @param place displacement of the base nodes at the end of the step [m]
      * @param work work of these forces on the dam [J] */
-    virtual void push(unsigned int n, const Unknowns &force, const Unknowns &place, double work) = 0;
+    virtual void advance(unsigned int n, const Unknowns &force, const Unknowns &place, double work) = 0;
   };
 } // namespace Voussoir
 

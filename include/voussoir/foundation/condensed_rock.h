@@ -2,7 +2,7 @@
 #ifndef voussoir_condensed_rock_h
 #define voussoir_condensed_rock_h
 
-#include <voussoir/foundation/feet.h>
+#include <voussoir/foundation/base_nodes.h>
 #include <voussoir/foundation/foundation_parameters.h>
 #include <voussoir/mesh/mesh.h>
 
@@ -11,14 +11,14 @@ namespace Voussoir
   /** Stiffness of massless rock, condensed to the base nodes of the dam. */
   struct CondensedRock
   {
-    std::vector<Foot>   feet;      ///< base nodes
-    std::vector<double> stiffness; ///< S, three rows and columns per base node, symmetric [N/m]
+    std::vector<BaseNode> base_nodes; ///< base nodes
+    std::vector<double>   stiffness;  ///< S, three rows and columns per base node, symmetric [N/m]
 
     /** Returns S in blocks. */
     BlockSparseMatrix matrix() const;
 
     /** Returns the number of rows of S. */
-    unsigned int n() const { return 3 * static_cast<unsigned int>(feet.size()); }
+    unsigned int n() const { return 3 * static_cast<unsigned int>(base_nodes.size()); }
 
     /** Returns (S - springs)^-1 [m/N]. @p springs: diagonal matrix, one value per base node for all three
      * components [N/m]. Throws ComputationError if the difference is not positive definite. */

@@ -2,7 +2,7 @@
 #ifndef voussoir_explicit_rock_h
 #define voussoir_explicit_rock_h
 
-#include <voussoir/foundation/feet.h>
+#include <voussoir/foundation/base_nodes.h>
 #include <voussoir/foundation/foundation.h>
 #include <voussoir/foundation/rock_statics.h>
 #include <voussoir/rock/rock_region.h>
@@ -23,7 +23,7 @@ namespace Voussoir
    * (1978). The base nodes belong to the dam and carry the lumped mass of the rock. The forces of the rock on
    * these nodes follow from their predicted displacement u + dt v + dt^2/4 a. Displacements of the rock are
    * those of the earthquake only. The static displacements are superposed.
-   * Dam and rock have the same time step. For other couplings see OwnStepRock. */
+   * Dam and rock have the same time step. For other couplings see SubcycledRock. */
   class ExplicitRock : public Foundation
   {
   public:
@@ -58,8 +58,8 @@ namespace Voussoir
     double critical_time_step() const { return dt_critical; }
 
     Unknowns      static_springs(const Structure &structure) const override;
-    ContactResult settle(const DamSolve &solve, const Unknowns &springs, const Unknowns &u, Unknowns &load,
-                         Log &log) override;
+    ContactResult solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
+                               Unknowns &load, Log &log) override;
 
     /** Throws InputError in these cases:
      *  - the time step of the rock exceeds the critical one,
@@ -69,7 +69,7 @@ namespace Voussoir
 
     void    start(const GroundMotion &outcrop, const TimeGrid &grid, const Unknowns &u) override;
     void    advance(Unknowns &load) override;
-    void    follow(const DynamicState &state) override;
+    void    update_from_dam(const DynamicState &state) override;
     Vector3 base_velocity() const override;
     double  seconds() const override { return seconds_advancing; }
     double  work() const override { return work_advancing; }
@@ -78,23 +78,23 @@ namespace Voussoir
     double                                      balance_error() const override;
     void                                        report_balance(Log &log) const override;
     std::vector<std::vector<double> *>          state() override;
-    void                                        collect() override { region->collect(); }
+    void                                        gather_on_root() override { region->gather_on_root(); }
 
-    void        watch(const GroundMotion &motion, const WatchBounds &bounds) override;
-    std::string trouble_of_energy() const override;
-    std::string trouble_of_motion() const override;
-    std::string remedies() const override;
+    void        monitor(const GroundMotion &motion, const RockBounds &bounds) override;
+    std::string energy_excess() const override;
+    std::string motion_excess() const override;
+    std::string suggestions() const override;
 
     /** Returns the energies of the rock, half a rock time step before the time of the dam [J]. Must be called
      * after start(). */
     RegionEnergy energy() const { return region->energy(); }
 
     /** Returns the work of the rock on the base nodes since start(), in the time integration of the dam [J].
-     * The sum of work_on_dam() and work_of_feet() is the energy error of the coupling. */
+     * The sum of work_on_dam() and work_of_base() is the energy error of the coupling. */
     double work_on_dam() const { return account[0]; }
 
     /** Returns the work of the base nodes on the rock since start(), in the time integration of the rock. */
-    virtual double work_of_feet() const { return energy().prescribed; }
+    virtual double work_of_base() const { return energy().prescribed; }
 
   protected:
     /** Creates the region at rest and its incident waves.
@@ -102,10 +102,10 @@ namespace Voussoir
      * @param outcrop ground motion at a free surface
      * @param steps time steps
      * @param delay delay of the incident waves [s]
-     * @param near_feet nodes near the base that rank @p ahead steps for its prediction. All ranks step the
+     * @param near_base nodes near the base that rank @p ahead steps for its prediction. All ranks step the
      * base nodes. */
     void make_rock(const GroundMotion &outcrop, const TimeGrid &steps, double delay,
-                   const std::vector<unsigned int> &near_feet = {});
+                   const std::vector<unsigned int> &near_base = {});
 
     /** Writes the layers of nodal quadrature and the layers at the dam to the log, with warnings. */
     void report_layers(Log &log, unsigned int nodal_layers) const;
@@ -114,7 +114,7 @@ namespace Voussoir
     void keep_account(double time);
 
     /** Returns the node numbers of the base nodes in the rock. */
-    std::vector<unsigned int> feet_of_rock() const;
+    std::vector<unsigned int> rock_nodes_at_base() const;
 
   private:
     /** Throws InputError if a stability condition of check() is violated. */
@@ -139,7 +139,7 @@ namespace Voussoir
     const bool                      incompatible_modes; ///< of the dam's elements
     std::array<double, 3>           centre{}; ///< of the dam base, assumed source of scattered waves [m]
     RockModel                       model;
-    std::vector<Foot>               foot;          ///< base nodes
+    std::vector<BaseNode>           base_nodes;    ///< base nodes
     std::unique_ptr<ExplicitRegion> region;        ///< after start()
     std::unique_ptr<RockStatics>    statics;       ///< until start()
     unsigned int                    n_settled = 0; ///< number of static solutions of the rock
@@ -149,11 +149,11 @@ namespace Voussoir
     double                          seconds_advancing = 0.;   ///< wall time [s]
     double                          work_advancing = 0.;      ///< CPU time, without messages [s]
     Unknowns                        rest;                     ///< static displacement of the base nodes [m]
-    Unknowns                        u_feet, v, a;             ///< motion of the base nodes
+    Unknowns                        u_base_nodes, v, a;       ///< motion of the base nodes
     Unknowns                        force, force_before;      ///< of the rock elements on the base nodes [N]
     Unknowns                        u_predicted, v_predicted; ///< of the base nodes at the end of the step
     std::vector<double> account = {0., 0., 0.}; ///< work on the dam, largest energy, largest imbalance [J]
-    WatchBounds         bounds;
+    RockBounds          bounds;
     double              energy_bound = 0.; ///< upper bound of the energy supplied to the rock [J]
   };
 } // namespace Voussoir

@@ -30,8 +30,8 @@ namespace Voussoir
     bool one_body = false;
   };
 
-  /** Upper bounds of the rock motion for StabilityWatch. */
-  struct WatchBounds
+  /** Upper bounds of the rock motion for StabilityMonitor. */
+  struct RockBounds
   {
     double velocity = 0., displacement = 0.; ///< of a rock node [m/s], [m]
     double strain = 0.;                      ///< strain energy of dam and foundation in the static state [J]
@@ -80,12 +80,12 @@ namespace Voussoir
     /** Treatment of the base nodes. */
     enum class Base
     {
-      held,   ///< fixed, without unknowns
-      shared, ///< free, one node for all monoliths that meet there
+      fixed,  ///< fixed, without unknowns
+      merged, ///< free, one node for all monoliths that meet there
       tied,   ///< free, one node per monolith, joint pairs at the base are tied
-      led     ///< free, one node per monolith, without joint pairs, coupled to the support()
+      coupled ///< free, one node per monolith, without joint pairs, coupled to the support()
     };
-    virtual Base base() const { return Base::held; }
+    virtual Base base() const { return Base::fixed; }
 
     /** Returns true if displacements are relative to the ground and the dam has an inertia load. Returns
      * false if displacements are absolute. */
@@ -105,7 +105,7 @@ namespace Voussoir
     /** Returns the base nodes and the static compliance of the foundation without static_springs(). Marks the
      * base nodes as interface nodes of their bodies. Returns nullptr if the static solution does not
      * eliminate the base nodes. */
-    virtual std::unique_ptr<FootElimination::Feet> static_feet(Structure &) const { return nullptr; }
+    virtual std::unique_ptr<BaseElimination::Nodes> static_base(Structure &) const { return nullptr; }
 
     /** Computes the static state of dam and foundation.
      *
@@ -116,8 +116,8 @@ namespace Voussoir
      * @param log receives the progress
      *
      * Throws ComputationError if dam and foundation do not converge. */
-    virtual ContactResult settle(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
-                                 Unknowns &load, Log &log);
+    virtual ContactResult solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
+                                       Unknowns &load, Log &log);
 
     /** Returns the strain energy of massless rock in the static state [J], otherwise zero. */
     virtual double strain_at_start() const { return 0.; }
@@ -148,7 +148,7 @@ namespace Voussoir
     virtual void advance(Unknowns &) {}
 
     /** Updates the base nodes from the state of the dam at the end of the time step. */
-    virtual void follow(const DynamicState &) {}
+    virtual void update_from_dam(const DynamicState &) {}
 
     /** Returns the mean predicted velocity of the base nodes at the end of the time step [m/s]. Must be
      * called after advance(). */
@@ -174,19 +174,19 @@ namespace Voussoir
     virtual std::vector<std::vector<double> *> state() { return {}; }
 
     /** Completes state() on the first rank. Must be called by all ranks. */
-    virtual void collect() {}
+    virtual void gather_on_root() {}
 
-    /** Stores the bounds of StabilityWatch. */
-    virtual void watch(const GroundMotion &, const WatchBounds &) {}
+    /** Stores the bounds of StabilityMonitor. */
+    virtual void monitor(const GroundMotion &, const RockBounds &) {}
 
     /** Returns a message if an energy exceeds its bound, otherwise an empty string. */
-    virtual std::string trouble_of_energy() const { return {}; }
+    virtual std::string energy_excess() const { return {}; }
 
     /** Returns a message if a velocity or a displacement exceeds its bound, otherwise an empty string. */
-    virtual std::string trouble_of_motion() const { return {}; }
+    virtual std::string motion_excess() const { return {}; }
 
     /** Returns what to change in the input file after an instability, or an empty string. */
-    virtual std::string remedies() const { return {}; }
+    virtual std::string suggestions() const { return {}; }
   };
 
   /** Foundation of the dam. The base class is the rigid foundation with prescribed ground motion.
@@ -195,10 +195,10 @@ namespace Voussoir
    * Order of the calls:
    *  1. assembly of the dam: base(), add_stiffness(), add_mass(),
    *  2. before the run: delay(), check(), report(), about_steps(),
-   *  3. static state: static_springs(), static_feet(), and settle() for each load stage,
-   *  4. start of the dynamic analysis: start(), support(), watch(),
-   *  5. time step: advance(), base_velocity(), step of the dam by Newmark, follow(),
-   *  6. after the time step: energies(), trouble_of_energy(), trouble_of_motion(). */
+   *  3. static state: static_springs(), static_base(), and solve_static() for each load stage,
+   *  4. start of the dynamic analysis: start(), support(), monitor(),
+   *  5. time step: advance(), base_velocity(), step of the dam by Newmark, update_from_dam(),
+   *  6. after the time step: energies(), energy_excess(), motion_excess(). */
   class Foundation : public FoundationSetup, public BaseSupport, public Neighbour
   {
   };

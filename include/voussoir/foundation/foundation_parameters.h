@@ -27,8 +27,8 @@ namespace Voussoir
 
     static constexpr double largest_poisson = .45; ///< upper limit of Poisson's ratio of rock [-]
 
-    /** Returns true if the rock is subcycled with a constant force per time step of the dam (OwnStepRock). */
-    bool has_own_steps() const { return coupling == "mean traction" || (coupling == "auto" && substeps > 1); }
+    /** Returns true if the rock is subcycled with a constant force per time step of the dam (SubcycledRock). */
+    bool is_subcycled() const { return coupling == "mean traction" || (coupling == "auto" && substeps > 1); }
 
     /** Declares the entries of the subsection. */
     void add_parameters(Entries &prm);

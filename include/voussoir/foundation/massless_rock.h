@@ -12,7 +12,7 @@ namespace Voussoir
    * ground motion is prescribed at the outer boundary of the rock, and displacements are relative to this
    * boundary. The stiffness-proportional damping of the dam acts in the rock, too.
    *
-   * The joint problem eliminates the compliance of the rock at the base nodes (FootElimination). With
+   * The joint problem eliminates the compliance of the rock at the base nodes (BaseElimination). With
    * FoundationSite::one_body, dam and rock are one body with the condensed stiffness of the rock. */
   std::unique_ptr<Foundation> make_massless_rock(const FoundationSite &site);
 } // namespace Voussoir

@@ -17,20 +17,20 @@ namespace Voussoir
   class MasslessSupport : public Support
   {
   public:
-    /** Stores the references @p rock and @p standing, which must outlive the object.
+    /** Stores the references @p rock and @p dam_nodes, which must outlive the object.
      *
      * @param rock condensed stiffness of the rock
-     * @param standing dam nodes on the rock
+     * @param dam_nodes dam nodes on the rock
      * @param stiffness_damping damping factor b [s]
      * @param dt time step of the dam, without reduction [s] */
-    MasslessSupport(const CondensedRock &rock, const StandingNodes &standing, double stiffness_damping,
+    MasslessSupport(const CondensedRock &rock, const DamNodes &dam_nodes, double stiffness_damping,
                     double dt);
 
-    const std::vector<unsigned int> &feet() const override { return standing.node; }
+    const std::vector<unsigned int> &base_nodes() const override { return dam_nodes.node; }
     unsigned int                     n_substeps() const override { return parts; }
     BlockSparseMatrix                compliance(unsigned int n) const override;
     Unknowns                         predict(unsigned int n, const Unknowns &at) override;
-    void push(unsigned int n, const Unknowns &force, const Unknowns &place, double work) override;
+    void advance(unsigned int n, const Unknowns &force, const Unknowns &place, double work) override;
 
     /** Sets the energies to those of the static state. @p u: displacements of the dam [m]. */
     void start_account(const Unknowns &u);
@@ -55,7 +55,7 @@ namespace Voussoir
     double   energy(const Unknowns &a) const;
 
     const CondensedRock &rock;
-    const StandingNodes &standing;
+    const DamNodes      &dam_nodes;
     const double         damping, dt; ///< damping factor b [s], time step [s]
     Unknowns             before;      ///< displacement at the start of the step [m]
   };

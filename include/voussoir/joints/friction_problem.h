@@ -15,7 +15,7 @@ namespace Voussoir
    * is then A W A^T + C and the offset A b + c, with the surface axes A, the contact compliance C and the
    * clearances c. All laws must have flat_friction() or surfaces_law(). */
   FrictionProblem friction_problem(const InterfaceOperator &W, const PairLaws &laws,
-                                   const std::vector<PairPast> &past, const Unknowns &b);
+                                   const std::vector<PairHistory> &history, const Unknowns &b);
 } // namespace Voussoir
 
 #endif

@@ -12,12 +12,12 @@
 
 namespace Voussoir
 {
-  class FootElimination;
+  class BaseElimination;
 
   /** Symmetric operator W of the joints, gap = W force + b [m/N], in dense blocks by group of pairs (a
    * joint). Two groups are coupled if they share a body. Along an arch W is block tridiagonal.
    *
-   * On a subcycled foundation the operator is W - B H^-1 B^T (FootElimination), which couples all groups.
+   * On a subcycled foundation the operator is W - B H^-1 B^T (BaseElimination), which couples all groups.
    * Products in double precision use the complete operator. Products in single precision, for Newton steps
    * and Gauss-Seidel iterations, use its blocks of coupled groups only.
    *
@@ -97,8 +97,8 @@ namespace Voussoir
     std::vector<double> own_block(unsigned int group) const;
 
     /** Copies the blocks to single precision and chooses the colours. Call it after all blocks are filled.
-     * @p feet: eliminated base nodes, whose part is subtracted, or nullptr. */
-    void                      finish(std::shared_ptr<const FootElimination> feet = nullptr);
+     * @p base: eliminated base nodes, whose part is subtracted, or nullptr. */
+    void                      finish(std::shared_ptr<const BaseElimination> base = nullptr);
     const std::vector<float> &single_block(unsigned int j, unsigned int k) const { return single.at({j, k}); }
 
     /** Computes y += W_jk x in single precision, also for j > k. */
@@ -117,7 +117,7 @@ namespace Voussoir
     std::map<std::pair<unsigned int, unsigned int>, std::vector<double>> blocks;
     std::map<std::pair<unsigned int, unsigned int>, std::vector<float>>
                                               single; ///< part of eliminated base nodes subtracted
-    std::shared_ptr<const FootElimination>    eliminated;
+    std::shared_ptr<const BaseElimination>    eliminated;
     std::vector<Matrix3>                      diagonals; ///< diagonal blocks of the pairs
     std::vector<unsigned int>                 colour;    ///< per group; coupled groups have different colours
     std::vector<std::vector<unsigned int>>    groups_of_colour;

@@ -28,7 +28,7 @@ namespace Voussoir
      * @param start gap at the start of the step, three values per pair [m]
      * @param is_mean true: forces are means over the step; false: forces at its end
      * @param memory history variables of all pairs */
-    std::vector<PairPast> pasts(const Unknowns &start, bool is_mean, const Unknowns &memory) const;
+    std::vector<PairHistory> histories(const Unknowns &start, bool is_mean, const Unknowns &memory) const;
 
     /** Applies crack events to the pairs with the highest utilisation above 1: all pairs within a tenth of
      * the largest one. Other pairs may be relieved by these events. Sets the history variables in @p memory

@@ -3,7 +3,7 @@
 #define voussoir_joint_system_h
 
 #include <voussoir/contact/contact_solver.h>
-#include <voussoir/joints/foot_elimination.h>
+#include <voussoir/joints/base_elimination.h>
 #include <voussoir/joints/interface_operator.h>
 #include <voussoir/joints/joint_laws.h>
 
@@ -15,10 +15,10 @@ namespace Voussoir
     double substitutions = 0., joints = 0.; ///< substitutions of the bodies; joint problem
   };
 
-  /** Base nodes on a compliant support in one step, see FootElimination. Three values per base node. */
-  struct FeetOfStep
+  /** Base nodes on a compliant support in one step, see BaseElimination. Three values per base node. */
+  struct BaseOfStep
   {
-    Unknowns place; ///< displacement of the base nodes without forces on them [m]
+    Unknowns displacement; ///< displacement of the base nodes without forces on them [m]
     Unknowns force; ///< forces of the solution on the base nodes, means or values as the joint forces [N]
   };
 
@@ -33,7 +33,7 @@ namespace Voussoir
      * @param parameters parameters of the contact solver
      * @param step factors of the operator, and what the joint forces are
      * @param springs springs to the ground, per component [N/m]; empty: none
-     * @param feet base nodes and compliance of the support, or nullptr
+     * @param base base nodes and compliance of the support, or nullptr
      * @param single_factors factors of the bodies in single precision (CondensedBody). The joint operator is
      * in double precision in either case.
      *
@@ -41,7 +41,7 @@ namespace Voussoir
      * ComputationError if a body cannot be factorised. */
     JointSystem(const Structure &structure, const PairLaws &laws, const ContactParameters &parameters,
                 const StepOperator &step, const Unknowns &springs = Unknowns(),
-                const FootElimination::Feet *feet = nullptr, bool single_factors = false);
+                const BaseElimination::Nodes *base = nullptr, bool single_factors = false);
     JointSystem(const JointSystem &) = delete; // the solver has a pointer to the joint operator
 
     /** Solves a step. It is solved again after each crack event.
@@ -52,10 +52,10 @@ namespace Voussoir
      * @param force first guess (zeros in a static system: none), then solution, three values per pair [N]
      * @param gap receives three values per pair [m]
      * @param u receives three values per node [m]
-     * @param feet displacement of the base nodes without forces, receives their forces; nullptr: no support,
+     * @param base displacement of the base nodes without forces, receives their forces; nullptr: no support,
      * or zero displacement */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &memory,
-                        Unknowns &force, Unknowns &gap, Unknowns &u, FeetOfStep *feet = nullptr);
+                        Unknowns &force, Unknowns &gap, Unknowns &u, BaseOfStep *base = nullptr);
 
     /** Solves a step with the initial history variables of the laws, and discards them. */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &force,
@@ -67,9 +67,9 @@ namespace Voussoir
 
     /** Returns the data of the pairs in the equations of a step. @p start: gap at the start of the step [m].
      * The result points into @p memory. */
-    std::vector<PairPast> pasts(const Unknowns &start, const Unknowns &memory) const
+    std::vector<PairHistory> histories(const Unknowns &start, const Unknowns &memory) const
     {
-      return laws.pasts(start, step.has_mean_forces(), memory);
+      return laws.histories(start, step.has_mean_forces(), memory);
     }
 
     /** Updates the history variables @p memory for an accepted step with the solution @p force [N], @p gap
@@ -110,9 +110,9 @@ namespace Voussoir
     flexibility_of(unsigned int b, const std::vector<std::pair<unsigned int, unsigned int>> &sides_of_body);
     void          condense();
     void          make_whole();
-    Unknowns      gaps_without_forces(const Unknowns &offset, const Unknowns &foot_force) const;
-    void          release_joints(FeetOfStep &of_step) const;
-    void          put_on_interface(const Unknowns &force, FeetOfStep &of_step);
+    Unknowns      gaps_without_forces(const Unknowns &offset, const Unknowns &base_force) const;
+    void          release_joints(BaseOfStep &of_step) const;
+    void          put_on_interface(const Unknowns &force, BaseOfStep &of_step);
     ContactResult solve_pairs(const Unknowns &b, const Unknowns &start, Unknowns &memory, Unknowns &force,
                               Unknowns &gap);
     void          write_problem(const Unknowns &b, const Unknowns &start, const Unknowns &memory,
@@ -126,7 +126,7 @@ namespace Voussoir
     std::vector<std::unique_ptr<CondensedBody>> bodies;    ///< nullptr for bodies of other processes
     std::vector<std::array<Side, 2>>            sides;     ///< nodes of each pair
     InterfaceOperator                           W;
-    std::shared_ptr<FootElimination>            feet; ///< or nullptr
+    std::shared_ptr<BaseElimination>            base; ///< or nullptr
     std::unique_ptr<ContactSolver>              solver;
     InterfaceValues                             interface; ///< work array
     unsigned int n_solved; ///< number of problems, including those before this object

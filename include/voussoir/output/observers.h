@@ -9,7 +9,7 @@
 #include <voussoir/output/observer.h>
 #include <voussoir/output/recorder.h>
 #include <voussoir/output/run_state.h>
-#include <voussoir/output/stability_watch.h>
+#include <voussoir/output/stability_monitor.h>
 #include <voussoir/output/time_error.h>
 
 namespace Voussoir
@@ -19,12 +19,12 @@ namespace Voussoir
   {
   public:
     /** @p run: state at the start of the time loop. The observer refers to it. */
-    explicit StabilityObserver(const RunState &run) : run(run), watch(*run.dam, run.motion, *run.newmark) {}
+    explicit StabilityObserver(const RunState &run) : run(run), monitor(*run.dam, run.motion, *run.newmark) {}
     void record() override;
 
   private:
-    const RunState      &run;
-    const StabilityWatch watch;
+    const RunState        &run;
+    const StabilityMonitor monitor;
   };
 
   /** Displacements of crest and probes (history.csv) and energies (energy.csv). */
@@ -87,7 +87,7 @@ namespace Voussoir
     StressObserver(const RunState &run, const JointRecorder &joints);
     void start() override { follow(); }
     void follow() override;
-    void gather_on_root() override { envelope.collect(); }
+    void gather_on_root() override { envelope.gather_on_root(); }
     void finish(const std::string &directory, Log &log) override;
     void report(Log &log) const override;
     void save(boost::archive::binary_oarchive &archive) const override;

@@ -115,7 +115,7 @@ namespace Voussoir
     void record(double time, const Unknowns &u, const std::vector<Vector3> &tractions);
 
     /** Gathers the extremes of all nodes on every rank. All ranks: record() covers the nodes of one rank. */
-    void collect();
+    void gather_on_root();
 
     /** Returns the largest maximum, or the smallest minimum, of the nodes on a surface [Pa]. Surface 0: all
      * nodes. NaN: no nodes. */

@@ -48,10 +48,10 @@ namespace Voussoir
                  const Vector3 &ground);
 
     /** Gathers the stresses of all nodes on every rank. All ranks. */
-    void collect()
+    void gather_on_root()
     {
       if (envelope)
-        envelope->collect();
+        envelope->gather_on_root();
     }
 
     /** Returns the estimate from the results of the run. */

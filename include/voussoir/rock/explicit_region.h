@@ -86,7 +86,7 @@ namespace Voussoir
     void gather_motion();
 
     /** Gathers the state of the whole region in the arrays of state() on the first process. */
-    void collect();
+    void gather_on_root();
 
     /** Advances the region by one step to t + dt.
      * @param u predicted displacement of the prescribed nodes at t + dt, three values each in the order of

@@ -51,7 +51,7 @@ namespace Voussoir
     unsigned int n_columns() const { return static_cast<unsigned int>(columns.size()); }
 
     std::vector<std::vector<double> *> state() override;
-    void                               collect() override;
+    void                               gather_on_root() override;
 
   private:
     struct Section;

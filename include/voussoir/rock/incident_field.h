@@ -35,7 +35,7 @@ namespace Voussoir
     virtual std::vector<std::vector<double> *> state() = 0;
 
     /** Gathers the whole field in the arrays of state() on the first process. All processes must call it. */
-    virtual void collect() {}
+    virtual void gather_on_root() {}
   };
 } // namespace Voussoir
 

@@ -19,12 +19,12 @@ namespace Voussoir
      * @param model rock model
      * @param damping Rayleigh damping of the rock
      * @param dt time step of the rock [s]
-     * @param feet base nodes of the dam
+     * @param base_nodes base nodes of the dam
      * @param n_steps largest number of steps
      *
      * Throws InputError if fewer than @p n_steps layers lie between the base and the artificial boundary. */
     RockPatch(const RockModel &model, const RayleighDamping &damping, double dt,
-              const std::vector<unsigned int> &feet, unsigned int n_steps);
+              const std::vector<unsigned int> &base_nodes, unsigned int n_steps);
 
     /** Returns the displacement of the base nodes after @p n_steps steps without forces of the dam, three
      * values each [m]. @p u and @p w: displacement [m] and half-step velocity [m/s] of the region. */
@@ -36,7 +36,7 @@ namespace Voussoir
 
     const std::vector<unsigned int> &nodes() const { return node; } ///< nodes of the region in the patch
 
-    unsigned int n_feet() const { return n_layer[0]; } ///< number of base nodes
+    unsigned int n_base_nodes() const { return n_layer[0]; } ///< number of base nodes
 
   private:
     void add_layers(const RockModel &model, unsigned int n_steps);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
-#include <voussoir/foundation/feet.h>
+#include <voussoir/foundation/base_nodes.h>
 #include <voussoir/mesh/coincident.h>
 
 #include <algorithm>
@@ -27,8 +27,9 @@ namespace Voussoir
     }
   } // namespace
 
-  std::vector<Foot> find_feet(const SolidModel &dam, const std::vector<std::array<double, 3>> &points,
-                              const std::string &source)
+  std::vector<BaseNode> find_base_nodes(const SolidModel                         &dam,
+                                        const std::vector<std::array<double, 3>> &points,
+                                        const std::string                        &source)
   {
     std::vector<unsigned int>          equations;
     std::vector<std::array<double, 3>> base;
@@ -49,27 +50,27 @@ namespace Voussoir
     if (n_lost > 0)
       throw InputError(source + ": the dam's base and the rock must share their nodes, but " +
                        std::to_string(n_lost) + " nodes of the base are not in the rock. Correct the mesh.");
-    std::vector<Foot> feet;
-    for (const auto &foot : on_rock)
-      feet.push_back({foot.first, {foot.second.begin(), foot.second.end()}});
-    return feet;
+    std::vector<BaseNode> base_nodes;
+    for (const auto &base_node : on_rock)
+      base_nodes.push_back({base_node.first, {base_node.second.begin(), base_node.second.end()}});
+    return base_nodes;
   }
 
-  StandingNodes::StandingNodes(const std::vector<Foot> &feet)
+  DamNodes::DamNodes(const std::vector<BaseNode> &base_nodes)
   {
-    std::vector<std::pair<unsigned int, unsigned int>> standing;
-    for (unsigned int i = 0; i < feet.size(); ++i)
-      for (const unsigned int on_foot : feet[i].nodes)
-        standing.push_back({on_foot, i});
-    std::sort(standing.begin(), standing.end());
-    for (const auto &[on_foot, i] : standing)
+    std::vector<std::pair<unsigned int, unsigned int>> dam_nodes;
+    for (unsigned int i = 0; i < base_nodes.size(); ++i)
+      for (const unsigned int on_foot : base_nodes[i].nodes)
+        dam_nodes.push_back({on_foot, i});
+    std::sort(dam_nodes.begin(), dam_nodes.end());
+    for (const auto &[on_foot, i] : dam_nodes)
     {
       node.push_back(on_foot);
-      foot.push_back(i);
+      base_node.push_back(i);
     }
   }
 
-  void StandingNodes::mark(Structure &structure) const
+  void DamNodes::mark(Structure &structure) const
   {
     for (Body &body : structure.bodies)
     {
@@ -81,16 +82,16 @@ namespace Voussoir
     }
   }
 
-  BlockSparseMatrix StandingNodes::matrix(const BlockSparseMatrix &R) const
+  BlockSparseMatrix DamNodes::matrix(const BlockSparseMatrix &R) const
   {
-    std::vector<std::vector<unsigned int>> standing(R.n_rows()), columns(foot.size());
-    for (unsigned int i = 0; i < foot.size(); ++i)
-      standing[foot[i]].push_back(i);
+    std::vector<std::vector<unsigned int>> dam_nodes(R.n_rows()), columns(base_node.size());
+    for (unsigned int i = 0; i < base_node.size(); ++i)
+      dam_nodes[base_node[i]].push_back(i);
     const auto each = [&](const auto &action)
     {
-      for (unsigned int i = 0; i < foot.size(); ++i)
-        for (std::size_t k = R.start[foot[i]]; k < R.start[foot[i] + 1]; ++k)
-          for (const unsigned int j : standing[R.column[k]])
+      for (unsigned int i = 0; i < base_node.size(); ++i)
+        for (std::size_t k = R.start[base_node[i]]; k < R.start[base_node[i] + 1]; ++k)
+          for (const unsigned int j : dam_nodes[R.column[k]])
             action(i, j, R.value[k]);
     };
     each([&](const unsigned int i, const unsigned int j, const Matrix3 &) { columns[i].push_back(j); });

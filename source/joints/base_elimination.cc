@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/blas.h>
-#include <voussoir/joints/foot_elimination.h>
+#include <voussoir/joints/base_elimination.h>
 
 #include <algorithm>
 
@@ -35,8 +35,8 @@ namespace Voussoir
     }
   } // namespace
 
-  FootElimination::FootElimination(const Structure &structure, Feet given)
-      : structure(structure), feet(std::move(given)), begin(structure.n_joints + 1, 0), first(1, 0)
+  BaseElimination::BaseElimination(const Structure &structure, Nodes given)
+      : structure(structure), nodes(std::move(given)), begin(structure.n_joints + 1, 0), first(1, 0)
   {
     for (const Pair &pair : structure.pairs)
       begin[pair.joint + 1] += 3;
@@ -44,17 +44,17 @@ namespace Voussoir
       begin[j + 1] += begin[j];
     for (const Body &body : structure.bodies)
     {
-      first.push_back(place_in(feet.node, body.first_node + body.n_nodes()));
+      first.push_back(place_in(nodes.node, body.first_node + body.n_nodes()));
       for (unsigned int i = first[first.size() - 2]; i < first.back(); ++i)
-        interface.push_back(place_in(body.interface, feet.node[i] - body.first_node));
+        interface.push_back(place_in(body.interface, nodes.node[i] - body.first_node));
     }
     H.bodies.resize(1);
-    H.bodies[0].stiffness = with_bodies(feet.compliance, first);
-    feet.compliance = BlockSparseMatrix(); // releases memory; on massless rock the matrix is dense
-    H.mass.resize(feet.node.size());
+    H.bodies[0].stiffness = with_bodies(nodes.compliance, first);
+    nodes.compliance = BlockSparseMatrix(); // releases memory; on massless rock the matrix is dense
+    H.mass.resize(nodes.node.size());
   }
 
-  void FootElimination::add_body(const unsigned int b, const std::vector<double> &F)
+  void BaseElimination::add_body(const unsigned int b, const std::vector<double> &F)
   {
     const Body       &body = structure.bodies[b];
     const std::size_t m = 3 * body.interface.size();
@@ -69,7 +69,7 @@ namespace Voussoir
     for (unsigned int i = first[b]; i < first[b + 1]; ++i)
       for (unsigned int k = first[b]; k < first[b + 1]; ++k)
         H.bodies[0].stiffness.add(i, k, flexibility(interface[i], interface[k]));
-    for (unsigned int p = 0; p < structure.pairs.size() && n_feet(b) > 0; ++p)
+    for (unsigned int p = 0; p < structure.pairs.size() && n_base_nodes(b) > 0; ++p)
     {
       const Pair &pair = structure.pairs[p];
       for (unsigned int side = 0; side < 2; ++side)
@@ -79,8 +79,8 @@ namespace Voussoir
           continue;
         const std::size_t    rows = n_rows(pair.joint), row = 3 * p - begin[pair.joint];
         std::vector<double> &block = B[{pair.joint, b}];
-        block.resize(rows * 3 * n_feet(b), 0.);
-        for (unsigned int k = 0; k < n_feet(b); ++k)
+        block.resize(rows * 3 * n_base_nodes(b), 0.);
+        for (unsigned int k = 0; k < n_base_nodes(b); ++k)
         {
           const Matrix3 f =
               flexibility(place_in(body.interface, node - body.first_node), interface[first[b] + k]);
@@ -93,19 +93,19 @@ namespace Voussoir
     }
   }
 
-  void FootElimination::factorise()
+  void BaseElimination::factorise()
   {
     H.bodies[0].stiffness.symmetrise();
     factor.emplace_back(H, H.bodies[0], StepOperator());
     H = Structure(); // releases memory
   }
 
-  void FootElimination::solve(Unknowns &x) const
+  void BaseElimination::solve(Unknowns &x) const
   {
     factor[0].solve(x.data(), x.data());
   }
 
-  void FootElimination::take_from(const InterfaceValues &values, Unknowns &x) const
+  void BaseElimination::take_from(const InterfaceValues &values, Unknowns &x) const
   {
     x.resize(n());
     for (unsigned int b = 0; b + 1 < first.size(); ++b)
@@ -113,7 +113,7 @@ namespace Voussoir
         std::copy_n(values.of_body(b) + 3 * interface[i], 3, x.begin() + 3 * std::size_t(i));
   }
 
-  void FootElimination::add_to(InterfaceValues &values, const Unknowns &x) const
+  void BaseElimination::add_to(InterfaceValues &values, const Unknowns &x) const
   {
     for (unsigned int b = 0; b + 1 < first.size(); ++b)
       for (unsigned int i = first[b]; i < first[b + 1]; ++i)
@@ -121,33 +121,33 @@ namespace Voussoir
           values.of_body(b)[3 * interface[i] + c] += x[3 * std::size_t(i) + c];
   }
 
-  void FootElimination::add_gaps(const double factor, const Unknowns &f, double *gap) const
+  void BaseElimination::add_gaps(const double factor, const Unknowns &f, double *gap) const
   {
     const int    stride = 1;
     const double one = 1.;
     for (const auto &block : B)
     {
-      const int rows = n_rows(block.first.first), columns = 3 * n_feet(block.first.second);
+      const int rows = n_rows(block.first.first), columns = 3 * n_base_nodes(block.first.second);
       dgemv_("N", &rows, &columns, &factor, block.second.data(), &rows,
              f.data() + 3 * std::size_t(first[block.first.second]), &stride, &one,
              gap + begin[block.first.first], &stride);
     }
   }
 
-  void FootElimination::take_gaps(const double *f, Unknowns &x) const
+  void BaseElimination::take_gaps(const double *f, Unknowns &x) const
   {
     const int    stride = 1;
     const double one = 1.;
     x.assign(n(), 0.);
     for (const auto &block : B)
     {
-      const int rows = n_rows(block.first.first), columns = 3 * n_feet(block.first.second);
+      const int rows = n_rows(block.first.first), columns = 3 * n_base_nodes(block.first.second);
       dgemv_("T", &rows, &columns, &one, block.second.data(), &rows, f + begin[block.first.first], &stride,
              &one, x.data() + 3 * std::size_t(first[block.first.second]), &stride);
     }
   }
 
-  void FootElimination::subtract(const double *f, double *gap) const
+  void BaseElimination::subtract(const double *f, double *gap) const
   {
     Unknowns x;
     take_gaps(f, x);
@@ -156,7 +156,7 @@ namespace Voussoir
   }
 
   /** Returns the columns of H^-1 for the base nodes of a body. */
-  std::vector<double> FootElimination::inverse_columns(const unsigned int body) const
+  std::vector<double> BaseElimination::inverse_columns(const unsigned int body) const
   {
     std::vector<double> result;
     for (unsigned int k = 3 * first[body]; k < 3 * first[body + 1]; ++k)
@@ -169,10 +169,10 @@ namespace Voussoir
     return result;
   }
 
-  std::vector<double> FootElimination::times_transposed(const std::vector<double> &columns,
+  std::vector<double> BaseElimination::times_transposed(const std::vector<double> &columns,
                                                         const Key                 &key) const
   {
-    const int           rows = n(), n_columns = n_rows(key.first), m = 3 * n_feet(key.second);
+    const int           rows = n(), n_columns = n_rows(key.first), m = 3 * n_base_nodes(key.second);
     const double        one = 1., zero = 0.;
     std::vector<double> Y(std::size_t(rows) * n_columns);
     dgemm_("N", "T", &rows, &n_columns, &m, &one, columns.data(), &rows, B.at(key).data(), &n_columns, &zero,
@@ -180,18 +180,18 @@ namespace Voussoir
     return Y;
   }
 
-  std::vector<double> FootElimination::product(const Key &key, const std::vector<double> &Y,
+  std::vector<double> BaseElimination::product(const Key &key, const std::vector<double> &Y,
                                                const unsigned int n_columns) const
   {
-    const int           rows = n_rows(key.first), columns = n_columns, m = 3 * n_feet(key.second), all = n();
-    const double        one = 1., zero = 0.;
+    const int    rows = n_rows(key.first), columns = n_columns, m = 3 * n_base_nodes(key.second), all = n();
+    const double one = 1., zero = 0.;
     std::vector<double> result(std::size_t(rows) * columns);
     dgemm_("N", "N", &rows, &columns, &m, &one, B.at(key).data(), &rows,
            Y.data() + 3 * std::size_t(first[key.second]), &all, &zero, result.data(), &rows);
     return result;
   }
 
-  double FootElimination::memory() const
+  double BaseElimination::memory() const
   {
     double bytes = factor.empty() ? 0. : factor[0].memory();
     for (const auto &block : B)

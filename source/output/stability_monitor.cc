@@ -2,7 +2,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/tensor3.h>
 #include <voussoir/dam/static_state.h>
-#include <voussoir/output/stability_watch.h>
+#include <voussoir/output/stability_monitor.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double amplification = 10.; ///< of the motion at a node, see StabilityWatch
+    constexpr double amplification = 10.; ///< of the motion at a node, see StabilityMonitor
     constexpr double long_period = 1.;    ///< natural period above that of any arch dam [s]
 
     /** Returns the velocity with which the dam has the kinetic energy @p strain [J] [m/s]. */
@@ -41,7 +41,7 @@ namespace Voussoir
     return result;
   }
 
-  StabilityWatch::StabilityWatch(const Dam &dam, const GroundMotion &motion, const Newmark &newmark)
+  StabilityMonitor::StabilityMonitor(const Dam &dam, const GroundMotion &motion, const Newmark &newmark)
       : dam(dam), u_static(newmark.state().u)
   {
     const MotionBounds bounds = bounds_of(motion, dam.structure.mass_damping);
@@ -52,18 +52,19 @@ namespace Voussoir
     const double time = .5 * long_period / M_PI;
     displacement_dam = amplification * bounds.displacement + time * velocity_dam;
     const double displacement_rock = amplification * bounds.displacement + time * velocity_rock;
-    dam.foundation->watch(motion, {velocity_rock, displacement_rock, strain});
+    dam.foundation->monitor(motion, {velocity_rock, displacement_rock, strain});
   }
 
-  std::string StabilityWatch::trouble(const Newmark &newmark, const unsigned int step, const bool last) const
+  std::string StabilityMonitor::instability(const Newmark &newmark, const unsigned int step,
+                                            const bool last) const
   {
     constexpr unsigned int interval = 10;
     if (step == 0)
       return "";
-    std::string what = dam.foundation->trouble_of_energy();
+    std::string what = dam.foundation->energy_excess();
     if (what.empty() && (step % interval == 0 || last))
     {
-      what = dam.foundation->trouble_of_motion(); // an instability of its boundary begins there
+      what = dam.foundation->motion_excess(); // an instability of its boundary begins there
       if (what.empty())
         what = of_dam(newmark.state());
     }
@@ -73,11 +74,11 @@ namespace Voussoir
       return "";
     std::ostringstream text;
     text << "The run has become unstable: at step " << step << ", t = " << newmark.state().time << " s, "
-         << what << " " << remedies();
+         << what << " " << suggestions();
     return text.str();
   }
 
-  std::string StabilityWatch::of_joints(const Newmark &newmark) const
+  std::string StabilityMonitor::of_joints(const Newmark &newmark) const
   {
     Extreme moved;
     for (unsigned int p = 0; p < dam.structure.pairs.size(); ++p)
@@ -94,7 +95,7 @@ namespace Voussoir
     return text.str();
   }
 
-  std::string StabilityWatch::of_dam(const DynamicState &state) const
+  std::string StabilityMonitor::of_dam(const DynamicState &state) const
   {
     std::ostringstream text;
     std::size_t        i = find_excess(state.v, velocity_dam);
@@ -122,9 +123,9 @@ namespace Voussoir
     return text.str();
   }
 
-  std::string StabilityWatch::remedies() const
+  std::string StabilityMonitor::suggestions() const
   {
-    if (const std::string own = dam.foundation->remedies(); !own.empty())
+    if (const std::string own = dam.foundation->suggestions(); !own.empty())
       return own;
     std::ostringstream text;
     text.precision(3);

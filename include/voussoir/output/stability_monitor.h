@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef voussoir_stability_watch_h
-#define voussoir_stability_watch_h
+#ifndef voussoir_stability_monitor_h
+#define voussoir_stability_monitor_h
 
 #include <voussoir/base/excess.h>
 #include <voussoir/dam/dam.h>
@@ -38,21 +38,21 @@ namespace Voussoir
    * - energy that the coupling of dam and rock generates: the same bound.
    *
    * Exponential growth exceeds the bounds within tens of steps. */
-  class StabilityWatch
+  class StabilityMonitor
   {
   public:
     /** Computes the bounds at the start of the time loop, and starts the monitor of the foundation. @p dam
      * must outlive the object. */
-    StabilityWatch(const Dam &dam, const GroundMotion &motion, const Newmark &newmark);
+    StabilityMonitor(const Dam &dam, const GroundMotion &motion, const Newmark &newmark);
 
     /** Returns the instability after step @p step with a remedy, or an empty text. Energies and joints are
      * checked in each step, the nodes in every 10th step and in the @p last one. */
-    std::string trouble(const Newmark &newmark, unsigned int step, bool last) const;
+    std::string instability(const Newmark &newmark, unsigned int step, bool last) const;
 
   private:
     std::string of_joints(const Newmark &newmark) const;
     std::string of_dam(const DynamicState &state) const;
-    std::string remedies() const;
+    std::string suggestions() const;
 
     const Dam     &dam;
     const Unknowns u_static;

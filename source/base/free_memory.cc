@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/base/give_back.h>
+#include <voussoir/base/free_memory.h>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -7,7 +7,7 @@
 
 namespace Voussoir
 {
-  void give_back_memory()
+  void release_free_memory()
   {
 #ifdef __GLIBC__
     malloc_trim(0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef voussoir_foot_elimination_h
-#define voussoir_foot_elimination_h
+#ifndef voussoir_base_elimination_h
+#define voussoir_base_elimination_h
 
 #include <voussoir/joints/condensed_body.h>
 
@@ -30,11 +30,11 @@ namespace Voussoir
    *
    * where u_0 and b belong to zero forces at joints and base nodes. H couples base nodes of one body, and
    * neighbours through R; its Cholesky factor is sparse. B has dense blocks by body and joint. */
-  class FootElimination
+  class BaseElimination
   {
   public:
     /** Base nodes and the compliance of the support. */
-    struct Feet
+    struct Nodes
     {
       std::vector<unsigned int> node;       ///< interface nodes, numbered as in the structure, ascending
       BlockSparseMatrix         compliance; ///< R, symmetric [m/N]
@@ -42,7 +42,7 @@ namespace Voussoir
 
     /** Prepares the elimination. Call add_body() for all bodies, then factorise(). @p structure must outlive
      * the object. */
-    FootElimination(const Structure &structure, Feet feet);
+    BaseElimination(const Structure &structure, Nodes nodes);
 
     /** Adds share times the flexibility S^-1 of the interface of @p body (CondensedBody::take_flexibility(),
      * StepOperator::share). Call it for all bodies. */
@@ -50,12 +50,12 @@ namespace Voussoir
     void factorise(); ///< factorises H; after add_body() of all bodies
 
     /** Returns the number of unknowns, three per base node. */
-    unsigned int n() const { return 3 * static_cast<unsigned int>(feet.node.size()); }
+    unsigned int n() const { return 3 * static_cast<unsigned int>(nodes.node.size()); }
 
-    /** Copies the values of the base nodes from the interface @p values to @p of_feet. */
-    void take_from(const InterfaceValues &values, Unknowns &of_feet) const;
-    /** Adds @p of_feet to the interface @p values of the base nodes. */
-    void add_to(InterfaceValues &values, const Unknowns &of_feet) const;
+    /** Copies the values of the base nodes from the interface @p values to @p of_base. */
+    void take_from(const InterfaceValues &values, Unknowns &of_base) const;
+    /** Adds @p of_base to the interface @p values of the base nodes. */
+    void add_to(InterfaceValues &values, const Unknowns &of_base) const;
 
     void solve(Unknowns &x) const;                                      ///< computes x = H^-1 x
     void add_gaps(double factor, const Unknowns &f, double *gap) const; ///< computes gap += factor B f
@@ -70,14 +70,14 @@ namespace Voussoir
 
   private:
     using Key = std::pair<unsigned int, unsigned int>; ///< joint and body
-    unsigned int        n_feet(const unsigned int body) const { return first[body + 1] - first[body]; }
+    unsigned int        n_base_nodes(const unsigned int body) const { return first[body + 1] - first[body]; }
     unsigned int        n_rows(const unsigned int joint) const { return begin[joint + 1] - begin[joint]; }
     std::vector<double> inverse_columns(unsigned int body) const;
     std::vector<double> product(const Key &rows, const std::vector<double> &columns, unsigned int n) const;
     std::vector<double> times_transposed(const std::vector<double> &columns, const Key &key) const;
 
     const Structure                   &structure;
-    Feet                               feet;      ///< the compliance is moved to H
+    Nodes                              nodes;     ///< the compliance is moved to H
     std::vector<unsigned int>          begin;     ///< first row of each joint
     std::vector<unsigned int>          first;     ///< first base node of each body
     std::vector<unsigned int>          interface; ///< per base node: its number in the interface of its body
@@ -87,11 +87,11 @@ namespace Voussoir
   };
 
   template <class Wants, class Take>
-  void FootElimination::for_blocks(const Wants &wants, const Take &take) const
+  void BaseElimination::for_blocks(const Wants &wants, const Take &take) const
   {
     for (unsigned int c = 0; c + 1 < first.size(); ++c)
     {
-      if (n_feet(c) == 0)
+      if (n_base_nodes(c) == 0)
         continue;
       const std::vector<double> columns = inverse_columns(c);
       for (const auto &right : B)

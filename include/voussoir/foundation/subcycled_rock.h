@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef voussoir_own_step_rock_h
-#define voussoir_own_step_rock_h
+#ifndef voussoir_subcycled_rock_h
+#define voussoir_subcycled_rock_h
 
 #include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/rock/rock_patch.h>
@@ -15,12 +15,12 @@ namespace Voussoir
    * of the dam a base node has the displacement u + dt w/2, with the velocity w half a step later. The work
    * of the force on the rock is the force times the change of this displacement. The coupling is stable up to
    * the critical time step of the rock, for any number of substeps (doc/rock.md). */
-  class OwnStepRock : public ExplicitRock, public Support
+  class SubcycledRock : public ExplicitRock, public Support
   {
   public:
     using ExplicitRock::ExplicitRock;
 
-    Base        base() const override { return Base::led; }
+    Base        base() const override { return Base::coupled; }
     void        add_mass(Structure &) const override {} ///< none: the mass stays in the rock
     std::string about_steps() const override;
     Support    *support(Structure &structure) override;
@@ -31,17 +31,17 @@ namespace Voussoir
 
     void    start(const GroundMotion &outcrop, const TimeGrid &grid, const Unknowns &u) override;
     void    advance(Unknowns &load) override;
-    void    follow(const DynamicState &state) override;
+    void    update_from_dam(const DynamicState &state) override;
     Vector3 base_velocity() const override { return predicted_velocity; }
-    double  work_of_feet() const override { return account[3]; }
+    double  work_of_base() const override { return account[3]; }
 
     std::vector<std::vector<double> *> state() override;
 
-    const std::vector<unsigned int> &feet() const override { return standing.node; }
+    const std::vector<unsigned int> &base_nodes() const override { return dam_nodes.node; }
     unsigned int                     n_substeps() const override { return grid.substeps; }
     BlockSparseMatrix                compliance(unsigned int n) const override;
     Unknowns                         predict(unsigned int n, const Unknowns &at) override;
-    void push(unsigned int n, const Unknowns &force, const Unknowns &place, double work) override;
+    void advance(unsigned int n, const Unknowns &force, const Unknowns &place, double work) override;
 
   private:
     RayleighDamping damping() const;
@@ -50,11 +50,11 @@ namespace Voussoir
     Unknowns places() const;
 
     std::unique_ptr<RockPatch> patch;                ///< rock near the base, for predict()
-    StandingNodes              standing;             ///< dam nodes on the rock
+    DamNodes                   dam_nodes;            ///< dam nodes on the rock
     Vector3                    predicted_velocity{}; ///< mean of the base nodes [m/s]
   };
 
-  /** Creates OwnStepRock if FoundationParameters::has_own_steps(), otherwise ExplicitRock. */
+  /** Creates SubcycledRock if FoundationParameters::is_subcycled(), otherwise ExplicitRock. */
   std::unique_ptr<Foundation> make_explicit_rock(const FoundationSite &site);
 } // namespace Voussoir
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/foundation/own_step_rock.h>
+#include <voussoir/foundation/subcycled_rock.h>
 
 #include <algorithm>
 #include <sstream>
@@ -8,17 +8,17 @@ namespace Voussoir
 {
   std::unique_ptr<Foundation> make_explicit_rock(const FoundationSite &site)
   {
-    if (site.parameters.has_own_steps())
-      return std::make_unique<OwnStepRock>(site);
+    if (site.parameters.is_subcycled())
+      return std::make_unique<SubcycledRock>(site);
     return std::make_unique<ExplicitRock>(site);
   }
 
-  RayleighDamping OwnStepRock::damping() const
+  RayleighDamping SubcycledRock::damping() const
   {
     return region_parameters(parameters, centre, 0.).damping;
   }
 
-  std::string OwnStepRock::about_steps() const
+  std::string SubcycledRock::about_steps() const
   {
     std::ostringstream text;
     text.precision(4);
@@ -28,60 +28,61 @@ namespace Voussoir
     return text.str();
   }
 
-  void OwnStepRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
+  void SubcycledRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
   {
     ExplicitRock::check(steps, steps_per_sample);
-    RockPatch(model, damping(), steps.substep(), feet_of_rock(), steps.substeps);
+    RockPatch(model, damping(), steps.substep(), rock_nodes_at_base(), steps.substeps);
   }
 
-  void OwnStepRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
+  void SubcycledRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
   {
-    patch = std::make_unique<RockPatch>(model, damping(), steps.substep(), feet_of_rock(), steps.substeps);
+    patch =
+        std::make_unique<RockPatch>(model, damping(), steps.substep(), rock_nodes_at_base(), steps.substeps);
     make_rock(outcrop, steps, .5 * steps.substep(), patch->nodes());
     model.stiffness = BlockSparseMatrix(); // frees memory; not used by region and patch
     region->force.assign(3 * std::size_t(n_nodes()), 0.);
-    standing = StandingNodes(foot);
+    dam_nodes = DamNodes(base_nodes);
     rest.clear();
-    for (const unsigned int node : standing.node)
+    for (const unsigned int node : dam_nodes.node)
       rest.insert(rest.end(), u.begin() + 3 * std::size_t(node), u.begin() + 3 * std::size_t(node) + 3);
     v.assign(3, 0.); // mean of the base nodes
     a = v;
     account.assign(4, 0.);
   }
 
-  Support *OwnStepRock::support(Structure &structure)
+  Support *SubcycledRock::support(Structure &structure)
   {
-    standing.mark(structure);
+    dam_nodes.mark(structure);
     return this;
   }
 
-  BlockSparseMatrix OwnStepRock::compliance(const unsigned int n) const
+  BlockSparseMatrix SubcycledRock::compliance(const unsigned int n) const
   {
-    return standing.matrix(patch->compliance(n));
+    return dam_nodes.matrix(patch->compliance(n));
   }
 
-  Unknowns OwnStepRock::predict(const unsigned int n, const Unknowns &)
+  Unknowns SubcycledRock::predict(const unsigned int n, const Unknowns &)
   {
     const Stopwatch watch;
     const double    worked = Ranks::work();
-    Unknowns        place(3 * foot.size());
+    Unknowns        place(3 * base_nodes.size());
     if (Ranks::rank() == ahead)
       place = patch->places(n, region->displacement(), region->half_step_velocity());
     Ranks::broadcast(place.data(), place.size(), ahead);
     Unknowns result = rest;
-    for (std::size_t i = 0; i < standing.node.size(); ++i)
+    for (std::size_t i = 0; i < dam_nodes.node.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        result[3 * i + c] += place[3 * std::size_t(standing.foot[i]) + c];
+        result[3 * i + c] += place[3 * std::size_t(dam_nodes.base_node[i]) + c];
     seconds_advancing += watch.seconds();
     work_advancing += Ranks::work() - worked;
     return result;
   }
 
-  Unknowns OwnStepRock::places() const
+  Unknowns SubcycledRock::places() const
   {
     const Unknowns &u = region->displacement(), &w = region->half_step_velocity();
     Unknowns        result;
-    for (const Foot &f : foot)
+    for (const BaseNode &f : base_nodes)
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * std::size_t(f.rock) + c;
@@ -90,16 +91,17 @@ namespace Voussoir
     return result;
   }
 
-  void OwnStepRock::push(const unsigned int n, const Unknowns &on_dam, const Unknowns &, const double work)
+  void SubcycledRock::advance(const unsigned int n, const Unknowns &on_dam, const Unknowns &,
+                              const double work)
   {
     const Stopwatch watch;
     const double    worked = Ranks::work();
-    Unknowns        on_rock(3 * foot.size(), 0.);
-    for (std::size_t i = 0; i < standing.node.size(); ++i)
+    Unknowns        on_rock(3 * base_nodes.size(), 0.);
+    for (std::size_t i = 0; i < dam_nodes.node.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        on_rock[3 * std::size_t(standing.foot[i]) + c] -= on_dam[3 * i + c];
-    for (std::size_t i = 0; i < foot.size(); ++i)
-      std::copy_n(on_rock.begin() + 3 * i, 3, region->force.begin() + 3 * std::size_t(foot[i].rock));
+        on_rock[3 * std::size_t(dam_nodes.base_node[i]) + c] -= on_dam[3 * i + c];
+    for (std::size_t i = 0; i < base_nodes.size(); ++i)
+      std::copy_n(on_rock.begin() + 3 * i, 3, region->force.begin() + 3 * std::size_t(base_nodes[i].rock));
     const Unknowns before = places();
     for (unsigned int j = 0; j < n; ++j)
       region->advance();
@@ -112,19 +114,19 @@ namespace Voussoir
   }
 
   /** Predicts the mean velocity of the base nodes. Forces are exchanged by Support. */
-  void OwnStepRock::advance(Unknowns &)
+  void SubcycledRock::advance(Unknowns &)
   {
     for (unsigned int c = 0; c < 3; ++c)
       predicted_velocity[c] = v[c] + .5 * grid.dt * a[c];
   }
 
-  void OwnStepRock::follow(const DynamicState &state)
+  void SubcycledRock::update_from_dam(const DynamicState &state)
   {
     Vector3 mean{};
-    for (const Foot &f : foot)
+    for (const BaseNode &f : base_nodes)
       for (const unsigned int node : f.nodes)
         for (unsigned int c = 0; c < 3; ++c)
-          mean[c] += state.v[3 * std::size_t(node) + c] / (foot.size() * f.nodes.size());
+          mean[c] += state.v[3 * std::size_t(node) + c] / (base_nodes.size() * f.nodes.size());
     for (unsigned int c = 0; c < 3; ++c)
     {
       a[c] = 2. / grid.dt * (mean[c] - v[c]) - a[c];
@@ -133,7 +135,7 @@ namespace Voussoir
     keep_account(state.time);
   }
 
-  std::vector<std::vector<double> *> OwnStepRock::state()
+  std::vector<std::vector<double> *> SubcycledRock::state()
   {
     if (!region)
       return {};
