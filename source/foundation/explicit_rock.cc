@@ -74,7 +74,7 @@ namespace Voussoir
       c /= count;
     const auto find = [&](const std::vector<Vector3> &points)
     {
-      base_nodes = find_base_nodes(dam, points, source);
+      at_base = find_base_nodes(dam, points, source);
       return rock_nodes_at_base();
     };
     RockParameters rock = region_parameters(parameters, centre, 0.).rock;
@@ -90,7 +90,7 @@ namespace Voussoir
 
   void ExplicitRock::add_mass(Structure &structure) const
   {
-    for (const BaseNode &f : base_nodes)
+    for (const BaseNode &f : at_base)
       for (const unsigned int node : f.nodes)
         for (unsigned int c = 0; c < 3; ++c)
           structure.mass[node][4 * c] += model.mass[f.rock] / f.nodes.size();
@@ -99,7 +99,7 @@ namespace Voussoir
   Vector3 ExplicitRock::arrival() const
   {
     double lowest = std::numeric_limits<double>::max();
-    for (const BaseNode &f : base_nodes)
+    for (const BaseNode &f : at_base)
       lowest = std::min(lowest, model.points[f.rock][2]);
     return travel_times(model, lowest);
   }
@@ -142,12 +142,12 @@ namespace Voussoir
     make_rock(outcrop, steps, 0.);
     model.stiffness = BlockSparseMatrix(); // frees memory; not used by the region
     region->set_prescribed(rock_nodes_at_base());
-    const std::size_t n = 3 * base_nodes.size();
+    const std::size_t n = 3 * at_base.size();
     rest.assign(n, 0.);
-    for (std::size_t i = 0; i < base_nodes.size(); ++i)
-      for (const unsigned int node : base_nodes[i].nodes)
+    for (std::size_t i = 0; i < at_base.size(); ++i)
+      for (const unsigned int node : at_base[i].nodes)
         for (unsigned int c = 0; c < 3; ++c)
-          rest[3 * i + c] += u[3 * node + c] / base_nodes[i].nodes.size();
+          rest[3 * i + c] += u[3 * node + c] / at_base[i].nodes.size();
     v.assign(n, 0.);
     a = u_base_nodes = u_predicted = v_predicted = force = force_before = v;
   }
@@ -158,7 +158,7 @@ namespace Voussoir
     const double    worked = Ranks::work();
     const double    dt = grid.dt;
     Unknowns        u = u_predicted, v_now = v_predicted;
-    for (std::size_t i = 0; i < base_nodes.size(); ++i)
+    for (std::size_t i = 0; i < at_base.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * i + c;
@@ -169,14 +169,14 @@ namespace Voussoir
       }
     const Unknowns &taken = region->advance(u, v_now);
     force_before.swap(force);
-    for (std::size_t i = 0; i < base_nodes.size(); ++i)
+    for (std::size_t i = 0; i < at_base.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
       {
         // The dam applies the mass-proportional damping of the rock mass at the base.
         const std::size_t k = 3 * i + c;
-        force[k] = parameters.mass_damping * model.mass[base_nodes[i].rock] * v_predicted[k] - taken[k];
-        for (const unsigned int node : base_nodes[i].nodes)
-          load[3 * node + c] += force[k] / base_nodes[i].nodes.size();
+        force[k] = parameters.mass_damping * model.mass[at_base[i].rock] * v_predicted[k] - taken[k];
+        for (const unsigned int node : at_base[i].nodes)
+          load[3 * node + c] += force[k] / at_base[i].nodes.size();
       }
     seconds_advancing += watch.seconds();
     work_advancing += Ranks::work() - worked;
@@ -184,13 +184,13 @@ namespace Voussoir
 
   void ExplicitRock::update_from_dam(const DynamicState &state)
   {
-    for (std::size_t i = 0; i < base_nodes.size(); ++i)
+    for (std::size_t i = 0; i < at_base.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * i + c;
-        const double      part = 1. / base_nodes[i].nodes.size();
+        const double      part = 1. / at_base[i].nodes.size();
         double            u_new = 0., v_new = 0.;
-        for (const unsigned int node : base_nodes[i].nodes)
+        for (const unsigned int node : at_base[i].nodes)
         {
           u_new += part * state.u[3 * node + c];
           v_new += part * state.v[3 * node + c];
@@ -207,7 +207,7 @@ namespace Voussoir
   std::vector<unsigned int> ExplicitRock::rock_nodes_at_base() const
   {
     std::vector<unsigned int> result;
-    for (const BaseNode &f : base_nodes)
+    for (const BaseNode &f : at_base)
       result.push_back(f.rock);
     return result;
   }
@@ -229,9 +229,9 @@ namespace Voussoir
   Vector3 ExplicitRock::base_velocity() const
   {
     Vector3 result{};
-    for (std::size_t i = 0; i < base_nodes.size(); ++i)
+    for (std::size_t i = 0; i < at_base.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        result[c] += v_predicted[3 * i + c] / base_nodes.size();
+        result[c] += v_predicted[3 * i + c] / at_base.size();
     return result;
   }
 

@@ -87,7 +87,7 @@ namespace Voussoir
     Unknowns springs(3 * structure.n_nodes(), 0.);
     double   largest = 0.;
     for (const Body &body : structure.bodies)
-      for (const BaseNode &f : base_nodes)
+      for (const BaseNode &f : at_base)
         for (const unsigned int node : f.nodes)
           if (node >= body.first_node && node < body.first_node + body.n_nodes())
           {
@@ -96,7 +96,7 @@ namespace Voussoir
               if (body.stiffness.column[k] == i)
                 largest = std::max(largest, body.stiffness.value[k][0]);
           }
-    for (const BaseNode &f : base_nodes)
+    for (const BaseNode &f : at_base)
       for (const unsigned int node : f.nodes)
         for (unsigned int c = 0; c < 3; ++c)
           springs[3 * node + c] = 10. * largest;
@@ -116,7 +116,7 @@ namespace Voussoir
                statics->n_unknowns(), statics->seconds_setup());
     }
     Unknowns b(3 * std::size_t(n_nodes()), 0.), u;
-    for (const BaseNode &f : base_nodes)
+    for (const BaseNode &f : at_base)
       for (const unsigned int node : f.nodes)
         for (unsigned int c = 0; c < 3; ++c)
           b[3 * f.rock + c] += r[3 * node + c];
@@ -124,18 +124,18 @@ namespace Voussoir
     constexpr double   tolerance = 1e-11;
     const unsigned int iterations = statics->solve(b, u, log, tolerance, part);
     log.line("          load %u: %u iterations, %.1f s", ++n_settled, iterations, watch.seconds());
-    u_base.resize(3 * base_nodes.size());
-    for (std::size_t i = 0; i < base_nodes.size(); ++i)
+    u_base.resize(3 * at_base.size());
+    for (std::size_t i = 0; i < at_base.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        u_base[3 * i + c] = u[3 * base_nodes[i].rock + c];
+        u_base[3 * i + c] = u[3 * at_base[i].rock + c];
   }
 
   Unknowns ExplicitRock::with_springs(const Unknowns &external, const Unknowns &springs, const Unknowns &base,
                                       const Unknowns &r) const
   {
     Unknowns load = external;
-    for (std::size_t i = 0; i < base_nodes.size(); ++i)
-      for (const unsigned int node : base_nodes[i].nodes)
+    for (std::size_t i = 0; i < at_base.size(); ++i)
+      for (const unsigned int node : at_base[i].nodes)
         for (unsigned int c = 0; c < 3; ++c)
           load[3 * node + c] += springs[3 * node + c] * base[3 * i + c] - r[3 * node + c];
     return load;
@@ -145,8 +145,8 @@ namespace Voussoir
                                  Unknowns &r) const
   {
     double slack = 0.;
-    for (std::size_t i = 0; i < base_nodes.size(); ++i)
-      for (const unsigned int node : base_nodes[i].nodes)
+    for (std::size_t i = 0; i < at_base.size(); ++i)
+      for (const unsigned int node : at_base[i].nodes)
         for (unsigned int c = 0; c < 3; ++c)
         {
           const double difference = u[3 * node + c] - base[3 * i + c];
@@ -163,7 +163,7 @@ namespace Voussoir
                                            Unknowns &load, Log &log)
   {
     constexpr double  enough = 1e-9;
-    const std::size_t n = 3 * base_nodes.size();
+    const std::size_t n = 3 * at_base.size();
     Unknowns          base(n, 0.), r(load.size(), 0.), settled;
     Differences       differences;
     double            error = 1.;

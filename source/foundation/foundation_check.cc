@@ -111,7 +111,7 @@ namespace Voussoir
       }
     boundary->attach(model, centre, steps.substep());
     std::vector<unsigned int> nodes;
-    for (const BaseNode &f : base_nodes)
+    for (const BaseNode &f : at_base)
       nodes.push_back(f.rock);
     boundary->check_prescribed(nodes);
   }

@@ -41,7 +41,7 @@ namespace Voussoir
     make_rock(outcrop, steps, .5 * steps.substep(), patch->nodes());
     model.stiffness = BlockSparseMatrix(); // frees memory; not used by region and patch
     region->force.assign(3 * std::size_t(n_nodes()), 0.);
-    dam_nodes = DamNodes(base_nodes);
+    dam_nodes = DamNodes(at_base);
     rest.clear();
     for (const unsigned int node : dam_nodes.node)
       rest.insert(rest.end(), u.begin() + 3 * std::size_t(node), u.begin() + 3 * std::size_t(node) + 3);
@@ -65,7 +65,7 @@ namespace Voussoir
   {
     const Stopwatch watch;
     const double    worked = Ranks::work();
-    Unknowns        place(3 * base_nodes.size());
+    Unknowns        place(3 * at_base.size());
     if (Ranks::rank() == ahead)
       place = patch->places(n, region->displacement(), region->half_step_velocity());
     Ranks::broadcast(place.data(), place.size(), ahead);
@@ -82,7 +82,7 @@ namespace Voussoir
   {
     const Unknowns &u = region->displacement(), &w = region->half_step_velocity();
     Unknowns        result;
-    for (const BaseNode &f : base_nodes)
+    for (const BaseNode &f : at_base)
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * std::size_t(f.rock) + c;
@@ -96,12 +96,12 @@ namespace Voussoir
   {
     const Stopwatch watch;
     const double    worked = Ranks::work();
-    Unknowns        on_rock(3 * base_nodes.size(), 0.);
+    Unknowns        on_rock(3 * at_base.size(), 0.);
     for (std::size_t i = 0; i < dam_nodes.node.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
         on_rock[3 * std::size_t(dam_nodes.base_node[i]) + c] -= on_dam[3 * i + c];
-    for (std::size_t i = 0; i < base_nodes.size(); ++i)
-      std::copy_n(on_rock.begin() + 3 * i, 3, region->force.begin() + 3 * std::size_t(base_nodes[i].rock));
+    for (std::size_t i = 0; i < at_base.size(); ++i)
+      std::copy_n(on_rock.begin() + 3 * i, 3, region->force.begin() + 3 * std::size_t(at_base[i].rock));
     const Unknowns before = places();
     for (unsigned int j = 0; j < n; ++j)
       region->advance();
@@ -123,10 +123,10 @@ namespace Voussoir
   void SubcycledRock::update_from_dam(const DynamicState &state)
   {
     Vector3 mean{};
-    for (const BaseNode &f : base_nodes)
+    for (const BaseNode &f : at_base)
       for (const unsigned int node : f.nodes)
         for (unsigned int c = 0; c < 3; ++c)
-          mean[c] += state.v[3 * std::size_t(node) + c] / (base_nodes.size() * f.nodes.size());
+          mean[c] += state.v[3 * std::size_t(node) + c] / (at_base.size() * f.nodes.size());
     for (unsigned int c = 0; c < 3; ++c)
     {
       a[c] = 2. / grid.dt * (mean[c] - v[c]) - a[c];

@@ -139,7 +139,7 @@ namespace Voussoir
     const bool                      incompatible_modes; ///< of the dam's elements
     std::array<double, 3>           centre{}; ///< of the dam base, assumed source of scattered waves [m]
     RockModel                       model;
-    std::vector<BaseNode>           base_nodes;    ///< base nodes
+    std::vector<BaseNode>           at_base;       ///< base nodes
     std::unique_ptr<ExplicitRegion> region;        ///< after start()
     std::unique_ptr<RockStatics>    statics;       ///< until start()
     unsigned int                    n_settled = 0; ///< number of static solutions of the rock
