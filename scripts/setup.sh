@@ -1,34 +1,47 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs what Voussoir needs on Debian 12, by apt and only where a package is missing.
+# Installs what Voussoir needs on Debian and Ubuntu, by apt and only where a package is missing. Optional packages are installed one
+# by one: one that the release does not have keeps no other one away. Prints at the end which are missing, and what they are for.
 # Usage: scripts/setup.sh [--program]     --program: what building and running the program needs, nothing for its tests
 set -euo pipefail
 
 required=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev libfclib-dev libhdf5-dev
           ninja-build cmake g++ git python3-matplotlib)
-optional=(python3-meshio) # reads .inp and .med
+optional=("python3-meshio: meshes in the formats .inp and .med")
 if [[ "${1:-}" != --program ]]; then
-  required+=(gmsh numdiff ccache clang-format shellcheck flake8 doxygen)
-  # Only benchmarks/calculix.py and contact.py, `voussoir study`, scripts/site.py, and the test that looks at the page of `voussoir report`, use them.
-  optional+=(calculix-ccx python3-siconos python3-h5py chromium snakemake mkdocs python3-jsonschema)
+  required+=(gmsh numdiff ccache shellcheck flake8 doxygen)
+  optional+=("clang-format: format of the sources" "calculix-ccx: benchmarks/calculix.py" "python3-siconos: benchmarks/contact.py"
+             "python3-h5py: benchmarks/contact.py" "chromium: voussoir report --pdf and the test of its page"
+             "snakemake: voussoir study" "mkdocs: scripts/site.py" "python3-jsonschema: test of the JSON schema of the scene")
 fi
 
-missing() # PACKAGE...: those that are not installed
+is_installed() # PACKAGE
 {
-  local package
-  for package in "$@"; do
-    [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)" == installed ]] ||
-      echo "$package"
-  done
+  [[ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null || true)" == installed ]]
+}
+
+# deal.II of Debian 13 links with -fuse-ld=mold, and its package does not depend on mold.
+needs_mold()
+{
+  is_installed libdeal.ii-dev && dpkg-query -L libdeal.ii-dev | grep '\.cmake$' | xargs grep -qs 'fuse-ld=mold'
 }
 
 if ! command -v apt-get >/dev/null; then
-  echo "setup: this is not a Debian system (no apt-get). Install by other means: ${required[*]}" >&2
+  echo "setup: this system has no apt-get. Install by other means: ${required[*]}" >&2
   exit 1
 fi
 
-mapfile -t needed < <(missing "${required[@]}")
-mapfile -t wanted < <(missing "${optional[@]}")
+needed=()
+for package in "${required[@]}"; do
+  is_installed "$package" || needed+=("$package")
+done
+wanted=()
+for entry in "${optional[@]}"; do
+  is_installed "${entry%%:*}" || wanted+=("$entry")
+done
+if needs_mold && ! is_installed mold; then
+  needed+=(mold)
+fi
 if ((${#needed[@]} + ${#wanted[@]} == 0)); then
   echo "setup: all packages are installed"
   exit 0
@@ -43,7 +56,7 @@ if ((EUID != 0)); then
     echo "  apt-get install ${needed[*]}" >&2
     exit 1
   else
-    echo "setup: warning: not installed (optional): ${wanted[*]}" >&2
+    printf 'setup: optional package is missing: %s\n' "${wanted[@]}" >&2
     exit 0
   fi
 fi
@@ -54,12 +67,32 @@ apt() # ARGUMENTS...: apt-get without questions
 }
 
 # A failed update is no reason to stop: the lists that are there may do.
-apt update || echo "setup: warning: apt-get update failed, going on with the package lists there are" >&2
+apt update || echo "setup: warning: apt-get update failed; the present package lists are used" >&2
 if ((${#needed[@]})); then
   echo "setup: installing ${needed[*]}"
   apt install -y --no-install-recommends "${needed[@]}"
 fi
-if ((${#wanted[@]})); then
-  apt install -y --no-install-recommends "${wanted[@]}" ||
-    echo "setup: warning: could not install ${wanted[*]}; what needs them will be skipped" >&2
+if needs_mold && ! is_installed mold; then
+  echo "setup: deal.II links with mold: installing mold"
+  apt install -y --no-install-recommends mold
+fi
+
+# All candidates at once, which is faster; one by one if that fails.
+candidates=() missing=()
+for entry in "${wanted[@]}"; do
+  if apt-cache policy "${entry%%:*}" | grep -q 'Candidate: [^(]'; then
+    candidates+=("${entry%%:*}")
+  fi
+done
+if ((${#candidates[@]})) && ! apt install -y --no-install-recommends "${candidates[@]}"; then
+  for package in "${candidates[@]}"; do
+    apt install -y --no-install-recommends "$package" || true
+  done
+fi
+for entry in "${wanted[@]}"; do
+  is_installed "${entry%%:*}" || missing+=("$entry")
+done
+if ((${#missing[@]})); then
+  echo "setup: optional packages that could not be installed, and their use:" >&2
+  printf '  %s\n' "${missing[@]}" >&2
 fi
