@@ -24,7 +24,7 @@ namespace
   /** Rock of 600 m x 600 m x 300 m of flat elements, n of them along its length, held but for its ground,
    * whose middle is pushed. @p thin: those in the middle are like sheets under the ground, and all are as the
    * dam's. */
-  Solved push(const unsigned int n, const bool thin = false)
+  Solved push(const unsigned int n, const bool thin = false, const MakeCoarseRock &solver = make_coarse_rock)
   {
     const double   h = 600. / n;
     HexMesh        mesh = Boxes::box({n, n, n}, {"x-", "x+", "y-", "y+", "z-"},
@@ -65,7 +65,7 @@ namespace
           top = i;
       }
     Solved      result;
-    RockStatics statics(model, held);
+    RockStatics statics(model, held, solver);
     Log         log(true);
     result.iterations = statics.solve(b, x, log);
     model.stiffness.multiply(x.data(), Kx.data());
@@ -122,6 +122,17 @@ namespace
               << " on 24^3\n";
   }
 
+  /** The coarse solvers by CHOLMOD and by ML: both converge to the same displacement. */
+  void coarse_solvers()
+  {
+    const Solved usual = push(12), direct = push(12, false, make_direct_coarse_rock);
+    expect(direct.residual < 2e-11, "equilibrium");
+    expect_close(direct.middle, usual.middle, 1e-9, "displacement of the ground with CHOLMOD");
+    expect(direct.iterations < 50, "iterations with CHOLMOD");
+    std::cout << "iterations: " << usual.iterations << " with the default, " << direct.iterations
+              << " with CHOLMOD\n";
+  }
+
   /** Elements with large eigenvalues. */
   void sheets()
   {
@@ -134,5 +145,5 @@ namespace
 
 int main()
 {
-  return run({{"halving the mesh", halving}, {"sheets", sheets}});
+  return run({{"halving the mesh", halving}, {"coarse solvers", coarse_solvers}, {"sheets", sheets}});
 }

@@ -157,6 +157,24 @@ namespace Voussoir
       for (const std::string &warning : scene.warnings) // an error would come first
         std::cerr << "voussoir: warning: " << warning << "\n";
     }
+
+    /** Returns the optional parts of this program. */
+    std::string features()
+    {
+      std::string result = "coarse solver of the rock: ";
+#ifdef VOUSSOIR_WITH_TRILINOS
+      result += "Trilinos";
+#else
+      result += "CHOLMOD";
+#endif
+      result += ", natural frequencies: ";
+#ifdef VOUSSOIR_WITH_ARPACK
+      result += "ARPACK";
+#else
+      result += "none";
+#endif
+      return result;
+    }
   } // namespace
 
   bool runs_scene(const std::vector<std::string> &words)
@@ -178,7 +196,7 @@ namespace Voussoir
     const Arguments arguments = read_arguments(words);
     if (arguments.version)
       std::cout << "Voussoir " VOUSSOIR_VERSION " (" VOUSSOIR_REVISION "), deal.II " DEAL_II_PACKAGE_VERSION
-                   "\n";
+                << ", " << features() << "\n";
     else if (arguments.help)
       std::cout << (arguments.command.empty() && arguments.words.empty() ? help_about_all()
                                                                          : help_about(arguments.command));

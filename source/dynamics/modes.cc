@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#ifdef VOUSSOIR_WITH_ARPACK
 #include <deal.II/lac/arpack_solver.h>
+#endif
 #include <deal.II/lac/vector.h>
 
 #include <voussoir/base/error.h>
@@ -14,15 +16,6 @@
 namespace Voussoir
 {
   using namespace dealii;
-
-  namespace
-  {
-    struct Operator
-    {
-      std::function<void(Vector<double> &, const Vector<double> &)> apply;
-      void vmult(Vector<double> &y, const Vector<double> &x) const { apply(y, x); }
-    };
-  } // namespace
 
   Vector3 NaturalMode::participation(const Structure &structure) const
   {
@@ -42,6 +35,23 @@ namespace Voussoir
         sum[d] += mass[4 * d];
     return sum;
   }
+
+#ifndef VOUSSOIR_WITH_ARPACK
+  std::vector<NaturalMode> natural_modes(const Structure &, unsigned int)
+  {
+    throw InputError(
+        "This program cannot compute natural frequencies, because its deal.II has no ARPACK. Build Voussoir with a "
+        "deal.II that has ARPACK.");
+  }
+#else
+  namespace
+  {
+    struct Operator
+    {
+      std::function<void(Vector<double> &, const Vector<double> &)> apply;
+      void vmult(Vector<double> &y, const Vector<double> &x) const { apply(y, x); }
+    };
+  } // namespace
 
   std::vector<NaturalMode> natural_modes(const Structure &structure, const unsigned int n_modes)
   {
@@ -94,4 +104,5 @@ namespace Voussoir
               [](const NaturalMode &a, const NaturalMode &b) { return a.frequency < b.frequency; });
     return modes;
   }
+#endif
 } // namespace Voussoir

@@ -1,221 +1,104 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/vector.h>
-
-#include <Epetra_BasicRowMatrix.h>
-#include <Epetra_MpiComm.h>
-#include <Epetra_Vector.h>
-#include <Teuchos_ParameterList.hpp>
-#include <ml_MultiLevelPreconditioner.h>
 #include <voussoir/base/error.h>
 #include <voussoir/foundation/coarse_rock.h>
 
-#include <cmath>
-#include <cstdlib>
+#include <cholmod.h>
+
+#include <new>
 
 namespace Voussoir
 {
   namespace
   {
-    /** MPI for this process only, as Trilinos' ML requires MPI. Finalised at the end of the program. */
-    class LoneProcess
+    class DirectCoarseRock : public CoarseRock
     {
     public:
-      LoneProcess()
+      DirectCoarseRock(const std::vector<CoarseBlock> &stiffness, const unsigned int n)
       {
-        int there = 0;
-        MPI_Initialized(&there);
-        if (there != 0)
-          return;
-        std::vector<const char *> names;
-        // Open MPI must not search for networks, which may take longer than the static solution.
-        for (const auto &[name, value] : {std::make_pair("OMPI_MCA_pml", "ob1"),
-                                          {"OMPI_MCA_btl", "self"},
-                                          {"OMPI_MCA_osc", "^ucx"},
-                                          {"OMPI_MCA_ess_singleton_isolated", "1"}})
-          if (std::getenv(name) == nullptr)
-          {
-            setenv(name, value, 0);
-            names.push_back(name);
-          }
-        MPI_Init(nullptr, nullptr);
-        for (const char *name : names) // not for child processes
-          unsetenv(name);
-        started = true;
+        cholmod_start(&common);
+        common.print = 0;
+        std::size_t n_entries = 0;
+        for (const CoarseBlock &block : stiffness)
+          n_entries += block.row >= block.column ? 36 : 0;
+        cholmod_triplet *lower = cholmod_allocate_triplet(n, n, n_entries, -1, CHOLMOD_REAL, &common);
+        check_memory();
+        const double shift = coarse_shift(stiffness);
+        for (const CoarseBlock &block : stiffness)
+          for (unsigned int k = 0; k < 36; ++k)
+            if (const unsigned int i = 6 * block.row + k / 6, j = 6 * block.column + k % 6; i >= j)
+            {
+              static_cast<int *>(lower->i)[lower->nnz] = static_cast<int>(i);
+              static_cast<int *>(lower->j)[lower->nnz] = static_cast<int>(j);
+              static_cast<double *>(lower->x)[lower->nnz++] = block.value[k] + (i == j ? shift : 0.);
+            }
+        cholmod_sparse *A = cholmod_triplet_to_sparse(lower, lower->nnz, &common);
+        cholmod_free_triplet(&lower, &common);
+        check_memory();
+        factor = cholmod_analyze(A, &common);
+        cholmod_factorize(A, factor, &common);
+        cholmod_free_sparse(&A, &common);
+        check_memory();
+        if (common.status != CHOLMOD_OK || factor->minor < n)
+          throw ComputationError(
+              "The coarse problem of the static solution of the rock is not positive definite. "
+              "The elements of the rock may be distorted. Check the mesh with voussoir mesh.");
       }
 
-      ~LoneProcess()
+      ~DirectCoarseRock() override
       {
-        int over = 0;
-        MPI_Finalized(&over);
-        if (started && over == 0)
-          MPI_Finalize();
+        cholmod_free_factor(&factor, &common);
+        cholmod_finish(&common);
+      }
+
+      DirectCoarseRock(const DirectCoarseRock &) = delete;
+
+      void solve(const std::vector<double> &forces, std::vector<double> &motions) const override
+      {
+        cholmod_dense *b = cholmod_allocate_dense(forces.size(), 1, forces.size(), CHOLMOD_REAL, &common);
+        check_memory();
+        std::copy(forces.begin(), forces.end(), static_cast<double *>(b->x));
+        cholmod_dense *x = cholmod_solve(CHOLMOD_A, factor, b, &common);
+        cholmod_free_dense(&b, &common);
+        check_memory();
+        const double *values = static_cast<double *>(x->x);
+        motions.assign(values, values + forces.size());
+        cholmod_free_dense(&x, &common);
       }
 
     private:
-      bool started = false;
+      void check_memory() const
+      {
+        if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
+          throw std::bad_alloc();
+      }
+
+      mutable cholmod_common common;
+      cholmod_factor        *factor = nullptr;
     };
-
-    /** Stiffness matrix of the aggregates with the interface of ML, without a copy of the blocks. */
-    class BlockRows : public Epetra_BasicRowMatrix
-    {
-    public:
-      /** @p given: blocks, contiguous for each row, with the rows in any order. */
-      BlockRows(std::vector<CoarseBlock> &&given, const unsigned int n_aggregates)
-          : Epetra_BasicRowMatrix(Epetra_MpiComm(MPI_COMM_SELF)), blocks(std::move(given)),
-            row(n_aggregates, {0, 0})
-      {
-        const Epetra_Map map(static_cast<int>(6 * n_aggregates), 0, Epetra_MpiComm(MPI_COMM_SELF));
-        SetMaps(map, map);
-        float largest = 0.f;
-        for (std::size_t b = 0; b < blocks.size(); ++b)
-        {
-          auto &[begin, end] = row[blocks[b].row];
-          begin = begin == end ? b : begin;
-          end = b + 1;
-          for (unsigned int k = 0; k < 6 && blocks[b].row == blocks[b].column; ++k)
-            largest = std::max(largest, blocks[b].value[7 * k]);
-        }
-        constexpr float trace = 1e-6f; // for zero rotations of aggregates with one or two nodes
-        for (CoarseBlock &block : blocks)
-          for (unsigned int k = 0; k < 6 && block.row == block.column; ++k)
-            block.value[7 * k] += trace * largest;
-      }
-
-      int NumMyRowEntries(const int i, int &n) const override
-      {
-        n = 6 * static_cast<int>(row[i / 6].second - row[i / 6].first);
-        return 0;
-      }
-
-      int MaxNumEntries() const override
-      {
-        std::size_t most = 0;
-        for (const auto &[begin, end] : row)
-          most = std::max(most, end - begin);
-        return 6 * static_cast<int>(most);
-      }
-
-      int ExtractMyRowCopy(const int i, const int length, int &n, double *values, int *columns) const override
-      {
-        NumMyRowEntries(i, n);
-        if (length < n)
-          return -1;
-        for (std::size_t b = row[i / 6].first; b < row[i / 6].second; ++b)
-          for (unsigned int k = 0; k < 6; ++k)
-          {
-            *values++ = blocks[b].value[6 * (i % 6) + k];
-            *columns++ = static_cast<int>(6 * blocks[b].column + k);
-          }
-        return 0;
-      }
-
-      int Multiply(const bool transposed, const Epetra_MultiVector &x, Epetra_MultiVector &y) const override
-      {
-        AssertThrow(!transposed, dealii::ExcNotImplemented()); // symmetric matrix
-        for (int v = 0; v < x.NumVectors(); ++v)
-#pragma omp parallel for schedule(static)
-          for (std::size_t a = 0; a < row.size(); ++a)
-          {
-            std::array<double, 6> sum{};
-            for (std::size_t b = row[a].first; b < row[a].second; ++b)
-              for (unsigned int c = 0; c < 6; ++c)
-                for (unsigned int k = 0; k < 6; ++k)
-                  sum[c] += double(blocks[b].value[6 * c + k]) * x[v][6 * blocks[b].column + k];
-            std::copy(sum.begin(), sum.end(), y[v] + 6 * a);
-          }
-        return 0;
-      }
-
-      int ExtractDiagonalCopy(Epetra_Vector &diagonal) const override
-      {
-        for (const CoarseBlock &block : blocks)
-          for (unsigned int k = 0; k < 6 && block.row == block.column; ++k)
-            diagonal[6 * block.row + k] = block.value[7 * k];
-        return 0;
-      }
-
-      /** Not implemented: views require double precision. @{ */
-      int ExtractMyEntryView(int, double *&, int &, int &) override
-      {
-        return no_view();
-      }
-      int ExtractMyEntryView(int, const double *&, int &, int &) const override
-      {
-        return no_view();
-      }
-      /** @} */
-
-    private:
-      static int no_view()
-      {
-        AssertThrow(false, dealii::ExcNotImplemented());
-        return -1;
-      }
-
-      std::vector<CoarseBlock>                         blocks;
-      std::vector<std::pair<std::size_t, std::size_t>> row; ///< first block, and end
-    };
-
-    /** Returns the parameters that deal.II sets for elliptic equations, with the rigid body @p modes. */
-    Teuchos::ParameterList level_parameters(std::vector<double> &modes)
-    {
-      Teuchos::ParameterList parameters;
-      ML_Epetra::SetDefaults("SA", parameters);
-      parameters.set("ML output", 0);
-      parameters.set("PDE equations", 6);
-      parameters.set("null space: type", "pre-computed");
-      parameters.set("null space: dimension", 6);
-      parameters.set("null space: vectors", modes.data());
-      parameters.set("aggregation: type", "Uncoupled");
-      parameters.set("aggregation: threshold", 1e-4);
-      parameters.set("smoother: type", "Chebyshev");
-      parameters.set("smoother: sweeps", 2);
-      parameters.set("smoother: Chebyshev alpha", 10.);
-      parameters.set("coarse: type", "Amesos-KLU");
-      parameters.set("coarse: max size", 2000);
-      return parameters;
-    }
   } // namespace
 
-  struct CoarseRock::Multigrid
+  float coarse_shift(const std::vector<CoarseBlock> &stiffness)
   {
-    Multigrid(std::vector<CoarseBlock> &&stiffness, const unsigned int n_aggregates)
-        : matrix(std::move(stiffness), n_aggregates)
-    {
-    }
-
-    BlockRows                                 matrix;
-    dealii::TrilinosWrappers::PreconditionAMG levels;
-  };
-
-  CoarseRock::CoarseRock(const RockAggregates &aggregates, std::vector<CoarseBlock> &&stiffness)
-  {
-    static LoneProcess mpi;
-    multigrid = std::make_unique<Multigrid>(std::move(stiffness), aggregates.n());
-    std::vector<double> modes; // those of deal.II have the values 0 and 1 only
-    for (unsigned int mode = 0; mode < 6; ++mode)
-      for (const RigidMotion &motion : aggregates.rigid(mode))
-        modes.insert(modes.end(), motion.begin(), motion.end());
-    try
-    {
-      multigrid->levels.initialize(multigrid->matrix, level_parameters(modes));
-    }
-    catch (const dealii::ExceptionBase &)
-    {
-      throw ComputationError(
-          "The multigrid levels for the static solution of the rock cannot be created. Its "
-          "elements may be distorted. Check the mesh with voussoir mesh.");
-    }
+    float largest = 0.f;
+    for (const CoarseBlock &block : stiffness)
+      for (unsigned int k = 0; k < 6 && block.row == block.column; ++k)
+        largest = std::max(largest, block.value[7 * k]);
+    return 1e-6f * largest;
   }
 
-  CoarseRock::~CoarseRock() = default;
-
-  void CoarseRock::solve(const std::vector<double> &forces, std::vector<double> &motions) const
+  std::unique_ptr<CoarseRock> make_direct_coarse_rock(const RockAggregates      &aggregates,
+                                                      std::vector<CoarseBlock> &&stiffness)
   {
-    dealii::Vector<double>       x(forces.size());
-    const dealii::Vector<double> b(forces.begin(), forces.end());
-    multigrid->levels.vmult(x, b);
-    motions.assign(x.begin(), x.end());
+    return std::make_unique<DirectCoarseRock>(stiffness, 6 * aggregates.n());
+  }
+
+  std::unique_ptr<CoarseRock> make_coarse_rock(const RockAggregates      &aggregates,
+                                               std::vector<CoarseBlock> &&stiffness)
+  {
+#ifdef VOUSSOIR_WITH_TRILINOS
+    return make_multigrid_coarse_rock(aggregates, std::move(stiffness));
+#else
+    return make_direct_coarse_rock(aggregates, std::move(stiffness));
+#endif
   }
 } // namespace Voussoir

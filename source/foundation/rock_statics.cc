@@ -7,7 +7,8 @@
 
 namespace Voussoir
 {
-  RockStatics::RockStatics(const RockModel &model, const std::vector<bool> &held)
+  RockStatics::RockStatics(const RockModel &model, const std::vector<bool> &held,
+                           const MakeCoarseRock &make_coarse_solver)
       : aggregates(model.stiffness, model.points, held), n_nodes(model.stiffness.n_rows()), split(n_nodes)
   {
     const Stopwatch watch;
@@ -25,7 +26,7 @@ namespace Voussoir
     work = rest = correction;
     find_inverse(model);
     eigenvalue = 1.1 * largest_eigenvalue();
-    make_coarse(model);
+    make_coarse(model, make_coarse_solver);
     setup = watch.seconds();
   }
 
@@ -136,7 +137,7 @@ namespace Voussoir
     return T.largest_eigenvalue();
   }
 
-  void RockStatics::make_coarse(const RockModel &model)
+  void RockStatics::make_coarse(const RockModel &model, const MakeCoarseRock &make_coarse_solver)
   {
     std::vector<unsigned int> mine;
     for (unsigned int a = 0; a < aggregates.n(); ++a)
@@ -166,7 +167,7 @@ namespace Voussoir
     else
       messages.push_back({0, numbers(0), length * blocks.size(), nullptr, 0});
     Ranks::exchange(messages);
-    Ranks::on_first([&] { coarse = std::make_unique<CoarseRock>(aggregates, std::move(blocks)); });
+    Ranks::on_first([&] { coarse = make_coarse_solver(aggregates, std::move(blocks)); });
   }
 
   /** Chebyshev polynomial of degree 2 for the upper part of the spectrum of D^-1 K (Adams, Brezina, Hu and

@@ -4,30 +4,44 @@
 
 #include <voussoir/foundation/rock_aggregates.h>
 
+#include <functional>
 #include <memory>
 
 namespace Voussoir
 {
-  /** Approximate solver for the coarse problem of RockStatics: one cycle of smoothed aggregation by Trilinos'
-   * ML. The coarse spaces contain the six rigid body motions. The problem has about 1/100 of the unknowns and
-   * 1/10 of the matrix entries of the rock, and runs on one process.
-   *
-   * ML needs MPI. The constructor initialises MPI for this process if necessary. */
+  /** Solver for the coarse problem of RockStatics, exact or approximate. The problem has about 1/100 of the
+   * unknowns and 1/10 of the matrix entries of the rock, and runs on one process. */
   class CoarseRock
   {
   public:
-    /** Creates the levels. The blocks of a row of @p stiffness must be contiguous. Throws ComputationError if
-     * ML fails. */
-    CoarseRock(const RockAggregates &aggregates, std::vector<CoarseBlock> &&stiffness);
-    ~CoarseRock();
+    virtual ~CoarseRock() = default;
 
     /** Computes the @p motions for the @p forces, six values per aggregate (RigidMotion). */
-    void solve(const std::vector<double> &forces, std::vector<double> &motions) const;
-
-  private:
-    struct Multigrid;
-    std::unique_ptr<Multigrid> multigrid;
+    virtual void solve(const std::vector<double> &forces, std::vector<double> &motions) const = 0;
   };
+
+  /** Function that creates a coarse solver. The blocks of a row of the stiffness must be contiguous. */
+  using MakeCoarseRock =
+      std::function<std::unique_ptr<CoarseRock>(const RockAggregates &, std::vector<CoarseBlock> &&)>;
+
+  /** Returns the sum of the diagonal of a @p stiffness that keeps it positive definite: 1e-6 of its largest
+   * entry. Aggregates with one or two nodes have rotations without stiffness. */
+  float coarse_shift(const std::vector<CoarseBlock> &stiffness);
+
+  /** Creates a solver with the Cholesky factor of the matrix, by CHOLMOD. Throws ComputationError if the matrix
+   * is not positive definite. */
+  std::unique_ptr<CoarseRock> make_direct_coarse_rock(const RockAggregates      &aggregates,
+                                                      std::vector<CoarseBlock> &&stiffness);
+
+  /** Creates a solver with one cycle of smoothed aggregation, by Trilinos' ML. The coarse spaces contain the six
+   * rigid body motions. ML needs MPI, which is initialised for this process if necessary. Throws
+   * ComputationError if ML fails. Exists in a program with Trilinos only (VOUSSOIR_WITH_TRILINOS). */
+  std::unique_ptr<CoarseRock> make_multigrid_coarse_rock(const RockAggregates      &aggregates,
+                                                         std::vector<CoarseBlock> &&stiffness);
+
+  /** Creates the default solver: ML in a program with Trilinos, otherwise CHOLMOD. */
+  std::unique_ptr<CoarseRock> make_coarse_rock(const RockAggregates      &aggregates,
+                                               std::vector<CoarseBlock> &&stiffness);
 } // namespace Voussoir
 
 #endif

@@ -10,22 +10,23 @@ namespace Voussoir
 {
   /** Solver for static displacements of the rock: conjugate gradients with smoothed aggregation (Vanek,
    * Mandel and Brezina 1996, Computing 56). The finest level has RockOperator and a Chebyshev smoother. The
-   * first coarse level has groups of nodes as rigid bodies (RockAggregates). Trilinos' ML solves the coarse
-   * problem (CoarseRock). The number of iterations is nearly independent of the element size.
+   * first coarse level has groups of nodes as rigid bodies (RockAggregates). CoarseRock solves the
+   * coarse problem. The number of iterations is nearly independent of the element size.
    *
    * The initial guess is the A-orthogonal projection of the solution on the previous solutions (Fischer 1998,
    * Comput. Methods Appl. Mech. Engrg. 163).
    *
-   * Nodes and aggregates are distributed to the ranks as in the time steps of the rock (RockSplit). ML runs
-   * on the first rank. Aggregates are independent of the ranks, and sums are formed over chunks of nodes in a
+   * Nodes and aggregates are distributed to the ranks as in the time steps of the rock (RockSplit). CoarseRock
+   * runs on the first rank. Aggregates are independent of the ranks, and sums are formed over chunks of nodes in a
    * fixed order. The results are therefore bitwise identical for any number of ranks. */
   class RockStatics
   {
   public:
     /** Creates the multigrid levels. @p held: nodes of the @p model with zero displacement. The @p model must
-     * outlive the object. Throws ComputationError if the stiffness matrix is not positive definite, or if ML
-     * fails. Must be called by all ranks. */
-    RockStatics(const RockModel &model, const std::vector<bool> &held);
+     * outlive the object. @p make_coarse_solver: solver of the coarse problem. Throws ComputationError if the
+     * stiffness matrix is not positive definite, or if the coarse solver fails. Must be called by all ranks. */
+    RockStatics(const RockModel &model, const std::vector<bool> &held,
+                const MakeCoarseRock &make_coarse_solver = make_coarse_rock);
     ~RockStatics();
 
     /** Returns the number of unknowns. */
@@ -46,9 +47,10 @@ namespace Voussoir
     unsigned int solve(const Unknowns &b, Unknowns &x, Log &log, double tolerance = 1e-11, double part = 0.);
 
   private:
-    void         find_inverse(const RockModel &model);                ///< of the diagonal blocks
-    double       largest_eigenvalue() const;                          ///< estimate for D^-1 K
-    void         make_coarse(const RockModel &model);                 ///< creates the coarse problem
+    void   find_inverse(const RockModel &model); ///< of the diagonal blocks
+    double largest_eigenvalue() const;           ///< estimate for D^-1 K
+    /** Creates the coarse problem. */
+    void         make_coarse(const RockModel &model, const MakeCoarseRock &make_coarse_solver);
     void         multiply(const Unknowns &x, Unknowns &y) const;      ///< y = K x, zero at held nodes
     double       product(const Unknowns &a, const Unknowns &b) const; ///< scalar product
     void         smooth(bool is_last, Unknowns &residual, Unknowns &z) const;
