@@ -23,7 +23,10 @@ is_installed() # PACKAGE
 # deal.II of Debian 13 links with -fuse-ld=mold, and its package does not depend on mold.
 needs_mold()
 {
-  is_installed libdeal.ii-dev && dpkg-query -L libdeal.ii-dev | grep '\.cmake$' | xargs grep -qs 'fuse-ld=mold'
+  local files
+  is_installed libdeal.ii-dev || return 1
+  mapfile -t files < <(dpkg-query -L libdeal.ii-dev | grep '\.cmake$')
+  grep -qs 'fuse-ld=mold' "${files[@]}"
 }
 
 if ! command -v apt-get >/dev/null; then
@@ -80,7 +83,7 @@ fi
 # All candidates at once, which is faster; one by one if that fails.
 candidates=() missing=()
 for entry in "${wanted[@]}"; do
-  if apt-cache policy "${entry%%:*}" | grep -q 'Candidate: [^(]'; then
+  if [[ "$(apt-cache policy "${entry%%:*}")" == *"Candidate: "[!\(]* ]]; then
     candidates+=("${entry%%:*}")
   fi
 done
