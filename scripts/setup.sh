@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs what Voussoir needs on Debian and Ubuntu, by apt and only where a package is missing. Optional packages are installed one
-# by one: one that the release does not have keeps no other one away. Prints at the end which are missing, and what they are for.
+# Installs what Voussoir needs on Debian and Ubuntu, by apt and only where a package is missing. An optional package that the
+# release does not have keeps no other package away. Prints at the end which are missing, and what they are for.
 # Usage: scripts/setup.sh [--program]     --program: what building and running the program needs, nothing for its tests
 set -euo pipefail
 
@@ -83,7 +83,7 @@ fi
 # All candidates at once, which is faster; one by one if that fails.
 candidates=() missing=()
 for entry in "${wanted[@]}"; do
-  if [[ "$(apt-cache policy "${entry%%:*}")" == *"Candidate: "[!\(]* ]]; then
+  if [[ "$(LC_ALL=C apt-cache policy "${entry%%:*}")" == *"Candidate: "[!\(]* ]]; then
     candidates+=("${entry%%:*}")
   fi
 done

@@ -58,17 +58,17 @@ namespace Voussoir
       throw ComputationError(message.str());
     }
     const unsigned int n = part.n_substeps, n_first = n / 2;
-    const double       share = support ? double(n_first) / n : .5;
+    const double       fraction = support ? double(n_first) / n : .5;
     Unknowns           middle = load;
     for (std::size_t k = 0; k < load.size(); ++k)
-      middle[k] = share * load[k] + (1. - share) * now.load[k];
+      middle[k] = fraction * load[k] + (1. - fraction) * now.load[k];
     Vector3 middle_base;
     for (unsigned int c = 0; c < 3; ++c)
-      middle_base[c] = share * base_velocity[c] + (1. - share) * now.base_velocity[c];
+      middle_base[c] = fraction * base_velocity[c] + (1. - fraction) * now.base_velocity[c];
     const double   end = now.time + dt; // without the round-off of the parts
-    ContactResult  result = advance({share * dt, n_first, part.halvings + 1}, middle, middle_base);
+    ContactResult  result = advance({fraction * dt, n_first, part.halvings + 1}, middle, middle_base);
     const Unknowns first_half = impulse;
-    result += advance({(1. - share) * dt, n - n_first, part.halvings + 1}, load, base_velocity);
+    result += advance({(1. - fraction) * dt, n - n_first, part.halvings + 1}, load, base_velocity);
     result.add_work(failed);
     result.path = ContactPath::smaller_step;
     now.time = end;

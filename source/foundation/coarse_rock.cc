@@ -4,24 +4,89 @@
 
 #include <cholmod.h>
 
+#include <algorithm>
 #include <new>
 
 namespace Voussoir
 {
   namespace
   {
-    class DirectCoarseRock : public CoarseRock
+    /** Objects of CHOLMOD with automatic release of their memory. */
+    struct Cholmod
     {
-    public:
-      DirectCoarseRock(const std::vector<CoarseBlock> &stiffness, const unsigned int n)
+      cholmod_common  common;
+      cholmod_sparse *A = nullptr;
+      cholmod_factor *L = nullptr;
+
+      Cholmod()
       {
         cholmod_start(&common);
         common.print = 0;
+        common.supernodal = CHOLMOD_SUPERNODAL; // L L^T, which an indefinite matrix does not have
+      }
+      ~Cholmod()
+      {
+        cholmod_free_sparse(&A, &common);
+        cholmod_free_factor(&L, &common);
+        cholmod_finish(&common);
+      }
+      Cholmod(const Cholmod &) = delete;
+
+      void check_memory() const
+      {
+        if (common.status == CHOLMOD_OUT_OF_MEMORY)
+          throw std::bad_alloc();
+        if (common.status == CHOLMOD_TOO_LARGE)
+          throw ComputationError(
+              "The coarse problem of the static solution of the rock is too large for CHOLMOD: "
+              "its factor has more than 2^31 entries. Build Voussoir with Trilinos, or use "
+              "larger elements in the rock.");
+      }
+    };
+
+    class DirectCoarseRock : public CoarseRock
+    {
+    public:
+      DirectCoarseRock(std::vector<CoarseBlock> &&stiffness, const unsigned int n)
+      {
+        cholmod.A = lower_part(stiffness, n);
+        std::vector<CoarseBlock>().swap(stiffness); // releases the memory
+        cholmod.L = cholmod_analyze(cholmod.A, &cholmod.common);
+        cholmod.check_memory();
+        cholmod_factorize(cholmod.A, cholmod.L, &cholmod.common);
+        cholmod.check_memory();
+        cholmod_free_sparse(&cholmod.A, &cholmod.common);
+        if (cholmod.L->minor < n)
+          throw ComputationError(
+              "The coarse problem of the static solution of the rock is not positive definite. "
+              "The elements of the rock may be distorted. Check the mesh with voussoir mesh.");
+      }
+
+      void solve(const std::vector<double> &forces, std::vector<double> &motions) const override
+      {
+        std::vector<double> copy = forces;
+        cholmod_dense       b{};
+        b.nrow = b.d = b.nzmax = forces.size();
+        b.ncol = 1;
+        b.x = copy.data();
+        b.xtype = CHOLMOD_REAL;
+        b.dtype = CHOLMOD_DOUBLE;
+        cholmod_dense *x = cholmod_solve(CHOLMOD_A, cholmod.L, &b, &cholmod.common);
+        cholmod.check_memory();
+        const double *values = static_cast<double *>(x->x);
+        motions.assign(values, values + forces.size());
+        cholmod_free_dense(&x, &cholmod.common);
+      }
+
+    private:
+      /** Returns the lower triangle of the n x n matrix of the blocks @p stiffness. */
+      cholmod_sparse *lower_part(const std::vector<CoarseBlock> &stiffness, const unsigned int n) const
+      {
         std::size_t n_entries = 0;
         for (const CoarseBlock &block : stiffness)
           n_entries += block.row >= block.column ? 36 : 0;
-        cholmod_triplet *lower = cholmod_allocate_triplet(n, n, n_entries, -1, CHOLMOD_REAL, &common);
-        check_memory();
+        cholmod_triplet *lower = cholmod_allocate_triplet(n, n, n_entries, -1, CHOLMOD_REAL, &cholmod.common);
+        cholmod.check_memory();
         const double shift = coarse_shift(stiffness);
         for (const CoarseBlock &block : stiffness)
           for (unsigned int k = 0; k < 36; ++k)
@@ -31,49 +96,13 @@ namespace Voussoir
               static_cast<int *>(lower->j)[lower->nnz] = static_cast<int>(j);
               static_cast<double *>(lower->x)[lower->nnz++] = block.value[k] + (i == j ? shift : 0.);
             }
-        cholmod_sparse *A = cholmod_triplet_to_sparse(lower, lower->nnz, &common);
-        cholmod_free_triplet(&lower, &common);
-        check_memory();
-        factor = cholmod_analyze(A, &common);
-        cholmod_factorize(A, factor, &common);
-        cholmod_free_sparse(&A, &common);
-        check_memory();
-        if (common.status != CHOLMOD_OK || factor->minor < n)
-          throw ComputationError(
-              "The coarse problem of the static solution of the rock is not positive definite. "
-              "The elements of the rock may be distorted. Check the mesh with voussoir mesh.");
+        cholmod_sparse *result = cholmod_triplet_to_sparse(lower, lower->nnz, &cholmod.common);
+        cholmod_free_triplet(&lower, &cholmod.common);
+        cholmod.check_memory();
+        return result;
       }
 
-      ~DirectCoarseRock() override
-      {
-        cholmod_free_factor(&factor, &common);
-        cholmod_finish(&common);
-      }
-
-      DirectCoarseRock(const DirectCoarseRock &) = delete;
-
-      void solve(const std::vector<double> &forces, std::vector<double> &motions) const override
-      {
-        cholmod_dense *b = cholmod_allocate_dense(forces.size(), 1, forces.size(), CHOLMOD_REAL, &common);
-        check_memory();
-        std::copy(forces.begin(), forces.end(), static_cast<double *>(b->x));
-        cholmod_dense *x = cholmod_solve(CHOLMOD_A, factor, b, &common);
-        cholmod_free_dense(&b, &common);
-        check_memory();
-        const double *values = static_cast<double *>(x->x);
-        motions.assign(values, values + forces.size());
-        cholmod_free_dense(&x, &common);
-      }
-
-    private:
-      void check_memory() const
-      {
-        if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
-          throw std::bad_alloc();
-      }
-
-      mutable cholmod_common common;
-      cholmod_factor        *factor = nullptr;
+      mutable Cholmod cholmod;
     };
   } // namespace
 
@@ -89,7 +118,7 @@ namespace Voussoir
   std::unique_ptr<CoarseRock> make_direct_coarse_rock(const RockAggregates      &aggregates,
                                                       std::vector<CoarseBlock> &&stiffness)
   {
-    return std::make_unique<DirectCoarseRock>(stiffness, 6 * aggregates.n());
+    return std::make_unique<DirectCoarseRock>(std::move(stiffness), 6 * aggregates.n());
   }
 
   std::unique_ptr<CoarseRock> make_coarse_rock(const RockAggregates      &aggregates,
