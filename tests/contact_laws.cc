@@ -787,6 +787,12 @@ namespace
     key.step(1.2 * height, corner + 10. * side);
     below("key of 45 deg, over the end of its flank: opening after closing - height [m]",
           std::abs(key.step(-.1, corner + 10. * side) - height), 1e-9);
+    // The same, but the key leaves the flank before its end and goes beyond the end in the same step.
+    LedKey away(k, 0.);
+    away.step(-.1, .9 * corner);
+    away.step(1.2 * height, corner + 10. * side);
+    below("key of 45 deg, off its flank and beyond the end: opening after closing - height [m]",
+          std::abs(away.step(-.1, corner + 10. * side) - height), 1e-9);
   }
 
   /** A key that is pulled out, goes over its flank and comes back: its crest and its flank stop it from
