@@ -31,10 +31,11 @@ namespace Voussoir
           return;
         std::vector<const char *> names;
         // Open MPI must not search for networks, which may take longer than the static solution.
-        for (const auto [name, value] : {std::make_pair("OMPI_MCA_pml", "ob1"),
-                                         {"OMPI_MCA_btl", "self"},
-                                         {"OMPI_MCA_osc", "^ucx"},
-                                         {"OMPI_MCA_ess_singleton_isolated", "1"}})
+        const std::pair<const char *, const char *> settings[] = {{"OMPI_MCA_pml", "ob1"},
+                                                                  {"OMPI_MCA_btl", "self"},
+                                                                  {"OMPI_MCA_osc", "^ucx"},
+                                                                  {"OMPI_MCA_ess_singleton_isolated", "1"}};
+        for (const auto &[name, value] : settings)
           if (std::getenv(name) == nullptr)
           {
             setenv(name, value, 0);

@@ -66,10 +66,9 @@ namespace Voussoir
           state[node] = static_cast<float>(run.pairs()[p]);
         }
     }
-    for (const auto field : {std::make_pair("opening", &opening),
-                             {"slip", &slip},
-                             {"joint_pressure", &pressure},
-                             {"joint_state", &state}})
+    const std::pair<const char *, const std::vector<float> *> all[] = {
+        {"opening", &opening}, {"slip", &slip}, {"joint_pressure", &pressure}, {"joint_state", &state}};
+    for (const auto &field : all)
     {
       fields.push_back(
           {field.first, std::vector<float>(model.n_nodes(), field.second == &state ? -1.f : 0.f)});
