@@ -115,6 +115,7 @@ for release in "$@"; do
   git -c safe.directory="$root/.git" clone --quiet --no-hardlinks "$root" "$system/voussoir"
   mountpoint -q "$system/proc" || mount -t proc proc "$system/proc"
   mountpoint -q "$system/dev" || mount --rbind /dev "$system/dev"
+  mountpoint -q "$system/sys" || mount -t sysfs -o ro sysfs "$system/sys" # Open MPI reads the topology of the cores
   status=0
   inside "$system" bash -c "$(commands_of "$compiler")" >"$log" 2>&1 </dev/null || { status=1 failed=1; tail -n 30 "$log" >&2; }
   built=no tested=no same=no
