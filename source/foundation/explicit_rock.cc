@@ -80,6 +80,7 @@ namespace Voussoir
     RockParameters rock = region_parameters(parameters, centre, 0.).rock;
     rock.incompatible_modes = incompatible_modes;
     model = make_rock_part(mesh, rock, find, parameters.substeps);
+    static_state = std::make_unique<RockStaticState>(model, at_base);
     mesh = HexMesh(); // no longer needed
     release_free_memory();
     RayleighDamping damping;
@@ -96,6 +97,17 @@ namespace Voussoir
           structure.mass[node][4 * c] += model.mass[f.rock] / f.nodes.size();
   }
 
+  Unknowns ExplicitRock::static_springs(const Structure &structure) const
+  {
+    return static_state->springs(structure);
+  }
+
+  ContactResult ExplicitRock::solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
+                                           Unknowns &load, Log &log)
+  {
+    return static_state->solve(solve, springs, u, load, log);
+  }
+
   Vector3 ExplicitRock::arrival() const
   {
     double lowest = std::numeric_limits<double>::max();
@@ -109,7 +121,7 @@ namespace Voussoir
   void ExplicitRock::make_rock(const GroundMotion &outcrop, const TimeGrid &steps, const double delay,
                                const std::vector<unsigned int> &near_base)
   {
-    statics.reset();
+    static_state.reset();
     release_free_memory();
     grid = steps;
     const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());

@@ -4,7 +4,7 @@
 
 #include <voussoir/foundation/base_nodes.h>
 #include <voussoir/foundation/foundation.h>
-#include <voussoir/foundation/rock_statics.h>
+#include <voussoir/foundation/rock_static_state.h>
 #include <voussoir/rock/rock_region.h>
 
 namespace Voussoir
@@ -120,18 +120,6 @@ namespace Voussoir
     /** Throws InputError if a stability condition of check() is violated. */
     void check_stability(const TimeGrid &grid) const;
 
-    /** Computes the static displacements @p u_base of the base nodes [m] for the forces @p r on the rock,
-     * three values per node of the dam [N]. @p part: see RockStatics::solve(). */
-    void solve_rock(const Unknowns &r, double part, Unknowns &u_base, Log &log);
-
-    /** Returns the load of the dam on springs whose other end has the displacement @p base. @p r: forces on
-     * the rock of the previous iteration. */
-    Unknowns with_springs(const Unknowns &external, const Unknowns &springs, const Unknowns &base,
-                          const Unknowns &r) const;
-
-    /** Adds the spring forces to the forces @p r on the rock. Returns the largest spring elongation [m]. */
-    double add_slack(const Unknowns &springs, const Unknowns &u, const Unknowns &base, Unknowns &r) const;
-
   protected:
     const FoundationParameters      parameters;
     HexMesh                         mesh;
@@ -139,20 +127,20 @@ namespace Voussoir
     const bool                      incompatible_modes; ///< of the dam's elements
     std::array<double, 3>           centre{}; ///< of the dam base, assumed source of scattered waves [m]
     RockModel                       model;
-    std::vector<BaseNode>           at_base;       ///< base nodes
-    std::unique_ptr<ExplicitRegion> region;        ///< after start()
-    std::unique_ptr<RockStatics>    statics;       ///< until start()
-    unsigned int                    n_settled = 0; ///< number of static solutions of the rock
-    unsigned int                    ahead = 0;     ///< rank that owns most nodes near the base
-    TimeGrid                        grid;
-    double                          dt_critical = 0.;         ///< of the rock [s]
-    double                          seconds_advancing = 0.;   ///< wall time [s]
-    double                          work_advancing = 0.;      ///< CPU time, without messages [s]
-    Unknowns                        rest;                     ///< static displacement of the base nodes [m]
-    Unknowns                        u_base_nodes, v, a;       ///< motion of the base nodes
-    Unknowns                        force, force_before;      ///< of the rock elements on the base nodes [N]
-    Unknowns                        u_predicted, v_predicted; ///< of the base nodes at the end of the step
-    std::vector<double> account = {0., 0., 0.}; ///< work on the dam, largest energy, largest imbalance [J]
+    std::vector<BaseNode>           at_base; ///< base nodes
+    std::unique_ptr<ExplicitRegion> region;  ///< after start()
+    std::unique_ptr<RockStaticState>
+                        static_state; ///< from add_stiffness() to start(), which frees its memory
+    unsigned int        ahead = 0;    ///< rank that owns most nodes near the base
+    TimeGrid            grid;
+    double              dt_critical = 0.;         ///< of the rock [s]
+    double              seconds_advancing = 0.;   ///< wall time [s]
+    double              work_advancing = 0.;      ///< CPU time, without messages [s]
+    Unknowns            rest;                     ///< static displacement of the base nodes [m]
+    Unknowns            u_base_nodes, v, a;       ///< motion of the base nodes
+    Unknowns            force, force_before;      ///< of the rock elements on the base nodes [N]
+    Unknowns            u_predicted, v_predicted; ///< of the base nodes at the end of the step
+    std::vector<double> account = {0., 0., 0.};   ///< work on the dam, largest energy, largest imbalance [J]
     RockBounds          bounds;
     double              energy_bound = 0.; ///< upper bound of the energy supplied to the rock [J]
   };
