@@ -147,6 +147,8 @@ namespace Voussoir
     if (grid.n > 0) // 0: no earthquake
       shake(*region, model, p, rising, grid.n_substeps() + 2);
     region->keep_energy();
+    balance = std::make_unique<RockBalance>(*region, parameters.is_subcycled());
+    rock_monitor = std::make_unique<RockMonitor>(parameters, model, *region, *balance);
   }
 
   void ExplicitRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
@@ -208,12 +210,13 @@ namespace Voussoir
           v_new += part * state.v[3 * node + c];
         }
         u_new -= rest[k];
-        account[0] += .5 * (force_before[k] + force[k]) * (u_new - u_base_nodes[k]);
+        balance->entries[RockBalance::on_dam] +=
+            .5 * (force_before[k] + force[k]) * (u_new - u_base_nodes[k]);
         u_base_nodes[k] = u_new;
         a[k] = 2. / grid.dt * (v_new - v[k]) - a[k];
         v[k] = v_new;
       }
-    keep_account(state.time);
+    finish_step(state.time);
   }
 
   std::vector<unsigned int> ExplicitRock::rock_nodes_at_base() const
@@ -224,18 +227,11 @@ namespace Voussoir
     return result;
   }
 
-  void ExplicitRock::keep_account(const double time)
+  void ExplicitRock::finish_step(const double time)
   {
     region->gather_energy();
-    constexpr unsigned int interval = 10; // number of steps between two checks of StabilityMonitor
-    const auto             step = static_cast<unsigned int>(std::lround(time / grid.dt));
-    if (region->is_split() && bounds.velocity > 0. && (step % interval == 0 || step == grid.n))
-      if (Ranks::any(region->exceeds(bounds.velocity, bounds.displacement)))
-        region->gather_motion(); // the first rank reports
-    const RegionEnergy e = energy();
-    account[1] = std::max({account[1], e.kinetic + e.strain, e.damping, std::abs(e.prescribed + e.external),
-                           std::abs(e.transmitted)});
-    account[2] = std::max(account[2], std::abs(e.balance()));
+    rock_monitor->gather_motion(static_cast<unsigned int>(std::lround(time / grid.dt)), grid.n);
+    balance->update_largest();
   }
 
   Vector3 ExplicitRock::base_velocity() const
@@ -252,7 +248,8 @@ namespace Voussoir
     if (!region)
       return {};
     std::vector<std::vector<double> *> arrays = region->state();
-    for (Unknowns *array : {&rest, &u_base_nodes, &v, &a, &u_predicted, &v_predicted, &force, &account})
+    for (Unknowns *array :
+         {&rest, &u_base_nodes, &v, &a, &u_predicted, &v_predicted, &force, &balance->entries})
       arrays.push_back(array);
     return arrays;
   }

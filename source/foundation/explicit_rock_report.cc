@@ -68,33 +68,25 @@ namespace Voussoir
         .add("arrival", arrival()[0])
         .add("time_step", steps.substep())
         .add("critical_time_step", dt_critical);
-    if (region)
-      json.add("transmitted_energy", energy().transmitted).add("energy_balance_error", balance_error());
+    if (balance)
+      json.add("transmitted_energy", balance->of_rock().transmitted)
+          .add("energy_balance_error", balance->error());
     summary.add("rock", json);
   }
 
   std::vector<std::pair<std::string, double>> ExplicitRock::energies() const
   {
-    if (!region)
-      return {};
-    const RegionEnergy e = energy();
-    return {{"rock_kinetic", e.kinetic},
-            {"rock_strain", e.strain},
-            {"rock_damping", e.damping},
-            {"rock_feet", e.prescribed + e.external},
-            {"transmitted", e.transmitted},
-            {"rock_balance", e.balance()},
-            {"interface", work_of_base() + work_on_dam()}};
+    return balance ? balance->columns() : std::vector<std::pair<std::string, double>>();
   }
 
   double ExplicitRock::balance_error() const
   {
-    return account[2] / std::max(account[1], 1e-300);
+    return balance ? balance->error() : 0.;
   }
 
   void ExplicitRock::report_balance(Log &log) const
   {
-    if (region)
-      log.line("          that of the rock to %.1e", balance_error());
+    if (balance)
+      log.line("          that of the rock to %.1e", balance->error());
   }
 } // namespace Voussoir

@@ -47,7 +47,6 @@ namespace Voussoir
       rest.insert(rest.end(), u.begin() + 3 * std::size_t(node), u.begin() + 3 * std::size_t(node) + 3);
     v.assign(3, 0.); // mean of the base nodes
     a = v;
-    account.assign(4, 0.);
   }
 
   Support *SubcycledRock::support(Structure &structure)
@@ -107,8 +106,8 @@ namespace Voussoir
       region->advance();
     const Unknowns after = places();
     for (std::size_t k = 0; k < on_rock.size(); ++k)
-      account[3] += on_rock[k] * (after[k] - before[k]);
-    account[0] += work;
+      balance->entries[RockBalance::on_rock] += on_rock[k] * (after[k] - before[k]);
+    balance->entries[RockBalance::on_dam] += work;
     seconds_advancing += watch.seconds();
     work_advancing += Ranks::work() - worked;
   }
@@ -132,7 +131,7 @@ namespace Voussoir
       a[c] = 2. / grid.dt * (mean[c] - v[c]) - a[c];
       v[c] = mean[c];
     }
-    keep_account(state.time);
+    finish_step(state.time);
   }
 
   std::vector<std::vector<double> *> SubcycledRock::state()
@@ -140,7 +139,7 @@ namespace Voussoir
     if (!region)
       return {};
     std::vector<std::vector<double> *> arrays = region->state();
-    for (Unknowns *array : {&rest, &v, &a, &account})
+    for (Unknowns *array : {&rest, &v, &a, &balance->entries})
       arrays.push_back(array);
     return arrays;
   }

@@ -4,6 +4,7 @@
 
 #include <voussoir/foundation/base_nodes.h>
 #include <voussoir/foundation/foundation.h>
+#include <voussoir/foundation/rock_monitor.h>
 #include <voussoir/foundation/rock_static_state.h>
 #include <voussoir/rock/rock_region.h>
 
@@ -80,21 +81,10 @@ namespace Voussoir
     std::vector<std::vector<double> *>          state() override;
     void                                        gather_on_root() override { region->gather_on_root(); }
 
-    void        monitor(const GroundMotion &motion, const RockBounds &bounds) override;
-    std::string energy_excess() const override;
-    std::string motion_excess() const override;
-    std::string suggestions() const override;
+    NeighbourMonitor *monitor() override { return rock_monitor.get(); }
 
-    /** Returns the energies of the rock, half a rock time step before the time of the dam [J]. Must be called
-     * after start(). */
-    RegionEnergy energy() const { return region->energy(); }
-
-    /** Returns the work of the rock on the base nodes since start(), in the time integration of the dam [J].
-     * The sum of work_on_dam() and work_of_base() is the energy error of the coupling. */
-    double work_on_dam() const { return account[0]; }
-
-    /** Returns the work of the base nodes on the rock since start(), in the time integration of the rock. */
-    virtual double work_of_base() const { return energy().prescribed; }
+    /** Returns the energies of the rock and of its coupling with the dam. Must be called after start(). */
+    const RockBalance &energy_balance() const { return *balance; }
 
   protected:
     /** Creates the region at rest and its incident waves.
@@ -110,8 +100,9 @@ namespace Voussoir
     /** Writes the layers of nodal quadrature and the layers at the dam to the log, with warnings. */
     void report_layers(Log &log, unsigned int nodal_layers) const;
 
-    /** Updates the largest energy and the largest imbalance at the end of a time step. */
-    void keep_account(double time);
+    /** Gathers the energies of the ranks, prepares monitor() and updates energy_balance(). Must be called by
+     * all ranks at the end of a time step. @p time: time of the dam [s]. */
+    void finish_step(double time);
 
     /** Returns the node numbers of the base nodes in the rock. */
     std::vector<unsigned int> rock_nodes_at_base() const;
@@ -127,22 +118,21 @@ namespace Voussoir
     const bool                      incompatible_modes; ///< of the dam's elements
     std::array<double, 3>           centre{}; ///< of the dam base, assumed source of scattered waves [m]
     RockModel                       model;
-    std::vector<BaseNode>           at_base; ///< base nodes
-    std::unique_ptr<ExplicitRegion> region;  ///< after start()
+    std::vector<BaseNode>           at_base;      ///< base nodes
+    std::unique_ptr<ExplicitRegion> region;       ///< after start()
+    std::unique_ptr<RockBalance>    balance;      ///< after start()
+    std::unique_ptr<RockMonitor>    rock_monitor; ///< after start()
     std::unique_ptr<RockStaticState>
-                        static_state; ///< from add_stiffness() to start(), which frees its memory
-    unsigned int        ahead = 0;    ///< rank that owns most nodes near the base
-    TimeGrid            grid;
-    double              dt_critical = 0.;         ///< of the rock [s]
-    double              seconds_advancing = 0.;   ///< wall time [s]
-    double              work_advancing = 0.;      ///< CPU time, without messages [s]
-    Unknowns            rest;                     ///< static displacement of the base nodes [m]
-    Unknowns            u_base_nodes, v, a;       ///< motion of the base nodes
-    Unknowns            force, force_before;      ///< of the rock elements on the base nodes [N]
-    Unknowns            u_predicted, v_predicted; ///< of the base nodes at the end of the step
-    std::vector<double> account = {0., 0., 0.};   ///< work on the dam, largest energy, largest imbalance [J]
-    RockBounds          bounds;
-    double              energy_bound = 0.; ///< upper bound of the energy supplied to the rock [J]
+                 static_state; ///< from add_stiffness() to start(), which frees its memory
+    unsigned int ahead = 0;    ///< rank that owns most nodes near the base
+    TimeGrid     grid;
+    double       dt_critical = 0.;         ///< of the rock [s]
+    double       seconds_advancing = 0.;   ///< wall time [s]
+    double       work_advancing = 0.;      ///< CPU time, without messages [s]
+    Unknowns     rest;                     ///< static displacement of the base nodes [m]
+    Unknowns     u_base_nodes, v, a;       ///< motion of the base nodes
+    Unknowns     force, force_before;      ///< of the rock elements on the base nodes [N]
+    Unknowns     u_predicted, v_predicted; ///< of the base nodes at the end of the step
   };
 } // namespace Voussoir
 

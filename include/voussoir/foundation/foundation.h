@@ -30,13 +30,6 @@ namespace Voussoir
     bool one_body = false;
   };
 
-  /** Upper bounds of the rock motion for StabilityMonitor. */
-  struct RockBounds
-  {
-    double velocity = 0., displacement = 0.; ///< of a rock node [m/s], [m]
-    double strain = 0.;                      ///< strain energy of dam and foundation in the static state [J]
-  };
-
   /** Solves for the static state of the dam under a load [N]. */
   using DamSolve = std::function<ContactResult(const Unknowns &load)>;
 
@@ -134,6 +127,38 @@ namespace Voussoir
     }
   };
 
+  /** Upper bounds of the motion of a Neighbour. */
+  struct NeighbourBounds
+  {
+    double velocity = 0., displacement = 0.; ///< of a node in a component [m/s], [m]
+    double strain = 0.;                      ///< strain energy of dam and foundation in the static state [J]
+  };
+
+  /** Monitor of the instability of a Neighbour, called by StabilityMonitor. */
+  class NeighbourMonitor
+  {
+  public:
+    virtual ~NeighbourMonitor() = default;
+
+    /** Number of time steps of the dam between two calls of motion_excess(). */
+    static constexpr unsigned int interval = 10;
+
+    /** Stores the bounds at the start of the time loop. @p motion: ground motion, from which bounds of
+     * energies follow. */
+    virtual void set_bounds(const GroundMotion &motion, const NeighbourBounds &bounds) = 0;
+
+    /** Returns a message if an energy exceeds its bound, otherwise an empty string. Called on the first rank
+     * after each step. */
+    virtual std::string energy_excess() const = 0;
+
+    /** Returns a message if a velocity or a displacement exceeds its bound, otherwise an empty string. Called
+     * on the first rank after every interval steps and after the last step. */
+    virtual std::string motion_excess() const = 0;
+
+    /** Returns what to change in the input file after an instability. */
+    virtual std::string suggestions() const = 0;
+  };
+
   /** Part of the model beside the dam that exchanges forces with it in time, such as rock. */
   class Neighbour
   {
@@ -176,17 +201,9 @@ namespace Voussoir
     /** Completes state() on the first rank. Must be called by all ranks. */
     virtual void gather_on_root() {}
 
-    /** Stores the bounds of StabilityMonitor. */
-    virtual void monitor(const GroundMotion &, const RockBounds &) {}
-
-    /** Returns a message if an energy exceeds its bound, otherwise an empty string. */
-    virtual std::string energy_excess() const { return {}; }
-
-    /** Returns a message if a velocity or a displacement exceeds its bound, otherwise an empty string. */
-    virtual std::string motion_excess() const { return {}; }
-
-    /** Returns what to change in the input file after an instability, or an empty string. */
-    virtual std::string suggestions() const { return {}; }
+    /** Returns the monitor of the instability, or nullptr if there is nothing to monitor. Must be called after
+     * start(). */
+    virtual NeighbourMonitor *monitor() { return nullptr; }
   };
 
   /** Foundation of the dam. The base class is the rigid foundation with prescribed ground motion.
@@ -198,7 +215,7 @@ namespace Voussoir
    *  3. static state: static_springs(), static_base(), and solve_static() for each load stage,
    *  4. start of the dynamic analysis: start(), support(), monitor(),
    *  5. time step: advance(), base_velocity(), step of the dam by Newmark, update_from_dam(),
-   *  6. after the time step: energies(), energy_excess(), motion_excess(). */
+   *  6. after the time step: energies(), NeighbourMonitor. */
   class Foundation : public FoundationSetup, public BaseSupport, public Neighbour
   {
   };

@@ -33,7 +33,6 @@ namespace Voussoir
     void    advance(Unknowns &load) override;
     void    update_from_dam(const DynamicState &state) override;
     Vector3 base_velocity() const override { return predicted_velocity; }
-    double  work_of_base() const override { return account[3]; }
 
     std::vector<std::vector<double> *> state() override;
 
