@@ -2,41 +2,24 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/free_memory.h>
 #include <voussoir/foundation/explicit_rock.h>
+#include <voussoir/foundation/foundation_check.h>
+#include <voussoir/foundation/region_parameters.h>
+#include <voussoir/foundation/rock_report.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/rock/arrival.h>
-#include <voussoir/rock/boundary_table.h>
 #include <voussoir/rock/rock_part.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace Voussoir
 {
-  RockRegionParameters region_parameters(const FoundationParameters &p, const std::array<double, 3> &centre,
-                                         const double dt)
-  {
-    RockRegionParameters result;
-    result.rock.materials = p.materials_by_volume();
-    result.rock.nodal_everywhere = p.nodal_everywhere;
-    result.rock.nodal_layers = p.nodal_layers;
-    if (p.nodal_everywhere) // the boundary requires layers without "Layers at the dam"
-      result.rock.nodal_layers = std::max(p.nodal_layers, make_boundary(p.boundary)->n_layers());
-    result.rock.layers_at_dam = p.layers_at_dam;
-    result.rock.centre = centre;
-    result.damping.mass = p.mass_damping;
-    result.damping.stiffness = p.stiffness_damping;
-    result.dt = dt;
-    result.boundary = p.boundary;
-    result.free_field = p.free_field;
-    return result;
-  }
-
   namespace
   {
-    /** Returns the CPU time of a time step at each node, relative to a node with nodal quadrature only. The
-     * nodes
-     * @p near_base are also needed for RockPatch. */
+    /** Returns the CPU time of a time step at each node, relative to a node with nodal quadrature only.
+     * @p near_base: nodes that RockPatch computes, too. */
     std::vector<double> work_of_nodes(const RockModel &model, const std::vector<unsigned int> &near_base)
     {
       constexpr double    of_row = 2.5, of_look_ahead = 1.5; // measured, see doc/parallel.md
@@ -75,7 +58,7 @@ namespace Voussoir
     const auto find = [&](const std::vector<Vector3> &points)
     {
       at_base = find_base_nodes(dam, points, source);
-      return rock_nodes_at_base();
+      return rock_nodes(at_base);
     };
     RockParameters rock = region_parameters(parameters, centre, 0.).rock;
     rock.incompatible_modes = incompatible_modes;
@@ -126,7 +109,7 @@ namespace Voussoir
     grid = steps;
     const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
     RockSplit                  split(work_of_nodes(model, near_base));
-    split.step_everywhere(rock_nodes_at_base());
+    split.step_everywhere(rock_nodes(at_base));
     if (!split.is_trivial() && !near_base.empty())
     {
       std::vector<unsigned int> count(Ranks::size(), 0);
@@ -155,7 +138,7 @@ namespace Voussoir
   {
     make_rock(outcrop, steps, 0.);
     model.stiffness = BlockSparseMatrix(); // frees memory; not used by the region
-    region->set_prescribed(rock_nodes_at_base());
+    region->set_prescribed(rock_nodes(at_base));
     const std::size_t n = 3 * at_base.size();
     rest.assign(n, 0.);
     for (std::size_t i = 0; i < at_base.size(); ++i)
@@ -219,14 +202,6 @@ namespace Voussoir
     finish_step(state.time);
   }
 
-  std::vector<unsigned int> ExplicitRock::rock_nodes_at_base() const
-  {
-    std::vector<unsigned int> result;
-    for (const BaseNode &f : at_base)
-      result.push_back(f.rock);
-    return result;
-  }
-
   void ExplicitRock::finish_step(const double time)
   {
     region->gather_energy();
@@ -241,6 +216,61 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
         result[c] += v_predicted[3 * i + c] / at_base.size();
     return result;
+  }
+
+  void ExplicitRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
+  {
+    check_rock_step(steps, steps_per_sample, dt_critical);
+    check_boundary(parameters, region_parameters(parameters, centre, steps.substep()), model,
+                   rock_nodes(at_base), dt_critical);
+  }
+
+  void ExplicitRock::report(Log &log, const TimeGrid &steps) const
+  {
+    report_rock(parameters, model, steps, delay(), log);
+  }
+
+  std::string ExplicitRock::about_steps() const
+  {
+    std::ostringstream text;
+    text.precision(4);
+    text << ", in each " << parameters.substeps << " of the rock; critical time step of the rock "
+         << dt_critical << " s";
+    return text.str();
+  }
+
+  void ExplicitRock::add_to_summary(Json &summary, const TimeGrid &steps) const
+  {
+    const auto n_nodes = static_cast<unsigned int>(model.points.size());
+    Json       json;
+    json.add("nodes", n_nodes)
+        .add("dofs", 3. * n_nodes)
+        .add("boundary", parameters.boundary)
+        .add("nodal_layers", region_parameters(parameters, {}, 0.).rock.nodal_layers)
+        .add("elements_at_dam", model.n_cells_at_dam - model.n_nodal_at_dam)
+        .add("arrival", arrival()[0])
+        .add("time_step", steps.substep())
+        .add("critical_time_step", dt_critical);
+    if (balance)
+      json.add("transmitted_energy", balance->of_rock().transmitted)
+          .add("energy_balance_error", balance->error());
+    summary.add("rock", json);
+  }
+
+  std::vector<std::pair<std::string, double>> ExplicitRock::energies() const
+  {
+    return balance ? balance->columns() : std::vector<std::pair<std::string, double>>();
+  }
+
+  double ExplicitRock::balance_error() const
+  {
+    return balance ? balance->error() : 0.;
+  }
+
+  void ExplicitRock::report_balance(Log &log) const
+  {
+    if (balance)
+      log.line("          that of the rock to %.1e", balance->error());
   }
 
   std::vector<std::vector<double> *> ExplicitRock::state()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/foundation/region_parameters.h>
 #include <voussoir/foundation/subcycled_rock.h>
 
 #include <algorithm>
@@ -31,16 +32,16 @@ namespace Voussoir
   void SubcycledRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
   {
     ExplicitRock::check(steps, steps_per_sample);
-    RockPatch(model, damping(), steps.substep(), rock_nodes_at_base(), steps.substeps);
+    RockPatch(model, damping(), steps.substep(), rock_nodes(at_base), steps.substeps);
   }
 
   void SubcycledRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
   {
     patch =
-        std::make_unique<RockPatch>(model, damping(), steps.substep(), rock_nodes_at_base(), steps.substeps);
+        std::make_unique<RockPatch>(model, damping(), steps.substep(), rock_nodes(at_base), steps.substeps);
     make_rock(outcrop, steps, .5 * steps.substep(), patch->nodes());
     model.stiffness = BlockSparseMatrix(); // frees memory; not used by region and patch
-    region->force.assign(3 * std::size_t(n_nodes()), 0.);
+    region->force.assign(3 * model.points.size(), 0.);
     dam_nodes = DamNodes(at_base);
     rest.clear();
     for (const unsigned int node : dam_nodes.node)

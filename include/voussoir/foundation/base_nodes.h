@@ -20,6 +20,9 @@ namespace Voussoir
                                         const std::vector<std::array<double, 3>> &points,
                                         const std::string                        &source);
 
+  /** Returns the rock nodes of the base nodes, in the same order. */
+  std::vector<unsigned int> rock_nodes(const std::vector<BaseNode> &base_nodes);
+
   /** Dam nodes on the foundation. */
   struct DamNodes
   {

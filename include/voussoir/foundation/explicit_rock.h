@@ -10,16 +10,6 @@
 
 namespace Voussoir
 {
-  /** Returns the rock parameters of the input file. @p centre: centre of the dam base [m]. @p dt: time step
-   * of the rock [s]. */
-  RockRegionParameters region_parameters(const FoundationParameters &p, const std::array<double, 3> &centre,
-                                         double dt);
-
-  /** Throws InputError if the mesh has fewer layers of equal, straight elements than the artificial boundary
-   * requires. @p source: name of the mesh in messages. */
-  void check_boundary_layers(const FoundationParameters &parameters, const HexMesh &mesh,
-                             const std::string &source);
-
   /** Elastic rock with mass and explicit time integration, coupled by the element partition of Hughes and Liu
    * (1978). The base nodes belong to the dam and carry the lumped mass of the rock. The forces of the rock on
    * these nodes follow from their predicted displacement u + dt v + dt^2/4 a. Displacements of the rock are
@@ -51,9 +41,6 @@ namespace Voussoir
      * lowest base node [s]. The P wave enters later, so that all components arrive at the same time. */
     Vector3 arrival() const;
     double  delay() const override { return arrival()[0]; }
-
-    /** Returns the number of rock nodes. */
-    unsigned int n_nodes() const { return static_cast<unsigned int>(model.points.size()); }
 
     /** Returns the critical time step of the rock [s]. */
     double critical_time_step() const { return dt_critical; }
@@ -97,21 +84,10 @@ namespace Voussoir
     void make_rock(const GroundMotion &outcrop, const TimeGrid &steps, double delay,
                    const std::vector<unsigned int> &near_base = {});
 
-    /** Writes the layers of nodal quadrature and the layers at the dam to the log, with warnings. */
-    void report_layers(Log &log, unsigned int nodal_layers) const;
-
     /** Gathers the energies of the ranks, prepares monitor() and updates energy_balance(). Must be called by
      * all ranks at the end of a time step. @p time: time of the dam [s]. */
     void finish_step(double time);
 
-    /** Returns the node numbers of the base nodes in the rock. */
-    std::vector<unsigned int> rock_nodes_at_base() const;
-
-  private:
-    /** Throws InputError if a stability condition of check() is violated. */
-    void check_stability(const TimeGrid &grid) const;
-
-  protected:
     const FoundationParameters      parameters;
     HexMesh                         mesh;
     const std::string               source;
