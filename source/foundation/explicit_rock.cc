@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace Voussoir
 {
@@ -72,14 +71,6 @@ namespace Voussoir
     dt_critical = Voussoir::critical_time_step(largest_frequency(make_operator(model), model.mass), damping);
   }
 
-  void ExplicitRock::add_mass(Structure &structure) const
-  {
-    for (const BaseNode &f : at_base)
-      for (const unsigned int node : f.nodes)
-        for (unsigned int c = 0; c < 3; ++c)
-          structure.mass[node][4 * c] += model.mass[f.rock] / f.nodes.size();
-  }
-
   Unknowns ExplicitRock::static_springs(const Structure &structure) const
   {
     return static_state->springs(structure);
@@ -115,8 +106,8 @@ namespace Voussoir
       std::vector<unsigned int> count(Ranks::size(), 0);
       for (const unsigned int i : near_base)
         ++count[split.owner(i)];
-      ahead = std::max_element(count.begin(), count.end()) - count.begin();
-      split.step(near_base, ahead);
+      predicting_rank = std::max_element(count.begin(), count.end()) - count.begin();
+      split.step(near_base, predicting_rank);
     }
     region = make_region(model, p, std::move(split));
     const IncidentWave wave = incident_wave(outcrop);
@@ -129,77 +120,10 @@ namespace Voussoir
     };
     if (grid.n > 0) // 0: no earthquake
       shake(*region, model, p, rising, grid.n_substeps() + 2);
+    model.stiffness = BlockSparseMatrix(); // frees memory; not used by the region
     region->keep_energy();
     balance = std::make_unique<RockBalance>(*region, parameters.is_subcycled());
     rock_monitor = std::make_unique<RockMonitor>(parameters, model, *region, *balance);
-  }
-
-  void ExplicitRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
-  {
-    make_rock(outcrop, steps, 0.);
-    model.stiffness = BlockSparseMatrix(); // frees memory; not used by the region
-    region->set_prescribed(rock_nodes(at_base));
-    const std::size_t n = 3 * at_base.size();
-    rest.assign(n, 0.);
-    for (std::size_t i = 0; i < at_base.size(); ++i)
-      for (const unsigned int node : at_base[i].nodes)
-        for (unsigned int c = 0; c < 3; ++c)
-          rest[3 * i + c] += u[3 * node + c] / at_base[i].nodes.size();
-    v.assign(n, 0.);
-    a = u_base_nodes = u_predicted = v_predicted = force = force_before = v;
-  }
-
-  void ExplicitRock::advance(Unknowns &load)
-  {
-    const Stopwatch watch;
-    const double    worked = Ranks::work();
-    const double    dt = grid.dt;
-    Unknowns        u = u_predicted, v_now = v_predicted;
-    for (std::size_t i = 0; i < at_base.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        const std::size_t k = 3 * i + c;
-        u_predicted[k] = u_base_nodes[k] + dt * v[k] + .25 * dt * dt * a[k];
-        v_predicted[k] = v[k] + .5 * dt * a[k];
-        u[k] += u_predicted[k] - u[k]; // the sum, whose rounding all results have
-        v_now[k] += v_predicted[k] - v_now[k];
-      }
-    const Unknowns &taken = region->advance(u, v_now);
-    force_before.swap(force);
-    for (std::size_t i = 0; i < at_base.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        // The dam applies the mass-proportional damping of the rock mass at the base.
-        const std::size_t k = 3 * i + c;
-        force[k] = parameters.mass_damping * model.mass[at_base[i].rock] * v_predicted[k] - taken[k];
-        for (const unsigned int node : at_base[i].nodes)
-          load[3 * node + c] += force[k] / at_base[i].nodes.size();
-      }
-    seconds_advancing += watch.seconds();
-    work_advancing += Ranks::work() - worked;
-  }
-
-  void ExplicitRock::update_from_dam(const DynamicState &state)
-  {
-    for (std::size_t i = 0; i < at_base.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        const std::size_t k = 3 * i + c;
-        const double      part = 1. / at_base[i].nodes.size();
-        double            u_new = 0., v_new = 0.;
-        for (const unsigned int node : at_base[i].nodes)
-        {
-          u_new += part * state.u[3 * node + c];
-          v_new += part * state.v[3 * node + c];
-        }
-        u_new -= rest[k];
-        balance->entries[RockBalance::on_dam] +=
-            .5 * (force_before[k] + force[k]) * (u_new - u_base_nodes[k]);
-        u_base_nodes[k] = u_new;
-        a[k] = 2. / grid.dt * (v_new - v[k]) - a[k];
-        v[k] = v_new;
-      }
-    finish_step(state.time);
   }
 
   void ExplicitRock::finish_step(const double time)
@@ -207,15 +131,6 @@ namespace Voussoir
     region->gather_energy();
     rock_monitor->gather_motion(static_cast<unsigned int>(std::lround(time / grid.dt)), grid.n);
     balance->update_largest();
-  }
-
-  Vector3 ExplicitRock::base_velocity() const
-  {
-    Vector3 result{};
-    for (std::size_t i = 0; i < at_base.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-        result[c] += v_predicted[3 * i + c] / at_base.size();
-    return result;
   }
 
   void ExplicitRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
@@ -228,15 +143,6 @@ namespace Voussoir
   void ExplicitRock::report(Log &log, const TimeGrid &steps) const
   {
     report_rock(parameters, model, steps, delay(), log);
-  }
-
-  std::string ExplicitRock::about_steps() const
-  {
-    std::ostringstream text;
-    text.precision(4);
-    text << ", in each " << parameters.substeps << " of the rock; critical time step of the rock "
-         << dt_critical << " s";
-    return text.str();
   }
 
   void ExplicitRock::add_to_summary(Json &summary, const TimeGrid &steps) const
@@ -271,16 +177,5 @@ namespace Voussoir
   {
     if (balance)
       log.line("          that of the rock to %.1e", balance->error());
-  }
-
-  std::vector<std::vector<double> *> ExplicitRock::state()
-  {
-    if (!region)
-      return {};
-    std::vector<std::vector<double> *> arrays = region->state();
-    for (Unknowns *array :
-         {&rest, &u_base_nodes, &v, &a, &u_predicted, &v_predicted, &force, &balance->entries})
-      arrays.push_back(array);
-    return arrays;
   }
 } // namespace Voussoir

@@ -10,32 +10,31 @@
 
 namespace Voussoir
 {
-  /** Elastic rock with mass and explicit time integration, coupled by the element partition of Hughes and Liu
-   * (1978). The base nodes belong to the dam and carry the lumped mass of the rock. The forces of the rock on
-   * these nodes follow from their predicted displacement u + dt v + dt^2/4 a. Displacements of the rock are
-   * those of the earthquake only. The static displacements are superposed.
-   * Dam and rock have the same time step. For other couplings see SubcycledRock. */
+  /** Elastic rock with mass and explicit time integration (ExplicitRegion). Displacements of the rock are
+   * those of the earthquake only; the static displacements are superposed. The derived classes couple the
+   * rock with the dam in time: PartitionedRock and SubcycledRock. */
   class ExplicitRock : public Foundation
   {
   public:
     /** Stores the parameters and the mesh of @p site. Throws InputError if the element degree is not 1. */
     explicit ExplicitRock(const FoundationSite &site);
 
-    Base base() const override { return Base::tied; }
+    Base base() const override = 0;
     bool uses_rock() const override { return true; }
     bool moves_base() const override { return false; }
+
+    /** Returns true, because the free field is computed for the length of the ground motion. */
     bool resumes_longer_only() const override { return true; }
 
     /** Finds the base nodes, assembles the rock and computes the critical time step. The stiffness of the
      * @p structure is unchanged. Throws InputError if the artificial boundary cannot use the mesh. */
     void add_stiffness(const SolidModel &dam, Structure &structure) override;
 
-    /** Adds the rock mass of each base node, in equal parts to the dam nodes at its position. */
-    void add_mass(Structure &structure) const override;
+    /** Writes materials, size, boundary and arrival time of the rock to the log, with warnings. */
+    void report(Log &log, const TimeGrid &grid) const override;
 
-    void        report(Log &log, const TimeGrid &grid) const override;
-    std::string about_steps() const override;
-    void        add_to_summary(Json &summary, const TimeGrid &grid) const override;
+    /** Adds the object "rock" with size, boundary, time steps and, after start(), energies. */
+    void add_to_summary(Json &summary, const TimeGrid &grid) const override;
 
     /** Returns the travel times of the S waves (x, y) and the P wave (z) from the bottom of the rock to the
      * lowest base node [s]. The P wave enters later, so that all components arrive at the same time. */
@@ -45,6 +44,7 @@ namespace Voussoir
     /** Returns the critical time step of the rock [s]. */
     double critical_time_step() const { return dt_critical; }
 
+    // Static state by RockStaticState. Must be called before start().
     Unknowns      static_springs(const Structure &structure) const override;
     ContactResult solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
                                Unknowns &load, Log &log) override;
@@ -55,18 +55,16 @@ namespace Voussoir
      *    base. */
     void check(const TimeGrid &grid, unsigned int steps_per_sample) const override;
 
-    void    start(const GroundMotion &outcrop, const TimeGrid &grid, const Unknowns &u) override;
-    void    advance(Unknowns &load) override;
-    void    update_from_dam(const DynamicState &state) override;
-    Vector3 base_velocity() const override;
-    double  seconds() const override { return seconds_advancing; }
-    double  work() const override { return work_advancing; }
+    double seconds() const override { return seconds_advancing; }
+    double work() const override { return work_advancing; }
 
+    // Energies by RockBalance: zero or empty before start().
     std::vector<std::pair<std::string, double>> energies() const override;
     double                                      balance_error() const override;
     void                                        report_balance(Log &log) const override;
-    std::vector<std::vector<double> *>          state() override;
-    void                                        gather_on_root() override { region->gather_on_root(); }
+
+    /** Gathers the state of the rock on the first rank. Must be called after start(). */
+    void gather_on_root() override { region->gather_on_root(); }
 
     NeighbourMonitor *monitor() override { return rock_monitor.get(); }
 
@@ -74,41 +72,46 @@ namespace Voussoir
     const RockBalance &energy_balance() const { return *balance; }
 
   protected:
-    /** Creates the region at rest and its incident waves.
+    /** Creates the region at rest with its incident waves, its balance and its monitor. Frees the memory of
+     * the static state and of the stiffness matrix of the model.
      *
      * @param outcrop ground motion at a free surface
      * @param steps time steps
      * @param delay delay of the incident waves [s]
-     * @param near_base nodes near the base that rank @p ahead steps for its prediction. All ranks step the
-     * base nodes. */
+     * @param near_base rock nodes that SubcycledRock::predict() requires; empty: none. They are computed by
+     * predicting_rank, the base nodes by all ranks. */
     void make_rock(const GroundMotion &outcrop, const TimeGrid &steps, double delay,
-                   const std::vector<unsigned int> &near_base = {});
+                   const std::vector<unsigned int> &near_base);
 
     /** Gathers the energies of the ranks, prepares monitor() and updates energy_balance(). Must be called by
      * all ranks at the end of a time step. @p time: time of the dam [s]. */
     void finish_step(double time);
 
-    const FoundationParameters      parameters;
-    HexMesh                         mesh;
-    const std::string               source;
-    const bool                      incompatible_modes; ///< of the dam's elements
-    std::array<double, 3>           centre{}; ///< of the dam base, assumed source of scattered waves [m]
-    RockModel                       model;
-    std::vector<BaseNode>           at_base;      ///< base nodes
-    std::unique_ptr<ExplicitRegion> region;       ///< after start()
-    std::unique_ptr<RockBalance>    balance;      ///< after start()
-    std::unique_ptr<RockMonitor>    rock_monitor; ///< after start()
-    std::unique_ptr<RockStaticState>
-                 static_state; ///< from add_stiffness() to start(), which frees its memory
-    unsigned int ahead = 0;    ///< rank that owns most nodes near the base
-    TimeGrid     grid;
-    double       dt_critical = 0.;         ///< of the rock [s]
-    double       seconds_advancing = 0.;   ///< wall time [s]
-    double       work_advancing = 0.;      ///< CPU time, without messages [s]
-    Unknowns     rest;                     ///< static displacement of the base nodes [m]
-    Unknowns     u_base_nodes, v, a;       ///< motion of the base nodes
-    Unknowns     force, force_before;      ///< of the rock elements on the base nodes [N]
-    Unknowns     u_predicted, v_predicted; ///< of the base nodes at the end of the step
+    const FoundationParameters parameters;         ///< of the input file
+    HexMesh                    mesh;               ///< of dam and rock; empty after add_stiffness()
+    const std::string          source;             ///< name of the mesh in messages
+    const bool                 incompatible_modes; ///< of the dam's elements
+
+    // From add_stiffness() on.
+    std::array<double, 3> centre{};         ///< mean position of the base, source of scattered waves [m]
+    RockModel             model;            ///< after start() without stiffness matrix
+    std::vector<BaseNode> at_base;          ///< base nodes
+    double                dt_critical = 0.; ///< critical time step of the rock [s]
+
+    std::unique_ptr<RockStaticState> static_state; ///< from add_stiffness() to start()
+
+    // From start() on.
+    TimeGrid                        grid;   ///< time steps of the run
+    std::unique_ptr<ExplicitRegion> region; ///< time integration of the rock
+    std::unique_ptr<RockBalance>    balance;
+    std::unique_ptr<RockMonitor>    rock_monitor;
+
+    /** Rank that owns most nodes near the base. It computes the nodes near the base of the other ranks, too,
+     * so that it can compute SubcycledRock::predict() without messages. */
+    unsigned int predicting_rank = 0;
+
+    double seconds_advancing = 0.; ///< wall time of the rock so far [s]
+    double work_advancing = 0.;    ///< CPU time of the rock so far on this rank, without messages [s]
   };
 } // namespace Voussoir
 

@@ -21,7 +21,6 @@ namespace Voussoir
     using ExplicitRock::ExplicitRock;
 
     Base        base() const override { return Base::coupled; }
-    void        add_mass(Structure &) const override {} ///< none: the mass stays in the rock
     std::string about_steps() const override;
     Support    *support(Structure &structure) override;
 
@@ -48,12 +47,18 @@ namespace Voussoir
     /** Returns the displacements of the base nodes of the rock at the time of the dam [m]. */
     Unknowns places() const;
 
+    // From start() on.
     std::unique_ptr<RockPatch> patch;                ///< rock near the base, for predict()
     DamNodes                   dam_nodes;            ///< dam nodes on the rock
-    Vector3                    predicted_velocity{}; ///< mean of the base nodes [m/s]
+    Unknowns                   rest;                 ///< static displacement of these, three values each [m]
+    Vector3                    predicted_velocity{}; ///< base_velocity() of this step [m/s]
+
+    // Mean of the base nodes at the end of the last step: x, y, z. Vectors for state().
+    Unknowns mean_v; ///< velocity [m/s]
+    Unknowns mean_a; ///< acceleration [m/s^2]
   };
 
-  /** Creates SubcycledRock if FoundationParameters::is_subcycled(), otherwise ExplicitRock. */
+  /** Creates SubcycledRock if FoundationParameters::is_subcycled(), otherwise PartitionedRock. */
   std::unique_ptr<Foundation> make_explicit_rock(const FoundationSite &site);
 } // namespace Voussoir
 
