@@ -52,11 +52,12 @@ namespace Voussoir
     const double time = .5 * long_period / M_PI;
     displacement_dam = amplification * bounds.displacement + time * velocity_dam;
     const double displacement_rock = amplification * bounds.displacement + time * velocity_rock;
-    if (NeighbourMonitor *monitor = dam.foundation->monitor())
-    {
-      monitor->set_bounds(motion, {velocity_rock, displacement_rock, strain});
-      of_neighbours.push_back(monitor);
-    }
+    for (Neighbour *neighbour : dam.neighbours)
+      if (NeighbourMonitor *monitor = neighbour->monitor())
+      {
+        monitor->set_bounds(motion, {velocity_rock, displacement_rock, strain});
+        of_neighbours.push_back(monitor);
+      }
   }
 
   std::string StabilityMonitor::instability(const Newmark &newmark, const unsigned int step,

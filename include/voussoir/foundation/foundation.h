@@ -119,6 +119,10 @@ namespace Voussoir
      * bodies. Must be called after start(), and before the Newmark object of the dam is created. */
     virtual Support *support(Structure &) { return nullptr; }
 
+    /** Returns the mean predicted velocity of the base nodes at the end of the time step [m/s]. Must be
+     * called after Neighbour::advance(). */
+    virtual Vector3 base_velocity() const { return {}; }
+
     /** Returns a second support for the coarse-step comparison run (TimeErrorEstimate), or nullptr. The
      * second argument is the time step of this run [s]. */
     virtual std::unique_ptr<Support> support_of_companion(const Structure &, double /*dt*/) const
@@ -159,7 +163,8 @@ namespace Voussoir
     virtual std::string suggestions() const = 0;
   };
 
-  /** Part of the model beside the dam that exchanges forces with it in time, such as rock. */
+  /** Part of the model beside the dam that exchanges forces with it in time, such as rock. The time loop
+   * calls all Dam::neighbours. */
   class Neighbour
   {
   public:
@@ -169,17 +174,13 @@ namespace Voussoir
      * values per node [m]. */
     virtual void start(const GroundMotion &, const TimeGrid &, const Unknowns & /*u*/) {}
 
-    /** Advances the foundation by one time step and adds its forces to the nodal loads [N]. */
+    /** Advances the neighbour by one time step and adds its forces to the nodal loads of the dam [N]. */
     virtual void advance(Unknowns &) {}
 
     /** Updates the base nodes from the state of the dam at the end of the time step. */
     virtual void update_from_dam(const DynamicState &) {}
 
-    /** Returns the mean predicted velocity of the base nodes at the end of the time step [m/s]. Must be
-     * called after advance(). */
-    virtual Vector3 base_velocity() const { return {}; }
-
-    /** Returns the wall time of the foundation in all time steps so far [s]. */
+    /** Returns the wall time of the neighbour in all time steps so far [s]. */
     virtual double seconds() const { return 0.; }
 
     /** Returns the CPU time of this rank in the same steps, without waiting for messages [s]. */
@@ -189,7 +190,7 @@ namespace Voussoir
      * change after start(). */
     virtual std::vector<std::pair<std::string, double>> energies() const { return {}; }
 
-    /** Returns the error of the energy balance of the foundation, relative to its largest energy [-]. */
+    /** Returns the error of the energy balance of the neighbour, relative to its largest energy [-]. */
     virtual double balance_error() const { return 0.; }
 
     /** Writes balance_error() to the log. */
