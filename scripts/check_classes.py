@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 MEMBERS, VIRTUALS, PARAMETERS = 25, 16, 7
-ABOVE = {"ContactSolver": 27, "ExplicitRegion": 31, "ExplicitRock": 42, "InterfaceOperator": 29,  # member functions
+ABOVE = {"ContactSolver": 27, "ExplicitRegion": 31, "InterfaceOperator": 29,  # member functions
          "solve": 8}  # parameters
 COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', re.S)
 CLASS = re.compile(r"(?:template\s*<[^{;]*>\s*)?(class|struct)\s+(?:\w+\s+)*?(\w+)\s*(?:final\s*)?(?::[^{;]*)?$")

@@ -8,7 +8,7 @@
 
 #include "../benchmarks/boundary_canyon.h"
 
-#include <voussoir/foundation/explicit_rock.h>
+#include <voussoir/foundation/region_parameters.h>
 
 namespace
 {

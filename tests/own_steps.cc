@@ -106,7 +106,7 @@ namespace
       largest = std::max(largest, newmark.largest_energy());
       dam = std::max(dam, std::abs(newmark.state().energy.balance(newmark.initial_energy())));
       rock = std::max(rock, foundation.balance_error());
-      interface = std::max(interface, std::abs(foundation.work_of_base() + foundation.work_on_dam()));
+      interface = std::max(interface, std::abs(foundation.energy_balance().coupling_error()));
       auto          &own = dynamic_cast<SubcycledRock &>(foundation);
       const Unknowns places = own.predict(0, {}); // where they are
       for (std::size_t k = 0; k < places.size(); ++k)

@@ -63,8 +63,9 @@ namespace Voussoir
               << run.acceleration;
       for (const Observer *observer : observers)
         observer->save(archive);
-      for (const std::vector<double> *array : run.dam->foundation->state())
-        archive << *array;
+      for (Neighbour *neighbour : run.dam->neighbours)
+        for (const std::vector<double> *array : neighbour->state())
+          archive << *array;
     }
     write_checkpoint_file(file, out.str());
     OutputFile note(directory + "/checkpoint.txt");
@@ -167,19 +168,20 @@ namespace Voussoir
           "first sample. Set the previous \"Motion/Duration\", or run without --resume.");
   }
 
-  void Checkpoint::load_foundation(const RunState &run, const unsigned int n_steps_then,
+  void Checkpoint::load_neighbours(const RunState &run, const unsigned int n_steps_then,
                                    boost::archive::binary_iarchive &archive) const
   {
-    for (std::vector<double> *array : run.dam->foundation->state())
-    {
-      std::vector<double> saved;
-      archive >> saved;
-      // With a longer motion the columns of the free field are longer; the added part is at rest.
-      AssertThrow(saved.size() == array->size() ||
-                      (run.n_steps > n_steps_then && saved.size() < array->size()),
-                  dealii::ExcInternalError());
-      std::fill(std::copy(saved.begin(), saved.end(), array->begin()), array->end(), 0.);
-    }
+    for (Neighbour *neighbour : run.dam->neighbours)
+      for (std::vector<double> *array : neighbour->state())
+      {
+        std::vector<double> saved;
+        archive >> saved;
+        // With a longer motion the columns of the free field are longer; the added part is at rest.
+        AssertThrow(saved.size() == array->size() ||
+                        (run.n_steps > n_steps_then && saved.size() < array->size()),
+                    dealii::ExcInternalError());
+        std::fill(std::copy(saved.begin(), saved.end(), array->begin()), array->end(), 0.);
+      }
   }
 
   void Checkpoint::load(RunState &run, const RunObservers &observers, RunCounters &counters, Log &log)
@@ -206,7 +208,7 @@ namespace Voussoir
     run.newmark->resume(state, first, largest, run.statics.closed);
     for (Observer *observer : observers)
       observer->load(archive);
-    load_foundation(run, n_steps_then, archive);
+    load_neighbours(run, n_steps_then, archive);
     for (std::size_t p = 0; p < pairs.size() && p < run.pairs_at_start.size(); ++p)
       run.pairs_at_start[p] = static_cast<PairState>(pairs[p]);
     payload.clear();

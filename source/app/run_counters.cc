@@ -79,7 +79,10 @@ namespace Voussoir
   {
     const double n = std::max(1u, run.step - run.start_step);
     work = Ranks::of_all(Ranks::work() - work_before);
-    rock_work = Ranks::of_all(run.dam->foundation->work());
+    double of_neighbours = 0.;
+    for (const Neighbour *neighbour : run.dam->neighbours)
+      of_neighbours += neighbour->work();
+    rock_work = Ranks::of_all(of_neighbours);
     messages = Ranks::of_all((Ranks::n_messages() - messages_before) / n);
     memory = Ranks::of_all(largest_memory_consumption());
   }

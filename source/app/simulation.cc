@@ -17,6 +17,18 @@
 
 namespace Voussoir
 {
+  namespace
+  {
+    /** Returns the wall time of the neighbours in all time steps so far [s]. */
+    double seconds_of(const std::vector<Neighbour *> &neighbours)
+    {
+      double sum = 0.;
+      for (const Neighbour *neighbour : neighbours)
+        sum += neighbour->seconds();
+      return sum;
+    }
+  } // namespace
+
   Simulation::Simulation(const Scene &scene, const std::string &scene_text, const RunOptions &options)
       : scene(scene), options(options),
         run_directory(options.output.empty() ? "output/" + scene.name : options.output),
@@ -182,7 +194,7 @@ namespace Voussoir
   {
     const Stopwatch   watch;
     const SystemTimes before = state.newmark->joint_system().times;
-    const double      rock_before = state.dam->foundation->seconds(),
+    const double      rock_before = seconds_of(state.dam->neighbours),
                  stresses_before = observers->stresses.seconds;
     try
     {
@@ -209,7 +221,8 @@ namespace Voussoir
       observer->follow();
     const SystemTimes &after = state.newmark->joint_system().times;
     const double       substitutions = after.substitutions - before.substitutions,
-                 joints = after.joints - before.joints, rock = state.dam->foundation->seconds() - rock_before;
+                 joints = after.joints - before.joints,
+                 rock = seconds_of(state.dam->neighbours) - rock_before;
     counters.substitutions += substitutions;
     counters.joints += joints;
     counters.rock += rock;
@@ -220,20 +233,22 @@ namespace Voussoir
   /** Solves the equations of a step. */
   ContactResult Simulation::solve_step()
   {
-    Foundation    &foundation = *state.dam->foundation;
+    const Dam     &dam = *state.dam;
     Newmark       &newmark = *state.newmark;
     const double   memory_before = newmark.memory();
     const Unknowns v_before = newmark.state().v;
     Unknowns       load = state.next_load();
-    foundation.advance(load);
+    for (Neighbour *neighbour : dam.neighbours)
+      neighbour->advance(load);
     state.u_before = newmark.state().u;
     state.base_velocity_before = newmark.state().base_velocity;
-    const ContactResult result = newmark.advance(load, foundation.base_velocity());
+    const ContactResult result = newmark.advance(load, dam.foundation->base_velocity());
     if (const double more = newmark.memory() - memory_before; more > 0.)
       log.line("          reduced time steps from t = %.4g s, required by the joints: additional factors of "
                "%.2f GiB%s",
                newmark.state().time, more / std::pow(2., 30), Ranks::size() > 1 ? " on the first rank" : "");
-    foundation.update_from_dam(newmark.state());
+    for (Neighbour *neighbour : dam.neighbours)
+      neighbour->update_from_dam(newmark.state());
     state.acceleration =
         mean_acceleration(v_before, newmark.state().v, state.motion.dt, state.ground_acceleration(state.step),
                           state.ground_acceleration(state.step + 1));
@@ -288,19 +303,22 @@ namespace Voussoir
       counters.report(state, observers->stresses.seconds, log);
     const double balance_error = observers->history.balance_error();
     log.line("Energy    balance closes to %.1e of the largest energy", balance_error);
-    state.dam->foundation->report_balance(log);
+    for (const Neighbour *neighbour : state.dam->neighbours)
+      neighbour->report_balance(log);
     checkpoint.remove(); // the run is complete
     if (scene.output.figures)
       report_figures(directory, log);
     log.line("Results   %s", directory.c_str());
     if (state.n_steps > 0)
-      check_energies(scene, balance_error, state.dam->foundation->balance_error(), directory);
+      for (const Neighbour *neighbour : state.dam->neighbours)
+        check_energies(scene, balance_error, neighbour->balance_error(), directory);
   }
 
-  /** Sends the state of foundation and observers to the first rank. */
+  /** Sends the state of neighbours and observers to the first rank. */
   void Simulation::gather_on_root()
   {
-    state.dam->foundation->gather_on_root();
+    for (Neighbour *neighbour : state.dam->neighbours)
+      neighbour->gather_on_root();
     for (Observer *observer : *observers)
       observer->gather_on_root();
   }

@@ -71,6 +71,7 @@ namespace Voussoir
       check_feet(opened, source);
     foundation = make_foundation({scene.foundation, mesh, source, scene.elements.degree,
                                   scene.elements.incompatible_modes, is_one_body(scene, tied)});
+    neighbours = {foundation.get()};
     const auto listed = zone_materials(scene.concrete_zones, "Concrete/Zones");
     materials = materials_of(mesh.zones, scene.concrete, listed);
     concrete_zones = zones_of(mesh, false, scene.concrete, listed, "Concrete/Zones");

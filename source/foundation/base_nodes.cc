@@ -56,16 +56,24 @@ namespace Voussoir
     return base_nodes;
   }
 
+  std::vector<unsigned int> rock_nodes(const std::vector<BaseNode> &base_nodes)
+  {
+    std::vector<unsigned int> result;
+    for (const BaseNode &base_node : base_nodes)
+      result.push_back(base_node.rock);
+    return result;
+  }
+
   DamNodes::DamNodes(const std::vector<BaseNode> &base_nodes)
   {
     std::vector<std::pair<unsigned int, unsigned int>> dam_nodes;
     for (unsigned int i = 0; i < base_nodes.size(); ++i)
-      for (const unsigned int on_foot : base_nodes[i].nodes)
-        dam_nodes.push_back({on_foot, i});
+      for (const unsigned int on_base : base_nodes[i].nodes)
+        dam_nodes.push_back({on_base, i});
     std::sort(dam_nodes.begin(), dam_nodes.end());
-    for (const auto &[on_foot, i] : dam_nodes)
+    for (const auto &[on_base, i] : dam_nodes)
     {
-      node.push_back(on_foot);
+      node.push_back(on_base);
       base_node.push_back(i);
     }
   }

@@ -2,9 +2,11 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/free_memory.h>
 #include <voussoir/foundation/explicit_rock.h>
+#include <voussoir/foundation/foundation_check.h>
+#include <voussoir/foundation/region_parameters.h>
+#include <voussoir/foundation/rock_report.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/rock/arrival.h>
-#include <voussoir/rock/boundary_table.h>
 #include <voussoir/rock/rock_part.h>
 
 #include <algorithm>
@@ -13,30 +15,10 @@
 
 namespace Voussoir
 {
-  RockRegionParameters region_parameters(const FoundationParameters &p, const std::array<double, 3> &centre,
-                                         const double dt)
-  {
-    RockRegionParameters result;
-    result.rock.materials = p.materials_by_volume();
-    result.rock.nodal_everywhere = p.nodal_everywhere;
-    result.rock.nodal_layers = p.nodal_layers;
-    if (p.nodal_everywhere) // the boundary requires layers without "Layers at the dam"
-      result.rock.nodal_layers = std::max(p.nodal_layers, make_boundary(p.boundary)->n_layers());
-    result.rock.layers_at_dam = p.layers_at_dam;
-    result.rock.centre = centre;
-    result.damping.mass = p.mass_damping;
-    result.damping.stiffness = p.stiffness_damping;
-    result.dt = dt;
-    result.boundary = p.boundary;
-    result.free_field = p.free_field;
-    return result;
-  }
-
   namespace
   {
-    /** Returns the CPU time of a time step at each node, relative to a node with nodal quadrature only. The
-     * nodes
-     * @p near_base are also needed for RockPatch. */
+    /** Returns the CPU time of a time step at each node, relative to a node with nodal quadrature only.
+     * @p near_base: nodes that RockPatch computes, too. */
     std::vector<double> work_of_nodes(const RockModel &model, const std::vector<unsigned int> &near_base)
     {
       constexpr double    of_row = 2.5, of_look_ahead = 1.5; // measured, see doc/parallel.md
@@ -75,11 +57,12 @@ namespace Voussoir
     const auto find = [&](const std::vector<Vector3> &points)
     {
       at_base = find_base_nodes(dam, points, source);
-      return rock_nodes_at_base();
+      return rock_nodes(at_base);
     };
     RockParameters rock = region_parameters(parameters, centre, 0.).rock;
     rock.incompatible_modes = incompatible_modes;
     model = make_rock_part(mesh, rock, find, parameters.substeps);
+    static_state = std::make_unique<RockStaticState>(model, at_base);
     mesh = HexMesh(); // no longer needed
     release_free_memory();
     RayleighDamping damping;
@@ -88,12 +71,15 @@ namespace Voussoir
     dt_critical = Voussoir::critical_time_step(largest_frequency(make_operator(model), model.mass), damping);
   }
 
-  void ExplicitRock::add_mass(Structure &structure) const
+  Unknowns ExplicitRock::static_springs(const Structure &structure) const
   {
-    for (const BaseNode &f : at_base)
-      for (const unsigned int node : f.nodes)
-        for (unsigned int c = 0; c < 3; ++c)
-          structure.mass[node][4 * c] += model.mass[f.rock] / f.nodes.size();
+    return static_state->springs(structure);
+  }
+
+  ContactResult ExplicitRock::solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
+                                           Unknowns &load, Log &log)
+  {
+    return static_state->solve(solve, springs, u, load, log);
   }
 
   Vector3 ExplicitRock::arrival() const
@@ -109,19 +95,19 @@ namespace Voussoir
   void ExplicitRock::make_rock(const GroundMotion &outcrop, const TimeGrid &steps, const double delay,
                                const std::vector<unsigned int> &near_base)
   {
-    statics.reset();
+    static_state.reset();
     release_free_memory();
     grid = steps;
     const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
     RockSplit                  split(work_of_nodes(model, near_base));
-    split.step_everywhere(rock_nodes_at_base());
+    split.step_everywhere(rock_nodes(at_base));
     if (!split.is_trivial() && !near_base.empty())
     {
       std::vector<unsigned int> count(Ranks::size(), 0);
       for (const unsigned int i : near_base)
         ++count[split.owner(i)];
-      ahead = std::max_element(count.begin(), count.end()) - count.begin();
-      split.step(near_base, ahead);
+      predicting_rank = std::max_element(count.begin(), count.end()) - count.begin();
+      split.step(near_base, predicting_rank);
     }
     region = make_region(model, p, std::move(split));
     const IncidentWave wave = incident_wave(outcrop);
@@ -134,114 +120,62 @@ namespace Voussoir
     };
     if (grid.n > 0) // 0: no earthquake
       shake(*region, model, p, rising, grid.n_substeps() + 2);
-    region->keep_energy();
-  }
-
-  void ExplicitRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
-  {
-    make_rock(outcrop, steps, 0.);
     model.stiffness = BlockSparseMatrix(); // frees memory; not used by the region
-    region->set_prescribed(rock_nodes_at_base());
-    const std::size_t n = 3 * at_base.size();
-    rest.assign(n, 0.);
-    for (std::size_t i = 0; i < at_base.size(); ++i)
-      for (const unsigned int node : at_base[i].nodes)
-        for (unsigned int c = 0; c < 3; ++c)
-          rest[3 * i + c] += u[3 * node + c] / at_base[i].nodes.size();
-    v.assign(n, 0.);
-    a = u_base_nodes = u_predicted = v_predicted = force = force_before = v;
+    region->keep_energy();
+    balance = std::make_unique<RockBalance>(*region, parameters.is_subcycled());
+    rock_monitor = std::make_unique<RockMonitor>(parameters, model, *region, *balance);
   }
 
-  void ExplicitRock::advance(Unknowns &load)
-  {
-    const Stopwatch watch;
-    const double    worked = Ranks::work();
-    const double    dt = grid.dt;
-    Unknowns        u = u_predicted, v_now = v_predicted;
-    for (std::size_t i = 0; i < at_base.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        const std::size_t k = 3 * i + c;
-        u_predicted[k] = u_base_nodes[k] + dt * v[k] + .25 * dt * dt * a[k];
-        v_predicted[k] = v[k] + .5 * dt * a[k];
-        u[k] += u_predicted[k] - u[k]; // the sum, whose rounding all results have
-        v_now[k] += v_predicted[k] - v_now[k];
-      }
-    const Unknowns &taken = region->advance(u, v_now);
-    force_before.swap(force);
-    for (std::size_t i = 0; i < at_base.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        // The dam applies the mass-proportional damping of the rock mass at the base.
-        const std::size_t k = 3 * i + c;
-        force[k] = parameters.mass_damping * model.mass[at_base[i].rock] * v_predicted[k] - taken[k];
-        for (const unsigned int node : at_base[i].nodes)
-          load[3 * node + c] += force[k] / at_base[i].nodes.size();
-      }
-    seconds_advancing += watch.seconds();
-    work_advancing += Ranks::work() - worked;
-  }
-
-  void ExplicitRock::update_from_dam(const DynamicState &state)
-  {
-    for (std::size_t i = 0; i < at_base.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        const std::size_t k = 3 * i + c;
-        const double      part = 1. / at_base[i].nodes.size();
-        double            u_new = 0., v_new = 0.;
-        for (const unsigned int node : at_base[i].nodes)
-        {
-          u_new += part * state.u[3 * node + c];
-          v_new += part * state.v[3 * node + c];
-        }
-        u_new -= rest[k];
-        account[0] += .5 * (force_before[k] + force[k]) * (u_new - u_base_nodes[k]);
-        u_base_nodes[k] = u_new;
-        a[k] = 2. / grid.dt * (v_new - v[k]) - a[k];
-        v[k] = v_new;
-      }
-    keep_account(state.time);
-  }
-
-  std::vector<unsigned int> ExplicitRock::rock_nodes_at_base() const
-  {
-    std::vector<unsigned int> result;
-    for (const BaseNode &f : at_base)
-      result.push_back(f.rock);
-    return result;
-  }
-
-  void ExplicitRock::keep_account(const double time)
+  void ExplicitRock::finish_step(const double time)
   {
     region->gather_energy();
-    constexpr unsigned int interval = 10; // number of steps between two checks of StabilityMonitor
-    const auto             step = static_cast<unsigned int>(std::lround(time / grid.dt));
-    if (region->is_split() && bounds.velocity > 0. && (step % interval == 0 || step == grid.n))
-      if (Ranks::any(region->exceeds(bounds.velocity, bounds.displacement)))
-        region->gather_motion(); // the first rank reports
-    const RegionEnergy e = energy();
-    account[1] = std::max({account[1], e.kinetic + e.strain, e.damping, std::abs(e.prescribed + e.external),
-                           std::abs(e.transmitted)});
-    account[2] = std::max(account[2], std::abs(e.balance()));
+    rock_monitor->gather_motion(static_cast<unsigned int>(std::lround(time / grid.dt)), grid.n);
+    balance->update_largest();
   }
 
-  Vector3 ExplicitRock::base_velocity() const
+  void ExplicitRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
   {
-    Vector3 result{};
-    for (std::size_t i = 0; i < at_base.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-        result[c] += v_predicted[3 * i + c] / at_base.size();
-    return result;
+    check_rock_step(steps, steps_per_sample, dt_critical);
+    check_boundary(parameters, region_parameters(parameters, centre, steps.substep()), model,
+                   rock_nodes(at_base), dt_critical);
   }
 
-  std::vector<std::vector<double> *> ExplicitRock::state()
+  void ExplicitRock::report(Log &log, const TimeGrid &steps) const
   {
-    if (!region)
-      return {};
-    std::vector<std::vector<double> *> arrays = region->state();
-    for (Unknowns *array : {&rest, &u_base_nodes, &v, &a, &u_predicted, &v_predicted, &force, &account})
-      arrays.push_back(array);
-    return arrays;
+    report_rock(parameters, model, steps, delay(), log);
+  }
+
+  void ExplicitRock::add_to_summary(Json &summary, const TimeGrid &steps) const
+  {
+    const auto n_nodes = static_cast<unsigned int>(model.points.size());
+    Json       json;
+    json.add("nodes", n_nodes)
+        .add("dofs", 3. * n_nodes)
+        .add("boundary", parameters.boundary)
+        .add("nodal_layers", region_parameters(parameters, {}, 0.).rock.nodal_layers)
+        .add("elements_at_dam", model.n_cells_at_dam - model.n_nodal_at_dam)
+        .add("arrival", arrival()[0])
+        .add("time_step", steps.substep())
+        .add("critical_time_step", dt_critical);
+    if (balance)
+      json.add("transmitted_energy", balance->of_rock().transmitted)
+          .add("energy_balance_error", balance->error());
+    summary.add("rock", json);
+  }
+
+  std::vector<std::pair<std::string, double>> ExplicitRock::energies() const
+  {
+    return balance ? balance->columns() : std::vector<std::pair<std::string, double>>();
+  }
+
+  double ExplicitRock::balance_error() const
+  {
+    return balance ? balance->error() : 0.;
+  }
+
+  void ExplicitRock::report_balance(Log &log) const
+  {
+    if (balance)
+      log.line("          that of the rock to %.1e", balance->error());
   }
 } // namespace Voussoir

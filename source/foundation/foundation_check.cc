@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checks of the stability of the rock before the run: see doc/boundary.md
-
 #include <voussoir/base/error.h>
-#include <voussoir/foundation/explicit_rock.h>
+#include <voussoir/foundation/foundation_check.h>
+#include <voussoir/foundation/region_parameters.h>
 #include <voussoir/mesh/boundary_lines.h>
 #include <voussoir/rock/boundary_table.h>
+#include <voussoir/rock/rock_region.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,41 +78,37 @@ namespace Voussoir
       }
   }
 
-  void ExplicitRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
+  void check_rock_step(const TimeGrid &grid, const unsigned int steps_per_sample, const double dt_critical)
   {
-    const double rock_dt = steps.substep();
-    if (!(rock_dt <= dt_critical)) // or not a number
-    {
-      std::ostringstream message;
-      message << beyond_critical_step(rock_dt, dt_critical) << " Increase \"Dynamics/Steps per sample\" to "
-              << std::ceil(steps_per_sample * rock_dt / dt_critical) << " or \"Foundation/Substeps\" to "
-              << std::ceil(steps.dt / dt_critical)
-              << " (with \"Foundation/Coupling\" = auto and "
-                 "\"Dynamics/Impact\" = mean-force), enlarge the rock elements, or reduce "
-                 "\"Foundation/Stiffness damping\".";
-      throw InputError(message.str());
-    }
-    check_stability(steps);
+    const double rock_dt = grid.substep();
+    if (rock_dt <= dt_critical) // false for NaN
+      return;
+    std::ostringstream message;
+    message << beyond_critical_step(rock_dt, dt_critical) << " Increase \"Dynamics/Steps per sample\" to "
+            << std::ceil(steps_per_sample * rock_dt / dt_critical) << " or \"Foundation/Substeps\" to "
+            << std::ceil(grid.dt / dt_critical)
+            << " (with \"Foundation/Coupling\" = auto and "
+               "\"Dynamics/Impact\" = mean-force), enlarge the rock elements, or reduce "
+               "\"Foundation/Stiffness damping\".";
+    throw InputError(message.str());
   }
 
-  void ExplicitRock::check_stability(const TimeGrid &steps) const
+  void check_boundary(const FoundationParameters &parameters, const RockRegionParameters &region,
+                      const RockModel &model, const std::vector<unsigned int> &base_nodes,
+                      const double dt_critical)
   {
-    const RockRegionParameters p = region_parameters(parameters, centre, steps.substep());
-    const auto                 boundary = make_boundary(p);
-    boundary->check(p, dt_critical);
+    const auto boundary = make_boundary(region);
+    boundary->check(region, dt_critical);
     if (has_other_sections(parameters))
       try
       {
-        make_boundary(of_sections(p))->check(of_sections(p), dt_critical);
+        make_boundary(of_sections(region))->check(of_sections(region), dt_critical);
       }
       catch (const InputError &error)
       {
         throw InputError(sections_beside(parameters) + error.what() + without_sections);
       }
-    boundary->attach(model, centre, steps.substep());
-    std::vector<unsigned int> nodes;
-    for (const BaseNode &f : at_base)
-      nodes.push_back(f.rock);
-    boundary->check_prescribed(nodes);
+    boundary->attach(model, region.rock.centre, region.dt);
+    boundary->check_prescribed(base_nodes);
   }
 } // namespace Voussoir

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/foundation/partitioned_rock.h>
+#include <voussoir/foundation/region_parameters.h>
 #include <voussoir/foundation/subcycled_rock.h>
 
 #include <algorithm>
@@ -10,7 +12,7 @@ namespace Voussoir
   {
     if (site.parameters.is_subcycled())
       return std::make_unique<SubcycledRock>(site);
-    return std::make_unique<ExplicitRock>(site);
+    return std::make_unique<PartitionedRock>(site);
   }
 
   RayleighDamping SubcycledRock::damping() const
@@ -31,23 +33,21 @@ namespace Voussoir
   void SubcycledRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
   {
     ExplicitRock::check(steps, steps_per_sample);
-    RockPatch(model, damping(), steps.substep(), rock_nodes_at_base(), steps.substeps);
+    RockPatch(model, damping(), steps.substep(), rock_nodes(at_base), steps.substeps);
   }
 
   void SubcycledRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
   {
     patch =
-        std::make_unique<RockPatch>(model, damping(), steps.substep(), rock_nodes_at_base(), steps.substeps);
+        std::make_unique<RockPatch>(model, damping(), steps.substep(), rock_nodes(at_base), steps.substeps);
     make_rock(outcrop, steps, .5 * steps.substep(), patch->nodes());
-    model.stiffness = BlockSparseMatrix(); // frees memory; not used by region and patch
-    region->force.assign(3 * std::size_t(n_nodes()), 0.);
+    region->force.assign(3 * model.points.size(), 0.);
     dam_nodes = DamNodes(at_base);
     rest.clear();
     for (const unsigned int node : dam_nodes.node)
       rest.insert(rest.end(), u.begin() + 3 * std::size_t(node), u.begin() + 3 * std::size_t(node) + 3);
-    v.assign(3, 0.); // mean of the base nodes
-    a = v;
-    account.assign(4, 0.);
+    mean_v.assign(3, 0.);
+    mean_a = mean_v;
   }
 
   Support *SubcycledRock::support(Structure &structure)
@@ -66,9 +66,9 @@ namespace Voussoir
     const Stopwatch watch;
     const double    worked = Ranks::work();
     Unknowns        place(3 * at_base.size());
-    if (Ranks::rank() == ahead)
+    if (Ranks::rank() == predicting_rank)
       place = patch->places(n, region->displacement(), region->half_step_velocity());
-    Ranks::broadcast(place.data(), place.size(), ahead);
+    Ranks::broadcast(place.data(), place.size(), predicting_rank);
     Unknowns result = rest;
     for (std::size_t i = 0; i < dam_nodes.node.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
@@ -82,10 +82,10 @@ namespace Voussoir
   {
     const Unknowns &u = region->displacement(), &w = region->half_step_velocity();
     Unknowns        result;
-    for (const BaseNode &f : at_base)
+    for (const BaseNode &base_node : at_base)
       for (unsigned int c = 0; c < 3; ++c)
       {
-        const std::size_t k = 3 * std::size_t(f.rock) + c;
+        const std::size_t k = 3 * std::size_t(base_node.rock) + c;
         result.push_back(u[k] + .5 * region->time_step() * w[k]);
       }
     return result;
@@ -107,8 +107,8 @@ namespace Voussoir
       region->advance();
     const Unknowns after = places();
     for (std::size_t k = 0; k < on_rock.size(); ++k)
-      account[3] += on_rock[k] * (after[k] - before[k]);
-    account[0] += work;
+      balance->entries[RockBalance::on_rock] += on_rock[k] * (after[k] - before[k]);
+    balance->entries[RockBalance::on_dam] += work;
     seconds_advancing += watch.seconds();
     work_advancing += Ranks::work() - worked;
   }
@@ -117,22 +117,22 @@ namespace Voussoir
   void SubcycledRock::advance(Unknowns &)
   {
     for (unsigned int c = 0; c < 3; ++c)
-      predicted_velocity[c] = v[c] + .5 * grid.dt * a[c];
+      predicted_velocity[c] = mean_v[c] + .5 * grid.dt * mean_a[c];
   }
 
   void SubcycledRock::update_from_dam(const DynamicState &state)
   {
     Vector3 mean{};
-    for (const BaseNode &f : at_base)
-      for (const unsigned int node : f.nodes)
+    for (const BaseNode &base_node : at_base)
+      for (const unsigned int node : base_node.nodes)
         for (unsigned int c = 0; c < 3; ++c)
-          mean[c] += state.v[3 * std::size_t(node) + c] / (at_base.size() * f.nodes.size());
+          mean[c] += state.v[3 * std::size_t(node) + c] / (at_base.size() * base_node.nodes.size());
     for (unsigned int c = 0; c < 3; ++c)
     {
-      a[c] = 2. / grid.dt * (mean[c] - v[c]) - a[c];
-      v[c] = mean[c];
+      mean_a[c] = 2. / grid.dt * (mean[c] - mean_v[c]) - mean_a[c];
+      mean_v[c] = mean[c];
     }
-    keep_account(state.time);
+    finish_step(state.time);
   }
 
   std::vector<std::vector<double> *> SubcycledRock::state()
@@ -140,7 +140,7 @@ namespace Voussoir
     if (!region)
       return {};
     std::vector<std::vector<double> *> arrays = region->state();
-    for (Unknowns *array : {&rest, &v, &a, &account})
+    for (Unknowns *array : {&rest, &mean_v, &mean_a, &balance->entries})
       arrays.push_back(array);
     return arrays;
   }

@@ -55,7 +55,8 @@ namespace Voussoir
       table.add("joint_fracture", fracture);
     if (laws.have_memory()) // name of earlier versions, for one release
       table.add("bond", [=] { return stored() + fracture(); });
-    table.add_named([this] { return run.dam->foundation->energies(); });
+    for (const Neighbour *neighbour : run.dam->neighbours)
+      table.add_named([neighbour] { return neighbour->energies(); });
   }
 
   void HistoryObserver::record()

@@ -18,7 +18,8 @@ namespace Voussoir
   void RunState::start(const ContactParameters &parameters)
   {
     if (n_steps > 0)
-      dam->foundation->start(motion, grid(), statics.u);
+      for (Neighbour *neighbour : dam->neighbours)
+        neighbour->start(motion, grid(), statics.u);
     Support *const support = n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr;
     newmark =
         std::make_unique<Newmark>(dam->structure, dam->laws, parameters, motion.dt,

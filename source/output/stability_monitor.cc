@@ -52,19 +52,28 @@ namespace Voussoir
     const double time = .5 * long_period / M_PI;
     displacement_dam = amplification * bounds.displacement + time * velocity_dam;
     const double displacement_rock = amplification * bounds.displacement + time * velocity_rock;
-    dam.foundation->monitor(motion, {velocity_rock, displacement_rock, strain});
+    for (Neighbour *neighbour : dam.neighbours)
+      if (NeighbourMonitor *monitor = neighbour->monitor())
+      {
+        monitor->set_bounds(motion, {velocity_rock, displacement_rock, strain});
+        of_neighbours.push_back(monitor);
+      }
   }
 
   std::string StabilityMonitor::instability(const Newmark &newmark, const unsigned int step,
                                             const bool last) const
   {
-    constexpr unsigned int interval = 10;
     if (step == 0)
       return "";
-    std::string what = dam.foundation->energy_excess();
-    if (what.empty() && (step % interval == 0 || last))
+    std::string what;
+    for (const NeighbourMonitor *monitor : of_neighbours)
+      if (what.empty())
+        what = monitor->energy_excess();
+    if (what.empty() && (step % NeighbourMonitor::interval == 0 || last))
     {
-      what = dam.foundation->motion_excess(); // an instability of its boundary begins there
+      for (const NeighbourMonitor *monitor : of_neighbours)
+        if (what.empty())
+          what = monitor->motion_excess(); // an instability of its boundary begins there
       if (what.empty())
         what = of_dam(newmark.state());
     }
@@ -125,7 +134,10 @@ namespace Voussoir
 
   std::string StabilityMonitor::suggestions() const
   {
-    if (const std::string own = dam.foundation->suggestions(); !own.empty())
+    std::string own;
+    for (const NeighbourMonitor *monitor : of_neighbours)
+      own += (own.empty() ? "" : " ") + monitor->suggestions();
+    if (!own.empty())
       return own;
     std::ostringstream text;
     text.precision(3);

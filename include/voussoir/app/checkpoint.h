@@ -41,7 +41,7 @@ namespace Voussoir
   private:
     void check_longer_motion(const RunState &run, unsigned int n_steps_then, std::size_t samples_then) const;
     void check_motion(const RunState &run, double dt, const std::vector<double> &samples) const;
-    void load_foundation(const RunState &run, unsigned int n_steps_then,
+    void load_neighbours(const RunState &run, unsigned int n_steps_then,
                          boost::archive::binary_iarchive &archive) const;
 
     const Scene      &scene;

@@ -48,6 +48,7 @@ namespace Voussoir
     JointLaws                    laws;
     std::unique_ptr<DamGeometry> geometry;
     std::unique_ptr<Foundation>  foundation;
+    std::vector<Neighbour *>     neighbours; ///< in the order of their calls; the first is the foundation
     std::vector<StaticLoad>      loads;
     std::array<Unknowns, 3>      inertia;         ///< load per unit base acceleration [N s^2/m]
     double                       added_mass = 0.; ///< for motion along x [kg]

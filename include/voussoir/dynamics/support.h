@@ -6,35 +6,38 @@
 
 namespace Voussoir
 {
-  /** Foundation under the base nodes that is integrated with smaller time steps (subcycling), or that is
-   * massless. The coupling forces are constant during a step of the dam. They are chosen such that the base
-   * nodes and the support have equal displacements at the end of the step.
+  /** Compliant foundation under the base nodes: massless rock, or rock with smaller time steps than the dam
+   * (subcycling). Coupling forces act between dam and support. They are constant during a step of the dam and
+   * make the displacements of both equal at the end of the step.
    *
    * The work of these forces is the same on both sides, so the coupling conserves energy for any number of
    * substeps (macro-scale link of Gravouil and Combescure, in displacements).
    *
-   * Each step calls predict(), then advances the dam, then calls advance(). */
+   * A full time step of the dam has n_substeps() substeps, a reduced time step fewer. Newmark calls
+   * predict(), solves for dam and coupling forces, then calls advance(). */
   class Support
   {
   public:
     virtual ~Support() = default;
 
-    /** Returns the base nodes of the dam on the support, ascending. */
+    /** Returns the equation numbers of the dam nodes on the support, ascending. All vectors below have three
+     * values per entry. */
     virtual const std::vector<unsigned int> &base_nodes() const = 0;
 
-    virtual unsigned int n_substeps() const = 0; ///< returns the number of substeps in a full step of the dam
+    /** Returns the number of substeps in a full time step of the dam. */
+    virtual unsigned int n_substeps() const = 0;
 
-    /** Returns the displacement of the base nodes after @p n substeps for constant unit forces
-     * on them [m/N]. */
+    /** Returns the compliance matrix: displacements of the base nodes after @p n substeps from rest, for
+     * constant unit forces on them [m/N]. */
     virtual BlockSparseMatrix compliance(unsigned int n) const = 0;
 
     /** Returns the displacement of the base nodes after the next @p n substeps without coupling forces [m].
-     * @p at: current displacement of the base nodes [m]. The support does not advance. */
+     * @p at: displacement of the base nodes at the start of the step [m]. The support does not advance. */
     virtual Unknowns predict(unsigned int n, const Unknowns &at) = 0;
 
     /** Advances the support by the @p n substeps of the last predict().
      * @param n number of substeps
-     * @param force constant coupling forces, on the base nodes of the dam, three values each [N]
+     * @param force constant coupling forces on the base nodes of the dam [N]; the support has the opposite
      * @param place displacement of the base nodes at the end of the step [m]
      * @param work work of these forces on the dam [J] */
     virtual void advance(unsigned int n, const Unknowns &force, const Unknowns &place, double work) = 0;

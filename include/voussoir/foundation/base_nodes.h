@@ -6,34 +6,50 @@
 
 namespace Voussoir
 {
-  /** Base node: one rock node and the free dam nodes at its position. */
+  /** Base node: one rock node and the free dam nodes at its position. Each monolith that meets there has a
+   * dam node, unless the monoliths share it. */
   struct BaseNode
   {
-    unsigned int              rock;  ///< node number in the rock
-    std::vector<unsigned int> nodes; ///< equation numbers in the dam
+    unsigned int              rock;  ///< number of the node in the rock
+    std::vector<unsigned int> nodes; ///< equation numbers of the dam nodes (SolidModel::equation), ascending
   };
 
-  /** Returns the base nodes of the @p dam, ascending by rock node. @p points: positions of the rock nodes
-   * [m].
-   * @p source: name of the mesh in messages. Throws InputError if a node of the dam base has no rock node. */
+  /** Returns the base nodes of the @p dam, ascending by rock node.
+   *
+   * @param dam model of the dam with free base nodes
+   * @param points positions of the rock nodes [m]
+   * @param source name of the mesh in messages
+   *
+   * Throws InputError if a node of the dam base has no rock node. */
   std::vector<BaseNode> find_base_nodes(const SolidModel                         &dam,
                                         const std::vector<std::array<double, 3>> &points,
                                         const std::string                        &source);
 
-  /** Dam nodes on the foundation. */
+  /** Returns the rock nodes of the base nodes, in the same order. */
+  std::vector<unsigned int> rock_nodes(const std::vector<BaseNode> &base_nodes);
+
+  /** All dam nodes on the foundation: the base nodes, seen from the dam. Several dam nodes may belong to one
+   * base node. */
   struct DamNodes
   {
-    DamNodes() = default;
+    DamNodes() = default; ///< no nodes
+
+    /** Lists the dam nodes of all @p base_nodes. */
     explicit DamNodes(const std::vector<BaseNode> &base_nodes);
 
     /** Marks the dam nodes as interface nodes of their bodies. */
     void mark(Structure &structure) const;
 
-    /** Expands a matrix of the base nodes to the dam nodes. Dam nodes on the same base node have equal rows
-     * and columns. */
+    /** Expands a matrix from base nodes to dam nodes. Dam nodes on the same base node have equal rows and
+     * columns.
+     *
+     * @param of_base matrix with one 3x3 block row per base node, such as a compliance [m/N]
+     *
+     * Returns the matrix with one block row per entry of node. */
     BlockSparseMatrix matrix(const BlockSparseMatrix &of_base) const;
 
-    std::vector<unsigned int> node, base_node; ///< equations of the dam, ascending; base node below each
+    std::vector<unsigned int> node;      ///< equation numbers of the dam nodes, ascending
+    std::vector<unsigned int> base_node; ///< per entry of node: index of its base node
   };
 } // namespace Voussoir
 

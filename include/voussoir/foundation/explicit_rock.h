@@ -4,59 +4,47 @@
 
 #include <voussoir/foundation/base_nodes.h>
 #include <voussoir/foundation/foundation.h>
-#include <voussoir/foundation/rock_statics.h>
+#include <voussoir/foundation/rock_monitor.h>
+#include <voussoir/foundation/rock_static_state.h>
 #include <voussoir/rock/rock_region.h>
 
 namespace Voussoir
 {
-  /** Returns the rock parameters of the input file. @p centre: centre of the dam base [m]. @p dt: time step
-   * of the rock [s]. */
-  RockRegionParameters region_parameters(const FoundationParameters &p, const std::array<double, 3> &centre,
-                                         double dt);
-
-  /** Throws InputError if the mesh has fewer layers of equal, straight elements than the artificial boundary
-   * requires. @p source: name of the mesh in messages. */
-  void check_boundary_layers(const FoundationParameters &parameters, const HexMesh &mesh,
-                             const std::string &source);
-
-  /** Elastic rock with mass and explicit time integration, coupled by the element partition of Hughes and Liu
-   * (1978). The base nodes belong to the dam and carry the lumped mass of the rock. The forces of the rock on
-   * these nodes follow from their predicted displacement u + dt v + dt^2/4 a. Displacements of the rock are
-   * those of the earthquake only. The static displacements are superposed.
-   * Dam and rock have the same time step. For other couplings see SubcycledRock. */
+  /** Elastic rock with mass and explicit time integration (ExplicitRegion). Displacements of the rock are
+   * those of the earthquake only; the static displacements are superposed. The derived classes couple the
+   * rock with the dam in time: PartitionedRock and SubcycledRock. */
   class ExplicitRock : public Foundation
   {
   public:
     /** Stores the parameters and the mesh of @p site. Throws InputError if the element degree is not 1. */
     explicit ExplicitRock(const FoundationSite &site);
 
-    Base base() const override { return Base::tied; }
+    Base base() const override = 0;
     bool uses_rock() const override { return true; }
     bool moves_base() const override { return false; }
+
+    /** Returns true, because the free field is computed for the length of the ground motion. */
     bool resumes_longer_only() const override { return true; }
 
     /** Finds the base nodes, assembles the rock and computes the critical time step. The stiffness of the
      * @p structure is unchanged. Throws InputError if the artificial boundary cannot use the mesh. */
     void add_stiffness(const SolidModel &dam, Structure &structure) override;
 
-    /** Adds the rock mass of each base node, in equal parts to the dam nodes at its position. */
-    void add_mass(Structure &structure) const override;
+    /** Writes materials, size, boundary and arrival time of the rock to the log, with warnings. */
+    void report(Log &log, const TimeGrid &grid) const override;
 
-    void        report(Log &log, const TimeGrid &grid) const override;
-    std::string about_steps() const override;
-    void        add_to_summary(Json &summary, const TimeGrid &grid) const override;
+    /** Adds the object "rock" with size, boundary, time steps and, after start(), energies. */
+    void add_to_summary(Json &summary, const TimeGrid &grid) const override;
 
     /** Returns the travel times of the S waves (x, y) and the P wave (z) from the bottom of the rock to the
      * lowest base node [s]. The P wave enters later, so that all components arrive at the same time. */
     Vector3 arrival() const;
     double  delay() const override { return arrival()[0]; }
 
-    /** Returns the number of rock nodes. */
-    unsigned int n_nodes() const { return static_cast<unsigned int>(model.points.size()); }
-
     /** Returns the critical time step of the rock [s]. */
     double critical_time_step() const { return dt_critical; }
 
+    // Static state by RockStaticState. Must be called before start().
     Unknowns      static_springs(const Structure &structure) const override;
     ContactResult solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
                                Unknowns &load, Log &log) override;
@@ -67,94 +55,63 @@ namespace Voussoir
      *    base. */
     void check(const TimeGrid &grid, unsigned int steps_per_sample) const override;
 
-    void    start(const GroundMotion &outcrop, const TimeGrid &grid, const Unknowns &u) override;
-    void    advance(Unknowns &load) override;
-    void    update_from_dam(const DynamicState &state) override;
-    Vector3 base_velocity() const override;
-    double  seconds() const override { return seconds_advancing; }
-    double  work() const override { return work_advancing; }
+    double seconds() const override { return seconds_advancing; }
+    double work() const override { return work_advancing; }
 
+    // Energies by RockBalance: zero or empty before start().
     std::vector<std::pair<std::string, double>> energies() const override;
     double                                      balance_error() const override;
     void                                        report_balance(Log &log) const override;
-    std::vector<std::vector<double> *>          state() override;
-    void                                        gather_on_root() override { region->gather_on_root(); }
 
-    void        monitor(const GroundMotion &motion, const RockBounds &bounds) override;
-    std::string energy_excess() const override;
-    std::string motion_excess() const override;
-    std::string suggestions() const override;
+    /** Gathers the state of the rock on the first rank. Must be called after start(). */
+    void gather_on_root() override { region->gather_on_root(); }
 
-    /** Returns the energies of the rock, half a rock time step before the time of the dam [J]. Must be called
-     * after start(). */
-    RegionEnergy energy() const { return region->energy(); }
+    NeighbourMonitor *monitor() override { return rock_monitor.get(); }
 
-    /** Returns the work of the rock on the base nodes since start(), in the time integration of the dam [J].
-     * The sum of work_on_dam() and work_of_base() is the energy error of the coupling. */
-    double work_on_dam() const { return account[0]; }
-
-    /** Returns the work of the base nodes on the rock since start(), in the time integration of the rock. */
-    virtual double work_of_base() const { return energy().prescribed; }
+    /** Returns the energies of the rock and of its coupling with the dam. Must be called after start(). */
+    const RockBalance &energy_balance() const { return *balance; }
 
   protected:
-    /** Creates the region at rest and its incident waves.
+    /** Creates the region at rest with its incident waves, its balance and its monitor. Frees the memory of
+     * the static state and of the stiffness matrix of the model.
      *
      * @param outcrop ground motion at a free surface
      * @param steps time steps
      * @param delay delay of the incident waves [s]
-     * @param near_base nodes near the base that rank @p ahead steps for its prediction. All ranks step the
-     * base nodes. */
+     * @param near_base rock nodes that SubcycledRock::predict() requires; empty: none. They are computed by
+     * predicting_rank, the base nodes by all ranks. */
     void make_rock(const GroundMotion &outcrop, const TimeGrid &steps, double delay,
-                   const std::vector<unsigned int> &near_base = {});
+                   const std::vector<unsigned int> &near_base);
 
-    /** Writes the layers of nodal quadrature and the layers at the dam to the log, with warnings. */
-    void report_layers(Log &log, unsigned int nodal_layers) const;
+    /** Gathers the energies of the ranks, prepares monitor() and updates energy_balance(). Must be called by
+     * all ranks at the end of a time step. @p time: time of the dam [s]. */
+    void finish_step(double time);
 
-    /** Updates the largest energy and the largest imbalance at the end of a time step. */
-    void keep_account(double time);
+    const FoundationParameters parameters;         ///< of the input file
+    HexMesh                    mesh;               ///< of dam and rock; empty after add_stiffness()
+    const std::string          source;             ///< name of the mesh in messages
+    const bool                 incompatible_modes; ///< of the dam's elements
 
-    /** Returns the node numbers of the base nodes in the rock. */
-    std::vector<unsigned int> rock_nodes_at_base() const;
+    // From add_stiffness() on.
+    std::array<double, 3> centre{};         ///< mean position of the base, source of scattered waves [m]
+    RockModel             model;            ///< after start() without stiffness matrix
+    std::vector<BaseNode> at_base;          ///< base nodes
+    double                dt_critical = 0.; ///< critical time step of the rock [s]
 
-  private:
-    /** Throws InputError if a stability condition of check() is violated. */
-    void check_stability(const TimeGrid &grid) const;
+    std::unique_ptr<RockStaticState> static_state; ///< from add_stiffness() to start()
 
-    /** Computes the static displacements @p u_base of the base nodes [m] for the forces @p r on the rock,
-     * three values per node of the dam [N]. @p part: see RockStatics::solve(). */
-    void solve_rock(const Unknowns &r, double part, Unknowns &u_base, Log &log);
+    // From start() on.
+    TimeGrid                        grid;   ///< time steps of the run
+    std::unique_ptr<ExplicitRegion> region; ///< time integration of the rock
+    std::unique_ptr<RockBalance>    balance;
+    std::unique_ptr<RockMonitor>    rock_monitor;
 
-    /** Returns the load of the dam on springs whose other end has the displacement @p base. @p r: forces on
-     * the rock of the previous iteration. */
-    Unknowns with_springs(const Unknowns &external, const Unknowns &springs, const Unknowns &base,
-                          const Unknowns &r) const;
+    /** Rank that owns most nodes near the base. It computes the nodes near the base of the other ranks, too,
+     * so that it can compute SubcycledRock::predict() without messages. */
+    unsigned int predicting_rank = 0;
 
-    /** Adds the spring forces to the forces @p r on the rock. Returns the largest spring elongation [m]. */
-    double add_slack(const Unknowns &springs, const Unknowns &u, const Unknowns &base, Unknowns &r) const;
-
-  protected:
-    const FoundationParameters      parameters;
-    HexMesh                         mesh;
-    const std::string               source;
-    const bool                      incompatible_modes; ///< of the dam's elements
-    std::array<double, 3>           centre{}; ///< of the dam base, assumed source of scattered waves [m]
-    RockModel                       model;
-    std::vector<BaseNode>           at_base;       ///< base nodes
-    std::unique_ptr<ExplicitRegion> region;        ///< after start()
-    std::unique_ptr<RockStatics>    statics;       ///< until start()
-    unsigned int                    n_settled = 0; ///< number of static solutions of the rock
-    unsigned int                    ahead = 0;     ///< rank that owns most nodes near the base
-    TimeGrid                        grid;
-    double                          dt_critical = 0.;         ///< of the rock [s]
-    double                          seconds_advancing = 0.;   ///< wall time [s]
-    double                          work_advancing = 0.;      ///< CPU time, without messages [s]
-    Unknowns                        rest;                     ///< static displacement of the base nodes [m]
-    Unknowns                        u_base_nodes, v, a;       ///< motion of the base nodes
-    Unknowns                        force, force_before;      ///< of the rock elements on the base nodes [N]
-    Unknowns                        u_predicted, v_predicted; ///< of the base nodes at the end of the step
-    std::vector<double> account = {0., 0., 0.}; ///< work on the dam, largest energy, largest imbalance [J]
-    RockBounds          bounds;
-    double              energy_bound = 0.; ///< upper bound of the energy supplied to the rock [J]
+    double seconds_advancing = 0.; ///< wall time of the rock so far [s]
+    double work_advancing = 0.;    ///< CPU time of the rock so far on this rank, without messages [s]
   };
 } // namespace Voussoir
 

@@ -19,25 +19,18 @@ namespace Voussoir
   /** Input of the constructors of foundations. */
   struct FoundationSite
   {
-    const FoundationParameters &parameters;
-    const HexMesh              &mesh;                      ///< of dam and rock
-    std::string                 source;                    ///< of the mesh: arch210 or the file name
-    unsigned int                degree = 1;                ///< of the elements
-    bool                        incompatible_modes = true; ///< in the elements of the dam
+    const FoundationParameters &parameters;                ///< of the input file
+    const HexMesh              &mesh;                      ///< mesh of dam and rock
+    std::string                 source;                    ///< name of the mesh: arch210 or the file name
+    unsigned int                degree = 1;                ///< polynomial degree of the elements
+    bool                        incompatible_modes = true; ///< the elements of the dam have these modes
 
     /** true: massless rock forms one body with the dam. This is required if all joints are tied, if the
      * impact rule is not ImpactRule::mean_force, or if contact problems are written. */
     bool one_body = false;
   };
 
-  /** Upper bounds of the rock motion for StabilityMonitor. */
-  struct RockBounds
-  {
-    double velocity = 0., displacement = 0.; ///< of a rock node [m/s], [m]
-    double strain = 0.;                      ///< strain energy of dam and foundation in the static state [J]
-  };
-
-  /** Solves for the static state of the dam under a load [N]. */
+  /** Solves for the static state of the dam under nodal loads, three values per node of the dam [N]. */
   using DamSolve = std::function<ContactResult(const Unknowns &load)>;
 
   /** Part of a foundation that is known before a run: what it requires of mesh and time step, and its
@@ -50,11 +43,13 @@ namespace Voussoir
     /** Returns true if the mesh must contain rock. */
     virtual bool uses_rock() const { return false; }
 
-    /** Returns true if a run can be resumed only with the same or a longer ground motion. */
+    /** Returns true if a run can be resumed only with the same or a longer ground motion. This applies if
+     * arrays of the checkpoint have the length of the ground motion, as the free field of explicit rock:
+     * Checkpoint can extend an array, but not shorten it. */
     virtual bool resumes_longer_only() const { return false; }
 
-    /** Writes properties and warnings to the log. */
-    virtual void report(Log &, const TimeGrid &) const {}
+    /** Writes properties and warnings to the log. Without an earthquake the grid has no time steps. */
+    virtual void report(Log & /*log*/, const TimeGrid & /*grid*/) const {}
 
     /** Returns the time that the ground motion needs to the base of the dam [s]. */
     virtual double delay() const { return 0.; }
@@ -62,12 +57,12 @@ namespace Voussoir
     /** Returns the text after "Steps N of DT s" in the log. */
     virtual std::string about_steps() const;
 
-    /** Adds the results of the foundation to summary.json. */
-    virtual void add_to_summary(Json &, const TimeGrid &) const {}
+    /** Adds properties and results of the foundation to summary.json. */
+    virtual void add_to_summary(Json & /*summary*/, const TimeGrid & /*grid*/) const {}
 
-    /** Throws InputError if the time integration would be unstable. The second argument is the number of time
-     * steps of the dam per sample of the ground motion. */
-    virtual void check(const TimeGrid &, unsigned int /*steps_per_sample*/) const {}
+    /** Throws InputError if the time integration would be unstable. The message uses the number of time steps
+     * of the dam per sample of the ground motion. */
+    virtual void check(const TimeGrid & /*grid*/, unsigned int /*steps_per_sample*/) const {}
   };
 
   /** Part of a foundation under the base nodes of the dam: stiffness, mass, static state, and the support in
@@ -77,35 +72,42 @@ namespace Voussoir
   public:
     virtual ~BaseSupport() = default;
 
-    /** Treatment of the base nodes. */
+    /** Treatment of the nodes of the dam on its base. Monoliths that meet at the base have nodes at the same
+     * position there. */
     enum class Base
     {
-      fixed,  ///< fixed, without unknowns
-      merged, ///< free, one node for all monoliths that meet there
-      tied,   ///< free, one node per monolith, joint pairs at the base are tied
-      coupled ///< free, one node per monolith, without joint pairs, coupled to the support()
+      fixed,  ///< no unknowns: the nodes have the motion of the ground
+      merged, ///< unknowns, one node for all monoliths that meet at a position
+      tied,   ///< unknowns, one node per monolith; tied joint pairs connect nodes at the same position
+      coupled ///< unknowns, one node per monolith, without joint pairs; support() connects these nodes
     };
-    virtual Base base() const { return Base::fixed; }
+    virtual Base base() const { return Base::fixed; } ///< returns the treatment, before the assembly
 
-    /** Returns true if displacements are relative to the ground and the dam has an inertia load. Returns
-     * false if displacements are absolute. */
+    /** Returns true if displacements are relative to the ground and the ground motion acts as an inertia load
+     * on the dam. Returns false if displacements are absolute. */
     virtual bool moves_base() const { return true; }
 
     /** Adds the stiffness of the foundation to the structure and stores the base nodes. The nodes of the dam
      * are final and treated according to base(). */
-    virtual void add_stiffness(const SolidModel &, Structure &) {}
+    virtual void add_stiffness(const SolidModel & /*dam*/, Structure & /*structure*/) {}
 
-    /** Adds the rock mass of the base nodes to the structure, after the inertia loads were computed. */
-    virtual void add_mass(Structure &) const {}
+    /** Adds the rock mass of the base nodes to the structure [kg]. Must be called after the inertia loads of
+     * the dam were computed, which exclude the rock. */
+    virtual void add_mass(Structure & /*structure*/) const {}
 
-    /** Returns the auxiliary springs at the base nodes in the static solution, three values per node of the
-     * dam [N/m], or an empty vector. */
-    virtual Unknowns static_springs(const Structure &) const { return {}; }
+    /** Returns auxiliary springs at the base nodes for the static solution, three values per node of the dam
+     * [N/m], or an empty vector. A monolith without fixed nodes has a singular stiffness matrix; the springs
+     * make it regular. They do not change the result: the foundation subtracts their stiffness in
+     * static_base(), or solve_static() iterates until they are free of force. */
+    virtual Unknowns static_springs(const Structure & /*structure*/) const { return {}; }
 
     /** Returns the base nodes and the static compliance of the foundation without static_springs(). Marks the
      * base nodes as interface nodes of their bodies. Returns nullptr if the static solution does not
      * eliminate the base nodes. */
-    virtual std::unique_ptr<BaseElimination::Nodes> static_base(Structure &) const { return nullptr; }
+    virtual std::unique_ptr<BaseElimination::Nodes> static_base(Structure & /*structure*/) const
+    {
+      return nullptr;
+    }
 
     /** Computes the static state of dam and foundation.
      *
@@ -123,38 +125,74 @@ namespace Voussoir
     virtual double strain_at_start() const { return 0.; }
 
     /** Returns the support of the base nodes, or nullptr. Marks the base nodes as interface nodes of their
-     * bodies. Must be called after start(), and before the Newmark object of the dam is created. */
-    virtual Support *support(Structure &) { return nullptr; }
+     * bodies. Must be called after Neighbour::start() and before the Newmark object of the dam is created. */
+    virtual Support *support(Structure & /*structure*/) { return nullptr; }
 
-    /** Returns a second support for the coarse-step comparison run (TimeErrorEstimate), or nullptr. The
-     * second argument is the time step of this run [s]. */
-    virtual std::unique_ptr<Support> support_of_companion(const Structure &, double /*dt*/) const
+    /** Returns the mean predicted velocity of the base nodes at the end of the time step [m/s]. Must be
+     * called after Neighbour::advance(). */
+    virtual Vector3 base_velocity() const { return {}; }
+
+    /** Returns a second support for the coarse-step comparison run (TimeErrorEstimate) with the time step dt
+     * [s], or nullptr. */
+    virtual std::unique_ptr<Support> support_of_companion(const Structure & /*structure*/,
+                                                          double /*dt*/) const
     {
       return nullptr;
     }
   };
 
-  /** Part of the model beside the dam that exchanges forces with it in time, such as rock. */
+  /** Upper bounds of the motion of a Neighbour. */
+  struct NeighbourBounds
+  {
+    double velocity = 0.;     ///< of a node in one component [m/s]
+    double displacement = 0.; ///< of a node in one component, from the static state [m]
+    double strain = 0.;       ///< strain energy of dam and foundation in the static state [J]
+  };
+
+  /** Monitor of the instability of a Neighbour, called by StabilityMonitor. */
+  class NeighbourMonitor
+  {
+  public:
+    virtual ~NeighbourMonitor() = default;
+
+    /** Number of time steps of the dam between two calls of motion_excess(). */
+    static constexpr unsigned int interval = 10;
+
+    /** Stores the bounds at the start of the time loop. The bounds of energies follow from the ground
+     * @p motion. */
+    virtual void set_bounds(const GroundMotion &motion, const NeighbourBounds &bounds) = 0;
+
+    /** Returns a message if an energy exceeds its bound, otherwise an empty string. Called on the first rank
+     * after each step. */
+    virtual std::string energy_excess() const = 0;
+
+    /** Returns a message if a velocity or a displacement exceeds its bound, otherwise an empty string. Called
+     * on the first rank after every interval steps and after the last step. */
+    virtual std::string motion_excess() const = 0;
+
+    /** Returns what to change in the input file after an instability. */
+    virtual std::string suggestions() const = 0;
+  };
+
+  /** Part of the model next to the dam that exchanges forces with it in time, such as rock. The time loop
+   * calls all Dam::neighbours. */
   class Neighbour
   {
   public:
     virtual ~Neighbour() = default;
 
-    /** Prepares the time steps, from rest. The third argument is the static displacement of the dam, three
-     * values per node [m]. */
-    virtual void start(const GroundMotion &, const TimeGrid &, const Unknowns & /*u*/) {}
+    /** Prepares the time steps, from rest. The motion is that of a free ground
+     * surface without the dam; u is the static displacement of the dam, three values per node [m]. */
+    virtual void start(const GroundMotion & /*motion*/, const TimeGrid & /*grid*/, const Unknowns & /*u*/) {}
 
-    /** Advances the foundation by one time step and adds its forces to the nodal loads [N]. */
-    virtual void advance(Unknowns &) {}
+    /** Advances the neighbour by one time step of the dam. Adds its forces at the end of the step to the
+     * nodal loads of the dam, three values per node [N]. */
+    virtual void advance(Unknowns & /*load*/) {}
 
-    /** Updates the base nodes from the state of the dam at the end of the time step. */
-    virtual void update_from_dam(const DynamicState &) {}
+    /** Stores the motion of the dam at the end of the time step. */
+    virtual void update_from_dam(const DynamicState & /*state*/) {}
 
-    /** Returns the mean predicted velocity of the base nodes at the end of the time step [m/s]. Must be
-     * called after advance(). */
-    virtual Vector3 base_velocity() const { return {}; }
-
-    /** Returns the wall time of the foundation in all time steps so far [s]. */
+    /** Returns the wall time of the neighbour in all time steps so far [s]. */
     virtual double seconds() const { return 0.; }
 
     /** Returns the CPU time of this rank in the same steps, without waiting for messages [s]. */
@@ -164,29 +202,24 @@ namespace Voussoir
      * change after start(). */
     virtual std::vector<std::pair<std::string, double>> energies() const { return {}; }
 
-    /** Returns the error of the energy balance of the foundation, relative to its largest energy [-]. */
+    /** Returns the largest error of the energy balance of the neighbour so far, relative to its largest
+     * energy [-]. */
     virtual double balance_error() const { return 0.; }
 
     /** Writes balance_error() to the log. */
-    virtual void report_balance(Log &) const {}
+    virtual void report_balance(Log & /*log*/) const {}
 
-    /** Returns the arrays of a checkpoint. Must be called after start(). */
+    /** Returns the arrays that determine the further time steps, always in the same order. A checkpoint
+     * contains their values, and a resumed run overwrites them. Empty before start(). */
     virtual std::vector<std::vector<double> *> state() { return {}; }
 
-    /** Completes state() on the first rank. Must be called by all ranks. */
+    /** Completes the arrays of state() on the first rank, which writes the checkpoint. Otherwise a rank has
+     * only the values of the nodes that it computes. Must be called by all ranks. */
     virtual void gather_on_root() {}
 
-    /** Stores the bounds of StabilityMonitor. */
-    virtual void monitor(const GroundMotion &, const RockBounds &) {}
-
-    /** Returns a message if an energy exceeds its bound, otherwise an empty string. */
-    virtual std::string energy_excess() const { return {}; }
-
-    /** Returns a message if a velocity or a displacement exceeds its bound, otherwise an empty string. */
-    virtual std::string motion_excess() const { return {}; }
-
-    /** Returns what to change in the input file after an instability, or an empty string. */
-    virtual std::string suggestions() const { return {}; }
+    /** Returns the monitor of the instability, or nullptr if there is nothing to monitor. Must be called
+     * after start(). */
+    virtual NeighbourMonitor *monitor() { return nullptr; }
   };
 
   /** Foundation of the dam. The base class is the rigid foundation with prescribed ground motion.
@@ -198,7 +231,7 @@ namespace Voussoir
    *  3. static state: static_springs(), static_base(), and solve_static() for each load stage,
    *  4. start of the dynamic analysis: start(), support(), monitor(),
    *  5. time step: advance(), base_velocity(), step of the dam by Newmark, update_from_dam(),
-   *  6. after the time step: energies(), energy_excess(), motion_excess(). */
+   *  6. after the time step: energies(), NeighbourMonitor. */
   class Foundation : public FoundationSetup, public BaseSupport, public Neighbour
   {
   };

@@ -44,11 +44,11 @@ namespace Voussoir
       return step == start_step ? pairs_at_start : newmark->pair_states();
     }
 
-    /** Initializes foundation and time integration from the static state. @p parameters: settings of the
+    /** Initializes neighbours and time integration from the static state. @p parameters: settings of the
      * contact solver. */
     void start(const ContactParameters &parameters);
 
-    /** Returns the loads at the end of the next step, without those of the foundation, 3 per node [N]. */
+    /** Returns the loads at the end of the next step, without those of the neighbours, 3 per node [N]. */
     Unknowns next_load() const;
 
     /** Returns the acceleration of the base after @p after steps [m/s^2]; 0 if displacements are absolute. */

@@ -41,12 +41,12 @@ namespace Voussoir
   class StabilityMonitor
   {
   public:
-    /** Computes the bounds at the start of the time loop, and starts the monitor of the foundation. @p dam
-     * must outlive the object. */
+    /** Computes the bounds at the start of the time loop, and sets those of Neighbour::monitor(). @p dam must
+     * outlive the object. */
     StabilityMonitor(const Dam &dam, const GroundMotion &motion, const Newmark &newmark);
 
     /** Returns the instability after step @p step with a remedy, or an empty text. Energies and joints are
-     * checked in each step, the nodes in every 10th step and in the @p last one. */
+     * checked in each step, the nodes in each NeighbourMonitor::interval-th step and in the @p last one. */
     std::string instability(const Newmark &newmark, unsigned int step, bool last) const;
 
   private:
@@ -57,6 +57,8 @@ namespace Voussoir
     const Dam     &dam;
     const Unknowns u_static;
     double         velocity_dam, displacement_dam; ///< bounds [m/s], [m]
+
+    std::vector<NeighbourMonitor *> of_neighbours; ///< monitors of the neighbours of the dam
   };
 } // namespace Voussoir
 

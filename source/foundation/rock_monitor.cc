@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Detection of an unstable rock: see StabilityMonitor.
-
 #include <voussoir/base/excess.h>
 #include <voussoir/base/tensor3.h>
-#include <voussoir/foundation/explicit_rock.h>
+#include <voussoir/foundation/rock_monitor.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/rock/boundary_table.h>
 
@@ -38,19 +36,32 @@ namespace Voussoir
     }
   } // namespace
 
-  void ExplicitRock::monitor(const GroundMotion &motion, const RockBounds &limits)
+  RockMonitor::RockMonitor(const FoundationParameters &parameters, const RockModel &model,
+                           ExplicitRegion &region, const RockBalance &balance)
+      : parameters(parameters), model(model), region(region), balance(balance)
+  {
+  }
+
+  void RockMonitor::set_bounds(const GroundMotion &motion, const NeighbourBounds &limits)
   {
     bounds = limits;
     energy_bound = energy_factor * (incident_energy(model, motion) + std::max(0., limits.strain));
   }
 
-  std::string ExplicitRock::energy_excess() const
+  void RockMonitor::gather_motion(const unsigned int step, const unsigned int n_steps)
   {
-    const RegionEnergy rock = energy();
-    const double       coupling = work_of_base() + work_on_dam();
+    if (region.is_split() && bounds.velocity > 0. && (step % interval == 0 || step == n_steps))
+      if (Ranks::any(region.exceeds(bounds.velocity, bounds.displacement)))
+        region.gather_motion(); // the first rank reports
+  }
+
+  std::string RockMonitor::energy_excess() const
+  {
+    const RegionEnergy rock = balance.of_rock();
+    const double       coupling = balance.coupling_error();
     std::ostringstream text;
     text.precision(3);
-    if (region->artificial_boundary()->absorbs() && !(-rock.transmitted <= energy_bound))
+    if (region.artificial_boundary()->absorbs() && !(-rock.transmitted <= energy_bound))
       text << "the artificial boundary " << parameters.boundary << " has supplied " << -rock.transmitted
            << " J to the rock. The limit is " << energy_bound << " J, " << energy_factor
            << " times the energy of the earthquake and the static state.";
@@ -61,9 +72,9 @@ namespace Voussoir
     return text.str();
   }
 
-  std::string ExplicitRock::motion_excess() const
+  std::string RockMonitor::motion_excess() const
   {
-    const Unknowns    &u = region->displacement(), &w = region->half_step_velocity();
+    const Unknowns    &u = region.displacement(), &w = region.half_step_velocity();
     std::ostringstream text;
     std::size_t        i = find_excess(w, bounds.velocity);
     if (i < w.size())
@@ -87,12 +98,12 @@ namespace Voussoir
     return text.str();
   }
 
-  std::string ExplicitRock::suggestions() const
+  std::string RockMonitor::suggestions() const
   {
     const FoundationParameters &p = parameters;
     std::ostringstream          text;
     text.precision(3);
-    const double rock_dt = region->time_step();
+    const double rock_dt = region.time_step();
     text << "Do not use the results after this time, or shortly before it. Try \"Foundation/Boundary\" = ";
     text << other_boundaries(p.boundary);
     if (p.stiffness_damping < .02 * rock_dt)

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Static state of dam and rock.
-
 #include <voussoir/base/error.h>
-#include <voussoir/foundation/explicit_rock.h>
+#include <voussoir/foundation/rock_static_state.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,13 +80,18 @@ namespace Voussoir
     };
   } // namespace
 
-  Unknowns ExplicitRock::static_springs(const Structure &structure) const
+  RockStaticState::RockStaticState(const RockModel &model, const std::vector<BaseNode> &base_nodes)
+      : model(model), base_nodes(base_nodes)
   {
-    Unknowns springs(3 * structure.n_nodes(), 0.);
+  }
+
+  Unknowns RockStaticState::springs(const Structure &structure) const
+  {
+    Unknowns result(3 * structure.n_nodes(), 0.);
     double   largest = 0.;
     for (const Body &body : structure.bodies)
-      for (const BaseNode &f : at_base)
-        for (const unsigned int node : f.nodes)
+      for (const BaseNode &base_node : base_nodes)
+        for (const unsigned int node : base_node.nodes)
           if (node >= body.first_node && node < body.first_node + body.n_nodes())
           {
             const unsigned int i = node - body.first_node;
@@ -96,57 +99,57 @@ namespace Voussoir
               if (body.stiffness.column[k] == i)
                 largest = std::max(largest, body.stiffness.value[k][0]);
           }
-    for (const BaseNode &f : at_base)
-      for (const unsigned int node : f.nodes)
+    for (const BaseNode &base_node : base_nodes)
+      for (const unsigned int node : base_node.nodes)
         for (unsigned int c = 0; c < 3; ++c)
-          springs[3 * node + c] = 10. * largest;
-    return springs;
+          result[3 * node + c] = 10. * largest;
+    return result;
   }
 
-  void ExplicitRock::solve_rock(const Unknowns &r, const double part, Unknowns &u_base, Log &log)
+  void RockStaticState::solve_rock(const Unknowns &r, const double part, Unknowns &u_base, Log &log)
   {
-    if (!statics)
+    if (!rock)
     {
-      std::vector<bool> held(n_nodes(), false);
+      std::vector<bool> held(model.points.size(), false);
       for (const BoundaryFace &face : model.faces)
         for (const unsigned int node : face.nodes)
           held[node] = true;
-      statics = std::make_unique<RockStatics>(model, held);
-      log.line("Rock      static solution with %u unknowns; multigrid set up in %.1f s",
-               statics->n_unknowns(), statics->seconds_setup());
+      rock = std::make_unique<RockStatics>(model, held);
+      log.line("Rock      static solution with %u unknowns; multigrid set up in %.1f s", rock->n_unknowns(),
+               rock->seconds_setup());
     }
-    Unknowns b(3 * std::size_t(n_nodes()), 0.), u;
-    for (const BaseNode &f : at_base)
-      for (const unsigned int node : f.nodes)
+    Unknowns b(3 * model.points.size(), 0.), u;
+    for (const BaseNode &base_node : base_nodes)
+      for (const unsigned int node : base_node.nodes)
         for (unsigned int c = 0; c < 3; ++c)
-          b[3 * f.rock + c] += r[3 * node + c];
+          b[3 * base_node.rock + c] += r[3 * node + c];
     const Stopwatch    watch;
     constexpr double   tolerance = 1e-11;
-    const unsigned int iterations = statics->solve(b, u, log, tolerance, part);
-    log.line("          load %u: %u iterations, %.1f s", ++n_settled, iterations, watch.seconds());
-    u_base.resize(3 * at_base.size());
-    for (std::size_t i = 0; i < at_base.size(); ++i)
+    const unsigned int iterations = rock->solve(b, u, log, tolerance, part);
+    log.line("          load %u: %u iterations, %.1f s", ++n_solutions, iterations, watch.seconds());
+    u_base.resize(3 * base_nodes.size());
+    for (std::size_t i = 0; i < base_nodes.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        u_base[3 * i + c] = u[3 * at_base[i].rock + c];
+        u_base[3 * i + c] = u[3 * base_nodes[i].rock + c];
   }
 
-  Unknowns ExplicitRock::with_springs(const Unknowns &external, const Unknowns &springs, const Unknowns &base,
-                                      const Unknowns &r) const
+  Unknowns RockStaticState::with_springs(const Unknowns &external, const Unknowns &springs,
+                                         const Unknowns &base, const Unknowns &r) const
   {
     Unknowns load = external;
-    for (std::size_t i = 0; i < at_base.size(); ++i)
-      for (const unsigned int node : at_base[i].nodes)
+    for (std::size_t i = 0; i < base_nodes.size(); ++i)
+      for (const unsigned int node : base_nodes[i].nodes)
         for (unsigned int c = 0; c < 3; ++c)
           load[3 * node + c] += springs[3 * node + c] * base[3 * i + c] - r[3 * node + c];
     return load;
   }
 
-  double ExplicitRock::add_slack(const Unknowns &springs, const Unknowns &u, const Unknowns &base,
-                                 Unknowns &r) const
+  double RockStaticState::add_spring_forces(const Unknowns &springs, const Unknowns &u, const Unknowns &base,
+                                            Unknowns &r) const
   {
     double slack = 0.;
-    for (std::size_t i = 0; i < at_base.size(); ++i)
-      for (const unsigned int node : at_base[i].nodes)
+    for (std::size_t i = 0; i < base_nodes.size(); ++i)
+      for (const unsigned int node : base_nodes[i].nodes)
         for (unsigned int c = 0; c < 3; ++c)
         {
           const double difference = u[3 * node + c] - base[3 * i + c];
@@ -156,15 +159,12 @@ namespace Voussoir
     return slack;
   }
 
-  /** Fixed-point iteration for the displacements of the base, with Anderson acceleration (Walker and Ni
-   * 2011). The dam is solved on stiff springs and the forces of the previous iteration. The rock is solved
-   * under the resulting base forces. At convergence the springs are free of force. */
-  ContactResult ExplicitRock::solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
-                                           Unknowns &load, Log &log)
+  ContactResult RockStaticState::solve(const DamSolve &solve_dam, const Unknowns &springs, const Unknowns &u,
+                                       Unknowns &load, Log &log)
   {
     constexpr double  enough = 1e-9;
-    const std::size_t n = 3 * at_base.size();
-    Unknowns          base(n, 0.), r(load.size(), 0.), settled;
+    const std::size_t n = 3 * base_nodes.size();
+    Unknowns          base(n, 0.), r(load.size(), 0.), u_rock;
     Differences       differences;
     double            error = 1.;
     ContactResult     total;
@@ -172,28 +172,28 @@ namespace Voussoir
     total.converged = true;
     for (; round < 60 && error > enough; ++round)
     {
-      const ContactResult contact = solve(with_springs(load, springs, base, r));
+      const ContactResult contact = solve_dam(with_springs(load, springs, base, r));
       total += contact;
       if (!contact.converged)
         break;
-      const double slack = add_slack(springs, u, base, r);
+      const double slack = add_spring_forces(springs, u, base, r);
       Unknowns     f;
-      const auto   give_way = [&](const double part) // returns the relative error
+      const auto   solve_rock_to = [&](const double part) // returns the relative error
       {
-        solve_rock(r, part, settled, log);
-        f = settled;
+        solve_rock(r, part, u_rock, log);
+        f = u_rock;
         double most = slack, size = 1e-300;
         for (std::size_t k = 0; k < n; ++k)
         {
           f[k] -= base[k];
           most = std::max(most, std::abs(f[k]));
-          size = std::max(size, std::abs(settled[k]));
+          size = std::max(size, std::abs(u_rock[k]));
         }
         return most / size;
       };
-      error = give_way(.01); // sufficient for an intermediate iteration
+      error = solve_rock_to(.01); // sufficient for an intermediate iteration
       if (error <= enough)
-        error = give_way(0.);
+        error = solve_rock_to(0.);
       differences.add(f, base);
       accelerate(differences.df, differences.dx, f, base);
     }

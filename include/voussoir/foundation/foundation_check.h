@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_foundation_check_h
+#define voussoir_foundation_check_h
+
+#include <voussoir/dynamics/time_grid.h>
+#include <voussoir/foundation/foundation_parameters.h>
+#include <voussoir/rock/rock_model.h>
+
+namespace Voussoir
+{
+  // Checks of explicit rock before the run: see doc/boundary.md.
+
+  /** Throws InputError if the mesh has fewer layers of equal, straight elements than the artificial boundary
+   * requires. @p source: name of the mesh in messages. */
+  void check_boundary_layers(const FoundationParameters &parameters, const HexMesh &mesh,
+                             const std::string &source);
+
+  /** Throws InputError if the time step of the rock exceeds the critical one.
+   *
+   * @param grid time steps of dam and rock
+   * @param steps_per_sample time steps of the dam per sample of the ground motion
+   * @param dt_critical critical time step of the rock [s] */
+  void check_rock_step(const TimeGrid &grid, unsigned int steps_per_sample, double dt_critical);
+
+  /** Throws InputError if the artificial boundary would be unstable (ArtificialBoundary::check()) or is too
+   * close to the base.
+   *
+   * @param parameters parameters of the input file
+   * @param region region_parameters() for the run
+   * @param model rock model
+   * @param base_nodes numbers of the base nodes in the rock
+   * @param dt_critical critical time step of the rock [s] */
+  void check_boundary(const FoundationParameters &parameters, const RockRegionParameters &region,
+                      const RockModel &model, const std::vector<unsigned int> &base_nodes,
+                      double dt_critical);
+} // namespace Voussoir
+
+#endif
