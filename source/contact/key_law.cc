@@ -12,14 +12,12 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double pi = 3.141592653589793;
-
     /** Adds the flanks of a trapezoidal key that restrains slip in direction @p d (1 or 2): phi = g sin a -/+
      *  d cos a + c >= 0 (doc/method.md, Joint laws). */
     void add_flanks(const unsigned int d, const KeyParameters &keys, const double friction,
                     std::vector<ContactSurface> &surfaces)
     {
-      const double a = keys.flank_angle * pi / 180.;
+      const double a = keys.flank_angle * M_PI / 180.;
       // For rectangular keys sin and cos are exact, without round-off.
       const double s = keys.flank_angle == 0. ? 0. : std::sin(a),
                    c = keys.flank_angle == 0. ? 1. : std::cos(a);

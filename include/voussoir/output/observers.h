@@ -7,9 +7,9 @@
 #include <voussoir/output/block_recorder.h>
 #include <voussoir/output/face_tension.h>
 #include <voussoir/output/observer.h>
-#include <voussoir/output/recorder.h>
 #include <voussoir/output/run_state.h>
 #include <voussoir/output/stability_monitor.h>
+#include <voussoir/output/table_columns.h>
 #include <voussoir/output/time_error.h>
 
 namespace Voussoir
@@ -50,7 +50,7 @@ namespace Voussoir
     const RunState &run;
     double          imbalance = 0.; ///< largest |energy balance| so far [J]
     Table           history, energy;
-    Recorder        history_columns{history}, energy_columns{energy};
+    TableColumns    history_columns{history}, energy_columns{energy};
     TableFile       history_file, energy_file;
   };
 
