@@ -321,7 +321,7 @@ namespace Voussoir
     {
       return "There is not enough memory: this scene needs " +
              in_words(memory_need(scene, make_mesh(scene.mesh, scene.directory))) +
-             ". Use fewer elements, or a machine that has as much.";
+             ". Use fewer elements, or a computer with more memory.";
     }
     catch (const std::bad_alloc &)
     {

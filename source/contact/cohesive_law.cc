@@ -228,12 +228,14 @@ namespace Voussoir
   std::unique_ptr<JointLaw> make_cohesive_law(const LawParameters &parameters)
   {
     if (parameters.equations != Equations::alart_curnier)
-      throw InputError(
-          "Joints/Equations: the law cohesive supports alart-curnier only. Set the entry to alart-curnier.");
+      throw InputError("The joint model cohesive supports alart-curnier only. Set \"Joints/Equations\" to "
+                       "alart-curnier.");
     if (!(parameters.strength >= 0.))
-      throw InputError("Joints/Strength must be at least 0 Pa.");
+      throw InputError("Entry \"Joints/Strength\" must be at least 0 Pa, but it is " +
+                       std::to_string(parameters.strength) + " Pa.");
     if (!(parameters.fracture_energy >= 0. && std::isfinite(parameters.fracture_energy)))
-      throw InputError("Joints/Fracture energy must be finite and at least 0 N/m.");
+      throw InputError("Entry \"Joints/Fracture energy\" must be finite and at least 0 N/m, but it is " +
+                       std::to_string(parameters.fracture_energy) + " N/m.");
     return std::make_unique<Cohesive>(parameters);
   }
 
@@ -241,7 +243,7 @@ namespace Voussoir
   {
     return parameters.strength != 0.
                ? ""
-               : "Joints/Strength is 0: the model cohesive is then FJA. Set the tensile strength of "
-                 "the bond, such as 1 MPa.";
+               : "Joints/Strength is 0, so the joint model cohesive is equal to FJA. Set the tensile "
+                 "strength of the bond, such as 1 MPa, or set Joints/Model to FJA.";
   }
 } // namespace Voussoir

@@ -229,17 +229,24 @@ namespace Voussoir
     const KeyParameters &keys = parameters.keys;
     if (parameters.equations != Equations::alart_curnier)
       throw InputError(
-          "Joints/Equations: the law KSM supports only \"alart-curnier\", since a pair with keys has several "
-          "contact surfaces.");
+          "The joint model KSM supports alart-curnier only, because a pair with keys has several "
+          "contact surfaces. Set \"Joints/Equations\" to alart-curnier.");
     if (!(keys.flank_angle >= 0. && keys.flank_angle < 90.))
-      throw InputError("Joints/Keys/Flank angle must be at least 0 and less than 90 degrees.");
+      throw InputError(
+          "Entry \"Joints/Keys/Flank angle\" must be at least 0 and less than 90 degrees, but it "
+          "is " +
+          std::to_string(keys.flank_angle) + " degrees.");
     if (!(keys.height >= 0. && std::isfinite(keys.height)) ||
         !(keys.clearance >= 0. && std::isfinite(keys.clearance)))
-      throw InputError("Joints/Keys/Height and Joints/Keys/Clearance must be finite and at least 0 m.");
+      throw InputError("Entries \"Joints/Keys/Height\" (" + std::to_string(keys.height) +
+                       " m) and \"Joints/Keys/Clearance\" (" + std::to_string(keys.clearance) +
+                       " m) must be finite and at least 0 m.");
     if (!((keys.friction >= 0. && keys.friction <= 10.) ||
           keys.friction == -1.)) // larger values lock all flanks
       throw InputError(
-          "Joints/Keys/Friction must be at least 0 and at most 10, or -1: the friction of the faces.");
+          "Entry \"Joints/Keys/Friction\" must be at least 0 and at most 10, or -1 for the friction "
+          "of the faces, but it is " +
+          std::to_string(keys.friction) + ".");
     const double                flank_friction = keys.friction < 0. ? parameters.friction : keys.friction;
     std::vector<ContactSurface> surfaces(1,
                                          {{{1., 0., 0., 0., 1., 0., 0., 0., 1.}}, 0., parameters.friction});

@@ -118,7 +118,8 @@ namespace Voussoir
     for (const auto &entry : scene.joints.overrides)
       if (entry.first > n_joints)
         throw InputError("Entry \"Joints/Overrides\" names joint " + std::to_string(entry.first) +
-                         ", but the dam has " + std::to_string(n_joints) + " joints.");
+                         ", but the dam has " + std::to_string(n_joints) +
+                         " joints. Correct the number, or remove it.");
   }
 
   bool Dam::is_one_body(const Scene &scene, const bool tied)

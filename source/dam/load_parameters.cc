@@ -115,7 +115,8 @@ namespace Voussoir
     line_load();
     if (silt.coefficient < 0. && silt.coefficient != -1.)
       throw InputError(
-          "Entry \"Loads/Silt/Coefficient\" must be at least 0, or -1 for Rankine's coefficient.");
+          "Entry \"Loads/Silt/Coefficient\" must be at least 0, or -1 for Rankine's coefficient, but it is " +
+          std::to_string(silt.coefficient) + ".");
     std::vector<std::string> names;
     for (const auto &entry : combinations)
     {

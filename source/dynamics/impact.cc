@@ -4,6 +4,7 @@
 #include <voussoir/base/names.h>
 #include <voussoir/base/parallel.h>
 #include <voussoir/contact/pair_conditions.h>
+#include <voussoir/mesh/mesh.h>
 
 namespace Voussoir
 {
@@ -53,10 +54,9 @@ namespace Voussoir
         if (node != rigid_ground)
         {
           if (in_pair[node])
-            throw InputError(
-                "A node of the mesh near (" + std::to_string(pair.place[0]) + ", " +
-                std::to_string(pair.place[1]) + ", " + std::to_string(pair.place[2]) +
-                ") belongs to two joints. Joints must not cross or share nodes of one monolith.");
+            throw InputError("The node of the mesh at " + place(pair.place) +
+                             " belongs to two joints. Joints must not cross or share nodes of one monolith: "
+                             "change the joints in the mesh.");
           in_pair[node] = true;
           for (unsigned int j = 0; j < 3; ++j)
           {

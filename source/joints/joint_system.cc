@@ -67,8 +67,8 @@ namespace Voussoir
   {
     for (const JointLaw *law : laws.of_pair)
       if (parameters.write_problems && law->flat_friction() < 0. && !law->surfaces_law())
-        throw InputError("Contact/Write problems: only problems with Coulomb friction can be written. Set "
-                         "\"Joints/Model\" to FJA or KSM.");
+        throw InputError("\"Contact/Write problems\" requires Coulomb friction in all joints. Set "
+                         "\"Joints/Model\" to FJA or KSM, or remove the entry.");
     bodies.resize(structure.bodies.size());
     for_each_own_body(
         [&](const unsigned int b)

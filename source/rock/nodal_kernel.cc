@@ -223,7 +223,8 @@ namespace Voussoir
           return row.kernel;
         known += (known.empty() ? "" : ", ") + std::string(row.name);
       }
-    throw InputError("VOUSSOIR_KERNEL is \"" + std::string(name) + "\", but this processor has the kernels " +
-                     known + ". Leave it unset to use the fastest.");
+    throw InputError("The environment variable VOUSSOIR_KERNEL is \"" + std::string(name) +
+                     "\", but this processor has the kernels " + known +
+                     ". Unset the variable to use the fastest kernel.");
   }
 } // namespace Voussoir
