@@ -50,7 +50,7 @@ namespace Voussoir
         {"Elements/Degree is 2",
          [](const Scene &s) { return s.elements.degree == 2; },
          {"Elements/Incompatible modes"}},
-        {"no load is applied in increments, neither the water nor a load of section Loads",
+        {"no load is applied in increments (the water, or a load of section Loads)",
          [](const Scene &s) { return !any_acts(s, &LoadRow::is_raised); },
          {"Statics/Water increments"}},
         {"Output/Block forces is false",

@@ -84,7 +84,7 @@ namespace Voussoir
   ContactSolver::ContactSolver(const ContactOperator &W, std::vector<const JointLaw *> laws,
                                const ContactParameters &parameters)
       : W(W), law(std::move(laws)), parameters(parameters), jacobian(W.make_jacobian()),
-        equations(law.size()), state(law.size(), PairState::open), touch(law.size(), 0)
+        equations(law.size()), state(law.size(), PairState::open), active(law.size(), 0)
   {
     double trace = 0.;
     for (std::size_t i = 0; i < law.size(); ++i)

@@ -261,11 +261,11 @@ namespace Voussoir
     for (std::size_t i = 0; i < law.size(); ++i)
     {
       state[i] = equations[i].state;
-      touch[i] = equations[i].touching;
+      active[i] = equations[i].active;
     }
     for (const WithSurfaces &pair : with_surfaces)
-      touch[pair.pair] =
-          pair.surfaces.touching(get(x.force, pair.pair), get(x.gap, pair.pair), touch[pair.pair]);
+      active[pair.pair] =
+          pair.surfaces.closed_surfaces(get(x.force, pair.pair), get(x.gap, pair.pair), active[pair.pair]);
     force.swap(x.force);
     gap.swap(x.gap);
     return result;

@@ -149,7 +149,7 @@ namespace Voussoir
     if (!has_plain_face)
       rotate(face.axes, e);
     bool sticks = e.state == PairState::stick;
-    e.touching = e.state == PairState::open ? 0 : present.bits[0];
+    e.active = e.state == PairState::open ? 0 : present.bits[0];
     double square = 0.;
     for (std::size_t k = 0; k < n_beside(); ++k)
     {
@@ -163,13 +163,14 @@ namespace Voussoir
       square += dot(mine.residual, mine.residual);
       sticks = sticks || mine.state == PairState::stick;
       if (mine.state != PairState::open)
-        e.touching |= present.bits[k + 1];
+        e.active |= present.bits[k + 1];
     }
-    e.state = e.touching == 0 ? PairState::open : (sticks ? PairState::stick : PairState::slip);
+    e.state = e.active == 0 ? PairState::open : (sticks ? PairState::stick : PairState::slip);
     return square;
   }
 
-  unsigned char PairSurfaces::touching(const Vector3 &force, const Vector3 &gap, unsigned char carrying) const
+  unsigned char PairSurfaces::closed_surfaces(const Vector3 &force, const Vector3 &gap,
+                                              unsigned char carrying) const
   {
     const double size = norm(gap) + norm(present.start);
     for (std::size_t k = 0; k < present.surfaces.size() && carrying != 0; ++k)

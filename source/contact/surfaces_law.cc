@@ -125,11 +125,11 @@ namespace Voussoir
     return taken - along(axes * on_face, axes * change) + along(force, change);
   }
 
-  PresentSurfaces SurfacesLaw::touching_surfaces(const unsigned char touching, const bool frictionless) const
+  PresentSurfaces SurfacesLaw::active_surfaces(const unsigned char active, const bool frictionless) const
   {
     PresentSurfaces result;
     for (std::size_t k = 0; k < surfaces.size(); ++k)
-      if (touching & (1u << k))
+      if (active & (1u << k))
       {
         result.surfaces.push_back({surfaces[k].axes, 0., frictionless ? 0. : surfaces[k].friction});
         result.bits.push_back(static_cast<unsigned char>(1u << k));
@@ -139,27 +139,27 @@ namespace Voussoir
   }
 
   Vector3 SurfacesLaw::solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &,
-                                     const unsigned char touching) const
+                                     const unsigned char active) const
   {
-    return touching ? solve_surfaces(touching_surfaces(touching, false), H, v) : Vector3{};
+    return active ? solve_surfaces(active_surfaces(active, false), H, v) : Vector3{};
   }
 
-  Vector3 SurfacesLaw::stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
-                                   const unsigned char touching) const
+  Vector3 SurfacesLaw::stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &applied,
+                                   const unsigned char active) const
   {
-    if (touching == 1)
-      return face->stop_normal(H, v, spent, touching);
-    Vector3 result = spent;
-    if (touching)
-      add(result, solve_surfaces(touching_surfaces(touching, true), H, v));
+    if (active == 1)
+      return face->stop_normal(H, v, applied, active);
+    Vector3 result = applied;
+    if (active)
+      add(result, solve_surfaces(active_surfaces(active, true), H, v));
     return result;
   }
 
   Vector3 SurfacesLaw::solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
                                           const double still, const PairHistory &history,
-                                          const unsigned char touching) const
+                                          const unsigned char active) const
   {
-    return touching == 1 ? face->solve_acceleration(H, b, slip_velocity, still, history, touching)
-                         : solve_impulse(H, b, history, touching);
+    return active == 1 ? face->solve_acceleration(H, b, slip_velocity, still, history, active)
+                       : solve_impulse(H, b, history, active);
   }
 } // namespace Voussoir
