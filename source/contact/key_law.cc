@@ -80,7 +80,7 @@ namespace Voussoir
        * socket [m]. */
       unsigned int n_memory() const override
       {
-        return n_beside() == 0 ? 0 : 1 + (seat > 0. ? 2 * n_beside() + 1 : 0);
+        return n_secondary() == 0 ? 0 : 1 + (seat > 0. ? 2 * n_secondary() + 1 : 0);
       }
 
       bool needs_mean_force() const override { return seat > 0.; }
@@ -102,13 +102,13 @@ namespace Voussoir
       void commit(const Vector3 &, const Vector3 &gap, const PairHistory &history,
                   double *memory) const override
       {
-        if (n_beside() == 0)
+        if (n_secondary() == 0)
           return;
         const PresentSurfaces now = present(history);
         const double          left_with = compression_of(history);
         memory[0] = 0.;
         if (seat > 0.)
-          memory[2 * n_beside() + 1] =
+          memory[2 * n_secondary() + 1] =
               !is_out(gap) ? 0. : (is_out(history.start) ? left_with : depth_at_exit(history.start, gap));
         for (std::size_t k = 1; k < surfaces.size() && seat > 0.; ++k)
         {
@@ -177,8 +177,8 @@ namespace Voussoir
       /** Returns the compression of a flank when the key left its socket [m]. */
       double compression_of(const PairHistory &history) const
       {
-        return seat > 0. && n_beside() > 0 && history.memory
-                   ? std::max(0., history.memory[2 * n_beside() + 1])
+        return seat > 0. && n_secondary() > 0 && history.memory
+                   ? std::max(0., history.memory[2 * n_secondary() + 1])
                    : 0.;
       }
 
@@ -189,7 +189,7 @@ namespace Voussoir
           return Contact::flanks;
         if (is_out_of_line(history.start, history))
           return Contact::crest;
-        const double events = history.memory && n_beside() > 0 ? history.memory[0] : 0.;
+        const double events = history.memory && n_secondary() > 0 ? history.memory[0] : 0.;
         return events == 0. ? Contact::face : events == 1. ? Contact::flanks : Contact::crest;
       }
 

@@ -146,7 +146,7 @@ namespace Voussoir
   ContactResult Newmark::advance(const Unknowns &load, const Vector3 &base_velocity)
   {
     AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
-    return advance(Part{levels[0]->dt, levels[0]->n_substeps, 0}, load, base_velocity);
+    return advance(StepSize{levels[0]->dt, levels[0]->n_substeps, 0}, load, base_velocity);
   }
 
   /** Tries one step. Returns false, with the state unchanged, if the joints do not converge. */

@@ -61,12 +61,12 @@ namespace Voussoir
   {
     std::vector<std::pair<unsigned int, unsigned int>> dam_nodes;
     for (unsigned int i = 0; i < base_nodes.size(); ++i)
-      for (const unsigned int on_foot : base_nodes[i].nodes)
-        dam_nodes.push_back({on_foot, i});
+      for (const unsigned int dam_node : base_nodes[i].nodes)
+        dam_nodes.push_back({dam_node, i});
     std::sort(dam_nodes.begin(), dam_nodes.end());
-    for (const auto &[on_foot, i] : dam_nodes)
+    for (const auto &[dam_node, i] : dam_nodes)
     {
-      node.push_back(on_foot);
+      node.push_back(dam_node);
       base_node.push_back(i);
     }
   }

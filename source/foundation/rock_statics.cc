@@ -116,7 +116,7 @@ namespace Voussoir
       everywhere([&](const std::size_t k) { rest[k] = component(inverse[k / 3], k, work); });
       const double size = std::sqrt(product(work, rest));
       if (i > 0)
-        T.beside.push_back(size);
+        T.off_diagonal.push_back(size);
       if (size == 0. && i > 0)
         break; // an invariant space
       if (!(size > 0.))
@@ -134,8 +134,9 @@ namespace Voussoir
           });
       multiply(v, work);
       T.diagonal.push_back(product(v, work));
-      everywhere([&](const std::size_t k)
-                 { work[k] -= T.diagonal.back() * w[k] + (i > 0 ? T.beside.back() * w_before[k] : 0.); });
+      everywhere(
+          [&](const std::size_t k)
+          { work[k] -= T.diagonal.back() * w[k] + (i > 0 ? T.off_diagonal.back() * w_before[k] : 0.); });
     }
     return T.largest_eigenvalue();
   }

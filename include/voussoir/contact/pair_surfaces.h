@@ -55,7 +55,7 @@ namespace Voussoir
    * keep three unknowns per pair, as for other laws. A rigid or nearly rigid flank gets an artificial
    * compliance. The proximal point method (Rockafellar 1976) removes its effect: rest_k is the previous force.
    *
-   * Arguments named "beside" are the forces of the secondary surfaces, three values per surface in its axes
+   * Arguments named "secondary" contain the forces of the secondary surfaces, three values per surface in its axes
    * [N]. */
   class PairSurfaces
   {
@@ -67,30 +67,30 @@ namespace Voussoir
     void start(PresentSurfaces surfaces, double rho, double proximal);
 
     /** Returns the number of secondary surfaces. */
-    std::size_t n_beside() const { return present.surfaces.empty() ? 0 : present.surfaces.size() - 1; }
+    std::size_t n_secondary() const { return present.surfaces.empty() ? 0 : present.surfaces.size() - 1; }
 
     /** Returns true if a secondary surface has an artificial compliance. */
     bool is_regularised() const { return regularised; }
 
     /** Starts the next proximal point iteration for the surfaces with an artificial compliance.
-     * @param beside present forces of the secondary surfaces, the new reference forces
+     * @param secondary present forces of the secondary surfaces, the new reference forces
      * @param proximal artificial compliance [m/N] */
-    void recentre(const double *beside, double proximal);
+    void recentre(const double *secondary, double proximal);
 
     /** Adds a compliance to all surfaces, including the face, until the next call.
      * @param proximal compliance [m/N]; 0: none
      * @param force present force of the pair [N]. The present forces are the reference forces.
-     * @param beside present forces of the secondary surfaces */
-    void regularise(double proximal, const Vector3 &force, const double *beside);
+     * @param secondary present forces of the secondary surfaces */
+    void regularise(double proximal, const Vector3 &force, const double *secondary);
 
     /** Computes the equations of the pair.
      * @param force force of the pair [N]
      * @param gap gap of the pair [m]
-     * @param beside forces of the secondary surfaces
+     * @param secondary forces of the secondary surfaces
      * @param e receives the equations of the face
      *
      * Returns the squared norm of the residuals of the secondary surfaces [N^2]. */
-    double evaluate(const Vector3 &force, const Vector3 &gap, const double *beside, PairEquations &e);
+    double evaluate(const Vector3 &force, const Vector3 &gap, const double *secondary, PairEquations &e);
 
     /** Eliminates the secondary surfaces from the equations @p e of the last evaluate().
      * @param e equations of the face; receives the equations of the pair
@@ -106,16 +106,17 @@ namespace Voussoir
      * @param e equations of the pair from condense()
      * @param d_force change of the force of the pair [N]
      * @param d_gap change of the gap [m]
-     * @param d_beside receives the changes of the forces of the secondary surfaces [N] */
-    void expand(const PairEquations &e, const Vector3 &d_force, const Vector3 &d_gap, double *d_beside) const;
+     * @param d_secondary receives the changes of the forces of the secondary surfaces [N] */
+    void expand(const PairEquations &e, const Vector3 &d_force, const Vector3 &d_gap,
+                double *d_secondary) const;
 
     /** Returns the squared error of all surfaces by their natural maps [N^2].
      * @param force force of the pair [N]
      * @param gap gap of the pair [m]
-     * @param beside forces of the secondary surfaces
+     * @param secondary forces of the secondary surfaces
      * @param rho scaling factor of the natural map [N/m]
      * @param rigid true: without the artificial compliances */
-    double error_square(const Vector3 &force, const Vector3 &gap, const double *beside, double rho,
+    double error_square(const Vector3 &force, const Vector3 &gap, const double *secondary, double rho,
                         bool rigid) const;
 
     /** Solves the pair alone: gap = H force + b.
@@ -123,10 +124,10 @@ namespace Voussoir
      * @param b gap without the force [m]
      * @param accuracy relative accuracy of the equations [-]
      * @param force initial guess of the force of the pair [N]
-     * @param beside initial guess of the forces of the secondary surfaces; receives the solution
+     * @param secondary initial guess of the forces of the secondary surfaces; receives the solution
      *
      * Returns the force of the pair [N]. */
-    Vector3 solve(const Matrix3 &H, const Vector3 &b, double accuracy, Vector3 force, double *beside);
+    Vector3 solve(const Matrix3 &H, const Vector3 &b, double accuracy, Vector3 force, double *secondary);
 
     /** Returns the surfaces of the step, without artificial compliances. */
     const PresentSurfaces &surfaces() const { return present; }
@@ -139,10 +140,10 @@ namespace Voussoir
     unsigned char closed_surfaces(const Vector3 &force, const Vector3 &gap, unsigned char carrying) const;
 
   private:
-    static constexpr std::size_t max_beside = 7;
-    using Forces = std::array<double, 3 * max_beside>;
+    static constexpr std::size_t max_secondary = 7;
+    using Forces = std::array<double, 3 * max_secondary>;
 
-    struct Beside ///< a secondary surface
+    struct Secondary ///< a secondary surface
     {
       Vector3               from; ///< gap at the start of the step in the axes of the surface [m]
       double                rho;
@@ -154,20 +155,21 @@ namespace Voussoir
       double                across;    ///< -d friction/d slip normal to the direction, if it slips [N/m]
       Vector3               constant;  ///< change of the force for a constant gap [N]
     };
-    static void equations_of(const ContactSurface &s, const Vector3 &force, const Vector3 &gap, Beside &mine);
-    static void resolve(const ContactSurface &s, Beside &mine, Matrix3 &stiffness);
-    static void find_change(const ContactSurface &s, const Beside &mine, const Vector3 &d_gap,
+    static void equations_of(const ContactSurface &s, const Vector3 &force, const Vector3 &gap,
+                             Secondary &mine);
+    static void resolve(const ContactSurface &s, Secondary &mine, Matrix3 &stiffness);
+    static void find_change(const ContactSurface &s, const Secondary &mine, const Vector3 &d_gap,
                             double *change);
     bool        eliminate(Matrix3 &stiffness, Vector3 &constant);
-    Vector3     face_force(Vector3 force, const double *beside) const;
+    Vector3     face_force(Vector3 force, const double *secondary) const;
     double      newton(const Matrix3 &H, const Vector3 &b, double scale, double accuracy, Vector3 &force,
-                       Forces &beside);
+                       Forces &secondary);
     bool        face_alone(const Matrix3 &H, const Vector3 &b, Vector3 &force) const;
 
     PresentSurfaces             present;
     std::vector<ContactSurface> seats;   ///< surfaces with the artificial compliances
-    std::vector<ContactSurface> regular; ///< seats with the compliance of regularise()
-    std::vector<Beside>         other;
+    std::vector<ContactSurface> regular; ///< surfaces of seats with the compliance of regularise()
+    std::vector<Secondary>      other;
     double                      rho = 0.;      ///< scaling factor [N/m]
     double                      softest = 0.;  ///< smallest scaling factor of a surface [N/m]
     double                      own_size = 0.; ///< face axes = pair axes?

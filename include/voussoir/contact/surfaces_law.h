@@ -26,7 +26,7 @@ namespace Voussoir
     virtual PresentSurfaces present(const PairHistory &history) const;
 
     /** Returns the number of all secondary surfaces of a pair. */
-    std::size_t n_beside() const { return surfaces.size() - 1; }
+    std::size_t n_secondary() const { return surfaces.size() - 1; }
 
     const SurfacesLaw *surfaces_law() const override { return this; }
 
@@ -53,8 +53,8 @@ namespace Voussoir
   private:
     /** Returns the forces of the secondary surfaces for the force and the gap of a solution, three values per
      * surface [N]. */
-    static std::vector<double> forces_beside(const PresentSurfaces &now, const Vector3 &force,
-                                             const Vector3 &gap);
+    static std::vector<double> secondary_forces(const PresentSurfaces &now, const Vector3 &force,
+                                                const Vector3 &gap);
 
   protected:
     /** Returns the active surfaces, rigid and without clearance, for an impact.
@@ -72,11 +72,11 @@ namespace Voussoir
    * @param present surfaces that can close
    * @param H flexibility of the pair [m/N]
    * @param b gap without the forces [m]
-   * @param beside receives the forces of the secondary surfaces, three values per surface [N]; may be null
+   * @param secondary receives the forces of the secondary surfaces, three values per surface [N]; may be null
    *
    * Returns the force of the pair: the sum of the forces of all surfaces [N]. */
   Vector3 solve_surfaces(PresentSurfaces present, const Matrix3 &H, const Vector3 &b,
-                         std::vector<double> *beside = nullptr);
+                         std::vector<double> *secondary = nullptr);
 } // namespace Voussoir
 
 #endif

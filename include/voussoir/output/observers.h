@@ -164,7 +164,7 @@ namespace Voussoir
     void load(boost::archive::binary_iarchive &archive) override;
 
     /** Returns true if there is an estimate; false if the comparison run has failed or has no step. */
-    bool has_estimate() const { return companion != nullptr && run.n_steps > 1; }
+    bool has_estimate() const { return coarse_run != nullptr && run.n_steps > 1; }
 
     /** Returns the member "error_estimate" of summary.json. */
     Json json() const;
@@ -173,13 +173,13 @@ namespace Voussoir
     double memory_consumption() const;
 
   private:
-    TimeError error() const { return companion->of(joints, stresses.envelope, stresses.tension); }
+    TimeError error() const { return coarse_run->of(joints, stresses.envelope, stresses.tension); }
 
     const RunState                    &run;
     const JointRecorder               &joints;
     const StressObserver              &stresses;
     Log                               &log;
-    std::unique_ptr<TimeErrorEstimate> companion;
+    std::unique_ptr<TimeErrorEstimate> coarse_run;
   };
 
   /** Fields on the mesh and on the joints for ParaView (solution-NNNNN.vtu, solution.pvd). */
