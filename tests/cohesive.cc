@@ -109,7 +109,7 @@ namespace
       {
         PairEquations e;
         bond.law->evaluate({{1e6, 0., 0.}}, {}, at_rest, 1e9, e);
-        report("  its next impulses are those of friction", e.touching, "1", e.touching == 1);
+        report("  its next impulses are those of friction", e.active, "1", e.active == 1);
       }
     }
   }

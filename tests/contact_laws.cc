@@ -187,7 +187,7 @@ namespace
           continue;
         }
         ++states[static_cast<int>(e.state)];
-        ++touching[e.touching];
+        ++touching[e.active];
 
         if (has_keys && !(error < 2e-6))
           ++wrong;
@@ -412,7 +412,7 @@ namespace
         worst = std::max(worst, norm(a.residual - b.residual));
         for (unsigned int k = 0; k < 9; ++k)
           worst = std::max({worst, std::abs(a.d_force[k] - b.d_force[k]), std::abs(a.d_gap[k] - b.d_gap[k])});
-        worst = std::max(worst, a.state == b.state && a.touching == b.touching ? 0. : 1.);
+        worst = std::max(worst, a.state == b.state && a.active == b.active ? 0. : 1.);
         const Matrix3 H = random_flexibility();
         const Vector3 f = flat->solve(H, gap, start);
         solution = std::max(solution, norm(law->solve(H, gap, start) - f) / (1. + norm(f)));

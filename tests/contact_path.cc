@@ -35,9 +35,9 @@ namespace
       return law->solve(H, b, past);
     }
     Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &past,
-                          const unsigned char touching) const override
+                          const unsigned char active) const override
     {
-      return law->solve_impulse(H, v, past, touching);
+      return law->solve_impulse(H, v, past, active);
     }
 
   private:

@@ -133,9 +133,9 @@ namespace
       return law(past).solve(H, b, past);
     }
     Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &past,
-                          const unsigned char touching) const override
+                          const unsigned char active) const override
     {
-      return law(past).solve_impulse(H, v, past, touching);
+      return law(past).solve_impulse(H, v, past, active);
     }
     unsigned int n_memory() const override { return 1; }
     void         commit(const Vector3 &force, const Vector3 &gap, const PairHistory &past,

@@ -27,6 +27,13 @@ def read_summary(directory: PathLike) -> Dict[str, Any]:
     return found
 
 
+def _table_property(name: str, contents: str) -> cached_property[Table]:
+    """Returns a property of Results that reads NAME.csv at its first use."""
+    table = cached_property(lambda results: results.table(name))
+    table.__doc__ = contents
+    return table
+
+
 class Results:
     """The directory of a run. A table is read at its first use."""
 
@@ -47,35 +54,12 @@ class Results:
         """summary.json, which a finished run has."""
         return read_summary(self.directory)
 
-    @cached_property
-    def history(self) -> Table:
-        """Crest, base and probes over time [s, m, m/s2]."""
-        return self.table("history")
-
-    @cached_property
-    def joints(self) -> Table:
-        """Largest opening and slip of each joint at the crest [m]."""
-        return self.table("joints")
-
-    @cached_property
-    def joint_history(self) -> Table:
-        """Opening and slip of each joint at the crest over time [s, m]."""
-        return self.table("joint_history")
-
-    @cached_property
-    def blocks(self) -> Table:
-        """Forces on the bases of the monoliths over time [s, N, N m]."""
-        return self.table("blocks")
-
-    @cached_property
-    def energy(self) -> Table:
-        """Energies over time [s, J]."""
-        return self.table("energy")
-
-    @cached_property
-    def faces(self) -> Table:
-        """Envelope of the principal stresses on the faces [m, Pa]."""
-        return self.table("faces")
+    history = _table_property("history", "Crest, base and probes over time [s, m, m/s2].")
+    joints = _table_property("joints", "Largest opening and slip of each joint at the crest [m].")
+    joint_history = _table_property("joint_history", "Opening and slip of each joint at the crest over time [s, m].")
+    blocks = _table_property("blocks", "Forces on the bases of the monoliths over time [s, N, N m].")
+    energy = _table_property("energy", "Energies over time [s, J].")
+    faces = _table_property("faces", "Envelope of the principal stresses on the faces [m, Pa].")
 
     def mesh(self, name: str = "envelope.vtu") -> Any:
         """Reads a .vtu file as a meshio.Mesh."""

@@ -81,16 +81,14 @@ namespace Voussoir
     {
       save(run, observers, counters);
       return " The state after step " + std::to_string(run.step) + " of " + std::to_string(run.n_steps) +
-             " is kept in " + file +
-             ". Free some disk space or remove the obstacle, then continue with the same command and "
-             "--resume.";
+             " is kept in " + file + ". Free disk space or remove the obstacle, then continue with --resume.";
     }
     catch (const WriteError &)
     {
       return std::filesystem::exists(file)
                  ? " The checkpoint could not be written either. The previous "
-                   "checkpoint is intact. Free some disk space and continue with --resume."
-                 : " The checkpoint could not be written either.";
+                   "checkpoint is intact. Free disk space, then continue with --resume."
+                 : " The checkpoint could not be written either. Free disk space, then start the run again.";
     }
   }
 

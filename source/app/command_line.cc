@@ -38,7 +38,8 @@ namespace Voussoir
           !words.empty() && (words[0] == "prm" || words[0] == "json" || words[0] == "markdown");
       if (words.size() > (has_format ? 2 : 1))
         throw InputError(
-            "`voussoir parameters` prints prm, json or markdown, of one section. Remove the argument \"" +
+            "`voussoir parameters` accepts one format (prm, json or markdown) and one section. Remove the "
+            "argument \"" +
             words.back() + "\".");
       Entries prm;
       Scene   scene;
@@ -216,7 +217,7 @@ namespace Voussoir
     else if (arguments.command.empty() && arguments.words.empty())
     {
       std::cout << help_about_all();
-      throw InputError("which scene? Give a .prm file, for example prm/quickstart.prm.");
+      throw InputError("which scene? The argument is missing: a .prm file, for example prm/quickstart.prm.");
     }
     else
       run_with_scene(arguments);

@@ -158,13 +158,14 @@ namespace Voussoir
       std::error_code error;
       std::filesystem::create_directories(directory, error);
       if (error || !std::filesystem::is_directory(directory, error))
-        throw InputError("--write-solutions: the directory " + directory + " cannot be created.");
+        throw InputError("--write-solutions: the directory " + directory +
+                         " cannot be created. Choose another directory.");
       std::map<std::string, std::string> names; // file of each name; a file may be listed twice
       for (const std::string &file : files)
         if (names.try_emplace(std::filesystem::path(file).stem().string(), file).first->second != file)
           throw InputError("--write-solutions: two of the files have the name " +
                            std::filesystem::path(file).stem().string() +
-                           ", and so would their solutions. Solve them separately.");
+                           ", so their solutions would have the same name. Solve them separately.");
     }
 
     void write_solution(const std::string &directory, const std::string &file, const Unknowns &force)
@@ -235,10 +236,9 @@ namespace Voussoir
     const std::string not_converged =
         std::to_string(failures) + " of " + std::to_string(files.size() - unreadable) +
         " problems did not converge to " + options.tolerance + " within " + options.max_seconds +
-        " s each (\"converged\": false)." +
+        " s each (\"converged\": false). Increase --tolerance or --max-seconds." +
         (unbounded > 0 ? " In " + std::to_string(unbounded) +
-                             " of them forces grow without bound: is the problem "
-                             "feasible?"
+                             " of them forces grow without bound: the problem probably has no solution."
                        : "");
     if (unreadable > 0)
       throw InputError(std::to_string(unreadable) + " of " + std::to_string(files.size()) +

@@ -84,7 +84,7 @@ namespace Voussoir
       if (result.empty())
         throw InputError("There is no section or entry \"" + section + "\". Did you mean \"" +
                          nearest_name(names, section) +
-                         "\"? `voussoir parameters [prm|json|markdown] [SECTION]` prints all without one.");
+                         "\"? `voussoir parameters` without a section prints all entries.");
       return result;
     }
 

@@ -26,8 +26,8 @@ namespace Voussoir
     // Measured, see tests/program_memory.py [bytes].
     constexpr double program = 178e6, per_cell = 700., per_node = 700., per_rock_node = 2100.;
 
-    /** How much more there is with elements of degree 2: nodes, blocks, entries of factors, and of what lies
-     * on surfaces, squared. */
+    /** Factors from elements of degree 1 to elements of the given degree: number of nodes, of blocks of the
+     * stiffness matrix, of entries of matrix factors, and squared number of nodes on surfaces. */
     struct Growth
     {
       explicit Growth(const unsigned int degree)
@@ -38,12 +38,12 @@ namespace Voussoir
       double nodes = 1., blocks = 1., entries = 1., surface = 1.;
     };
 
-    /** The nodes of some cells, their neighbours, and which of them are in pairs. */
+    /** Graph of the nodes of some cells. */
     struct Graph
     {
-      std::vector<std::vector<unsigned int>> neighbours;
-      std::vector<bool>                      is_interface;
-      std::vector<unsigned int>              place; ///< of the nodes in the mesh
+      std::vector<std::vector<unsigned int>> neighbours;   ///< neighbours of each node, with the node
+      std::vector<bool>                      is_interface; ///< true for a node in a pair
+      std::vector<unsigned int>              place;        ///< number of each node in the mesh
       double                                 n_blocks() const
       {
         double sum = 0.;
@@ -53,7 +53,7 @@ namespace Voussoir
       }
     };
 
-    /** Of the cells that @p counts, without the nodes that are @p held. */
+    /** Returns the graph of the cells for which @p counts is true, without the fixed nodes @p held. */
     Graph graph_of(const HexMesh &mesh, const std::function<bool(const HexMesh::Cell &)> &counts,
                    const std::vector<bool> &held, const std::vector<bool> &in_pair)
     {
@@ -134,7 +134,8 @@ namespace Voussoir
       return 9. * base * (2. * base + joints);
     }
 
-    /** On massless rock, which couples all base nodes: dense matrix and its factor. */
+    /** Returns the entries of the dense matrix of massless rock, which couples all base nodes, and of its
+     * factor. */
     double of_dense_base(const std::vector<bool> &on_base)
     {
       const double unknowns = 3. * std::count(on_base.begin(), on_base.end(), true);
@@ -180,7 +181,7 @@ namespace Voussoir
                          [&](const Joint &joint) { return scene.joints.model_of(joint.number) == "tied"; });
     }
 
-    /** Of a rank, over the sum. */
+    /** Returns the largest sum of a rank divided by the sum of all ranks [-]. */
     double largest_share(const std::vector<double> &of_body)
     {
       const Shares        shares(of_body);
@@ -191,7 +192,7 @@ namespace Voussoir
       return sum > 0. ? *std::max_element(of_rank.begin(), of_rank.end()) / sum : 1.;
     }
 
-    /** The dam: its matrices, and its factors in @p factors. */
+    /** Returns the memory of the matrices of the dam [bytes]. @p factors: receives the memory of its factors. */
     double of_dam(const Scene &scene, const HexMesh &mesh, Factors &factors)
     {
       const HexMesh            opened = open_joints(monoliths_only(mesh));
@@ -214,7 +215,7 @@ namespace Voussoir
       const Growth        growth(scene.elements.degree);
       double              n_nodes = 0., n_blocks = 0.;
       const bool          single = scene.has_single_factors() && !coupled;
-      std::vector<double> of_body; // what is shared out
+      std::vector<double> of_body; // memory per body, distributed to the ranks
       double              largest_factor = 0.;
       for (const int volume : volumes)
       {
@@ -321,7 +322,7 @@ namespace Voussoir
     {
       return "There is not enough memory: this scene needs " +
              in_words(memory_need(scene, make_mesh(scene.mesh, scene.directory))) +
-             ". Use fewer elements, or a machine that has as much.";
+             ". Use fewer elements, or a computer with more memory.";
     }
     catch (const std::bad_alloc &)
     {

@@ -101,8 +101,9 @@ namespace Voussoir
   {
     const unsigned int count = count_of(count_text);
     if (scene.foundation.model == "rock")
-      throw InputError("`voussoir modes` requires a rigid base or massless rock, because rock with mass "
-                       "radiates energy. Use --set Foundation/Model=massless or rigid.");
+      throw InputError(
+          "`voussoir modes` requires a rigid base or massless rock, because rock with mass "
+          "radiates energy. Use --set Foundation/Model=massless or --set Foundation/Model=rigid.");
     if (!directory.empty())
       make_directory(directory);
     const Dam dam(scene, true);

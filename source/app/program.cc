@@ -61,7 +61,8 @@ namespace Voussoir
         const int status = run_command(words);
         errno = 0;
         if ((!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) && errno != EPIPE)
-          throw WriteError("Standard output cannot be written. Is the disk full?");
+          throw WriteError(
+              "Standard output cannot be written. Free disk space, or redirect the output to another file.");
         return {status, ""};
       }
       catch (const Ranks::FailedElsewhere &)

@@ -48,13 +48,14 @@ namespace Voussoir
                    run.grid().duration() - run.motion.duration());
         else if (delay > 0.)
           log.line("          the last %.3f s of the motion do not reach the dam: the run ends at "
-                   "\"Motion/Duration\"; -1 adds the travel time",
+                   "\"Motion/Duration\"; with -1 the run is longer by the travel time of the waves",
                    delay);
         if (const std::string warning = size_warning(report); !warning.empty())
           log.line("warning: %s", warning.c_str());
       }
       if (scene.mesh.source == "arch210" && scene.mesh.arch210_rock.enabled && !dam.foundation->uses_rock())
-        log.line("warning: the rock of Mesh/Arch210/Rock is ignored: Foundation/Model is rigid.");
+        log.line("warning: the rock of Mesh/Arch210/Rock is ignored: Foundation/Model is rigid. Set "
+                 "Foundation/Model to rock or massless, or Mesh/Arch210/Rock/Enabled to false.");
       if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0. && !dam.has_water)
         log.line(
             "warning: the water does not reach the dam: Reservoir/Water level is %g m, below the upstream "

@@ -35,8 +35,8 @@ namespace Voussoir
       std::ostringstream text;
       text << "Statics/Stages ends with day " << last->value
            << ", but the final stage has the temperatures of Loads/Temperature/Day, which is "
-           << temperature.day << ". Set this entry to " << last->value
-           << " if it is the day of the earthquake.";
+           << temperature.day << ". Set Loads/Temperature/Day to " << last->value
+           << " if this is the day of the earthquake.";
       return text.str();
     }
 
@@ -67,7 +67,7 @@ namespace Voussoir
         return "";
       return "Output/Envelope interval is " + std::to_string(scene.output.envelope_interval) +
              ": peaks of the stresses between are missed, so the limits of stresses are not evaluated. Set "
-             "it to 1 for Limits.";
+             "Output/Envelope interval to 1 for these limits (section Limits).";
     }
 
     bool reservoir_acts(const Scene &scene)
@@ -83,7 +83,8 @@ namespace Voussoir
       std::ostringstream text;
       text << "the mesh is from a file, and there is no Reservoir/Water level: it is "
            << scene.reservoir.level
-           << " m, that of arch210. Set the level of this dam, or set Reservoir/Density to 0.";
+           << " m, the default for the dam arch210. Set the level of this dam, or set Reservoir/Density "
+              "to 0.";
       return text.str();
     }
 

@@ -50,7 +50,7 @@ namespace Voussoir
         {"Elements/Degree is 2",
          [](const Scene &s) { return s.elements.degree == 2; },
          {"Elements/Incompatible modes"}},
-        {"no load is raised, neither water nor one of Loads",
+        {"no load is applied in increments (the water, or a load of section Loads)",
          [](const Scene &s) { return !any_acts(s, &LoadRow::is_raised); },
          {"Statics/Water increments"}},
         {"Output/Block forces is false",
@@ -66,11 +66,11 @@ namespace Voussoir
         {"Contact/Write problems is false",
          [](const Scene &s) { return !s.contact.write_problems; },
          {"Contact/Write interval"}},
-        {"Statics/Self-weight is none and there is no water",
+        {"Statics/Self-weight is none, and there is no water and no silt",
          [](const Scene &s)
          { return s.statics.self_weight == "none" && !any_acts(s, &LoadRow::is_by_gravity); },
          {"Statics/Gravity"}},
-        {"the factors of a dam on subcycled or massless rock are in double precision",
+        {"the matrix factors are always in double precision on subcycled or massless rock",
          [](const Scene &s)
          {
            return (s.foundation.model == "rock" && s.foundation.is_subcycled()) ||
@@ -118,10 +118,11 @@ namespace Voussoir
       std::string text;
       for (const WrittenEntry *entry : entries)
         text += (text.empty() ? "" : ", ") + entry->declared.name() + " (" + entry->place + ")";
-      return text + (entries.size() == 1 ? " has" : " have") + " no effect: " + reason + ".";
+      return text + (entries.size() == 1 ? " has" : " have") + " no effect: " + reason + ". Remove the " +
+             (entries.size() == 1 ? "entry" : "entries") + ", or change this condition.";
     }
 
-    /** Why the entry has no effect; empty if it has one. */
+    /** Returns the reason why the entry has no effect, or an empty string if it has an effect. */
     std::string why_idle(const Scene &scene, const std::string &name)
     {
       if (name.rfind("Foundation/", 0) == 0 && !foundation_reads(scene.foundation.model, name))
@@ -132,8 +133,7 @@ namespace Voussoir
       const std::string laws = joint_laws_with(name);
       return laws.empty() || scene.joints.any_reads(name)
                  ? ""
-                 : "only joints with the model " + laws + " use it, and Joints/Model is " +
-                       scene.joints.model;
+                 : "no joint has a suitable model (" + laws + "); Joints/Model is " + scene.joints.model;
     }
   } // namespace
 

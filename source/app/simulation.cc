@@ -40,6 +40,9 @@ namespace Voussoir
   void Simulation::run()
   {
     check_ranks();
+    if (options.resume && options.overwrite)
+      throw InputError("--resume continues the run in " + directory +
+                       ", but --overwrite replaces the run. Use only one of both options.");
     if (!options.validate)
     {
       take_blas_buffers();
@@ -48,9 +51,6 @@ namespace Voussoir
     }
     if (options.resume)
       state.start_step = checkpoint.open(log);
-    if (options.resume && options.overwrite)
-      throw InputError("--resume continues the run in " + directory +
-                       ", but --overwrite replaces the run. Use only one of both options.");
     read_input();
     report_setup(state, options.validate, log);
     if (options.validate)
@@ -68,8 +68,8 @@ namespace Voussoir
     for (const auto &[name, value] : checkpoint.provenance)
       text += name + value;
     if (!Ranks::have_same(text))
-      throw InputError("The ranks of this run have different scenes. Start all ranks with the same command, "
-                       "with access to the same program, scene and files.");
+      throw InputError("The MPI processes of this run have different scenes or options. Start all processes "
+                       "with the same command, with access to the same program, scene and files.");
   }
 
   void Simulation::claim_directory()
@@ -215,7 +215,9 @@ namespace Voussoir
       const bool resumable = std::filesystem::exists(directory + "/checkpoint.bin");
       throw ComputationError(
           error.what() + (" The tables in " + directory) + " end before this step." +
-          (resumable ? " The last checkpoint is in the same directory: continue with --resume." : ""));
+          (resumable ? " --resume continues from the last checkpoint, with other values of section Contact. "
+                       "Other changes require a new run, with --overwrite."
+                     : ""));
     }
     for (Observer *observer : *observers)
       observer->follow();
@@ -369,8 +371,8 @@ namespace Voussoir
     std::error_code error;
     std::filesystem::create_directories(parameters.write_directory, error);
     if (error)
-      throw WriteError("The directory " + parameters.write_directory +
-                       " cannot be created: " + error.message() + ". Use another directory with --output.");
+      throw WriteError("The directory " + parameters.write_directory + " cannot be created: " +
+                       error.message() + ". Choose another directory with --output.");
     if (options.resume)
       parameters.first_problem = stage == "shaking" ? state.start_step : 0;
     else
@@ -392,9 +394,12 @@ namespace Voussoir
   void Simulation::stop_if_asked() const
   {
     if (const char *signal = this->signal())
-      throw Interrupted(signal + std::string(" came before the time loop.") +
-                        (options.resume ? " The previous checkpoint is intact: continue with --resume."
-                                        : " There is no checkpoint: start the run again."));
+      throw Interrupted(signal + std::string(" was received before the first step. ") +
+                        (options.resume ? "The checkpoint is unchanged: continue with --resume."
+                         : checkpoint.exists()
+                             ? "The run has no checkpoint: start it again. The checkpoint in " + directory +
+                                   " is of the previous run."
+                             : "The run has no checkpoint: start it again."));
   }
 
   void Simulation::keep_and_stop(const char *signal)
@@ -409,7 +414,8 @@ namespace Voussoir
     std::ostringstream message;
     message << signal << " at t = " << state.newmark->state().time << " s, after step " << state.step
             << " of " << state.n_steps << ". The tables so far and a checkpoint are in " << directory
-            << ". Continue with the same command and --resume.";
+            << ". Continue with the same command and --resume"
+            << (options.overwrite ? " instead of --overwrite." : ".");
     throw Interrupted(message.str());
   }
 } // namespace Voussoir

@@ -167,11 +167,18 @@ namespace Voussoir
       constexpr const char *damaged = ". The file is damaged; write it again.";
       if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
         return "reading did not end within " + std::to_string(std::lround(std::ceil(limits.cpu_seconds))) +
-               " s of CPU time, or the reading process was killed, as for lack of memory. Check the file.";
+               " s of CPU time, or the reading process was killed, for example for lack of memory. Check the "
+               "file.";
       if (WIFSIGNALED(status))
         return std::string("the library that reads the file crashed (") + strsignal(WTERMSIG(status)) + ")" +
                damaged;
       return std::string("the library that reads the file ended the process") + damaged;
+    }
+
+    ComputationError no_child(const std::string &problem)
+    {
+      return ComputationError(problem + ": no second process can be started (" + std::strerror(errno) +
+                              "). Free memory, or increase the limit of processes (ulimit -u).");
     }
 
     /** File descriptor, closed by the destructor. */
@@ -235,12 +242,9 @@ namespace Voussoir
                    const std::function<void(PipeWriter &)> &send,
                    const std::function<void(PipeReader &)> &receive)
   {
-    const auto no_child = [&]() {
-      return ComputationError(problem + ": no second process can be started (" + std::strerror(errno) + ").");
-    };
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
-      throw no_child();
+      throw no_child(problem);
     const Descriptor reading{ends[0]};
     pid_t            id = -1;
     {
@@ -252,7 +256,7 @@ namespace Voussoir
       }
     }
     if (id < 0)
-      throw no_child();
+      throw no_child(problem);
 
     Child       reader(id);
     PipeReader  pipe(ends[0], 10. * limits.cpu_seconds);

@@ -8,7 +8,7 @@ namespace Voussoir
 {
   WriteError WriteError::of(const std::string &file)
   {
-    const std::string reason = errno != 0 ? std::strerror(errno) + std::string(".") : "is the disk full?";
+    const std::string reason = errno != 0 ? std::strerror(errno) + std::string(".") : "the disk may be full.";
     return WriteError("The file " + file + " cannot be written: " + reason);
   }
 

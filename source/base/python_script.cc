@@ -103,7 +103,8 @@ namespace Voussoir
       std::cout.flush();
       std::fflush(stdout);
       execv(python.c_str(), pointers_to(words).data());
-      throw InputError(python + " cannot be started: " + std::strerror(errno) + ".");
+      throw InputError(python + " cannot be started: " + std::strerror(errno) +
+                       ". Set the environment variable VOUSSOIR_PYTHON to another interpreter.");
     }
     throw InputError("This command requires a python3 with numpy and matplotlib (on Debian: apt-get install "
                      "python3-matplotlib). Install them, or set the environment variable VOUSSOIR_PYTHON to "

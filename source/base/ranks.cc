@@ -92,12 +92,12 @@ namespace Voussoir
         return;
       MPI_Comm machine;
       MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
-      int n_beside = 1;
-      MPI_Comm_size(machine, &n_beside);
+      int n_on_machine = 1;
+      MPI_Comm_size(machine, &n_on_machine);
       MPI_Comm_free(&machine);
       // mpirun may have bound this rank to some of the cores already.
       const int n_cores = static_cast<int>(std::thread::hardware_concurrency());
-      omp_set_num_threads(std::max(1, std::min(omp_get_num_procs(), n_cores / n_beside)));
+      omp_set_num_threads(std::max(1, std::min(omp_get_num_procs(), n_cores / n_on_machine)));
 #endif
     }
   } // namespace

@@ -15,7 +15,7 @@ namespace Voussoir
     {
       T(i, i) = diagonal[i];
       if (i + 1 < n)
-        T(i, i + 1) = beside[i];
+        T(i, i + 1) = off_diagonal[i];
     }
     T.compute_eigenvalues();
     return T.eigenvalue(n - 1);
@@ -28,12 +28,12 @@ namespace Voussoir
     double after = 0., now = 1., square = 1.;
     for (std::size_t i = n - 1; i > 0; --i)
     {
-      const double before =
-          ((eigenvalue - diagonal[i]) * now - (i + 1 < n ? beside[i] * after : 0.)) / beside[i - 1];
+      const double before = ((eigenvalue - diagonal[i]) * now - (i + 1 < n ? off_diagonal[i] * after : 0.)) /
+                            off_diagonal[i - 1];
       after = now;
       now = before;
       square += now * now;
     }
-    return beside[n - 1] / std::sqrt(square);
+    return off_diagonal[n - 1] / std::sqrt(square);
   }
 } // namespace Voussoir

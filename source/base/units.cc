@@ -135,9 +135,8 @@ namespace Voussoir
         throw InputError(what + " has no unit, but the value is \"" + value + "\". Give the number alone.");
       throw InputError(
           what + " is in " + declared + "; \"" + rest + "\" is " +
-          (written == nullptr ? std::string("not a unit that is known")
-                              : "a unit of " + std::string(written->dimension)) +
-          ". " + (target == nullptr ? "Give" : "Known are " + units_of(target->dimension) + "; or give") +
+          (written == nullptr ? std::string("not a unit") : "a unit of " + std::string(written->dimension)) +
+          ". " + (target == nullptr ? "Give" : "Use " + units_of(target->dimension) + ", or give") +
           " the number alone, in " + declared + ".");
     }
     char text[40];

@@ -81,7 +81,7 @@ namespace Voussoir
         if (is_bonded(history.memory))
         {
           tie->evaluate(force, gap, history, rho, e);
-          e.touching = face_bit | bond_bit;
+          e.active = face_bit | bond_bit;
           return;
         }
         double        slope;
@@ -89,9 +89,9 @@ namespace Voussoir
         face->evaluate(contact, gap, history, rho, e);
         for (unsigned int i = 0; i < 3; ++i)
           e.d_gap[3 * i] += e.d_force[3 * i] * slope;
-        if (e.touching && strength > 0. && history.memory[condition] == cracked &&
+        if (e.active && strength > 0. && history.memory[condition] == cracked &&
             history.memory[largest] == 0.)
-          e.touching |= bond_bit; // no opening yet: an impact must not return the tension of this step
+          e.active |= bond_bit; // no opening yet: an impact must not return the tension of this step
       }
 
       Vector3 error(const Vector3 &force, const Vector3 &gap, const PairHistory &history,
@@ -128,18 +128,18 @@ namespace Voussoir
       }
 
       Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &history,
-                            const unsigned char touching) const override
+                            const unsigned char active) const override
       {
-        return (touching & bond_bit ? tie : face)->solve_impulse(H, v, history, touching);
+        return (active & bond_bit ? tie : face)->solve_impulse(H, v, history, active);
       }
 
-      Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
-                          const unsigned char touching) const override
+      Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &applied,
+                          const unsigned char active) const override
       {
-        if (!(touching & bond_bit))
-          return face->stop_normal(H, v, spent, touching);
-        Vector3 held = spent;
-        add(held, tie->solve_impulse(H, v, {}, touching));
+        if (!(active & bond_bit))
+          return face->stop_normal(H, v, applied, active);
+        Vector3 held = applied;
+        add(held, tie->solve_impulse(H, v, {}, active));
         return held;
       }
 
@@ -187,7 +187,7 @@ namespace Voussoir
       };
       static constexpr double        bonded = 0., cracked = 1., lost = 2.; ///< values of the condition
       static constexpr double        nothing = 1e-8; ///< times end; smaller openings and slips are round-off
-      static constexpr unsigned char face_bit = 1, bond_bit = 2; ///< of PairEquations::touching
+      static constexpr unsigned char face_bit = 1, bond_bit = 2; ///< of PairEquations::active
 
       bool is_bonded(const double *memory) const { return strength > 0. && memory[condition] == bonded; }
 
@@ -228,12 +228,14 @@ namespace Voussoir
   std::unique_ptr<JointLaw> make_cohesive_law(const LawParameters &parameters)
   {
     if (parameters.equations != Equations::alart_curnier)
-      throw InputError(
-          "Joints/Equations: the law cohesive supports alart-curnier only. Set the entry to alart-curnier.");
+      throw InputError("The joint model cohesive supports alart-curnier only. Set \"Joints/Equations\" to "
+                       "alart-curnier.");
     if (!(parameters.strength >= 0.))
-      throw InputError("Joints/Strength must be at least 0 Pa.");
+      throw InputError("Entry \"Joints/Strength\" must be at least 0 Pa, but it is " +
+                       std::to_string(parameters.strength) + " Pa.");
     if (!(parameters.fracture_energy >= 0. && std::isfinite(parameters.fracture_energy)))
-      throw InputError("Joints/Fracture energy must be finite and at least 0 N/m.");
+      throw InputError("Entry \"Joints/Fracture energy\" must be finite and at least 0 N/m, but it is " +
+                       std::to_string(parameters.fracture_energy) + " N/m.");
     return std::make_unique<Cohesive>(parameters);
   }
 
@@ -241,7 +243,7 @@ namespace Voussoir
   {
     return parameters.strength != 0.
                ? ""
-               : "Joints/Strength is 0: the model cohesive is then FJA. Set the tensile strength of "
-                 "the bond, such as 1 MPa.";
+               : "Joints/Strength is 0, so the joint model cohesive is equal to FJA. Set the tensile "
+                 "strength of the bond, such as 1 MPa, or set Joints/Model to FJA.";
   }
 } // namespace Voussoir

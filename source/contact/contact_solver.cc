@@ -84,7 +84,7 @@ namespace Voussoir
   ContactSolver::ContactSolver(const ContactOperator &W, std::vector<const JointLaw *> laws,
                                const ContactParameters &parameters)
       : W(W), law(std::move(laws)), parameters(parameters), jacobian(W.make_jacobian()),
-        equations(law.size()), state(law.size(), PairState::open), touch(law.size(), 0)
+        equations(law.size()), state(law.size(), PairState::open), active(law.size(), 0)
   {
     double trace = 0.;
     for (std::size_t i = 0; i < law.size(); ++i)
@@ -98,15 +98,15 @@ namespace Voussoir
     for (std::size_t i = 0; i < law.size(); ++i)
     {
       number.push_back(no_surfaces);
-      beside_of_pair.push_back(begin);
+      secondary_of_pair.push_back(begin);
       if (const SurfacesLaw *surfaces = law[i]->surfaces_law())
       {
         number.back() = with_surfaces.size();
         with_surfaces.push_back({i, begin, surfaces, {}});
-        begin += 3 * surfaces->n_beside();
+        begin += 3 * surfaces->n_secondary();
       }
     }
-    beside_of_pair.push_back(begin);
+    secondary_of_pair.push_back(begin);
     mean_rho = trace > 0. ? 3. * law.size() / trace : 1.;
     for (double &r : rho)
       if (!(r > 0.))
@@ -139,17 +139,17 @@ namespace Voussoir
                          }
                          WithSurfaces &pair = with_surfaces[number[i]];
                          of_pair[i] = pair.surfaces.evaluate(get(x.force, i), shifted_gap(i, x),
-                                                             x.beside.data() + pair.begin, equations[i]) /
+                                                             x.secondary.data() + pair.begin, equations[i]) /
                                       (rho[i] * rho[i]);
                        });
-    beside_merit = 0.;
+    secondary_merit = 0.;
     for (const WithSurfaces &pair : with_surfaces)
-      beside_merit += of_pair[pair.pair];
+      secondary_merit += of_pair[pair.pair];
   }
 
   double ContactSolver::merit() const
   {
-    double sum = beside_merit;
+    double sum = secondary_merit;
     for (std::size_t i = 0; i < law.size(); ++i)
       sum += dot(equations[i].residual, equations[i].residual) / (rho[i] * rho[i]);
     return sum;
@@ -170,8 +170,8 @@ namespace Voussoir
                            return;
                          }
                          const WithSurfaces &pair = with_surfaces[number[i]];
-                         of_pair[i] =
-                             pair.surfaces.error_square(r, g, x.beside.data() + pair.begin, mean_rho, rigid);
+                         of_pair[i] = pair.surfaces.error_square(r, g, x.secondary.data() + pair.begin,
+                                                                 mean_rho, rigid);
                        });
     double f = 0., p = 0., q = 0., u = 0.;
     for (std::size_t i = 0; i < law.size(); ++i)
@@ -221,7 +221,7 @@ namespace Voussoir
   void ContactSolver::set_force(Iterate &x, const Best &from)
   {
     x.force = from.force;
-    x.beside = from.beside;
+    x.secondary = from.secondary;
     refresh_gap(x);
   }
 
@@ -229,7 +229,7 @@ namespace Voussoir
   {
     const double r = residual(x);
     if (r < best.residual)
-      best = {r, x.force, x.beside};
+      best = {r, x.force, x.secondary};
     return r;
   }
 
@@ -246,12 +246,12 @@ namespace Voussoir
       if (number[pair] == no_surfaces)
         return law[pair]->solve(H, free, (*history)[pair]);
       WithSurfaces &with = with_surfaces[number[pair]];
-      return with.surfaces.solve(H, free, accuracy, get(x.force, pair), x.beside.data() + with.begin);
+      return with.surfaces.solve(H, free, accuracy, get(x.force, pair), x.secondary.data() + with.begin);
     };
     for (unsigned int i = 0; i < count && !out_of_time(); ++i, ++result.sweeps)
     {
       W.sweep(solve_pair, x.force, x.gap);
-      W.gather_pairs(x.beside, beside_of_pair);
+      W.gather_pairs(x.secondary, secondary_of_pair);
     }
     drift += 1e-6;
     if (!W.is_in_blocks() && count > 0)
@@ -269,7 +269,7 @@ namespace Voussoir
       trial = x;
       add(trial.force, t, step.force);
       add(trial.gap, t, step.gap);
-      add(trial.beside, t, step.beside);
+      add(trial.secondary, t, step.secondary);
       evaluate(trial);
       if (merit() <= (1. - 2e-4 * t) * bound || halving == 12)
       {
@@ -314,13 +314,13 @@ namespace Voussoir
     result.factorisations += jacobian->update(equations);
     result.krylov += jacobian->solve(forcing, step.force, step.gap);
     ++result.iterations;
-    step.beside.resize(x.beside.size());
+    step.secondary.resize(x.secondary.size());
     for_each_in_chunks(with_surfaces.size(),
                        [&](const std::size_t i)
                        {
                          const WithSurfaces &pair = with_surfaces[i];
                          pair.surfaces.expand(equations[pair.pair], get(step.force, pair.pair),
-                                              get(step.gap, pair.pair), step.beside.data() + pair.begin);
+                                              get(step.gap, pair.pair), step.secondary.data() + pair.begin);
                        });
     const double t = line_search(bound, step, x);
     return 1e-6 * t * mean_rho * std::sqrt(norm_square(step.gap));
@@ -333,7 +333,7 @@ namespace Voussoir
   {
     evaluate(x);
     double             now = checked_residual(target, residual(x), x), previous = now;
-    Best               found{now, x.force, x.beside};
+    Best               found{now, x.force, x.secondary};
     std::deque<double> merits(1, merit());
     unsigned int       stalled = 0;
     for (unsigned int k = 0; now > target && k < max_steps && steps_left() > 0 && !out_of_time(); ++k)
@@ -352,7 +352,7 @@ namespace Voussoir
         merits.pop_front();
       stalled = now < .9 * found.residual ? 0 : stalled + 1;
       if (now < found.residual)
-        found = {now, x.force, x.beside};
+        found = {now, x.force, x.secondary};
       if (stalled == patience)
         break;
     }

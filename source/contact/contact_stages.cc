@@ -38,7 +38,8 @@ namespace Voussoir
     proximal.alpha = alpha;
     proximal.centre = x.force;
     for (WithSurfaces &pair : with_surfaces)
-      pair.surfaces.regularise(alpha / rho[pair.pair], get(x.force, pair.pair), x.beside.data() + pair.begin);
+      pair.surfaces.regularise(alpha / rho[pair.pair], get(x.force, pair.pair),
+                               x.secondary.data() + pair.begin);
   }
 
   /** Solves regularised problems around the last solution. Convergence is superlinear, since alpha falls with
@@ -133,7 +134,7 @@ namespace Voussoir
     {
       best = Best();
       std::fill(x.force.begin(), x.force.end(), 0.);
-      std::fill(x.beside.begin(), x.beside.end(), 0.);
+      std::fill(x.secondary.begin(), x.secondary.end(), 0.);
       refresh_gap(x);
     }
     if (parameters.method == "proximal")
@@ -168,9 +169,9 @@ namespace Voussoir
       if (now <= parameters.tolerance)
         break;
       for (WithSurfaces &pair : with_surfaces)
-        pair.surfaces.recentre(x.beside.data() + pair.begin, seat_alpha / rho[pair.pair]);
+        pair.surfaces.recentre(x.secondary.data() + pair.begin, seat_alpha / rho[pair.pair]);
     }
-    best = {now, x.force, x.beside};
+    best = {now, x.force, x.secondary};
   }
 
   ContactResult ContactSolver::solve(const Unknowns &right_hand_side, const Unknowns &start, Unknowns &force,
@@ -222,7 +223,7 @@ namespace Voussoir
     for (WithSurfaces &pair : with_surfaces)
     {
       pair.surfaces.start(pair.law->present(pairs[pair.pair]), rho[pair.pair], seat_alpha / rho[pair.pair]);
-      x.beside.resize(pair.begin + 3 * pair.law->n_beside());
+      x.secondary.resize(pair.begin + 3 * pair.law->n_secondary());
     }
     refresh_gap(x);
     return x;
@@ -235,14 +236,14 @@ namespace Voussoir
     const bool defined = is_finite(*b) && is_finite(pairs);
     if (defined)
     {
-      best = {residual(x, true), x.force, x.beside};
+      best = {residual(x, true), x.force, x.secondary};
       // Test for open joints: Newton's method only approximates zero forces, which is insufficient if
       // b is zero.
-      const Iterate none{Unknowns(force.size(), 0.), *b, Unknowns(x.beside.size(), 0.)};
+      const Iterate none{Unknowns(force.size(), 0.), *b, Unknowns(x.secondary.size(), 0.)};
       if (best.residual > tolerance && residual(none, true) <= tolerance)
       {
         x = none;
-        best = {residual(x, true), x.force, x.beside};
+        best = {residual(x, true), x.force, x.secondary};
       }
     }
     if (defined && best.residual > tolerance)
@@ -261,11 +262,11 @@ namespace Voussoir
     for (std::size_t i = 0; i < law.size(); ++i)
     {
       state[i] = equations[i].state;
-      touch[i] = equations[i].touching;
+      active[i] = equations[i].active;
     }
     for (const WithSurfaces &pair : with_surfaces)
-      touch[pair.pair] =
-          pair.surfaces.touching(get(x.force, pair.pair), get(x.gap, pair.pair), touch[pair.pair]);
+      active[pair.pair] =
+          pair.surfaces.closed_surfaces(get(x.force, pair.pair), get(x.gap, pair.pair), active[pair.pair]);
     force.swap(x.force);
     gap.swap(x.gap);
     return result;

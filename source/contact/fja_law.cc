@@ -33,17 +33,17 @@ namespace Voussoir
       }
 
       Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &,
-                            const unsigned char touching) const override
+                            const unsigned char active) const override
       {
-        return touching ? solve_coulomb(H, v, mu) : Vector3{};
+        return active ? solve_coulomb(H, v, mu) : Vector3{};
       }
 
       Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &w, const double still,
-                                 const PairHistory &history, const unsigned char touching) const override
+                                 const PairHistory &history, const unsigned char active) const override
       {
         const double speed = length(w[1], w[2]);
-        if (speed <= still || !touching)
-          return solve_impulse(H, b, history, touching);
+        if (speed <= still || !active)
+          return solve_impulse(H, b, history, active);
         const double e1 = w[1] / speed, e2 = w[2] / speed, h = H[0] - mu * (H[1] * e1 + H[2] * e2);
         const double normal = h > 0. ? std::max(0., -b[0] / h) : std::max(0., -b[0] / H[0]);
         return {{normal, -mu * normal * e1, -mu * normal * e2}};
@@ -187,7 +187,7 @@ namespace Voussoir
           e.d_force[k] = dY[k] - b[k];
         }
         e.state = state;
-        e.touching = state != PairState::open;
+        e.active = state != PairState::open;
       }
     };
   } // namespace

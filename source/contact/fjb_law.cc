@@ -25,7 +25,7 @@ namespace Voussoir
         else
           normal_condition(force[0], gap[0], rho, e);
         no_slip(gap[1], gap[2], rho, e);
-        e.state = e.touching ? PairState::stick : PairState::open;
+        e.state = e.active ? PairState::stick : PairState::open;
       }
       Vector3 error(const Vector3 &force, const Vector3 &gap, const PairHistory &,
                     const double rho) const override
@@ -38,9 +38,9 @@ namespace Voussoir
         return f[0] > 0. ? f : tie_rows(H, b, tangential);
       }
       Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &history,
-                            const unsigned char touching) const override
+                            const unsigned char active) const override
       {
-        return touching ? solve(H, v, history) : tie_rows(H, v, tangential);
+        return active ? solve(H, v, history) : tie_rows(H, v, tangential);
       }
       bool is_tangentially_tied() const override { return true; }
 

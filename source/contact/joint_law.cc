@@ -13,16 +13,30 @@ namespace Voussoir
     return e.residual;
   }
 
-  Vector3 JointLaw::stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
-                                const unsigned char touching) const
+  Vector3 JointLaw::stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &applied,
+                                const unsigned char active) const
   {
-    return {
-        {touching ? std::max(std::min(0., spent[0]), spent[0] - v[0] / H[0]) : spent[0], spent[1], spent[2]}};
+    return {{active ? std::max(std::min(0., applied[0]), applied[0] - v[0] / H[0]) : applied[0], applied[1],
+             applied[2]}};
   }
 
   Vector3 JointLaw::solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &, double,
-                                       const PairHistory &history, const unsigned char touching) const
+                                       const PairHistory &history, const unsigned char active) const
   {
-    return solve_impulse(H, b, history, touching);
+    return solve_impulse(H, b, history, active);
+  }
+
+  double JointLaw::utilisation(const Vector3 &, const Vector3 &, const PairHistory &) const
+  {
+    return 0.;
+  }
+
+  void JointLaw::apply_event(double *) const {}
+
+  void JointLaw::commit(const Vector3 &, const Vector3 &, const PairHistory &, double *) const {}
+
+  double JointLaw::bond_energy(const Vector3 &, double, const double *) const
+  {
+    return 0.;
   }
 } // namespace Voussoir

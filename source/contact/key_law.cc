@@ -12,14 +12,12 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double pi = 3.141592653589793;
-
     /** Adds the flanks of a trapezoidal key that restrains slip in direction @p d (1 or 2): phi = g sin a -/+
      *  d cos a + c >= 0 (doc/method.md, Joint laws). */
     void add_flanks(const unsigned int d, const KeyParameters &keys, const double friction,
                     std::vector<ContactSurface> &surfaces)
     {
-      const double a = keys.flank_angle * pi / 180.;
+      const double a = keys.flank_angle * M_PI / 180.;
       // For rectangular keys sin and cos are exact, without round-off.
       const double s = keys.flank_angle == 0. ? 0. : std::sin(a),
                    c = keys.flank_angle == 0. ? 1. : std::cos(a);
@@ -82,7 +80,7 @@ namespace Voussoir
        * socket [m]. */
       unsigned int n_memory() const override
       {
-        return n_beside() == 0 ? 0 : 1 + (seat > 0. ? 2 * n_beside() + 1 : 0);
+        return n_secondary() == 0 ? 0 : 1 + (seat > 0. ? 2 * n_secondary() + 1 : 0);
       }
 
       bool needs_mean_force() const override { return seat > 0.; }
@@ -104,13 +102,13 @@ namespace Voussoir
       void commit(const Vector3 &, const Vector3 &gap, const PairHistory &history,
                   double *memory) const override
       {
-        if (n_beside() == 0)
+        if (n_secondary() == 0)
           return;
         const PresentSurfaces now = present(history);
         const double          left_with = compression_of(history);
         memory[0] = 0.;
         if (seat > 0.)
-          memory[2 * n_beside() + 1] =
+          memory[2 * n_secondary() + 1] =
               !is_out(gap) ? 0. : (is_out(history.start) ? left_with : depth_at_exit(history.start, gap));
         for (std::size_t k = 1; k < surfaces.size() && seat > 0.; ++k)
         {
@@ -179,8 +177,8 @@ namespace Voussoir
       /** Returns the compression of a flank when the key left its socket [m]. */
       double compression_of(const PairHistory &history) const
       {
-        return seat > 0. && n_beside() > 0 && history.memory
-                   ? std::max(0., history.memory[2 * n_beside() + 1])
+        return seat > 0. && n_secondary() > 0 && history.memory
+                   ? std::max(0., history.memory[2 * n_secondary() + 1])
                    : 0.;
       }
 
@@ -191,7 +189,7 @@ namespace Voussoir
           return Contact::flanks;
         if (is_out_of_line(history.start, history))
           return Contact::crest;
-        const double events = history.memory && n_beside() > 0 ? history.memory[0] : 0.;
+        const double events = history.memory && n_secondary() > 0 ? history.memory[0] : 0.;
         return events == 0. ? Contact::face : events == 1. ? Contact::flanks : Contact::crest;
       }
 
@@ -231,17 +229,24 @@ namespace Voussoir
     const KeyParameters &keys = parameters.keys;
     if (parameters.equations != Equations::alart_curnier)
       throw InputError(
-          "Joints/Equations: the law KSM supports only \"alart-curnier\", since a pair with keys has several "
-          "contact surfaces.");
+          "The joint model KSM supports alart-curnier only, because a pair with keys has several "
+          "contact surfaces. Set \"Joints/Equations\" to alart-curnier.");
     if (!(keys.flank_angle >= 0. && keys.flank_angle < 90.))
-      throw InputError("Joints/Keys/Flank angle must be at least 0 and less than 90 degrees.");
+      throw InputError(
+          "Entry \"Joints/Keys/Flank angle\" must be at least 0 and less than 90 degrees, but it "
+          "is " +
+          std::to_string(keys.flank_angle) + " degrees.");
     if (!(keys.height >= 0. && std::isfinite(keys.height)) ||
         !(keys.clearance >= 0. && std::isfinite(keys.clearance)))
-      throw InputError("Joints/Keys/Height and Joints/Keys/Clearance must be finite and at least 0 m.");
+      throw InputError("Entries \"Joints/Keys/Height\" (" + std::to_string(keys.height) +
+                       " m) and \"Joints/Keys/Clearance\" (" + std::to_string(keys.clearance) +
+                       " m) must be finite and at least 0 m.");
     if (!((keys.friction >= 0. && keys.friction <= 10.) ||
           keys.friction == -1.)) // larger values lock all flanks
       throw InputError(
-          "Joints/Keys/Friction must be at least 0 and at most 10, or -1: the friction of the faces.");
+          "Entry \"Joints/Keys/Friction\" must be at least 0 and at most 10, or -1 for the friction "
+          "of the faces, but it is " +
+          std::to_string(keys.friction) + ".");
     const double                flank_friction = keys.friction < 0. ? parameters.friction : keys.friction;
     std::vector<ContactSurface> surfaces(1,
                                          {{{1., 0., 0., 0., 1., 0., 0., 0., 1.}}, 0., parameters.friction});

@@ -37,7 +37,7 @@ namespace Voussoir
          "FJA with shear keys (Joints/Keys)",
          make_key_law,
          {"Joints/Friction", "Joints/Equations", "Joints/Keys/"},
-         " (with a seat compliance)",
+         " (unless \"Joints/Keys/Seat compliance\" is 0)",
          key_law_warning},
         {"cohesive",
          "FJA with a tensile strength (Joints/Strength)",

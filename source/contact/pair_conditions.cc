@@ -8,7 +8,7 @@ namespace Voussoir
     const bool closed = force - rho * opening > 0.;
     e.residual[0] = closed ? rho * opening : force;
     (closed ? e.d_gap[0] : e.d_force[0]) = closed ? rho : 1.;
-    e.touching = closed;
+    e.active = closed;
     return closed;
   }
 
@@ -18,7 +18,7 @@ namespace Voussoir
     e.residual[0] = force + gap - r;
     e.d_force[0] = r > 0. ? 1. - force / r : 1. - std::sqrt(.5);
     e.d_gap[0] = rho * (r > 0. ? 1. - gap / r : 1. - std::sqrt(.5));
-    e.touching = force > gap;
+    e.active = force > gap;
   }
 
   void no_slip(const double slip_a, const double slip_b, const double rho, PairEquations &e)

@@ -63,35 +63,36 @@ namespace Voussoir
   {
     present = std::move(surfaces);
     rho = new_rho;
-    other.assign(n_beside(), {});
+    other.assign(n_secondary(), {});
     const Forces none{};
     recentre(none.data(), proximal);
   }
 
-  void PairSurfaces::recentre(const double *beside, const double proximal)
+  void PairSurfaces::recentre(const double *secondary, const double proximal)
   {
     seats = present.surfaces;
     regularised = false;
-    for (std::size_t k = 0; k < n_beside(); ++k)
+    for (std::size_t k = 0; k < n_secondary(); ++k)
       if (ContactSurface &s = seats[k + 1]; s.compliance < proximal)
       {
-        soften(s, proximal - s.compliance, get(beside, k));
+        soften(s, proximal - s.compliance, get(secondary, k));
         regularised = true;
       }
-    regularise(0., {}, beside);
+    regularise(0., {}, secondary);
   }
 
-  void PairSurfaces::regularise(const double proximal, const Vector3 &force, const double *beside)
+  void PairSurfaces::regularise(const double proximal, const Vector3 &force, const double *secondary)
   {
     regular = seats;
     for (std::size_t k = 0; k < regular.size() && proximal > 0.; ++k)
-      soften(regular[k], proximal, k == 0 ? seats[0].axes * face_force(force, beside) : get(beside, k - 1));
+      soften(regular[k], proximal,
+             k == 0 ? seats[0].axes * face_force(force, secondary) : get(secondary, k - 1));
     has_plain_face = regular[0].axes == one;
     own_size = 0.;
     for (const ContactSurface &s : regular)
       own_size = std::max({own_size, std::abs(s.clearance), s.compliance * norm(s.rest)});
     softest = rho;
-    for (std::size_t k = 0; k < n_beside(); ++k)
+    for (std::size_t k = 0; k < n_secondary(); ++k)
     {
       other[k].rho = rho / (1. + rho * regular[k + 1].compliance);
       other[k].from = regular[k + 1].axes * present.start;
@@ -99,10 +100,10 @@ namespace Voussoir
     }
   }
 
-  Vector3 PairSurfaces::face_force(Vector3 force, const double *beside) const
+  Vector3 PairSurfaces::face_force(Vector3 force, const double *secondary) const
   {
-    for (std::size_t k = 0; k < n_beside(); ++k)
-      if (const Vector3 r = get(beside, k); r != Vector3{}) // most flanks are open
+    for (std::size_t k = 0; k < n_secondary(); ++k)
+      if (const Vector3 r = get(secondary, k); r != Vector3{}) // most flanks are open
         force = force - transpose_times(present.surfaces[k + 1].axes, r);
     return force;
   }
@@ -110,7 +111,7 @@ namespace Voussoir
   /** Computes the equations of alart_curnier() without their derivatives. resolve() has these
    * in closed form. */
   void PairSurfaces::equations_of(const ContactSurface &s, const Vector3 &force, const Vector3 &gap,
-                                  Beside &mine)
+                                  Secondary &mine)
   {
     Vector3 moved = s.axes * gap;
     moved[0] += s.clearance;
@@ -136,11 +137,11 @@ namespace Voussoir
       mine.residual[c] = force[c] - radius * mine.direction[c - 1];
   }
 
-  double PairSurfaces::evaluate(const Vector3 &force, const Vector3 &gap, const double *beside,
+  double PairSurfaces::evaluate(const Vector3 &force, const Vector3 &gap, const double *secondary,
                                 PairEquations &e)
   {
     const ContactSurface &face = regular[0];
-    const Vector3         on_pair = face_force(force, beside),
+    const Vector3         on_pair = face_force(force, secondary),
                   on_face = has_plain_face ? on_pair : face.axes * on_pair,
                   moved = face.movement(gap, present.start, on_face);
     alart_curnier(on_face, moved[0], {{moved[1], moved[2]}}, face.friction, rho, e);
@@ -149,13 +150,13 @@ namespace Voussoir
     if (!has_plain_face)
       rotate(face.axes, e);
     bool sticks = e.state == PairState::stick;
-    e.touching = e.state == PairState::open ? 0 : present.bits[0];
+    e.active = e.state == PairState::open ? 0 : present.bits[0];
     double square = 0.;
-    for (std::size_t k = 0; k < n_beside(); ++k)
+    for (std::size_t k = 0; k < n_secondary(); ++k)
     {
       const ContactSurface &s = regular[k + 1];
-      const Vector3         r = get(beside, k);
-      Beside               &mine = other[k];
+      const Vector3         r = get(secondary, k);
+      Secondary            &mine = other[k];
       mine.is_idle = r == Vector3{} && s.distance(gap) > s.compliance * s.rest[0];
       if (mine.is_idle)
         continue;
@@ -163,13 +164,14 @@ namespace Voussoir
       square += dot(mine.residual, mine.residual);
       sticks = sticks || mine.state == PairState::stick;
       if (mine.state != PairState::open)
-        e.touching |= present.bits[k + 1];
+        e.active |= present.bits[k + 1];
     }
-    e.state = e.touching == 0 ? PairState::open : (sticks ? PairState::stick : PairState::slip);
+    e.state = e.active == 0 ? PairState::open : (sticks ? PairState::stick : PairState::slip);
     return square;
   }
 
-  unsigned char PairSurfaces::touching(const Vector3 &force, const Vector3 &gap, unsigned char carrying) const
+  unsigned char PairSurfaces::closed_surfaces(const Vector3 &force, const Vector3 &gap,
+                                              unsigned char carrying) const
   {
     const double size = norm(gap) + norm(present.start);
     for (std::size_t k = 0; k < present.surfaces.size() && carrying != 0; ++k)
@@ -185,7 +187,7 @@ namespace Voussoir
 
   /** Linearises the force of a surface. mine.constant receives its change for a constant gap; its stiffness
    * against the gap is added to @p stiffness. */
-  void PairSurfaces::resolve(const ContactSurface &s, Beside &mine, Matrix3 &stiffness)
+  void PairSurfaces::resolve(const ContactSurface &s, Secondary &mine, Matrix3 &stiffness)
   {
     const Vector3 &res = mine.residual;
     const double   c = s.compliance;
@@ -220,7 +222,7 @@ namespace Voussoir
   }
 
   /** Computes the change of the force of a surface for a change of the gap. */
-  void PairSurfaces::find_change(const ContactSurface &s, const Beside &mine, const Vector3 &d_gap,
+  void PairSurfaces::find_change(const ContactSurface &s, const Secondary &mine, const Vector3 &d_gap,
                                  double *change)
   {
     std::copy(mine.constant.begin(), mine.constant.end(), change);
@@ -248,7 +250,7 @@ namespace Voussoir
     bool any = false;
     stiffness = {};
     constant = {};
-    for (std::size_t k = 0; k < n_beside(); ++k)
+    for (std::size_t k = 0; k < n_secondary(); ++k)
       if (!other[k].is_idle)
       {
         resolve(regular[k + 1], other[k], stiffness);
@@ -281,10 +283,10 @@ namespace Voussoir
   }
 
   void PairSurfaces::expand(const PairEquations &e, const Vector3 &d_force, const Vector3 &d_gap,
-                            double *d_beside) const
+                            double *d_secondary) const
   {
-    std::fill(d_beside, d_beside + 3 * n_beside(), 0.);
-    if (std::all_of(other.begin(), other.end(), [](const Beside &mine) { return mine.is_idle; }))
+    std::fill(d_secondary, d_secondary + 3 * n_secondary(), 0.);
+    if (std::all_of(other.begin(), other.end(), [](const Secondary &mine) { return mine.is_idle; }))
       return;
     Vector3 rest = e.residual; // residual of the equations for these changes of force and gap
     add(rest, e.d_force * d_force);
@@ -294,24 +296,24 @@ namespace Voussoir
     for (unsigned int c = 0; c < 3; ++c)
       normal[4 * c] += 1e-8 * rho * rho;
     const Vector3 moved = d_gap - Voussoir::inverse(normal) * (adjoint * rest);
-    for (std::size_t k = 0; k < n_beside(); ++k)
+    for (std::size_t k = 0; k < n_secondary(); ++k)
       if (!other[k].is_idle)
-        find_change(regular[k + 1], other[k], moved, d_beside + 3 * k);
+        find_change(regular[k + 1], other[k], moved, d_secondary + 3 * k);
   }
 
-  double PairSurfaces::error_square(const Vector3 &force, const Vector3 &gap, const double *beside,
+  double PairSurfaces::error_square(const Vector3 &force, const Vector3 &gap, const double *secondary,
                                     const double mean_rho, const bool rigid) const
   {
     const std::vector<ContactSurface> &list = rigid ? present.surfaces : regular;
     const ContactSurface              &face = list[0];
-    const Vector3                      on_face = face.axes * face_force(force, beside),
+    const Vector3                      on_face = face.axes * face_force(force, secondary),
                   error = natural_map(on_face, face.movement(gap, present.start, on_face), face.friction,
                                       mean_rho);
     double square = dot(error, error);
-    for (std::size_t k = 0; k < n_beside(); ++k)
+    for (std::size_t k = 0; k < n_secondary(); ++k)
     {
       const ContactSurface &s = list[k + 1];
-      const Vector3         r = get(beside, k);
+      const Vector3         r = get(secondary, k);
       if (r == Vector3{} && s.distance(gap) > s.compliance * s.rest[0])
         continue;
       const Vector3 e = natural_map(r, s.movement(gap, present.start, r), s.friction, mean_rho);

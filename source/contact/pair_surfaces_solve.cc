@@ -53,20 +53,20 @@ namespace Voussoir
   }
 
   /** Performs Newton's method without a line search. Returns the smallest norm of the equations; @p force and
-   * @p beside are the iterate that has it. */
+   * @p secondary are the iterate that has it. */
   double PairSurfaces::newton(const Matrix3 &H, const Vector3 &b, const double scale, const double accuracy,
-                              Vector3 &force, Forces &beside)
+                              Vector3 &force, Forces &secondary)
   {
     double  smallest = std::numeric_limits<double>::infinity();
     Vector3 now = force;
-    Forces  now_beside;
-    std::copy_n(beside.begin(), 3 * n_beside(), now_beside.begin());
+    Forces  now_secondary;
+    std::copy_n(secondary.begin(), 3 * n_secondary(), now_secondary.begin());
     for (unsigned int i = 0; i < 20 && smallest > accuracy * scale; ++i)
     {
       PairEquations e;
       Vector3       gap = H * now;
       add(gap, b);
-      const double square = evaluate(now, gap, now_beside.data(), e),
+      const double square = evaluate(now, gap, now_secondary.data(), e),
                    measure = std::sqrt(square + dot(e.residual, e.residual));
       if (!std::isfinite(measure) || (smallest <= 1e2 * accuracy * scale && !(measure < .5 * smallest)))
         break;
@@ -74,7 +74,7 @@ namespace Voussoir
       {
         smallest = measure;
         force = now;
-        std::copy_n(now_beside.begin(), 3 * n_beside(), beside.begin());
+        std::copy_n(now_secondary.begin(), 3 * n_secondary(), secondary.begin());
       }
       if (smallest <= accuracy * scale)
         break;
@@ -87,59 +87,60 @@ namespace Voussoir
                            (e.d_force * constant - e.residual),
                     d_gap = H * step;
       add(now, step);
-      for (std::size_t k = 0; k < n_beside(); ++k)
+      for (std::size_t k = 0; k < n_secondary(); ++k)
         if (!other[k].is_idle)
         {
           double change[3];
           find_change(regular[k + 1], other[k], d_gap, change);
           for (unsigned int c = 0; c < 3; ++c)
-            now_beside[3 * k + c] += change[c];
+            now_secondary[3 * k + c] += change[c];
         }
     }
     return smallest;
   }
 
   Vector3 PairSurfaces::solve(const Matrix3 &H, const Vector3 &b, const double accuracy, Vector3 force,
-                              double *beside)
+                              double *secondary)
   {
-    const bool idle = std::all_of(beside, beside + 3 * n_beside(), [](const double r) { return r == 0.; });
+    const bool idle =
+        std::all_of(secondary, secondary + 3 * n_secondary(), [](const double r) { return r == 0.; });
     if (idle && face_alone(H, b, force))
     {
-      std::fill(beside, beside + 3 * n_beside(), 0.);
+      std::fill(secondary, secondary + 3 * n_secondary(), 0.);
       return force;
     }
     const double scale = softest * std::max(norm(b) + norm(present.start), own_size);
     Forces       now{};
-    std::copy(beside, beside + 3 * n_beside(), now.begin());
+    std::copy(secondary, secondary + 3 * n_secondary(), now.begin());
     double smallest = newton(H, b, scale, accuracy, force, now);
     if (smallest <= 1e2 * accuracy * scale)
     {
-      std::copy(now.begin(), now.begin() + 3 * n_beside(), beside);
+      std::copy(now.begin(), now.begin() + 3 * n_secondary(), secondary);
       return force;
     }
     // If Newton cycles: Gauss-Seidel iterations over the surfaces, first from zero forces.
-    std::vector<Vector3> r(1 + n_beside(), Vector3{});
+    std::vector<Vector3> r(1 + n_secondary(), Vector3{});
     for (unsigned int round = 0; round < 30 && !(smallest <= 1e2 * accuracy * scale); ++round)
     {
       for (unsigned int i = 0; i < 5u << std::min(round, 5u); ++i)
         sweep(regular, present.start, H, b, r);
       Vector3 swept{};
-      Forces  swept_beside{};
+      Forces  swept_secondary{};
       for (std::size_t k = 0; k < r.size(); ++k)
       {
         add(swept, transpose_times(regular[k].axes, r[k]));
         if (k > 0)
-          std::copy(r[k].begin(), r[k].end(), swept_beside.begin() + 3 * (k - 1));
+          std::copy(r[k].begin(), r[k].end(), swept_secondary.begin() + 3 * (k - 1));
       }
-      const double found = newton(H, b, scale, accuracy, swept, swept_beside);
+      const double found = newton(H, b, scale, accuracy, swept, swept_secondary);
       if (found < smallest)
       {
         smallest = found;
         force = swept;
-        now = swept_beside;
+        now = swept_secondary;
       }
     }
-    std::copy(now.begin(), now.begin() + 3 * n_beside(), beside);
+    std::copy(now.begin(), now.begin() + 3 * n_secondary(), secondary);
     return force;
   }
 } // namespace Voussoir

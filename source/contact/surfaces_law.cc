@@ -26,18 +26,18 @@ namespace Voussoir
   {
     PairSurfaces pair;
     pair.start(present(history), rho, 1e-3 / rho);
-    std::vector<double> beside(3 * pair.n_beside());
-    for (std::size_t k = 0; k < pair.n_beside(); ++k)
+    std::vector<double> secondary(3 * pair.n_secondary());
+    for (std::size_t k = 0; k < pair.n_secondary(); ++k)
     {
       const Vector3 r = pair.surfaces().surfaces[k + 1].seat_force(gap, pair.surfaces().start);
-      std::copy(r.begin(), r.end(), beside.begin() + 3 * k);
+      std::copy(r.begin(), r.end(), secondary.begin() + 3 * k);
     }
-    pair.evaluate(force, gap, beside.data(), e);
+    pair.evaluate(force, gap, secondary.data(), e);
     pair.condense(e, false);
   }
 
   Vector3 solve_surfaces(PresentSurfaces present, const Matrix3 &H, const Vector3 &b,
-                         std::vector<double> *beside)
+                         std::vector<double> *secondary)
   {
     double size = norm(b) + norm(present.start);
     for (const ContactSurface &s : present.surfaces)
@@ -45,7 +45,7 @@ namespace Voussoir
     const double rho = 3. / (H[0] + H[4] + H[8]), good = 1e-14 * rho * size, first = 1e-3 / rho;
     PairSurfaces pair;
     pair.start(std::move(present), rho, first);
-    std::vector<double> r(3 * pair.n_beside(), 0.);
+    std::vector<double> r(3 * pair.n_secondary(), 0.);
     Vector3             force{};
     double              last = std::numeric_limits<double>::infinity();
     for (unsigned int i = 0; i < 60; ++i)
@@ -59,8 +59,8 @@ namespace Voussoir
       last = error;
       pair.recentre(r.data(), first);
     }
-    if (beside)
-      *beside = r;
+    if (secondary)
+      *secondary = r;
     return force;
   }
 
@@ -69,10 +69,10 @@ namespace Voussoir
     return solve_surfaces(present(history), H, b);
   }
 
-  std::vector<double> SurfacesLaw::forces_beside(const PresentSurfaces &now, const Vector3 &force,
-                                                 const Vector3 &gap)
+  std::vector<double> SurfacesLaw::secondary_forces(const PresentSurfaces &now, const Vector3 &force,
+                                                    const Vector3 &gap)
   {
-    std::vector<double> beside(3 * (now.surfaces.size() - 1), 0.);
+    std::vector<double> secondary(3 * (now.surfaces.size() - 1), 0.);
     double              size = norm(gap) + norm(now.start);
     bool                is_rigid = false, is_near = false;
     for (std::size_t k = 1; k < now.surfaces.size(); ++k)
@@ -88,7 +88,7 @@ namespace Voussoir
       if (s.compliance > 0.)
       {
         const Vector3 r = s.seat_force(gap, now.start);
-        std::copy(r.begin(), r.end(), beside.begin() + 3 * (k - 1));
+        std::copy(r.begin(), r.end(), secondary.begin() + 3 * (k - 1));
       }
     }
     if (is_rigid && is_near && norm(force) > 0.)
@@ -96,16 +96,16 @@ namespace Voussoir
       // The pair alone, with a flexibility for which this force and gap are a solution.
       const double  h = size / norm(force);
       const Matrix3 H = {{h, 0., 0., 0., h, 0., 0., 0., h}};
-      solve_surfaces(now, H, gap - H * force, &beside);
+      solve_surfaces(now, H, gap - H * force, &secondary);
     }
-    return beside;
+    return secondary;
   }
 
   double SurfacesLaw::friction_correction(const Vector3 &force, const Vector3 &gap,
                                           const PairHistory &history) const
   {
     const PresentSurfaces     now = present(history);
-    const std::vector<double> beside = forces_beside(now, force, gap);
+    const std::vector<double> secondary = secondary_forces(now, force, gap);
     const Vector3             change = gap - history.start;
     const auto along = [](const Vector3 &f, const Vector3 &d) { return f[1] * d[1] + f[2] * d[2]; };
     Vector3    on_face = force;
@@ -114,7 +114,7 @@ namespace Voussoir
     for (std::size_t k = 1; k < now.surfaces.size(); ++k)
     {
       const ContactSurface &s = now.surfaces[k];
-      const Vector3         r = {{beside[3 * k - 3], beside[3 * k - 2], beside[3 * k - 1]}};
+      const Vector3         r = {{secondary[3 * k - 3], secondary[3 * k - 2], secondary[3 * k - 1]}};
       is_flat = is_flat && r == Vector3{} && s.rest == Vector3{};
       taken -= along(r, s.axes * change) + .5 * s.compliance * (along(r, r) - along(s.rest, s.rest));
       on_face = on_face - transpose_times(s.axes, r);
@@ -125,11 +125,11 @@ namespace Voussoir
     return taken - along(axes * on_face, axes * change) + along(force, change);
   }
 
-  PresentSurfaces SurfacesLaw::touching_surfaces(const unsigned char touching, const bool frictionless) const
+  PresentSurfaces SurfacesLaw::active_surfaces(const unsigned char active, const bool frictionless) const
   {
     PresentSurfaces result;
     for (std::size_t k = 0; k < surfaces.size(); ++k)
-      if (touching & (1u << k))
+      if (active & (1u << k))
       {
         result.surfaces.push_back({surfaces[k].axes, 0., frictionless ? 0. : surfaces[k].friction});
         result.bits.push_back(static_cast<unsigned char>(1u << k));
@@ -139,27 +139,27 @@ namespace Voussoir
   }
 
   Vector3 SurfacesLaw::solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &,
-                                     const unsigned char touching) const
+                                     const unsigned char active) const
   {
-    return touching ? solve_surfaces(touching_surfaces(touching, false), H, v) : Vector3{};
+    return active ? solve_surfaces(active_surfaces(active, false), H, v) : Vector3{};
   }
 
-  Vector3 SurfacesLaw::stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
-                                   const unsigned char touching) const
+  Vector3 SurfacesLaw::stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &applied,
+                                   const unsigned char active) const
   {
-    if (touching == 1)
-      return face->stop_normal(H, v, spent, touching);
-    Vector3 result = spent;
-    if (touching)
-      add(result, solve_surfaces(touching_surfaces(touching, true), H, v));
+    if (active == 1)
+      return face->stop_normal(H, v, applied, active);
+    Vector3 result = applied;
+    if (active)
+      add(result, solve_surfaces(active_surfaces(active, true), H, v));
     return result;
   }
 
   Vector3 SurfacesLaw::solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
                                           const double still, const PairHistory &history,
-                                          const unsigned char touching) const
+                                          const unsigned char active) const
   {
-    return touching == 1 ? face->solve_acceleration(H, b, slip_velocity, still, history, touching)
-                         : solve_impulse(H, b, history, touching);
+    return active == 1 ? face->solve_acceleration(H, b, slip_velocity, still, history, active)
+                       : solve_impulse(H, b, history, active);
   }
 } // namespace Voussoir

@@ -18,7 +18,7 @@ namespace Voussoir
         e.d_gap[0] = rho;
         no_slip(gap[1], gap[2], rho, e);
         e.state = PairState::stick;
-        e.touching = 1;
+        e.active = 1;
       }
       Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairHistory &) const override
       {

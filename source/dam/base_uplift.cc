@@ -14,17 +14,18 @@ namespace Voussoir
   {
     prm.enter_subsection("Uplift");
     prm.add_parameter("Joints", joints,
-                      "Water enters joints from the upstream face where they open in the static state, and "
-                      "presses them apart with the full pressure of the reservoir.");
-    prm.add_parameter("Base", base,
-                      "Write the uplift at the base: the pressure of the reservoir at the heel, of the tail "
-                      "water at the toe, linear between. A base that cannot open is not moved by it: its "
-                      "compression is carried by the water in part (doc/loads.md).");
+                      "true: the full pressure of the reservoir acts in joints that are open at the upstream "
+                      "face in the static state.");
+    prm.add_parameter(
+        "Base", base,
+        "true: report the uplift at the base. The pressure is that of the reservoir at the heel "
+        "and that of the tail water at the toe, and linear between. The base is bonded, so the "
+        "uplift changes neither displacements nor stresses (doc/loads.md).");
     prm.add_parameter("Drain position", drain_position,
-                      "Place of the drains, from upstream, over the thickness of the base [-].",
+                      "Distance of the drains from the heel, divided by the thickness of the base [-].",
                       Patterns::Double(0., 1.));
     prm.add_parameter("Drain efficiency", drain_efficiency,
-                      "Share by which the drains lower the head over the tail water there [-].",
+                      "Reduction of the head above the tail water at the drains, divided by this head [-].",
                       Patterns::Double(0., 1.));
     prm.leave_subsection();
   }

@@ -40,7 +40,7 @@ namespace Voussoir
     }
 
     /** Throws InputError for a monolith without base nodes. */
-    void check_feet(const HexMesh &opened, const std::string &source)
+    void check_base(const HexMesh &opened, const std::string &source)
     {
       std::set<unsigned int> base;
       for (const HexMesh::Face &face : opened.faces)
@@ -68,7 +68,7 @@ namespace Voussoir
     const HexMesh opened = open_monoliths(mesh, source);
     choose_laws(tie_all);
     if (!tied || scene.statics.self_weight == "staged")
-      check_feet(opened, source);
+      check_base(opened, source);
     foundation = make_foundation({scene.foundation, mesh, source, scene.elements.degree,
                                   scene.elements.incompatible_modes, is_one_body(scene, tied)});
     neighbours = {foundation.get()};
@@ -80,7 +80,7 @@ namespace Voussoir
           zones_of(mesh, true, scene.foundation.rock, scene.foundation.zone_materials(), "Foundation/Zones");
     mesh_warnings = Voussoir::mesh_warnings(opened, scene, concrete_zones);
     assemble(opened);
-    tie_feet();
+    tie_base();
     add_loads();
     foundation->add_mass(structure);
     for (const auto &probe : scene.output.probe_places())
@@ -119,7 +119,8 @@ namespace Voussoir
     for (const auto &entry : scene.joints.overrides)
       if (entry.first > n_joints)
         throw InputError("Entry \"Joints/Overrides\" names joint " + std::to_string(entry.first) +
-                         ", but the dam has " + std::to_string(n_joints) + " joints.");
+                         ", but the dam has " + std::to_string(n_joints) +
+                         " joints. Correct the number, or remove it.");
   }
 
   bool Dam::is_one_body(const Scene &scene, const bool tied)
@@ -146,7 +147,7 @@ namespace Voussoir
       structure = assemble_structure(*model, materials, incompatible_modes);
       pairs = find_pairs(*model, n_joints);
       if (foundation->base() == Foundation::Base::coupled)
-        remove_feet(pairs);
+        remove_base_pairs(pairs);
       geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
     }
     if (tied && n_joints > 0)
@@ -164,7 +165,7 @@ namespace Voussoir
   }
 
   /** Removes the pairs at the base, which the foundation couples. */
-  void Dam::remove_feet(std::vector<Pair> &pairs) const
+  void Dam::remove_base_pairs(std::vector<Pair> &pairs) const
   {
     const std::set<unsigned int> base = nodes_of_base();
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
@@ -182,7 +183,7 @@ namespace Voussoir
   }
 
   /** Assigns the laws of the pairs. Pairs at the base are tied if the foundation requires it. */
-  void Dam::tie_feet()
+  void Dam::tie_base()
   {
     laws.assign(structure.pairs);
     if (laws.need_mean_force() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)

@@ -64,7 +64,7 @@ namespace Voussoir
   void TailWaterParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Tail water");
-    prm.add_parameter("Level", level, "z of the water surface downstream; -10000: none [m].");
+    prm.add_parameter("Level", level, "Height z of the tail water surface [m]. -10000: no tail water.");
     prm.add_parameter("Density", density, "Density of the tail water [kg/m^3].", {900., 1300., true},
                       Patterns::Double(0.));
     prm.leave_subsection();
@@ -73,18 +73,21 @@ namespace Voussoir
   void SiltParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Silt");
-    prm.add_parameter("Level", level, "z of the surface of the sediment upstream; -10000: none [m].");
-    prm.add_parameter("Density", density,
-                      "Density of the sediment under water, less that of the water; a unit weight in kN/m^3 "
-                      "is taken, too [kg/m^3].",
-                      {300., 1300., true}, Patterns::Double(0.));
-    prm.add_parameter("Friction angle", friction_angle,
-                      "Angle of friction of the sediment [degrees]: lateral pressure (1 - sin)/(1 + sin) of "
-                      "the vertical one, Rankine's active pressure.",
-                      {10., 45.}, Patterns::Double(0., 89.));
-    prm.add_parameter("Coefficient", coefficient,
-                      "Lateral over vertical pressure of the sediment [-]; -1: from the friction angle.",
-                      {.2, 1.}, Patterns::Double(-1., 10.));
+    prm.add_parameter("Level", level, "Height z of the sediment surface upstream [m]. -10000: no sediment.");
+    prm.add_parameter(
+        "Density", density,
+        "Submerged density of the sediment: its density minus that of the water [kg/m^3]. A unit "
+        "weight in kN/m^3 is also valid.",
+        {300., 1300., true}, Patterns::Double(0.));
+    prm.add_parameter(
+        "Friction angle", friction_angle,
+        "Friction angle phi of the sediment [degrees]. The lateral pressure is (1 - sin phi)/(1 + "
+        "sin phi) of the vertical pressure (Rankine's active pressure).",
+        {10., 45.}, Patterns::Double(0., 89.));
+    prm.add_parameter(
+        "Coefficient", coefficient,
+        "Ratio of lateral to vertical pressure of the sediment [-]. -1: from \"Friction angle\".", {.2, 1.},
+        Patterns::Double(-1., 10.));
     prm.leave_subsection();
   }
 } // namespace Voussoir

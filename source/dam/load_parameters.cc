@@ -85,25 +85,26 @@ namespace Voussoir
       return Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";");
     };
     prm.enter_subsection("Loads");
-    prm.add_parameter("Combination", combination,
-                      "Name of the combination of loads that acts, one of Combinations; empty: all loads of "
-                      "the scene, once each.",
-                      Patterns::Anything());
+    prm.add_parameter(
+        "Combination", combination,
+        "Name of the active load combination, one of \"Combinations\". Empty: all loads, with the "
+        "factor 1.",
+        Patterns::Anything());
     prm.add_parameter(
         "Combinations", combinations,
-        "Combinations, as \"NAME: LOAD FACTOR, LOAD FACTOR; NAME: ...\"; without a factor it is "
-        "1, and what is not named does not act. Loads: " +
+        "Load combinations, as \"NAME: LOAD FACTOR, LOAD FACTOR; NAME: ...\". A missing factor is 1. Loads "
+        "that are not listed are inactive. Loads: " +
             static_load_docs() + ", earthquake.",
         map());
     prm.add_parameter(
         "Concentrated", concentrated,
-        "Forces on single nodes, as \"NAME: x y z Fx Fy Fz; NAME: ...\" in m and N: on the node "
-        "nearest to the place.",
+        "Forces on single nodes, as \"NAME: x y z Fx Fy Fz; NAME: ...\" in m and N. A force acts on the node "
+        "that is nearest to the position x y z.",
         map());
     prm.add_parameter("Crest line", crest_line,
-                      "Force per length along an edge of the crest, as \"qx qy qz\" in N/m; empty: none.",
+                      "Force per length along an edge of the crest, as \"qx qy qz\" in N/m. Empty: none.",
                       Patterns::Anything());
-    prm.add_parameter("Crest edge", crest_edge, "The edge of the crest on which the line load acts.",
+    prm.add_parameter("Crest edge", crest_edge, "Edge of the crest on which the line load acts.",
                       Patterns::Selection("upstream|downstream"));
     add_load_parameters(*this, prm);
     prm.leave_subsection();
@@ -115,7 +116,8 @@ namespace Voussoir
     line_load();
     if (silt.coefficient < 0. && silt.coefficient != -1.)
       throw InputError(
-          "Entry \"Loads/Silt/Coefficient\" must be at least 0, or -1 for Rankine's coefficient.");
+          "Entry \"Loads/Silt/Coefficient\" must be at least 0, or -1 for Rankine's coefficient, but it is " +
+          std::to_string(silt.coefficient) + ".");
     std::vector<std::string> names;
     for (const auto &entry : combinations)
     {

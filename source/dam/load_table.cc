@@ -58,10 +58,10 @@ namespace Voussoir
       row.is_by_gravity = true;
       row.level = [](const Scene &scene) { return scene.loads.tail_water.level; };
       row.level_entry = row.defined_by = "Loads/Tail water/Level";
-      row.above_reservoir = "the water presses the dam upstream.";
+      row.above_reservoir = "the water then presses the dam upstream.";
       row.traction = tail_water_traction;
       row.surface = PhysicalId::downstream;
-      row.idle = {{"Loads/Tail water/Level says that there is none",
+      row.idle = {{"there is no tail water (Loads/Tail water/Level)",
                    [](const Scene &scene) { return scene.loads.tail_water.level <= no_level; },
                    {"Loads/Tail water/"}}};
       return row;
@@ -76,7 +76,7 @@ namespace Voussoir
       row.above_reservoir = "its density is that under water (Loads/Silt/Density).";
       row.traction = silt_traction;
       row.surface = PhysicalId::upstream;
-      row.idle = {{"Loads/Silt/Level says that there is none",
+      row.idle = {{"there is no silt (Loads/Silt/Level)",
                    [](const Scene &scene) { return scene.loads.silt.level <= no_level; },
                    {"Loads/Silt/"}},
                   {"Loads/Silt/Coefficient is given",

@@ -58,30 +58,30 @@ namespace Voussoir
   namespace
   {
     /** Lower edge of the upstream face, as height over y. */
-    class UpstreamFoot
+    class UpstreamHeel
     {
     public:
-      explicit UpstreamFoot(const SolidModel &model)
+      explicit UpstreamHeel(const SolidModel &model)
       {
         for (unsigned int i = 0; i < model.n_nodes(); ++i)
           if (model.on_surface(i, PhysicalId::upstream) && model.on_surface(i, PhysicalId::base))
-            foot.emplace_back(model.points[i][1], model.points[i][2]);
-        std::sort(foot.begin(), foot.end());
-        if (foot.empty())
+            heel.emplace_back(model.points[i][1], model.points[i][2]);
+        std::sort(heel.begin(), heel.end());
+        if (heel.empty())
           throw InputError(
               "The surfaces \"upstream\" and \"base\" of the mesh have no common edge, so the depth of the "
               "reservoir is unknown. Correct them in the mesh, or set \"Reservoir/Added mass\" to none.");
-        for (const auto &p : foot)
+        for (const auto &p : heel)
           lowest = std::min(lowest, p.second);
       }
 
       double at(const double y) const
       {
-        const auto right = std::lower_bound(foot.begin(), foot.end(), std::make_pair(y, -1e300));
-        if (right == foot.begin())
+        const auto right = std::lower_bound(heel.begin(), heel.end(), std::make_pair(y, -1e300));
+        if (right == heel.begin())
           return right->second;
         const auto left = right - 1;
-        if (right == foot.end() || right->first <= left->first)
+        if (right == heel.end() || right->first <= left->first)
           return left->second;
         const double t = (y - left->first) / (right->first - left->first);
         return (1. - t) * left->second + t * right->second;
@@ -90,7 +90,7 @@ namespace Voussoir
       double lowest = 1e300;
 
     private:
-      std::vector<std::pair<double, double>> foot;
+      std::vector<std::pair<double, double>> heel;
     };
   } // namespace
 
@@ -101,21 +101,21 @@ namespace Voussoir
     {
     public:
       Westergaard(const SolidModel &model, const ReservoirParameters &reservoir)
-          : reservoir(reservoir), foot(model)
+          : reservoir(reservoir), heel(model)
       {
       }
 
       double at(const Point<3> &x) const
       {
         const double h = reservoir.level - x[2];
-        const double depth = reservoir.level - (reservoir.depth == "local" ? foot.at(x[1]) : foot.lowest);
+        const double depth = reservoir.level - (reservoir.depth == "local" ? heel.at(x[1]) : heel.lowest);
         return h <= 0. ? 0.
                        : reservoir.factor * 7. / 8. * reservoir.density * std::sqrt(std::max(depth, h) * h);
       }
 
     private:
       const ReservoirParameters &reservoir;
-      const UpstreamFoot         foot;
+      const UpstreamHeel         heel;
     };
 
     /** Adds m n n^T. Returns its part along x, for fixed nodes, too. */

@@ -40,7 +40,9 @@ namespace Voussoir
   void DampingParameters::check() const
   {
     if (!(frequency_2 > frequency_1))
-      throw InputError("Entry \"Damping/Frequency 2\" must be larger than \"Damping/Frequency 1\".");
+      throw InputError("Entry \"Damping/Frequency 2\" (" + std::to_string(frequency_2) +
+                       " Hz) must be larger than \"Damping/Frequency 1\" (" + std::to_string(frequency_1) +
+                       " Hz). Exchange or correct the frequencies.");
   }
 
   constexpr double two_pi = 6.28318530717958647693;

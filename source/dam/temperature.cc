@@ -58,21 +58,23 @@ namespace Voussoir
     using namespace dealii::Patterns;
     prm.enter_subsection("Temperature");
     prm.add_parameter("Upstream face", upstream,
-                      "Temperature of the upstream face; through the thickness it is linear [degC].",
+                      "Temperature of the upstream face [degC]. It is linear through the thickness.",
                       {-40., 50.});
     prm.add_parameter("Downstream face", downstream, "Temperature of the downstream face [degC].",
                       {-40., 60.});
     prm.add_parameter("Grouting", grouting,
-                      "Temperature at which the joints were closed and the dam is free of stress [degC].",
+                      "Temperature at joint grouting, at which the dam is free of thermal stress [degC].",
                       {-10., 40.});
     prm.add_parameter("Expansion", expansion, "Coefficient of thermal expansion of the concrete [1/K].",
                       {5e-6, 1.5e-5}, Double(0., 1e-3));
-    prm.add_parameter("Table", table,
-                      "File with the temperatures of the faces in time, in place of the two entries: "
-                      "lines of day, upstream and downstream [degC], linear between; relative to the "
-                      "directory of this file.",
-                      Anything());
-    prm.add_parameter("Day", day, "The day of the table, in its counting.");
+    prm.add_parameter(
+        "Table", table,
+        "File with the temperatures of the faces over time, instead of \"Upstream face\" and "
+        "\"Downstream face\". Each line has the day, and the temperatures of the upstream and "
+        "the downstream face [degC]. They are linear between the lines. The path is relative to "
+        "the input file.",
+        Anything());
+    prm.add_parameter("Day", day, "Day in \"Table\" for the temperatures of the final stage.");
     prm.leave_subsection();
   }
 

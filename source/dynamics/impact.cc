@@ -4,6 +4,7 @@
 #include <voussoir/base/names.h>
 #include <voussoir/base/parallel.h>
 #include <voussoir/contact/pair_conditions.h>
+#include <voussoir/mesh/mesh.h>
 
 namespace Voussoir
 {
@@ -13,15 +14,15 @@ namespace Voussoir
      * of more than 60 degrees. Impact: the impulse that stops the motion normal to the surfaces exceeds a
      * millionth of the impulse of the step.
      * @param jump velocity jump at the end of the step [m/s]
-     * @param spent impulse of the joint force in the step [N s]
+     * @param applied impulse of the joint force in the step [N s]
      * @param change change of the jump in the step [m] */
-    bool slides_on(const JointLaw &law, const Matrix3 &H, const Vector3 &jump, const Vector3 &spent,
-                   const Vector3 &change, const unsigned char touching)
+    bool slides_on(const JointLaw &law, const Matrix3 &H, const Vector3 &jump, const Vector3 &applied,
+                   const Vector3 &change, const unsigned char active)
     {
       const Vector3 back = {{-jump[0], -jump[1], -jump[2]}};
       const double  strike =
-          norm(law.stop_normal(H, jump, {}, touching)) + norm(law.stop_normal(H, back, {}, touching));
-      return strike <= 1e-6 * norm(spent) && dot(jump, change) >= .5 * norm(jump) * norm(change);
+          norm(law.stop_normal(H, jump, {}, active)) + norm(law.stop_normal(H, back, {}, active));
+      return strike <= 1e-6 * norm(applied) && dot(jump, change) >= .5 * norm(jump) * norm(change);
     }
 
     const Names<ImpactRule> names_of_rules = {{"mean-force", ImpactRule::mean_force},
@@ -53,10 +54,9 @@ namespace Voussoir
         if (node != rigid_ground)
         {
           if (in_pair[node])
-            throw InputError(
-                "A node of the mesh near (" + std::to_string(pair.place[0]) + ", " +
-                std::to_string(pair.place[1]) + ", " + std::to_string(pair.place[2]) +
-                ") belongs to two joints. Joints must not cross or share nodes of one monolith.");
+            throw InputError("The node of the mesh at " + place(pair.place) +
+                             " belongs to two joints. Joints must not cross or share nodes of one monolith: "
+                             "change the joints in the mesh.");
           in_pair[node] = true;
           for (unsigned int j = 0; j < 3; ++j)
           {
@@ -99,11 +99,11 @@ namespace Voussoir
     const bool      closed = system.states()[p] != PairState::open;
     if (!closed && !law.is_tangentially_tied())
       return;
-    const Vector3 jump = structure.jump(pair, v), spent = get(impulse, p);
+    const Vector3 jump = structure.jump(pair, v), applied = get(impulse, p);
     if (rule == ImpactRule::paper)
     {
       const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
-      const bool    face = system.touching()[p] & 1; // not for a pair with flank contact only
+      const bool    face = system.active_surfaces()[p] & 1; // not for a pair with flank contact only
       const Vector3 f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
       add_impulse(pair, f, v);
       for (unsigned int c = 0; c < 3; ++c)
@@ -111,34 +111,34 @@ namespace Voussoir
       return;
     }
     if (rule == ImpactRule::mean_force && system.states()[p] == PairState::slip &&
-        slides_on(law, pair_inverse[p], jump, spent, get(change, p), system.touching()[p]))
+        slides_on(law, pair_inverse[p], jump, applied, get(change, p), system.active_surfaces()[p]))
     {
       // The mean friction of the step has an error of second order. Friction from the velocity at the end
       // would have one of first order.
-      const Vector3 kept = law.stop_normal(pair_inverse[p], jump, spent, system.touching()[p]);
-      add_impulse(pair, kept - spent, v);
+      const Vector3 kept = law.stop_normal(pair_inverse[p], jump, applied, system.active_surfaces()[p]);
+      add_impulse(pair, kept - applied, v);
       set(impulse, p, kept);
       return;
     }
     // Velocity without the joint forces of this step, then the impulse that the law allows.
-    const Vector3 lost = pair_inverse[p] * spent;
-    Vector3       allowed = law.solve_impulse(pair_inverse[p], jump - lost, history, system.touching()[p]);
+    const Vector3 lost = pair_inverse[p] * applied;
+    Vector3 allowed = law.solve_impulse(pair_inverse[p], jump - lost, history, system.active_surfaces()[p]);
     if (rule == ImpactRule::mean_force && !law.is_tangentially_tied())
     {
       // If loads tear at a pair more than the impact, the new friction impulse could supply more energy than
       // the pair has dissipated. In this case only the normal row is corrected, which
       // always dissipates energy.
-      const Vector3 f = allowed - spent, gained = pair_inverse[p] * f;
+      const Vector3 f = allowed - applied, gained = pair_inverse[p] * f;
       double        gain = 0., size = 0.;
       for (unsigned int c = 0; c < 3; ++c)
       {
         gain += .5 * f[c] * (2. * jump[c] + gained[c]);
         size += std::abs(f[c] * jump[c]) + std::abs(f[c] * gained[c]);
       }
-      if (gain > -dot(spent, get(change, p)) / dt + 1e-12 * size)
-        allowed = law.stop_normal(pair_inverse[p], jump, spent, system.touching()[p]);
+      if (gain > -dot(applied, get(change, p)) / dt + 1e-12 * size)
+        allowed = law.stop_normal(pair_inverse[p], jump, applied, system.active_surfaces()[p]);
     }
-    add_impulse(pair, allowed - spent, v);
+    add_impulse(pair, allowed - applied, v);
     set(impulse, p, allowed);
   }
 
@@ -165,7 +165,7 @@ namespace Voussoir
       if (rule == ImpactRule::paper)
       {
         const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
-        const bool    face = system.touching()[p] & 1;
+        const bool    face = system.active_surfaces()[p] & 1;
         const Vector3 f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
         add_impulse(pair, f, a);
         for (unsigned int c = 0; c < 3; ++c)
@@ -174,7 +174,7 @@ namespace Voussoir
       else if (closed || law.is_tangentially_tied())
       {
         const Vector3 f = law.solve_acceleration(pair_inverse[p], jump, structure.jump(pair, v), still,
-                                                 histories[p], system.touching()[p]);
+                                                 histories[p], system.active_surfaces()[p]);
         add_impulse(pair, f, a);
         set(result, p, f);
       }

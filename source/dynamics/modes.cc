@@ -89,8 +89,11 @@ namespace Voussoir
     }
     catch (const ExceptionBase &)
     {
-      throw ComputationError("The natural frequencies did not converge. Check that the base nodes of the dam "
-                             "lie on the surface \"base\".");
+      throw ComputationError(
+          "The natural frequencies did not converge: " + std::to_string(n_modes) + " modes in " +
+          std::to_string(control.max_steps()) +
+          " iterations. Put the base faces of the dam into the surface \"base\", or reduce "
+          "the number of modes (--count).");
     }
     std::vector<NaturalMode> modes;
     for (unsigned int k = 0; k < n_modes; ++k)

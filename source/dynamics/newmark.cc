@@ -17,6 +17,32 @@ namespace Voussoir
            input;
   }
 
+  namespace
+  {
+    /** Returns the joint of the first pair whose law requires mean forces, counted from 1. */
+    unsigned int joint_of_mean_force(const Structure &structure, const JointLaws &laws)
+    {
+      const auto law = std::find_if(laws.of_pair.begin(), laws.of_pair.end(),
+                                    [](const JointLaw *l) { return l->needs_mean_force(); });
+      return structure.pairs[law - laws.of_pair.begin()].joint + 1;
+    }
+
+    /** Throws ComputationError because a step has displacements or loads that are not finite. */
+    [[noreturn]] void throw_not_finite(const Structure &structure, const DynamicState &state)
+    {
+      const auto value =
+          std::find_if(state.u.begin(), state.u.end(), [](const double u) { return !std::isfinite(u); });
+      std::string where;
+      if (value != state.u.end())
+        where = " in monolith " +
+                std::to_string(structure.bodies[structure.body_of((value - state.u.begin()) / 3)].number);
+      throw ComputationError(
+          "The displacements" + where + " are not finite at t = " + std::to_string(state.time) +
+          " s. Check the units of materials, loads and ground motion (\"Motion/Unit\"), or increase "
+          "\"Dynamics/Steps per sample\".");
+    }
+  } // namespace
+
   Newmark::Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters,
                    const double dt, const ImpactRule rule, Support *support, const bool single_factors)
       : structure(structure), laws(laws), parameters(parameters), rule(rule), support(support),
@@ -24,11 +50,13 @@ namespace Voussoir
         impact(structure, laws, rule), equation(step_equation(structure, share, this->single_factors))
   {
     if (laws.need_mean_force() && rule != ImpactRule::mean_force)
-      throw InputError(
-          "A joint law of this model requires mean forces. Set \"Dynamics/Impact\" to mean-force.");
+      throw InputError("The law of joint " + std::to_string(joint_of_mean_force(structure, laws)) +
+                       " requires joint forces that are means over the step. Set \"Dynamics/Impact\" to "
+                       "mean-force.");
     if (support && rule != ImpactRule::mean_force)
       throw InputError(
-          "Massless rock and subcycled rock require mean forces. Set \"Dynamics/Impact\" to mean-force.");
+          "Massless rock and subcycled rock require joint forces that are means over the step. Set "
+          "\"Dynamics/Impact\" to mean-force.");
     add_level({dt, support ? support->n_substeps() : 1, 0});
   }
 
@@ -118,7 +146,7 @@ namespace Voussoir
   ContactResult Newmark::advance(const Unknowns &load, const Vector3 &base_velocity)
   {
     AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
-    return advance(Part{levels[0]->dt, levels[0]->n_substeps, 0}, load, base_velocity);
+    return advance(StepSize{levels[0]->dt, levels[0]->n_substeps, 0}, load, base_velocity);
   }
 
   /** Tries one step. Returns false, with the state unchanged, if the joints do not converge. */
@@ -140,7 +168,7 @@ namespace Voussoir
       work.input += advance_support(level, base, u_new);
     move(step, u_new, work);
     if (!std::isfinite(work.input))
-      throw ComputationError("The displacements are not finite at t = " + std::to_string(now.time) + " s.");
+      throw_not_finite(structure, now);
     const double                   kinetic_before = kinetic_energy_of_pairs();
     const std::vector<PairHistory> histories = level.system.histories(step_start, step_memory);
     if (rule != ImpactRule::none)

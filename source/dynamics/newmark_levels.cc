@@ -7,46 +7,46 @@
 
 namespace Voussoir
 {
-  void Newmark::add_level(const Part &part)
+  void Newmark::add_level(const StepSize &size)
   {
     ContactParameters of_level = parameters;
     of_level.write_problems = parameters.write_problems && levels.empty();
     BaseElimination::Nodes base;
     if (support)
-      base = {support->base_nodes(), support->compliance(part.n_substeps)};
+      base = {support->base_nodes(), support->compliance(size.n_substeps)};
     levels.emplace_back(
-        new Level{part.dt, part.n_substeps,
-                  JointSystem(structure, laws, of_level, trapezoidal_rule(structure, part.dt, share),
+        new Level{size.dt, size.n_substeps,
+                  JointSystem(structure, laws, of_level, trapezoidal_rule(structure, size.dt, share),
                               Unknowns(), support ? &base : nullptr, single_factors)});
   }
 
-  /** Returns the index in levels for the step size of @p part. Adds the level if it is missing. */
-  unsigned int Newmark::level_of(const Part &part)
+  /** Returns the index in levels for the step size of @p size. Adds the level if it is missing. */
+  unsigned int Newmark::level_of(const StepSize &size)
   {
     for (unsigned int i = 0; support && i < levels.size(); ++i)
-      if (levels[i]->n_substeps == part.n_substeps)
+      if (levels[i]->n_substeps == size.n_substeps)
         return i;
-    if (support || part.halvings == levels.size())
-      add_level(part);
-    return support ? levels.size() - 1 : part.halvings;
+    if (support || size.halvings == levels.size())
+      add_level(size);
+    return support ? levels.size() - 1 : size.halvings;
   }
 
-  ContactResult Newmark::advance(const Part &part, const Unknowns &load, const Vector3 &base_velocity)
+  ContactResult Newmark::advance(const StepSize &size, const Unknowns &load, const Vector3 &base_velocity)
   {
-    const unsigned int level = level_of(part);
+    const unsigned int level = level_of(size);
     ContactResult      result;
     if (!step(*levels[level], {levels[level]->dt, load, base_velocity}, result))
-      return advance_in_halves(part, load, base_velocity, result);
+      return advance_in_halves(size, load, base_velocity, result);
     last_level = level;
     return result;
   }
 
-  ContactResult Newmark::advance_in_halves(const Part &part, const Unknowns &load,
+  ContactResult Newmark::advance_in_halves(const StepSize &size, const Unknowns &load,
                                            const Vector3 &base_velocity, const ContactResult &failed)
   {
     constexpr unsigned int most = 3;
-    const double           dt = part.dt;
-    if (part.halvings == most || (support && part.n_substeps == 1))
+    const double           dt = size.dt;
+    if (size.halvings == most || (support && size.n_substeps == 1))
     {
       std::ostringstream message;
       message << "The contact solver did not converge at t = " << now.time + dt
@@ -57,7 +57,7 @@ namespace Voussoir
                  "iterations\".";
       throw ComputationError(message.str());
     }
-    const unsigned int n = part.n_substeps, n_first = n / 2;
+    const unsigned int n = size.n_substeps, n_first = n / 2;
     const double       fraction = support ? double(n_first) / n : .5;
     Unknowns           middle = load;
     for (std::size_t k = 0; k < load.size(); ++k)
@@ -65,10 +65,10 @@ namespace Voussoir
     Vector3 middle_base;
     for (unsigned int c = 0; c < 3; ++c)
       middle_base[c] = fraction * base_velocity[c] + (1. - fraction) * now.base_velocity[c];
-    const double   end = now.time + dt; // without the round-off of the parts
-    ContactResult  result = advance({fraction * dt, n_first, part.halvings + 1}, middle, middle_base);
+    const double   end = now.time + dt; // without the round-off of the reduced steps
+    ContactResult  result = advance({fraction * dt, n_first, size.halvings + 1}, middle, middle_base);
     const Unknowns first_half = impulse;
-    result += advance({(1. - fraction) * dt, n - n_first, part.halvings + 1}, load, base_velocity);
+    result += advance({(1. - fraction) * dt, n - n_first, size.halvings + 1}, load, base_velocity);
     result.add_work(failed);
     result.path = ContactPath::smaller_step;
     now.time = end;

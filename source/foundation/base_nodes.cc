@@ -40,16 +40,17 @@ namespace Voussoir
         base.push_back({{dam.points[i][0], dam.points[i][1], dam.points[i][2]}});
       }
     std::map<unsigned int, std::set<unsigned int>> on_rock;
-    const PointFinder finder(points, base.empty() ? 0. : coincidence * size_of(base));
-    unsigned int      n_lost = 0;
+    const PointFinder                  finder(points, base.empty() ? 0. : coincidence * size_of(base));
+    std::vector<std::array<double, 3>> lost;
     for (std::size_t i = 0; i < base.size(); ++i)
       if (const unsigned int rock = finder.find(base[i]); rock != PointFinder::none)
         on_rock[rock].insert(equations[i]);
       else
-        ++n_lost;
-    if (n_lost > 0)
+        lost.push_back(base[i]);
+    if (!lost.empty())
       throw InputError(source + ": the dam's base and the rock must share their nodes, but " +
-                       std::to_string(n_lost) + " nodes of the base are not in the rock. Correct the mesh.");
+                       std::to_string(lost.size()) + " nodes of the base are not in the rock, the first at " +
+                       place(lost[0]) + ". Merge the nodes of dam and rock there (gmsh: Coherence).");
     std::vector<BaseNode> base_nodes;
     for (const auto &base_node : on_rock)
       base_nodes.push_back({base_node.first, {base_node.second.begin(), base_node.second.end()}});
@@ -68,12 +69,12 @@ namespace Voussoir
   {
     std::vector<std::pair<unsigned int, unsigned int>> dam_nodes;
     for (unsigned int i = 0; i < base_nodes.size(); ++i)
-      for (const unsigned int on_base : base_nodes[i].nodes)
-        dam_nodes.push_back({on_base, i});
+      for (const unsigned int dam_node : base_nodes[i].nodes)
+        dam_nodes.push_back({dam_node, i});
     std::sort(dam_nodes.begin(), dam_nodes.end());
-    for (const auto &[on_base, i] : dam_nodes)
+    for (const auto &[dam_node, i] : dam_nodes)
     {
-      node.push_back(on_base);
+      node.push_back(dam_node);
       base_node.push_back(i);
     }
   }

@@ -59,7 +59,7 @@ namespace Voussoir
         if (cholmod.L->minor < n)
           throw ComputationError(
               "The coarse problem of the static solution of the rock is not positive definite. "
-              "The elements of the rock may be distorted. Check the mesh with voussoir mesh.");
+              "Improve distorted rock elements; `voussoir mesh` prints their quality.");
       }
 
       void solve(const std::vector<double> &forces, std::vector<double> &motions) const override

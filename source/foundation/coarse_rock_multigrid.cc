@@ -193,8 +193,10 @@ namespace Voussoir
         catch (const dealii::ExceptionBase &)
         {
           throw ComputationError(
-              "The multigrid levels for the static solution of the rock cannot be created. Its "
-              "elements may be distorted. Check the mesh with voussoir mesh.");
+              "The multigrid levels for the static solution of the rock, with " +
+              std::to_string(aggregates.n()) +
+              " groups of nodes, cannot be created. Improve distorted rock elements; `voussoir mesh` prints their "
+              "quality.");
         }
       }
 

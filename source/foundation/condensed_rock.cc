@@ -67,9 +67,10 @@ namespace Voussoir
       catch (const ComputationError &)
       {
         throw ComputationError(
-            source + ": the stiffness matrix of the rock cannot be factorised. Either a part of the rock "
-                     "is not connected to the artificial boundary, or elements are distorted, or "
-                     "the rock is too large for this method. Check the mesh with voussoir mesh.");
+            source + ": the stiffness matrix of the rock (" + std::to_string(3 * ground.n_nodes()) +
+            " unknowns) cannot be factorised. Connect all parts of the rock to the surface \"artificial "
+            "boundary\", improve distorted rock elements (`voussoir mesh` prints their quality), or use fewer "
+            "rock elements.");
       }
     }
   } // namespace
@@ -121,8 +122,11 @@ namespace Voussoir
     catch (const dealii::ExceptionBase &)
     {
       throw ComputationError(
-          "The compliance of the massless rock cannot be computed, because its condensed stiffness is "
-          "not positive definite. Check the rock elements below the dam.");
+          "The compliance of the massless rock cannot be computed, because its stiffness matrix, condensed "
+          "to the " +
+          std::to_string(base_nodes.size()) +
+          " base nodes, is not positive definite. Improve distorted rock elements below the dam; `voussoir "
+          "mesh` prints their quality.");
     }
     std::vector<double> C(std::size_t(n()) * n());
     for (unsigned int i = 0; i < n(); ++i)

@@ -37,7 +37,7 @@ namespace Voussoir
 
     const FoundationRow &row_of_model(const std::string &model)
     {
-      return row_of(rows, model, "is no foundation", "They are:");
+      return row_of(rows, model, "is no foundation", "The foundations are:");
     }
 
     void check_mesh(const FoundationSite &site, const Foundation &foundation)

@@ -57,9 +57,9 @@ namespace Voussoir
         }
         for (const BaseNode &base_node : rock.base_nodes)
           if (base_node.nodes.size() != 1)
-            throw InputError(
-                source +
-                ": two nodes of one monolith have the same position on the dam's base. Correct the mesh.");
+            throw InputError(source +
+                             ": two nodes of one monolith have the same position on the dam's base, " +
+                             dam.place_of(base_node.nodes[0]) + ". Merge these nodes in the mesh.");
         BlockSparseMatrix &K = structure.bodies[0].stiffness;
         K = with_block(K, dam_nodes.node, dam_nodes.matrix(rock.matrix()));
         K.symmetrise();

@@ -3,7 +3,9 @@
 #include <voussoir/base/tridiagonal.h>
 #include <voussoir/foundation/rock_statics.h>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace Voussoir
 {
@@ -115,13 +117,15 @@ namespace Voussoir
       everywhere([&](const std::size_t k) { rest[k] = component(inverse[k / 3], k, work); });
       const double size = std::sqrt(product(work, rest));
       if (i > 0)
-        T.beside.push_back(size);
+        T.off_diagonal.push_back(size);
       if (size == 0. && i > 0)
         break; // an invariant space
       if (!(size > 0.))
         throw ComputationError(
-            "The stiffness matrix of the rock is not positive definite. Its elements may be "
-            "distorted, or all of its nodes are fixed. Check the mesh with voussoir mesh.");
+            "The stiffness matrix of the rock (" + std::to_string(n_free) +
+            " unknowns) is not positive definite. Improve distorted rock elements; `voussoir mesh` prints "
+            "their quality. If there are no unknowns, all rock nodes are on the surface \"artificial "
+            "boundary\": refine the rock.");
       everywhere(
           [&](const std::size_t k)
           {
@@ -131,8 +135,9 @@ namespace Voussoir
           });
       multiply(v, work);
       T.diagonal.push_back(product(v, work));
-      everywhere([&](const std::size_t k)
-                 { work[k] -= T.diagonal.back() * w[k] + (i > 0 ? T.beside.back() * w_before[k] : 0.); });
+      everywhere(
+          [&](const std::size_t k)
+          { work[k] -= T.diagonal.back() * w[k] + (i > 0 ? T.off_diagonal.back() * w_before[k] : 0.); });
     }
     return T.largest_eigenvalue();
   }
@@ -296,10 +301,11 @@ namespace Voussoir
     everywhere([&](const std::size_t k) { r[k] = load(k); });
     const double size = std::sqrt(product(r, r));
     everywhere([&](const std::size_t k) { r[k] -= work[k]; });
-    double last = 0.;
-    for (unsigned int n = 0; n <= most; ++n)
+    double       last = 0., residual = 0.;
+    unsigned int n = 0;
+    for (; n <= most; ++n)
     {
-      const double residual = std::sqrt(product(r, r));
+      residual = std::sqrt(product(r, r));
       if (residual <= std::max(tolerance * size, goal))
         return n;
       if (watch.seconds() > next)
@@ -323,8 +329,12 @@ namespace Voussoir
             r[k] -= alpha * work[k];
           });
     }
-    throw ComputationError("The static solution of the rock did not converge. Its elements may be distorted. "
-                           "Check the mesh with voussoir mesh.");
+    std::ostringstream message;
+    message
+        << "The static solution of the rock did not converge: after " << std::min(n, most)
+        << " iterations the residual is " << residual / size << " of the load. Check the materials in "
+        << "section Foundation, and improve distorted rock elements; `voussoir mesh` prints their quality.";
+    throw ComputationError(message.str());
   }
 
   /** Stores the normalised difference of @p x and @p guess. */

@@ -17,14 +17,24 @@ namespace Voussoir
 {
   namespace
   {
+    /** Error because a factor exceeds the integers of CHOLMOD. */
+    struct TooLarge : ComputationError
+    {
+      explicit TooLarge(const std::string &body = "A monolith")
+          : ComputationError(body +
+                             " is too large: its factors have more than 2^31 entries. Use fewer elements, "
+                             "or more joints.")
+      {
+      }
+    };
+
     /** Throws an exception if CHOLMOD reports a lack of memory. */
     void check_memory(const cholmod_common &common)
     {
       if (common.status == CHOLMOD_OUT_OF_MEMORY)
         throw std::bad_alloc();
       if (common.status == CHOLMOD_TOO_LARGE)
-        throw ComputationError("A monolith is too large: its factors have more than 2^31 entries. Use fewer "
-                               "elements, or more joints.");
+        throw TooLarge();
     }
 
     /** Matrix of CHOLMOD with automatic release of its memory. */
@@ -207,8 +217,15 @@ namespace Voussoir
           is_interface[3 * node + c] = true;
     }
     cholmod_free_factor(&cholmod->L, &cholmod->common);
-    cholmod->L = analysed(cholmod->A, n(), is_interface, cholmod->common);
-    check_memory(cholmod->common);
+    try
+    {
+      cholmod->L = analysed(cholmod->A, n(), is_interface, cholmod->common);
+      check_memory(cholmod->common);
+    }
+    catch (const TooLarge &)
+    {
+      throw TooLarge("Monolith " + std::to_string(body.number));
+    }
   }
 
   void BodyFactor::factorise()
@@ -218,9 +235,11 @@ namespace Voussoir
     check_memory(cholmod->common);
     const cholmod_factor *L = cholmod->L;
     if (cholmod->common.status != CHOLMOD_OK || L == nullptr || L->minor < L->n)
-      throw ComputationError("The stiffness of monolith " + std::to_string(body.number) +
-                             " is not positive definite. Either the monolith has no nodes on the surface "
-                             "\"base\", or its elements are distorted.");
+      throw ComputationError(
+          "The stiffness of monolith " + std::to_string(body.number) +
+          " is not positive definite. Either the monolith has no nodes on the surface "
+          "\"base\": put its base faces there. Or its elements are distorted; `voussoir mesh` prints "
+          "their quality.");
     if (order == Order::interface_last)
       check_interface_is_last();
   }

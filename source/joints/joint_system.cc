@@ -59,7 +59,7 @@ namespace Voussoir
 
   JointSystem::JointSystem(const Structure &structure, const PairLaws &laws,
                            const ContactParameters &parameters, const StepOperator &step,
-                           const Unknowns &springs, const BaseElimination::Nodes *given_feet,
+                           const Unknowns &springs, const BaseElimination::Nodes *given_base,
                            const bool single_factors)
       : structure(structure), parameters(parameters), laws(laws), step(step), is_static(step.mass == 0.),
         sides(structure.pairs.size()), W(pairs_per_joint(structure), shares_of_joints(structure)),
@@ -67,8 +67,8 @@ namespace Voussoir
   {
     for (const JointLaw *law : laws.of_pair)
       if (parameters.write_problems && law->flat_friction() < 0. && !law->surfaces_law())
-        throw InputError("Contact/Write problems: only problems with Coulomb friction can be written. Set "
-                         "\"Joints/Model\" to FJA or KSM.");
+        throw InputError("\"Contact/Write problems\" requires Coulomb friction in all joints. Set "
+                         "\"Joints/Model\" to FJA or KSM, or remove the entry.");
     bodies.resize(structure.bodies.size());
     for_each_own_body(
         [&](const unsigned int b)
@@ -79,8 +79,8 @@ namespace Voussoir
     for (const Body &body : structure.bodies)
       interface.begin.push_back(interface.begin.back() + 3 * body.interface.size());
     interface.value.resize(interface.begin.back());
-    if (given_feet)
-      base = std::make_shared<BaseElimination>(structure, *given_feet);
+    if (given_base)
+      base = std::make_shared<BaseElimination>(structure, *given_base);
     condense();
     if (base && is_static)
       make_whole();

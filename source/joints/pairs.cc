@@ -198,7 +198,7 @@ namespace Voussoir
     return pairs;
   }
 
-  void tie_joints(SolidModel &model, const unsigned int n_joints, const bool feet_only)
+  void tie_joints(SolidModel &model, const unsigned int n_joints, const bool base_only)
   {
     std::vector<unsigned int> master(model.n_nodes());
     std::iota(master.begin(), master.end(), 0);
@@ -210,7 +210,7 @@ namespace Voussoir
     };
     for (const NodePair &match : match_joint_nodes(model, n_joints))
     {
-      if (feet_only && !model.on_surface(match.node_1, PhysicalId::base))
+      if (base_only && !model.on_surface(match.node_1, PhysicalId::base))
         continue;
       const unsigned int a = root(match.node_1), b = root(match.node_2);
       master[std::max(a, b)] = std::min(a, b);

@@ -72,7 +72,7 @@ namespace Voussoir
     {
     public:
       Column(const double crest_y, const double smallest_height)
-          : crest(point(crest_y, H, 0)), slope(crest_y / radius(H)), highest_foot(H - smallest_height)
+          : crest(point(crest_y, H, 0)), slope(crest_y / radius(H)), highest_base(H - smallest_height)
       {
       }
 
@@ -84,7 +84,7 @@ namespace Voussoir
 
       /** Returns the height z of the base [m]: that of the abutment, 0 at the floor of the valley, or less
        * than the abutment where the dam would be lower than the smallest height. */
-      double foot(const double w) const { return std::min(abutment(w), highest_foot); }
+      double base(const double w) const { return std::min(abutment(w), highest_base); }
 
       /** Returns the node at height @p z, which is at or above the base. */
       std::array<double, 3> node(const double z, const double w) const
@@ -101,7 +101,7 @@ namespace Voussoir
       }
 
       std::array<double, 3> crest;
-      double                slope, highest_foot;
+      double                slope, highest_base;
     };
 
     double crest_y(const double s)
@@ -202,13 +202,13 @@ namespace Voussoir
     {
       const double        bank = s[i] < 0 ? -1 : 1;
       const Column        column(crest_y(std::abs(s[i])), parameters.smallest_height);
-      std::vector<double> foot;
+      std::vector<double> base;
       for (unsigned int l = 0; l <= n_through; ++l)
-        foot.push_back(column.foot(2. * l / n_through - 1));
+        base.push_back(column.base(2. * l / n_through - 1));
       for (unsigned int k = 0; k <= n_up; ++k)
         for (unsigned int l = 0; l <= n_through; ++l)
         {
-          auto node = column.node(foot[l] + (H - foot[l]) * k / n_up, 2. * l / n_through - 1);
+          auto node = column.node(base[l] + (H - base[l]) * k / n_up, 2. * l / n_through - 1);
           node[1] *= bank;
           mesh.nodes.push_back(node);
         }
@@ -255,8 +255,8 @@ namespace Voussoir
     for (const double s : columns(parameters))
     {
       const Column column(crest_y(std::abs(s)), parameters.smallest_height);
-      const auto   foot = column.node(column.foot(0), 0);
-      valley.push_back({s < 0 ? -foot[1] : foot[1], foot[2]});
+      const auto   base = column.node(column.base(0), 0);
+      valley.push_back({s < 0 ? -base[1] : base[1], base[2]});
     }
     return valley;
   }

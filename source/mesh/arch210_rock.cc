@@ -40,16 +40,16 @@ namespace Voussoir
       {
         return column * (dam.elements_up + 1) * (n_dam_layers + 1) + layer;
       }
-      const Vector &foot(const unsigned int column, const unsigned int layer) const
+      const Vector &base_node(const unsigned int column, const unsigned int layer) const
       {
         return mesh.nodes[dam_node(column, layer)];
       }
 
       /** Returns the thickness of the outermost layer of the dam at a column, along x [m]. */
-      double foot_size(const unsigned int column, const bool is_upstream) const
+      double base_size(const unsigned int column, const bool is_upstream) const
       {
-        const Vector &a = foot(column, is_upstream ? 0 : n_dam_layers - 1);
-        const Vector &b = foot(column, is_upstream ? 1 : n_dam_layers);
+        const Vector &a = base_node(column, is_upstream ? 0 : n_dam_layers - 1);
+        const Vector &b = base_node(column, is_upstream ? 1 : n_dam_layers);
         const double  dx = b[0] - a[0], dy = b[1] - a[1];
         return (dx * dx + dy * dy) / dx;
       }
@@ -59,13 +59,13 @@ namespace Voussoir
       /** Computes the faces of the block, the element sizes at the faces and the numbers of elements. */
       void measure()
       {
-        double x_min = foot(0, 0)[0], x_max = x_min, y_max = 0;
+        double x_min = base_node(0, 0)[0], x_max = x_min, y_max = 0;
         for (unsigned int c = 0; c <= n_columns; ++c)
           for (unsigned int l = 0; l <= n_dam_layers; ++l)
           {
-            x_min = std::min(x_min, foot(c, l)[0]);
-            x_max = std::max(x_max, foot(c, l)[0]);
-            y_max = std::max(y_max, std::abs(foot(c, l)[1]));
+            x_min = std::min(x_min, base_node(c, l)[0]);
+            x_max = std::max(x_max, base_node(c, l)[0]);
+            y_max = std::max(y_max, std::abs(base_node(c, l)[1]));
           }
         h_upstream = layer_size(rock.upstream);
         h_downstream = layer_size(rock.downstream);
@@ -87,9 +87,10 @@ namespace Voussoir
           unsigned int wanted = 0, limit = 1000000;
           for (unsigned int c = 0; c <= n_columns; ++c)
           {
-            const double length = is_upstream ? foot(c, 0)[0] - x_upstream - n * h_upstream
-                                              : x_downstream - n * h_downstream - foot(c, n_dam_layers)[0];
-            wanted = std::max(wanted, n_graded(length, foot_size(c, is_upstream),
+            const double length = is_upstream
+                                      ? base_node(c, 0)[0] - x_upstream - n * h_upstream
+                                      : x_downstream - n * h_downstream - base_node(c, n_dam_layers)[0];
+            wanted = std::max(wanted, n_graded(length, base_size(c, is_upstream),
                                                is_upstream ? h_upstream : h_downstream, largest));
             limit = std::min<unsigned int>(limit, std::ceil(length / smallest));
           }
@@ -123,7 +124,7 @@ namespace Voussoir
         {
           const unsigned int i = first_column + c;
           for (unsigned int l = 0; l <= n_dam_layers; ++l)
-            ground(i, first_layer + l) = foot(c, l);
+            ground(i, first_layer + l) = base_node(c, l);
           for (const bool is_upstream : {true, false})
           {
             const int          direction = is_upstream ? -1 : 1;
@@ -133,7 +134,7 @@ namespace Voussoir
             const double       h = is_upstream ? h_upstream : h_downstream;
             const Vector       from = ground(i, start);
             const double       length = std::abs(face - direction * (n * h) - from[0]);
-            const auto         d = graded(m, length, foot_size(c, is_upstream), h);
+            const auto         d = graded(m, length, base_size(c, is_upstream), h);
             for (unsigned int t = 1; t < m; ++t)
             {
               const double f = fade(d[t] / length);
@@ -151,10 +152,11 @@ namespace Voussoir
       /** Returns x of the layers on the side faces [m]. */
       std::vector<double> straight_layers(const double bend)
       {
-        const double        upper = x_upstream + n * h_upstream, lower = x_downstream - n * h_downstream;
-        const double        h = std::max(foot_size(n_columns, true),
-                                         std::min(surface_size, 0.1 * (lower - upper) / n_dam_layers));
-        const double        middle = 0.5 * (foot(n_columns, 0)[0] + foot(n_columns, n_dam_layers)[0]) + bend;
+        const double upper = x_upstream + n * h_upstream, lower = x_downstream - n * h_downstream;
+        const double h = std::max(base_size(n_columns, true),
+                                  std::min(surface_size, 0.1 * (lower - upper) / n_dam_layers));
+        const double middle =
+            0.5 * (base_node(n_columns, 0)[0] + base_node(n_columns, n_dam_layers)[0]) + bend;
         const double        first = middle - 0.5 * n_dam_layers * h, last = middle + 0.5 * n_dam_layers * h;
         std::vector<double> x(n_j + 1);
         for (unsigned int t = 0; t <= n; ++t)
@@ -264,12 +266,12 @@ namespace Voussoir
           {
             const Vector top = ground(i, j);
             const auto   d = graded(n_down, top[2] - z_bottom - n * h_bottom, surface_size, h_bottom);
-            const bool   is_foot = i >= first_column && i <= first_column + n_columns && j >= first_layer &&
+            const bool   is_base = i >= first_column && i <= first_column + n_columns && j >= first_layer &&
                                  j <= first_layer + n_dam_layers;
             for (unsigned int k = 0; k <= n_k; ++k)
             {
               unsigned int &node = number[(i * (n_j + 1) + j) * (n_k + 1) + k];
-              if (k == 0 && is_foot)
+              if (k == 0 && is_base)
               {
                 node = dam_node(i - first_column, j - first_layer);
                 continue;
@@ -296,9 +298,9 @@ namespace Voussoir
               mesh.cells.push_back(cell);
 
               // In the order of hex_faces: bottom, ground, right bank, downstream, left bank, upstream.
-              const bool is_foot = i >= first_column && i < first_column + n_columns && j >= first_layer &&
+              const bool is_base = i >= first_column && i < first_column + n_columns && j >= first_layer &&
                                    j < first_layer + n_dam_layers;
-              const bool outside[6] = {k + 1 == n_k, k == 0 && !is_foot, i == 0,
+              const bool outside[6] = {k + 1 == n_k, k == 0 && !is_base, i == 0,
                                        j + 1 == n_j, i + 1 == n_i,       j == 0};
               for (unsigned int f = 0; f < 6; ++f)
                 if (outside[f])

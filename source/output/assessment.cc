@@ -94,7 +94,7 @@ namespace Voussoir
                      ", so that peaks between are missed");
     else
       add_stresses(model, *stresses);
-    if (stresses != nullptr && stresses->envelope.overstress.watches())
+    if (stresses != nullptr && stresses->envelope.overstress.is_active())
       add_demand(model, *stresses);
     else
       leave_demand(stresses == nullptr ? no_stress : "there is no Limits/Tensile strength");

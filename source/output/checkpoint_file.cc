@@ -97,7 +97,7 @@ namespace Voussoir
       size += in.gcount();
     }
     if (!in.eof())
-      throw InputError("The file " + file + " cannot be read.");
+      throw InputError("The input file " + file + " cannot be read. Check its permissions and the disk.");
     return std::to_string(size) + " bytes, checksum " + hexadecimal(c);
   }
 

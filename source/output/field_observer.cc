@@ -9,7 +9,7 @@ namespace Voussoir
 {
   namespace
   {
-    std::string joints_beside(const std::string &solution) // solution-NNNNN.vtu
+    std::string joints_file_of(const std::string &solution) // solution-NNNNN.vtu
     {
       return "joints" + solution.substr(8);
     }
@@ -89,7 +89,7 @@ namespace Voussoir
     FieldWriter(*dam.model).write_vtu(directory + "/" + name, run.newmark->state().u, fields);
     files.emplace_back(run.newmark->state().time, name);
     if (!dam.structure.pairs.empty())
-      write_joint_surfaces(directory + "/" + joints_beside(name), *dam.model, dam.structure, *run.newmark,
+      write_joint_surfaces(directory + "/" + joints_file_of(name), *dam.model, dam.structure, *run.newmark,
                            run.pairs());
     write_collection();
   }
@@ -105,7 +105,7 @@ namespace Voussoir
     {
       add(time, file, 0);
       if (!run.dam->structure.pairs.empty())
-        add(time, joints_beside(file), 1);
+        add(time, joints_file_of(file), 1);
     }
     pvd << "</Collection>\n</VTKFile>\n";
     pvd.check();

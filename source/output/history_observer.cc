@@ -14,7 +14,7 @@ namespace Voussoir
 
   void HistoryObserver::declare_history()
   {
-    Recorder          &table = history_columns;
+    TableColumns      &table = history_columns;
     const DamGeometry &geometry = *run.dam->geometry;
     const SolidModel  &model = *run.dam->model;
     table.add("time", [this] { return run.newmark->state().time; });
@@ -34,10 +34,10 @@ namespace Voussoir
 
   void HistoryObserver::declare_energy()
   {
-    Recorder   &table = energy_columns;
-    const auto  now = [this]() -> const Energy  &{ return run.newmark->state().energy; };
-    const auto  first = [this]() -> const Energy  &{ return run.newmark->initial_energy(); };
-    const auto &laws = run.dam->laws;
+    TableColumns &table = energy_columns;
+    const auto    now = [this]() -> const Energy    &{ return run.newmark->state().energy; };
+    const auto    first = [this]() -> const Energy    &{ return run.newmark->initial_energy(); };
+    const auto   &laws = run.dam->laws;
     table.add("time", [this] { return run.newmark->state().time; });
     table.add("kinetic", [=] { return now().kinetic; });
     table.add("strain", [=] { return now().strain - first().strain; });

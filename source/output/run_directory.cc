@@ -188,7 +188,8 @@ namespace Voussoir
                                      : is_result(entry) && entry.string().compare(0, 10, "checkpoint") == 0;
       std::error_code error;
       if (removed && entry != marker && !is_in_the_way(place) && (!fs::remove(place, error) || error))
-        throw WriteError("The old result " + place.string() + " cannot be removed.");
+        throw WriteError("The old result " + place.string() +
+                         " cannot be removed. Remove it, or choose another directory with --output.");
     }
   }
 } // namespace Voussoir

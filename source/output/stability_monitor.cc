@@ -98,9 +98,9 @@ namespace Voussoir
     if (moved.value <= largest_joint_share * dam.size)
       return "";
     std::ostringstream text;
-    text << "the joints have moved by " << moved.value << " m at " << place(moved.place) << ", more than "
-         << largest_joint_share
-         << " of the dam's size. If the joints really slide, check \"Joints/Friction\".";
+    text << "the opening or slip of a joint is " << moved.value << " m at " << place(moved.place)
+         << " (limit " << largest_joint_share * dam.size
+         << " m). If the joints really slide, check \"Joints/Friction\".";
     return text.str();
   }
 
@@ -109,7 +109,7 @@ namespace Voussoir
     std::ostringstream text;
     std::size_t        i = find_excess(state.v, velocity_dam);
     if (i < state.v.size())
-      text << "the dam moves at " << state.v[i] << " m/s, more than " << velocity_dam << " m/s,";
+      text << "the velocity of the dam is " << state.v[i] << " m/s (limit " << velocity_dam << " m/s)";
     else
     {
       Unknowns u = state.u;
@@ -118,17 +118,11 @@ namespace Voussoir
       i = find_excess(u, displacement_dam);
       if (i == u.size())
         return "";
-      text << "the dam has moved by " << u[i] << " m, more than " << displacement_dam << " m,";
+      text << "the displacement of the dam is " << u[i] << " m (limit " << displacement_dam << " m)";
     }
-    for (unsigned int node = 0; node < dam.model->n_nodes(); ++node)
-      if (dam.model->equation[node] == i / 3)
-      {
-        const auto &p = dam.model->points[node];
-        text << " in "
-             << "xyz"[i % 3] << " at its node " << place({{p[0], p[1], p[2]}})
-             << ": more than an earthquake of this size can do.";
-        break;
-      }
+    text << " in "
+         << "xyz"[i % 3] << " at the node " << dam.model->place_of(i / 3)
+         << ". This exceeds the limit for this ground motion.";
     return text.str();
   }
 

@@ -16,27 +16,27 @@ namespace Voussoir
     const Scene      &scene = run.scene();
     ContactParameters parameters = scene.contact;
     parameters.write_problems = false;
-    companion = std::make_unique<TimeErrorEstimate>(*run.dam, parameters, run.motion.dt,
-                                                    impact_rule(scene.impact_rule), run.newmark->state(),
-                                                    run.statics.closed);
+    coarse_run = std::make_unique<TimeErrorEstimate>(*run.dam, parameters, run.motion.dt,
+                                                     impact_rule(scene.impact_rule), run.newmark->state(),
+                                                     run.statics.closed);
     // The comparison run has every second time of the run. With longer intervals the run would miss peaks
     // that the comparison run records.
     if (scene.output.envelope_interval == 1 || scene.output.envelope_interval == 2)
-      companion->record_stresses(stresses.recovery, stresses.known_tractions());
+      coarse_run->record_stresses(stresses.recovery, stresses.known_tractions());
   }
 
   void TimeErrorObserver::follow()
   {
-    if (!companion)
+    if (!coarse_run)
       return;
     try
     {
       const DynamicState &state = run.newmark->state();
-      companion->advance(run.step, state.load, state.base_velocity, run.ground_acceleration(run.step));
+      coarse_run->advance(run.step, state.load, state.base_velocity, run.ground_acceleration(run.step));
     }
     catch (const ComputationError &error)
     {
-      companion.reset();
+      coarse_run.reset();
       log.line("warning: there will be no estimate of the error due to the time step (Dynamics/Error "
                "estimate): the joints did not converge with twice the time step. %s",
                error.what());
@@ -45,13 +45,13 @@ namespace Voussoir
 
   void TimeErrorObserver::gather_on_root()
   {
-    if (companion)
-      companion->gather_on_root();
+    if (coarse_run)
+      coarse_run->gather_on_root();
   }
 
   double TimeErrorObserver::memory_consumption() const
   {
-    return companion ? companion->newmark.memory() : 0.;
+    return coarse_run ? coarse_run->newmark.memory() : 0.;
   }
 
   void TimeErrorObserver::report(Log &log) const
@@ -82,12 +82,12 @@ namespace Voussoir
 
   void TimeErrorObserver::save(boost::archive::binary_oarchive &archive) const
   {
-    const bool is_estimating = companion != nullptr;
+    const bool is_estimating = coarse_run != nullptr;
     archive << is_estimating;
     if (!is_estimating)
       return;
-    const DynamicState beside = companion->newmark.state();
-    archive << beside << *companion;
+    const DynamicState coarse_state = coarse_run->newmark.state();
+    archive << coarse_state << *coarse_run;
   }
 
   void TimeErrorObserver::load(boost::archive::binary_iarchive &archive)
@@ -96,12 +96,12 @@ namespace Voussoir
     archive >> was_estimating;
     if (!was_estimating)
     {
-      companion.reset();
+      coarse_run.reset();
       return;
     }
-    DynamicState beside;
-    archive >> beside >> *companion;
-    companion->newmark.resume(beside, run.newmark->initial_energy(), run.newmark->largest_energy(),
-                              run.statics.closed);
+    DynamicState coarse_state;
+    archive >> coarse_state >> *coarse_run;
+    coarse_run->newmark.resume(coarse_state, run.newmark->initial_energy(), run.newmark->largest_energy(),
+                               run.statics.closed);
   }
 } // namespace Voussoir

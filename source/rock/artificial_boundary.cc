@@ -21,7 +21,8 @@ namespace Voussoir
   void ArtificialBoundary::keep(const std::vector<bool> &)
   {
     throw InputError(
-        "This artificial boundary supports one MPI process only: start the program without mpirun.");
+        "The artificial boundary of \"Foundation/Boundary\" supports one MPI process only. Start the program "
+        "without mpirun, or choose another boundary.");
   }
 
   std::vector<unsigned int> all_of(const std::size_t n)
@@ -81,7 +82,10 @@ namespace Voussoir
     for (const unsigned int node : nodes)
       if (std::binary_search(sorted.begin(), sorted.end(), node))
         throw InputError(
-            "the base of the dam is too near the artificial boundary of the rock: there must be " +
-            std::to_string(layers) + " layers of rock cells between them for this artificial boundary");
+            "The base of the dam is too near the artificial boundary of the rock: this boundary requires at "
+            "least " +
+            std::to_string(layers) +
+            " layers of rock elements between them. Make the rock larger or its elements smaller, or choose "
+            "another \"Foundation/Boundary\".");
   }
 } // namespace Voussoir

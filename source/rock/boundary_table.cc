@@ -65,7 +65,8 @@ namespace Voussoir
     for (const BoundaryRow &row : boundary_table())
       if (row.name == name)
         return row.make();
-    throw InputError("there is no artificial boundary \"" + name + "\"; use one of " + boundary_names(", "));
+    throw InputError("There is no artificial boundary \"" + name +
+                     "\". Set \"Foundation/Boundary\" to one of " + boundary_names(", ") + ".");
   }
 
   std::string other_boundaries(const std::string &name)

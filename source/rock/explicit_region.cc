@@ -41,14 +41,14 @@ namespace Voussoir
           next[i] *= scale[i];
           product += v[i] * next[i];
         }
-        const double beside = T.beside.empty() ? 0. : T.beside.back();
+        const double off_diagonal = T.off_diagonal.empty() ? 0. : T.off_diagonal.back();
         for (int i = 0; i < n; ++i)
         {
-          next[i] -= product * v[i] + beside * before[i];
+          next[i] -= product * v[i] + off_diagonal * before[i];
           square += next[i] * next[i];
         }
         T.diagonal.push_back(product);
-        T.beside.push_back(std::sqrt(square));
+        T.off_diagonal.push_back(std::sqrt(square));
         const bool is_last = !(square > 1e-20 * product * product) || iteration == most;
         if (iteration % interval == 0 || is_last)
         {
@@ -59,7 +59,7 @@ namespace Voussoir
         }
         before.swap(v);
         for (int i = 0; i < n; ++i)
-          v[i] = next[i] / T.beside.back();
+          v[i] = next[i] / T.off_diagonal.back();
       }
       return std::sqrt(found + residual);
     }
@@ -97,7 +97,7 @@ namespace Voussoir
     dt_critical = Voussoir::critical_time_step(largest_frequency(stiffness, mass), damping);
     if (!(dt <= dt_critical)) // or not a number
       throw InputError(beyond_critical_step(dt, dt_critical) +
-                       " Use a smaller time step, larger cells of rock, or less stiffness-proportional "
+                       " Use a smaller time step, larger rock elements, or less stiffness-proportional "
                        "damping.");
     u.assign(3 * std::size_t(n_nodes()), 0.);
     w = K_x = u;

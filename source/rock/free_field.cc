@@ -49,7 +49,9 @@ namespace Voussoir
                        const unsigned int n_steps, const IncidentWave &wave)
   {
     if (model.columns.empty())
-      throw InputError("the artificial boundary has no bottom through which the earthquake could enter");
+      throw InputError(
+          "The artificial boundary of the rock has no bottom, through which the earthquake enters. "
+          "Put the bottom faces of the rock into the surface \"artificial boundary\" (id 6).");
     double lowest = std::numeric_limits<double>::max();
     for (const RockColumn &column : model.columns)
       lowest = std::min(lowest, entrance(column));

@@ -56,7 +56,7 @@ namespace Voussoir
 
   namespace
   {
-    Vector3 foot_courant(const RockColumn &column, const double dt)
+    Vector3 bottom_courant(const RockColumn &column, const double dt)
     {
       Vector3 courant = wave_speeds(column.material.front());
       for (double &c : courant)
@@ -68,8 +68,8 @@ namespace Voussoir
   FreeFieldColumn::FreeFieldColumn(const RockColumn &column, const RayleighDamping &damping, const double dt,
                                    const unsigned int n_steps, const IncidentWave &wave, const Vector3 &delay)
       : height(column.z), damping(damping), dt(dt), wave(wave), delay(delay),
-        rising(foot_courant(column, dt), damping, dt, n_steps),
-        leaving(foot_courant(column, dt), damping, dt, n_steps), below(12, 0.), time(1, 0.)
+        rising(bottom_courant(column, dt), damping, dt, n_steps),
+        leaving(bottom_courant(column, dt), damping, dt, n_steps), below(12, 0.), time(1, 0.)
   {
     const std::size_t n = height.size();
     mass.assign(n, 0.);
@@ -83,7 +83,7 @@ namespace Voussoir
         stiffness.push_back(m.density * c * c / h);
     }
     mass[0] += .5 * column.material[0].density * (height[1] - height[0]);
-    std::copy(stiffness.begin(), stiffness.begin() + 3, foot_stiffness.begin());
+    std::copy(stiffness.begin(), stiffness.begin() + 3, bottom_stiffness.begin());
     u.assign(3 * n, 0.);
     w = x = u;
   }
@@ -100,7 +100,7 @@ namespace Voussoir
 
   void FreeFieldColumn::advance()
   {
-    double *const entering = below.data(), *const at_foot = entering + 3, *const left = entering + 6,
+    double *const entering = below.data(), *const at_bottom = entering + 3, *const left = entering + 6,
                   *const before = entering + 9;
     Vector3              scattered, x_below;
     for (unsigned int c = 0; c < 3; ++c)
@@ -108,7 +108,7 @@ namespace Voussoir
       const double now = entering[c] + left[c];
       x_below[c] = now + damping.stiffness * (now - before[c]) / dt;
       before[c] = now;
-      scattered[c] = u[c] - at_foot[c];
+      scattered[c] = u[c] - at_bottom[c];
     }
     const std::size_t n = height.size();
     for (std::size_t i = 0; i < 3 * n; ++i)
@@ -117,20 +117,20 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t i = 3 * k + c;
-        double f = k == 0 ? foot_stiffness[c] * (x_below[c] - x[i]) : stiffness[i - 3] * (x[i - 3] - x[i]);
+        double f = k == 0 ? bottom_stiffness[c] * (x_below[c] - x[i]) : stiffness[i - 3] * (x[i - 3] - x[i]);
         if (k + 1 < n)
           f += stiffness[i] * (x[i + 3] - x[i]);
         w[i] += dt * (f / mass[k] - damping.mass * w[i]);
         u[i] += dt * w[i];
       }
     const Vector3 &next_left = leaving.advance(scattered);
-    const Vector3 &next_foot = rising.advance({{entering[0], entering[1], entering[2]}});
+    const Vector3 &next_bottom = rising.advance({{entering[0], entering[1], entering[2]}});
     time[0] += 1.;
     const Vector3 next_entering = incident(time[0] * dt);
     for (unsigned int c = 0; c < 3; ++c)
     {
       left[c] = next_left[c];
-      at_foot[c] = next_foot[c];
+      at_bottom[c] = next_bottom[c];
       entering[c] = next_entering[c];
     }
   }

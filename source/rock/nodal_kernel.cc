@@ -33,9 +33,9 @@ namespace Voussoir
       return std::max(std::max(step_at(w), step_at(w ^ 1)), std::max(step_at(w ^ 2), step_at(w ^ 4)));
     }
 #define VOUSSOIR_INLINE __attribute__((always_inline)) inline
-    // Each of the following namespaces has load() and add(). load() sorts the values at n_wide nodes by
-    // component. add() sorts forces by node and adds them node after node, because two cells of a pack may
-    // share a node.
+    // Each of the following namespaces has the functions load and add. The function load sorts the values at
+    // n_wide nodes by component. The function add sorts forces by node and adds them node after node, because
+    // two cells of a pack may share a node.
 
     namespace Plain
     {
@@ -223,7 +223,8 @@ namespace Voussoir
           return row.kernel;
         known += (known.empty() ? "" : ", ") + std::string(row.name);
       }
-    throw InputError("VOUSSOIR_KERNEL is \"" + std::string(name) + "\", but this processor has the kernels " +
-                     known + ". Leave it unset to use the fastest.");
+    throw InputError("The environment variable VOUSSOIR_KERNEL is \"" + std::string(name) +
+                     "\", but this processor has the kernels " + known +
+                     ". Unset the variable to use the fastest kernel.");
   }
 } // namespace Voussoir

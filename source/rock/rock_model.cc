@@ -142,12 +142,12 @@ namespace Voussoir
         column.z.push_back(longest.places[k][2]);
         if (k == 0)
           continue;
-        Rocks beside;
+        Rocks rocks;
         for (const Stack &stack : stacks)
           if (const auto &nodes = stack.line.nodes;
               k < nodes.size() && nodes[k - 1] == longest.nodes[k - 1] && nodes[k] == longest.nodes[k])
-            beside.emplace_back(parameters.materials.at(stack.line.cells[k - 1]->material_id()), stack.area);
-        column.material.push_back(mean(beside));
+            rocks.emplace_back(parameters.materials.at(stack.line.cells[k - 1]->material_id()), stack.area);
+        column.material.push_back(mean(rocks));
       }
       return column;
     }
@@ -168,10 +168,10 @@ namespace Voussoir
         if (face.rank() == 2)
           for (const unsigned int corner : face.corners)
           {
-            const unsigned int foot = grid.node(face.cell, corner);
-            if (!side[foot] && (has_sides || (!columns.empty() && !column_at.count(foot))))
+            const unsigned int bottom = grid.node(face.cell, corner);
+            if (!side[bottom] && (has_sides || (!columns.empty() && !column_at.count(bottom))))
               continue;
-            const unsigned int c = column_at.insert({foot, columns.size()}).first->second;
+            const unsigned int c = column_at.insert({bottom, columns.size()}).first->second;
             columns.resize(std::max<std::size_t>(columns.size(), c + 1));
             columns[c].push_back(
                 {inward_line(grid, face, corner, std::numeric_limits<std::size_t>::max()), face.area});

@@ -154,8 +154,10 @@ namespace Voussoir
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     if (4 * nodes.size() > 65536) // NodalPacks::corner has 16 bits; cells of a mesh share their nodes
-      throw ComputationError("The cells of the rock share too few nodes for the fast kernel of nodal "
-                             "quadrature: set the environment variable VOUSSOIR_KERNEL to matrix.");
+      throw ComputationError(
+          "The rock elements share too few nodes for the fast kernel of nodal quadrature: " +
+          std::to_string(nodes.size()) + " nodes of " + std::to_string(part.size()) +
+          " elements. Set the environment variable VOUSSOIR_KERNEL to matrix.");
     std::stable_sort(nodes.begin(), nodes.end(),
                      [&](const unsigned int i, const unsigned int j) { return kind[i] < kind[j]; });
     const auto count = [&](const Numbering::Kind wanted) -> unsigned int

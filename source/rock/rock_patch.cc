@@ -99,7 +99,7 @@ namespace Voussoir
     }
   }
 
-  Unknowns RockPatch::feet_of(const Unknowns &u, const Unknowns &w) const
+  Unknowns RockPatch::at_base(const Unknowns &u, const Unknowns &w) const
   {
     Unknowns place(3 * std::size_t(n_base_nodes()));
     for (std::size_t k = 0; k < place.size(); ++k)
@@ -119,7 +119,7 @@ namespace Voussoir
       }
     for (unsigned int left = n_steps; left-- > 0;)
       step(left, nullptr, u_here, w_here, x);
-    return feet_of(u_here, w_here);
+    return at_base(u_here, w_here);
   }
 
   /** Returns for each base node the base nodes that its force moves within @p n_steps steps: those up to
@@ -171,7 +171,7 @@ namespace Voussoir
           force[3 * base_node + c] = 1.;
         for (unsigned int left = n_steps; left-- > 0;)
           step(left, force.data(), u, w, x);
-        const Unknowns place = feet_of(u, w);
+        const Unknowns place = at_base(u, w);
         for (const unsigned int base_node : together)
           for (const unsigned int i : reached[base_node])
           {

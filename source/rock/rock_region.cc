@@ -129,7 +129,8 @@ namespace Voussoir
         field->add_section(std::move(slice), std::move(motion), 0);
       }
     else if (parameters.free_field != "columns")
-      throw InputError("there is no free field \"" + parameters.free_field + "\"; use columns or sections");
+      throw InputError("There is no free field \"" + parameters.free_field +
+                       "\". Set \"Foundation/Free field\" to columns or sections.");
     return field;
   }
 

@@ -26,9 +26,9 @@ namespace Voussoir
       {
         std::snprintf(
             text, sizeof(text),
-            "a transmitting boundary of order %u needs %u nodes on each grid line that is normal to "
-            "the artificial boundary, but there is a line of %zu; use more layers of rock, or a lower "
-            "order",
+            "A transmitting boundary of order %u requires %u nodes on each grid line that is normal to the "
+            "artificial boundary, but a line has %zu nodes only. Use more layers of rock elements along the "
+            "boundary, or a lower order (\"Foundation/Boundary\").",
             formula.order(), formula.n_nodes(), line.nodes.size());
         throw InputError(text);
       }
@@ -40,9 +40,9 @@ namespace Voussoir
       {
         std::snprintf(
             text, sizeof(text),
-            "the transmitting boundary is unstable: its fastest wave moves c dt = %g m in a time "
-            "step, more than the spacing dx = %g m of the nodes (S = c dt/dx = %.3g, at most 1); use "
-            "a smaller time step",
+            "The transmitting boundary is unstable: its fastest wave travels %g m in a time step of the rock, "
+            "more than the node spacing of %g m (ratio %.3g). Use a smaller time step "
+            "(\"Dynamics/Steps per sample\" or \"Foundation/Substeps\").",
             step, dx, step / dx);
         throw InputError(text);
       }
@@ -141,18 +141,19 @@ namespace Voussoir
     std::string      text;
     if (has_gauss_points(p.rock) && p.rock.nodal_layers < n_layers() &&
         p.damping.stiffness < enough_damping * p.dt)
-      text = "the transmitting boundary will be unstable: use nodal quadrature in " +
-             std::to_string(n_layers()) +
-             " layers of rock at the artificial boundary, or stiffness-proportional damping of at least 0.2 "
-             "time steps";
+      text = "the transmitting boundary will be unstable. Set \"Foundation/Nodal layers\" to at least " +
+             std::to_string(n_layers()) + ", or \"Foundation/Stiffness damping\" to at least " +
+             number(enough_damping * p.dt) + " s, 0.2 time steps of the rock";
     if (text.empty() && formula.order() > 2 && !p.rock.nodal_everywhere)
-      text = "a transmitting boundary of order 3 or 4 becomes unstable in large boxes of rock with Gauss "
-             "points: use nodal quadrature everywhere, or mtf2";
+      text =
+          "a transmitting boundary of order 3 or 4 becomes unstable in large rock regions with Gauss "
+          "points. Set \"Foundation/Nodal quadrature everywhere\" to true, or \"Foundation/Boundary\" to mtf2";
     const auto rigid = [](const TransmittingFactor &factor)
     { return factor.gamma_p <= 0. && factor.gamma_s <= 0.; };
     if (formula.order() > 1 && std::all_of(formula.factors.begin(), formula.factors.end(), rigid))
-      text += std::string(text.empty() ? "" : "; ") +
-              "the transmitting boundary will drift without its term of geometric spreading (gamma)";
+      text +=
+          std::string(text.empty() ? "" : "; ") + "the transmitting boundary " + p.boundary +
+          " will drift, because it has no term for geometric spreading. Set \"Foundation/Boundary\" to mtf2";
     return text;
   }
 

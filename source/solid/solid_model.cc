@@ -88,6 +88,12 @@ namespace Voussoir
       equation[i] = equation[master[i]];
   }
 
+  std::string SolidModel::place_of(const unsigned int free_node) const
+  {
+    const auto &p = points[std::find(equation.begin(), equation.end(), free_node) - equation.begin()];
+    return place({{p[0], p[1], p[2]}});
+  }
+
   const Material &SolidModel::material_of(const DoFHandler<3>::active_cell_iterator &cell,
                                           const std::vector<Material>               &materials) const
   {
@@ -164,8 +170,9 @@ namespace Voussoir
       body.stiffness.symmetrise();
     for (std::size_t i = 0; i < structure.mass.size(); ++i)
       if (!(structure.mass[i][0] > 0.))
-        throw InputError("An element of the mesh is so distorted that the mass of one of its nodes is not "
-                         "positive. Improve the shape of the elements, or set \"Elements/Degree\" to 1.");
+        throw InputError(
+            "An element of the mesh is so distorted that the mass of its node at " + model.place_of(i) +
+            " is not positive. Improve the shape of the elements, or set \"Elements/Degree\" to 1.");
     return structure;
   }
 } // namespace Voussoir

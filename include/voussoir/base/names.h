@@ -12,13 +12,14 @@
 
 namespace Voussoir
 {
-  /** Values of an enumeration with their names in input and output files. */
+  /** Names of the values of an enumeration in input and output files: {name, value}. T: the enumeration. */
   template <typename T> using Names = std::vector<std::pair<const char *, T>>;
 
-  /** Names of entries, "Section/Entry". A name with a slash at the end means all entries of a section. */
+  /** Names of entries of the input file, "Section/Entry". A name with a slash at the end, "Section/", means all
+   * entries of a section. */
   using EntryNames = std::vector<std::string>;
 
-  /** Returns whether @p names include the entry. */
+  /** Returns true if @p names contain the @p entry or its section. */
   inline bool includes(const EntryNames &names, const std::string &entry)
   {
     return std::any_of(names.begin(), names.end(),
@@ -26,9 +27,10 @@ namespace Voussoir
                        { return name.back() == '/' ? entry.rfind(name, 0) == 0 : entry == name; });
   }
 
-  // Tables have rows {name, doc, ...}. All lists keep the order of the rows.
+  // Below, the rows of a table are structs with the members name and doc (a short description).
 
-  /** Returns the names in a table as a ParameterHandler selection, such as "rigid|rock|massless". */
+  /** Returns the names of a table in the order of the rows, such as "rigid|rock|massless", a selection of
+   * dealii::ParameterHandler. */
   template <class Rows> std::string names_of(const Rows &rows, const std::string &separator = "|")
   {
     std::string list;
@@ -37,8 +39,8 @@ namespace Voussoir
     return list;
   }
 
-  /** Returns names and descriptions of a table, such as "rigid: the base moves as the ground
-   * motion; rock: ...". */
+  /** Returns names and descriptions of a table for a help text, such as "rigid: prescribed ground motion at
+   * the base of the dam; rock: ...". */
   template <class Rows> std::string docs_of(const Rows &rows)
   {
     std::string list;
@@ -47,8 +49,9 @@ namespace Voussoir
     return list;
   }
 
-  /** Returns the row with the given @p name. For an unknown name it throws InputError with the text "There
-   * @p is_no "name". @p they_are rigid|rock|massless." */
+  /** Returns the row with the given @p name from a table. For an unknown name it throws InputError with the
+   * text: There @p is_no "name". @p they_are rigid|rock|massless. Examples: @p is_no "is no foundation",
+   * @p they_are "The foundations are:". */
   template <class Row, std::size_t n>
   const Row &row_of(const Row (&rows)[n], const std::string &name, const std::string &is_no,
                     const std::string &they_are)
@@ -59,7 +62,7 @@ namespace Voussoir
     throw InputError("There " + is_no + " \"" + name + "\". " + they_are + " " + names_of(rows) + ".");
   }
 
-  /** Returns all names as a ParameterHandler selection, such as "newton|sweeps|...". */
+  /** Returns the names of all values as a selection of dealii::ParameterHandler, such as "mean-force|none". */
   template <typename T> std::string selection(const Names<T> &names)
   {
     std::string list;
@@ -68,8 +71,13 @@ namespace Voussoir
     return list;
   }
 
-  /** Returns the value with the given @p name. For an unknown name it throws InputError with the text "There
-   * @p is_no "name". The @p kind are: ..." */
+  /** Returns the value with a given name.
+   * @param names names and values
+   * @param name name to find
+   * @param is_no part of the message for an unknown name, such as "is no impact rule"
+   * @param kind plural noun for the values in the same message, such as "rules"
+   *
+   * Throws InputError for an unknown name: There IS_NO "NAME". The KIND are: mean-force|none. */
   template <typename T>
   T value_of(const Names<T> &names, const std::string &name, const std::string &is_no,
              const std::string &kind)

@@ -16,17 +16,20 @@ namespace Voussoir
   struct ContactParameters
   {
     double       tolerance = 1e-10;    ///< relative residual at which a solution is accepted [-]
-    unsigned int max_iterations = 500; ///< largest number of Newton steps of a problem
-    unsigned int sweeps = 4;           ///< Gauss-Seidel iterations before the first Newton step
-    std::string  method = "newton";    ///< newton (with its fallbacks), proximal, sweeps
+    unsigned int max_iterations = 500; ///< largest number of Newton steps of a problem [-]
+    unsigned int sweeps = 4;           ///< number of Gauss-Seidel iterations before the first Newton step [-]
+    std::string  method = "newton";    ///< one of method_names(); newton includes its fallbacks
     double       max_seconds = std::numeric_limits<double>::infinity(); ///< limit of CPU time per problem [s]
-    bool         write_problems = false;                                ///< whether to write FCLib files
-    unsigned int first_problem = 0;  ///< problems solved before a resumed run
-    unsigned int write_interval = 1; ///< one of this many problems is written
-    std::string  write_directory;    ///< set by the run, not an entry
+    bool         write_problems = false; ///< true: write problems as FCLib files
+    unsigned int write_interval = 1;     ///< every N-th problem is written, where N is this number [-]
+    std::string  write_directory;        ///< directory of the FCLib files; set by the run, not an entry
+    unsigned int first_problem = 0; ///< number of problems before a resumed run; set by the run, not an entry
 
-    void               add_parameters(dealii::ParameterHandler &prm);
-    static std::string method_names(); ///< ParameterHandler selection
+    /** Declares the entries of subsection "Contact". */
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /** Returns the methods as a ParameterHandler selection: newton, proximal and sweeps (Gauss-Seidel). */
+    static std::string method_names();
   };
 } // namespace Voussoir
 

@@ -18,7 +18,7 @@ namespace Voussoir
    * problems with W + alpha D, where alpha falls with the residual (Rockafellar 1976; for friction: Acary,
    * Bremond and Huber 2018).
    *
-   * Pairs that touch on several surfaces (SurfacesLaw) have the forces of the secondary surfaces as
+   * Pairs with several contact surfaces (SurfacesLaw) have the forces of the secondary surfaces as
    * additional unknowns. PairSurfaces eliminates them pair by pair. Rigid flanks are solved with a small
    * contact compliance, 1e-3 of the flexibility of the pair, around the forces of the previous solution. This
    * is repeated until the forces no longer change.
@@ -56,14 +56,16 @@ namespace Voussoir
      * approximately. @p force receives three values per pair [N]. */
     void guess_bonded(const Unknowns &b, Unknowns &force);
 
-    const std::vector<PairState>     &states() const { return state; }   ///< returns the state of each pair
-    const std::vector<unsigned char> &touching() const { return touch; } ///< see PairEquations
+    /** Returns the contact state of each pair in the last solution. */
+    const std::vector<PairState> &states() const { return state; }
+    /** Returns the active surfaces of each pair in the last solution, see PairEquations::active. */
+    const std::vector<unsigned char> &active_surfaces() const { return active; }
 
   private:
     struct Iterate
     {
       Unknowns force, gap;
-      Unknowns beside; ///< forces of the secondary surfaces of all pairs [N]
+      Unknowns secondary; ///< forces of the secondary surfaces of all pairs [N]
     };
     struct Proximal ///< regularisation: gap + alpha D (force - centre)
     {
@@ -73,11 +75,11 @@ namespace Voussoir
     struct Best
     {
       double   residual = std::numeric_limits<double>::infinity();
-      Unknowns force, beside;
+      Unknowns force, secondary;
     };
     struct WithSurfaces ///< a pair that touches on several surfaces
     {
-      std::size_t        pair, begin; ///< begin: first value in Iterate::beside
+      std::size_t        pair, begin; ///< begin: first value in Iterate::secondary
       const SurfacesLaw *law;
       PairSurfaces       surfaces;
     };
@@ -113,17 +115,18 @@ namespace Voussoir
     std::vector<PairEquations>          equations;
     std::vector<WithSurfaces>           with_surfaces;
     std::vector<std::size_t>            number; ///< index of each pair in with_surfaces, or no_surfaces
-    std::vector<std::size_t>   beside_of_pair;  ///< first value of each pair in Iterate::beside, and the end
-    std::vector<PairState>     state;
-    std::vector<unsigned char> touch;
+    std::vector<std::size_t>
+                           secondary_of_pair; ///< first value of each pair in Iterate::secondary, and the end
+    std::vector<PairState> state;
+    std::vector<unsigned char> active;
     std::vector<double>        of_pair; ///< work space
 
     Unknowns                        multiplied, product; ///< product = W multiplied, of the last refresh
     const Unknowns                 *b = nullptr;         ///< load of the present problem
     const std::vector<PairHistory> *history = nullptr;
-    double                          scale = 0.;                         ///< divisor of the last residual [N]
-    double                          tolerance = 0.;                     ///< of the present stage
-    double                          beside_merit = 0., seat_alpha = 0.; ///< seat_alpha: see rigid_seats()
+    double                          scale = 0.;     ///< divisor of the last residual [N]
+    double                          tolerance = 0.; ///< of the present stage
+    double                          secondary_merit = 0., seat_alpha = 0.; ///< seat_alpha: see rigid_seats()
     double        drift = 0.; ///< error of gap by single precision, relative like the residual
     Proximal      proximal;
     Best          best;

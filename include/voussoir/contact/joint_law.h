@@ -9,9 +9,9 @@ namespace Voussoir
   /** Contact state of a pair. */
   enum class PairState : unsigned char
   {
-    open,
-    stick,
-    slip
+    open,  ///< no surface carries force
+    stick, ///< closed without slip
+    slip   ///< closed, with slip at the friction limit
   };
 
   /** Equations of a pair and one element of their generalised Jacobian. The residual is zero if and only if
@@ -22,19 +22,21 @@ namespace Voussoir
     Matrix3   d_force;  ///< derivative of the residual by the force [-]
     Matrix3   d_gap;    ///< derivative of the residual by the gap [N/m]
     PairState state;    ///< contact state that the equations correspond to
-    unsigned char
-        touching; ///< active surfaces, one bit per surface, bit 0: the face; 0 if no surface carries force
+
+    /** Active surfaces, which carry force: one bit per surface. Bit 0 is the face of the joint; a law defines
+     * bits 1 to 7, such as the flanks of a key. 0: the pair is open. */
+    unsigned char active;
   };
 
   /** Data of a pair that a joint law requires besides force and gap. */
   struct PairHistory
   {
+    /** @param start gap at the start of the step [m] */
     PairHistory(const Vector3 &start = {}) : start(start) {}
 
-    Vector3 start; ///< gap at the start of the step [m]
-
-    double area = 1.;       ///< tributary area: force over stress [m^2]
-    bool   is_mean = false; ///< true: forces are means over the step; false: forces at its end
+    Vector3 start;           ///< gap at the start of the step [m]
+    double  area = 1.;       ///< tributary area of the pair; force divided by area is a stress [m^2]
+    bool    is_mean = false; ///< true: forces are means over the step; false: forces at its end
 
     /** JointLaw::n_memory() history variables of the pair: those at the start of the step, changed by the
      * events of this step. Null if the law has none. */
@@ -48,101 +50,118 @@ namespace Voussoir
    * - force: force of side 1 on side 2 [N]; force[0] > 0 is compression.
    * - gap: displacement of side 2 relative to side 1 since grouting [m]; gap[0] >= 0 is the opening.
    * - start: gap at the start of the step [m]. The slip of the step is the tangential part of gap - start.
-   *   Friction acts against it: force_t = -mu force_n slip/|slip|. (The paper's P_tau has the opposite sign.)
+   *   Friction acts against the slip: force_t = -mu force_n slip/|slip|. (The paper's P_tau has the opposite
+   *   sign.)
    *
    * One constant object serves all pairs of a joint. Values that change are history variables, n_memory() per
-   * pair. They are part of the state of the time integration, as for reduced time steps and checkpoints.
-   * commit() updates them when a step is accepted.
+   * pair. The time integration stores the history variables, also for reduced time steps and checkpoints.
    *
-   * For each time step the solver calls evaluate(), error() and solve() until the pairs converge. Then it
-   * calls utilisation(), and apply_event() at pairs that fail; in that case the step is solved again. Finally commit()
-   * is called once per pair. */
+   * Order of the calls in a time step:
+   * 1. evaluate(), error() and solve() until all pairs converge;
+   * 2. utilisation() for each pair. If a value exceeds 1, apply_event() for the pairs with the largest
+   *    values, and the step is solved again from 1;
+   * 3. commit() once for each pair;
+   * 4. solve_impulse(), stop_normal() or solve_acceleration() for the velocity correction (Impact). */
   class JointLaw
   {
   public:
     virtual ~JointLaw() = default;
 
     /** Computes the equations of a pair and their derivatives.
-     * @param force force at the end of the step, or its mean [N]
+     * @param force force at the end of the step, or its mean over the step (PairHistory::is_mean) [N]
      * @param gap gap at the end of the step [m]
      * @param history data of the pair
-     * @param rho positive scaling factor [N/m]; the solution does not depend on it
+     * @param rho positive scaling factor, independent of the solution [N/m]
      * @param equations receives the result */
     virtual void evaluate(const Vector3 &force, const Vector3 &gap, const PairHistory &history, double rho,
                           PairEquations &equations) const = 0;
 
-    /** Returns the error of a force and a gap [N], by which the solver measures convergence. It does not
-     * depend on the formulation of the law. For Coulomb's law it is the natural map (De Saxce and Feng 1998).
-     * The default is the residual of evaluate(). */
+    /** Returns the error of a force and a gap [N], by which the solver measures convergence. The arguments are
+     * those of evaluate(). The error is equal for all formulations of a law (Equations). For Coulomb's law it
+     * is the natural map (De Saxce and Feng 1998). The default is the residual of evaluate(). */
     virtual Vector3 error(const Vector3 &force, const Vector3 &gap, const PairHistory &history,
                           double rho) const;
 
-    /** Returns the exact force of a pair alone [N], for gap = H force + b.
+    /** Returns the force that satisfies the law of this pair exactly [N], for gap = H force + b and fixed
+     * forces of the other pairs.
      * @param H flexibility of the pair [m/N], positive definite
      * @param b gap without the force [m]
      * @param history data of the pair */
     virtual Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairHistory &history) const = 0;
 
-    /** Returns the impulse that the law allows in an impact [N s]. The velocity after the impact is H
-     * impulse + v.
+    /** Returns the impulse that the law allows in an impact [N s]. The velocity of side 2 relative to side 1
+     * after the impact is H impulse + v.
      * @param H inverse mass of the pair [1/kg]
-     * @param v relative velocity without the impulse [m/s]
-     * @param history data of the pair, as in evaluate()
-     * @param touching active surfaces, see PairEquations */
+     * @param v velocity of side 2 relative to side 1 without the impulse [m/s]
+     * @param history data of the pair
+     * @param active active surfaces, see PairEquations::active */
     virtual Vector3 solve_impulse(const Matrix3 &H, const Vector3 &v, const PairHistory &history,
-                                  unsigned char touching) const = 0;
+                                  unsigned char active) const = 0;
 
-    /** Returns the impulse of a step after a correction that never adds energy [N s]. The correction removes
-     * only the velocity normal to the active surfaces.
+    /** Returns the total impulse of a step after a correction that never adds energy [N s]. The correction
+     * removes only the velocity normal to the active surfaces.
      * @param H inverse mass of the pair [1/kg]
-     * @param v relative velocity at the end of the step [m/s]
-     * @param spent impulse of the step so far [N s]
-     * @param touching active surfaces, see PairEquations */
-    virtual Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &spent,
-                                unsigned char touching) const;
+     * @param v velocity of side 2 relative to side 1 at the end of the step, before the correction [m/s]
+     * @param applied impulse of the joint force in the step, before the correction [N s]
+     * @param active active surfaces, see PairEquations::active */
+    virtual Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &applied,
+                                unsigned char active) const;
 
-    /** Returns the contact force for given accelerations [N].
+    /** Returns the contact force at the end of a step, for the acceleration H force + b of side 2 relative to
+     * side 1 [N]. Only rules with forces at the end of the step require it (ImpactRule).
      * @param H inverse mass of the pair [1/kg]
-     * @param b relative acceleration without the force [m/s^2]
+     * @param b acceleration of side 2 relative to side 1 without the force [m/s^2]
      * @param slip_velocity velocity of side 2 relative to side 1 [m/s]
      * @param still speed up to which a pair does not slip [m/s]
      * @param history data of the pair
-     * @param touching active surfaces, see PairEquations */
+     * @param active active surfaces, see PairEquations::active
+     *
+     * The default is solve_impulse(H, b, history, active). */
     virtual Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
-                                       double still, const PairHistory &history,
-                                       unsigned char touching) const;
+                                       double still, const PairHistory &history, unsigned char active) const;
 
-    /** Returns whether slip is zero for open and closed pairs. */
+    /** Returns true if slip is zero for open and closed pairs. */
     virtual bool is_tangentially_tied() const { return false; }
 
     /** Returns the number of history variables of a pair. Their initial values are zero. */
     virtual unsigned int n_memory() const { return 0; }
 
-    /** Returns whether the law requires forces that are means over the step (impact rule mean-force). */
+    /** Returns true if the law requires forces that are means over the step (ImpactRule::mean_force). */
     virtual bool needs_mean_force() const { return false; }
 
-    /** Returns the utilisation of a pair for a force and a gap, such as tensile stress over strength [-]. A
-     * converged solution with values above 1 is not accepted: the pairs with the largest values get an event,
-     * see apply_event(), and the step is solved again. */
-    virtual double utilisation(const Vector3 &, const Vector3 &, const PairHistory &) const { return 0.; }
+    /** Returns the utilisation of a pair, such as tensile stress over strength [-]. A converged solution with
+     * a value above 1 is not accepted, see apply_event().
+     * @param force force of the solution [N]
+     * @param gap gap of the solution [m]
+     * @param history data of the pair */
+    virtual double utilisation(const Vector3 &force, const Vector3 &gap, const PairHistory &history) const;
 
-    /** Stores an event of the step (a crack, a key that meets its flank) in the history variables. */
-    virtual void apply_event(double *) const {}
+    /** Stores an event of the step, such as a crack or the contact of a key flank. The solver then solves the
+     * step again with the new history variables.
+     * @param memory n_memory() history variables of the pair, which the event changes */
+    virtual void apply_event(double *memory) const;
 
-    /** Updates the history variables after a step is accepted with this force and gap. The last argument
-     * points to the same values as history.memory. */
-    virtual void commit(const Vector3 &, const Vector3 &, const PairHistory &, double *) const {}
+    /** Updates the history variables after a step is accepted.
+     * @param force force of the accepted solution [N]
+     * @param gap gap of the accepted solution [m]
+     * @param history data of the pair
+     * @param memory receives the history variables for the next step; the same values as history.memory */
+    virtual void commit(const Vector3 &force, const Vector3 &gap, const PairHistory &history,
+                        double *memory) const;
 
-    /** Returns the energy of a pair for a gap, the tributary area [m^2] and the history variables at the same
-     * time [J]. It is the energy that the bond stores and has dissipated, or the energy stored by the contact
-     * compliance of key flanks. */
-    virtual double bond_energy(const Vector3 &, double, const double *) const { return 0.; }
+    /** Returns the energy of a pair [J]: the energy that the bond stores and has dissipated, or the energy
+     * stored by the contact compliance of key flanks. It counts only if the law has history variables, see
+     * PairLaws::joint_energy().
+     * @param gap gap at one time [m]
+     * @param area tributary area of the pair [m^2]
+     * @param memory history variables at the same time */
+    virtual double bond_energy(const Vector3 &gap, double area, const double *memory) const;
 
-    /** Returns this object if its pairs touch on several surfaces with separate forces, else a null pointer.
-     * The solver then uses these forces as unknowns, see PairSurfaces. */
+    /** Returns this object if a pair has several contact surfaces with separate forces, else a null pointer.
+     * The solver uses these forces as unknowns, see PairSurfaces. */
     virtual const SurfacesLaw *surfaces_law() const { return nullptr; }
 
-    /** Returns the coefficient of friction if the law is Coulomb's law on one flat face, else -1. */
+    /** Returns the coefficient of friction [-] if the law is Coulomb's law on one flat face, else -1. */
     virtual double flat_friction() const { return -1.; }
   };
 } // namespace Voussoir

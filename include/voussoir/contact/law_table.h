@@ -33,7 +33,7 @@ namespace Voussoir
    * there is none, or if the law is not in the table. */
   std::string joint_law_warning(const std::string &name, const LawParameters &parameters);
 
-  /** Returns the laws that may require mean forces: "cohesive and KSM (with a seat compliance)". */
+  /** Returns the laws that may require mean forces: "cohesive and KSM (unless ...)". */
   std::string joint_laws_of_mean_force();
 
   /** Returns the names of the laws as a ParameterHandler selection: "tied|FJA|FJB|KSM|cohesive". */

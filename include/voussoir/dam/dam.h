@@ -61,8 +61,8 @@ namespace Voussoir
     HexMesh open_monoliths(const HexMesh &mesh, const std::string &source);
     void    choose_laws(bool tie_all);
     void    assemble(const HexMesh &opened);
-    void    tie_feet();
-    void    remove_feet(std::vector<Pair> &pairs) const;
+    void    tie_base();
+    void    remove_base_pairs(std::vector<Pair> &pairs) const;
 
     std::set<unsigned int> nodes_of_base() const; ///< equation numbers
     void                   add_loads();

@@ -6,18 +6,23 @@
 
 namespace Voussoir
 {
-  /** Terms of the energy balance [J]. The kinetic energies, the strain energy and the joint energies are
-   * current values. The other terms are works since Newmark::start(). */
+  /** Terms of the energy balance [J]. The kinetic energies and the strain energy are current values. The
+   * joint energies are those of PairLaws::joint_energy(). The other terms are works since Newmark::start(). */
   struct Energy
   {
-    /** Kinetic energy of the concrete, kinetic energy of the added mass, strain energy of the concrete. */
-    double kinetic = 0., added_mass = 0., strain = 0.;
+    double kinetic = 0.;    ///< kinetic energy of the concrete
+    double added_mass = 0.; ///< kinetic energy of the added mass of the water
+    double strain = 0.;     ///< strain energy of the concrete
+    double damping = 0.;    ///< dissipation by Rayleigh damping and dashpots
+    double friction = 0.;   ///< dissipation by friction on faces and flanks of the joints
+    double impact = 0.;     ///< remaining work in the joints: loss by impacts
+    double input = 0.;      ///< work of all loads and of the support
 
-    /** Dissipation by Rayleigh damping, dissipation by friction, loss in the normal direction of the joints,
-     * and work of all loads and of the support. */
-    double damping = 0., friction = 0., impact = 0., input = 0.;
-    double joint_stored = 0.;   ///< current energy of the flank contacts of shear keys
-    double joint_fracture = 0.; ///< energy of bonds (cohesive law): current energy plus energy lost so far
+    /** Energy stored by joint laws with several surfaces: flank contacts of shear keys (KSM). */
+    double joint_stored = 0.;
+
+    /** Energy stored and dissipated by all other joint laws with history variables: bonds (cohesive). */
+    double joint_fracture = 0.;
 
     /** Returns the error of the energy balance with respect to the state @p start [J]. It is zero up to
      * round-off in a correct run. */

@@ -11,7 +11,7 @@ namespace Voussoir
   /** Time integration of a structure with joints by the trapezoidal rule: M a + C v + K u = load + G^T force,
    * with Rayleigh damping C.
    *
-   * Each step has two parts: JointSystem computes the displacements and joint forces that satisfy the joint
+   * Each step has two stages: JointSystem computes the displacements and joint forces that satisfy the joint
    * laws, then Impact corrects the velocities of closed pairs. See doc/method.md. The structure, the laws and
    * the support must outlive the object. */
   class Newmark
@@ -56,9 +56,11 @@ namespace Voussoir
      * @param base_velocity velocity of the base at the end of the step if displacements are absolute [m/s].
      * Mass-proportional damping acts on the velocity relative to it.
      *
-     * If the joints do not converge, two steps of dt/2 replace the step, and so on down to dt/8. Throws
-     * ComputationError if these fail, too, or if displacements are not finite. After a failure to converge,
-     * the state is that of the last accepted part of a step. */
+     * If the joints do not converge, two reduced steps of dt/2 replace the step, and so on down to dt/8. Throws
+     * ComputationError if the smallest steps do not converge, or if displacements are not finite. After a
+     * failure to converge, the state is that at the end of the last accepted step, full or reduced.
+     *
+     * Returns convergence and costs of the contact problems. */
     ContactResult advance(const Unknowns &load, const Vector3 &base_velocity = {{0., 0., 0.}});
 
     const DynamicState &state() const { return now; }            ///< current state
@@ -75,7 +77,7 @@ namespace Voussoir
     /** Returns opening and slip of a pair relative to the reference of start(), in its frame (n,a,b) [m]. */
     Vector3 opening_and_slip(unsigned int pair) const;
 
-    /** Returns the contact states of the pairs in the last step, or in its last part. */
+    /** Returns the contact states of the pairs in the last accepted step, full or reduced. */
     const std::vector<PairState> &pair_states() const { return levels[last_level]->system.states(); }
 
     /** Returns the impulses of the joint forces in the last step, three values per pair [N s]. */
@@ -95,21 +97,21 @@ namespace Voussoir
     /** Operators for one step size: full, or halved once, twice or three times. */
     struct Level
     {
-      double       dt;
+      double       dt;         ///< [s]
       unsigned int n_substeps; ///< substeps of the support
       JointSystem  system;
     };
-    /** A step or a part of it. Halves may differ by one substep of the support, because substeps
+    /** Size of a full or reduced step. Two halves may differ by one substep of the support, because substeps
      * are not divided. */
-    struct Part
+    struct StepSize
     {
       double       dt;
       unsigned int n_substeps, halvings;
     };
-    void          add_level(const Part &part);
-    unsigned int  level_of(const Part &part);
-    ContactResult advance(const Part &part, const Unknowns &load, const Vector3 &base_velocity);
-    ContactResult advance_in_halves(const Part &part, const Unknowns &load, const Vector3 &base_velocity,
+    void          add_level(const StepSize &size);
+    unsigned int  level_of(const StepSize &size);
+    ContactResult advance(const StepSize &size, const Unknowns &load, const Vector3 &base_velocity);
+    ContactResult advance_in_halves(const StepSize &size, const Unknowns &load, const Vector3 &base_velocity,
                                     const ContactResult &failed);
     bool          step(Level &level, const StepLoad &step, ContactResult &result);
     ContactResult solve(Level &level, const StepLoad &step, Unknowns &force, Unknowns &u_new,
@@ -140,7 +142,7 @@ namespace Voussoir
     double       largest = 0.;
     double       of_friction = 0.;              ///< JointSystem::friction_correction() of the last step [J]
     std::vector<std::unique_ptr<Level>> levels; ///< one per step size, created on demand
-    unsigned int                        last_level = 0; ///< index of the last accepted step or part of a step
+    unsigned int                        last_level = 0; ///< level of the last accepted step
   };
 } // namespace Voussoir
 

@@ -27,7 +27,7 @@ namespace Voussoir
                     double dt);
 
     const std::vector<unsigned int> &base_nodes() const override { return dam_nodes.node; }
-    unsigned int                     n_substeps() const override { return parts; }
+    unsigned int                     n_substeps() const override { return n_full; }
     BlockSparseMatrix                compliance(unsigned int n) const override;
     Unknowns                         predict(unsigned int n, const Unknowns &at) override;
     void advance(unsigned int n, const Unknowns &force, const Unknowns &place, double work) override;
@@ -49,8 +49,8 @@ namespace Voussoir
     double balance_error() const;
 
   private:
-    static constexpr unsigned int parts = 8; ///< of the full time step
-    double   ratio(const unsigned int n) const { return 2. * damping * parts / (dt * n); } ///< 2 b / dt [-]
+    static constexpr unsigned int n_full = 8; ///< substeps of the full time step
+    double   ratio(const unsigned int n) const { return 2. * damping * n_full / (dt * n); } ///< 2 b / dt [-]
     Unknowns of_rock(const Unknowns &of_nodes) const;
     double   energy(const Unknowns &a) const;
 

@@ -8,28 +8,31 @@
 
 namespace Voussoir
 {
-  /** Three values for each interface node, body after body. */
+  /** Values at the interface nodes of all bodies, such as displacements: three values per node, body after
+   * body. */
   struct InterfaceValues
   {
-    std::vector<double>      value;
-    std::vector<std::size_t> begin = {0}; ///< begin of each body, and the end
+    std::vector<double>      value;       ///< the values
+    std::vector<std::size_t> begin = {0}; ///< index of the first value of each body, and the end
 
-    double       *of_body(const unsigned int b) { return value.data() + begin[b]; } ///< values of body b
+    /** Returns the first value of body @p b. */
+    double       *of_body(const unsigned int b) { return value.data() + begin[b]; }
     const double *of_body(const unsigned int b) const { return value.data() + begin[b]; }
   };
 
-  /** Elimination of the base nodes on a compliant support from the joint problem. The displacement L u of the
-   * base nodes is place - R f, with their displacement place without forces, the forces f on them and the
-   * compliance R of the support.
+  /** Elimination of the base nodes on a compliant support from the joint problem. L selects the base nodes.
+   * Their displacement is L u = d - R f, with their displacement d without forces, the forces f of the support
+   * on them and the compliance R of the support.
    *
-   * With F = share L A^-1 L^T, B = share G A^-1 L^T and H = F + R,
+   * With the operator A of the step, the matrix G of the jumps, F = share L A^-1 L^T, B = share G A^-1 L^T and
+   * H = F + R,
    *
-   * f = H^-1 (place - L u_0 - B^T f_joints),
+   * f = H^-1 (d - L u_0 - B^T f_joints),
    *
-   * gap = (W - B H^-1 B^T) f_joints + b + B H^-1 (place - L u_0),
+   * gap = (W - B H^-1 B^T) f_joints + b + B H^-1 (d - L u_0),
    *
-   * where u_0 and b belong to zero forces at joints and base nodes. H couples base nodes of one body, and
-   * neighbours through R; its Cholesky factor is sparse. B has dense blocks by body and joint. */
+   * where u_0 and b belong to zero forces at joints and base nodes. H couples the base nodes of one body, and
+   * the base nodes that R couples; its Cholesky factor is sparse. B has dense blocks by body and joint. */
   class BaseElimination
   {
   public:
@@ -40,33 +43,49 @@ namespace Voussoir
       BlockSparseMatrix         compliance; ///< R, symmetric [m/N]
     };
 
-    /** Prepares the elimination. Call add_body() for all bodies, then factorise(). @p structure must outlive
-     * the object. */
+    /** Prepares the elimination. Call add_body() for all bodies, then factorise().
+     * @param structure bodies and pairs; must outlive the object
+     * @param nodes base nodes and compliance of the support */
     BaseElimination(const Structure &structure, Nodes nodes);
 
-    /** Adds share times the flexibility S^-1 of the interface of @p body (CondensedBody::take_flexibility(),
-     * StepOperator::share). Call it for all bodies. */
+    /** Adds a body to H and B.
+     * @param body index of the body
+     * @param flexibility StepOperator::share times CondensedBody::take_flexibility() of the body [m/N] */
     void add_body(unsigned int body, const std::vector<double> &flexibility);
-    void factorise(); ///< factorises H; after add_body() of all bodies
+
+    /** Factorises H. Call it after add_body() of all bodies. */
+    void factorise();
 
     /** Returns the number of unknowns, three per base node. */
     unsigned int n() const { return 3 * static_cast<unsigned int>(nodes.node.size()); }
 
-    /** Copies the values of the base nodes from the interface @p values to @p of_base. */
+    /** Copies the values of the base nodes from @p values to @p of_base, three values per base node. */
     void take_from(const InterfaceValues &values, Unknowns &of_base) const;
-    /** Adds @p of_base to the interface @p values of the base nodes. */
+
+    /** Adds @p of_base, three values per base node, to @p values at the base nodes. */
     void add_to(InterfaceValues &values, const Unknowns &of_base) const;
 
-    void solve(Unknowns &x) const;                                      ///< computes x = H^-1 x
-    void add_gaps(double factor, const Unknowns &f, double *gap) const; ///< computes gap += factor B f
-    void take_gaps(const double *f, Unknowns &x) const;                 ///< computes x = B^T f
-    void subtract(const double *f, double *gap) const;                  ///< computes gap -= B H^-1 B^T f
+    /** Computes @p x = H^-1 @p x. Before: displacements [m]; after: forces [N]; n() values. */
+    void solve(Unknowns &x) const;
 
-    /** Computes blocks of B H^-1 B^T for pairs of joints j <= k. @p wants(j, k): whether the block is
-     * required. @p take(j, k, part): receives the contribution of one body to the block, by column. */
+    /** Adds @p factor B @p f to @p gap. @p f: forces on the base nodes, n() values [N]; @p gap: three values
+     * per pair [m]. */
+    void add_gaps(double factor, const Unknowns &f, double *gap) const;
+
+    /** Computes @p x = B^T @p f, the displacement of the base nodes by joint forces, n() values [m]. @p f:
+     * three values per pair [N]. */
+    void take_gaps(const double *f, Unknowns &x) const;
+
+    /** Subtracts B H^-1 B^T @p f from @p gap. @p f: joint forces [N]; @p gap: gaps [m], three values per pair. */
+    void subtract(const double *f, double *gap) const;
+
+    /** Computes blocks of B H^-1 B^T for joints j <= k, counted from 0.
+     * @param wants called as wants(j, k); returns true if the block is required
+     * @param take called as take(j, k, part); receives the part of one body in the block, by column [m/N] */
     template <class Wants, class Take> void for_blocks(const Wants &wants, const Take &take) const;
 
-    double memory() const; ///< memory consumption [bytes]
+    /** Returns the memory consumption [bytes]. */
+    double memory() const;
 
   private:
     using Key = std::pair<unsigned int, unsigned int>; ///< joint and body

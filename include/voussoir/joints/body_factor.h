@@ -21,8 +21,8 @@ namespace Voussoir
     bool has_mean_forces() const { return share != 1.; } ///< true if f are means over the step
   };
 
-  /** Operator A of a body, see StepOperator, and its Cholesky factor L by CHOLMOD. The interface is in natural order: component c of node i of body.interface has the
-   * number 3 i + c.
+  /** Operator A of a body, see StepOperator, and its Cholesky factor L by CHOLMOD. The interface is in natural
+   * order: component c of node i of body.interface has the number 3 i + c.
    *
    * Call analyse(), then factorise(), then one of the functions that return parts of the factor. */
   class BodyFactor

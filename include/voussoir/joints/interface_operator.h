@@ -14,60 +14,71 @@ namespace Voussoir
 {
   class BaseElimination;
 
-  /** Symmetric operator W of the joints, gap = W force + b [m/N], in dense blocks by group of pairs (a
-   * joint). Two groups are coupled if they share a body. Along an arch W is block tridiagonal.
+  /** Symmetric operator W of the contact problem gap = W force + b [m/N], in dense blocks. A group is a set of
+   * pairs, normally a joint. Block (j, k) has the rows of group j and the columns of group k. Two groups are
+   * coupled if they share a body. Along an arch W is block tridiagonal.
    *
-   * On a subcycled foundation the operator is W - B H^-1 B^T (BaseElimination), which couples all groups.
+   * On a compliant support the operator is W - B H^-1 B^T (BaseElimination), which couples all groups.
    * Products in double precision use the complete operator. Products in single precision, for Newton steps
    * and Gauss-Seidel iterations, use its blocks of coupled groups only.
    *
-   * With several MPI processes each process holds the blocks of the rows of its groups, including the columns
-   * of neighbours. It computes these rows of a product; the result is gathered on all processes. */
+   * With several MPI processes each process stores the blocks in the rows and columns of its groups. It
+   * computes the rows of its groups in a product, and the result is gathered on all processes.
+   *
+   * Call block() and fill all blocks, then finish(), then the other functions. */
   class InterfaceOperator : public ContactOperator
   {
   public:
-    using Floats = std::vector<float>;
+    using Floats = std::vector<float>; ///< three values per pair in single precision
 
-    /** Creates an operator without entries. @p n_pairs: number of pairs of each group; @p share: distribution
-     * of the groups. */
+    /** Creates an operator without blocks.
+     * @param n_pairs number of pairs of each group
+     * @param share distribution of the groups over the processes */
     explicit InterfaceOperator(const std::vector<unsigned int> &n_pairs, Shares share = Shares());
 
-    /** Returns true if this process owns the rows or the columns of the block. */
+    /** Returns true if this process stores block (@p j, @p k): it owns group j or group k. */
     bool holds(const unsigned int j, const unsigned int k) const { return is_mine(j) || is_mine(k); }
-    bool is_mine(const unsigned int group) const { return share.is_mine(group); } ///< group of this process
-    const Shares &shares() const { return share; }                                ///< distribution of groups
 
-    /** Gathers the rows that each process has computed on all processes. */
+    /** Returns true if this process owns the group. */
+    bool is_mine(const unsigned int group) const { return share.is_mine(group); }
+
+    /** Returns the distribution of the groups over the processes. */
+    const Shares &shares() const { return share; }
+
+    /** Gathers a vector with three values per pair on all processes. Before, each process has the values of
+     * its groups. */
     template <class Vector> void gather(Vector &x) const
     {
       if (!share.are_trivial())
         Ranks::gather(x.data(), share.parts(offset));
     }
 
-    /** Returns the block with the rows of group @p j and the columns of group @p k >= j, by column. Creates
-     * it if necessary. Empty if this process does not hold it. */
-    std::vector<double>       &block(unsigned int j, unsigned int k);
+    /** Returns block (@p j, @p k) for j <= k, by column [m/N]. The function creates a missing block, which
+     * couples the groups. The block is empty if this process does not store it. */
+    std::vector<double> &block(unsigned int j, unsigned int k);
+
+    /** Returns block (@p j, @p k) for coupled groups j <= k, by column [m/N]. */
     const std::vector<double> &block(unsigned int j, unsigned int k) const { return blocks.at({j, k}); }
 
-    /** Returns the block of the groups @p j <= @p k, or nullptr if they are not coupled. Empty if this
-     * process does not hold it. */
+    /** Returns block (@p j, @p k) for j <= k, by column [m/N], or nullptr if the groups are not coupled. The
+     * block is empty if this process does not store it. */
     const std::vector<double> *find_block(unsigned int j, unsigned int k) const
     {
       const auto found = blocks.find({j, k});
       return found == blocks.end() ? nullptr : &found->second;
     }
 
-    /** Computes y = W x with the complete operator. */
+    /** Computes @p y = W @p x with the complete operator, in double precision. */
     void multiply(const Unknowns &x, Unknowns &y) const override;
 
-    /** Returns the 3x3 diagonal block of a pair [m/N]. */
+    /** Returns the 3x3 diagonal block of a pair [m/N]. Call it after finish(). */
     Matrix3 diagonal(unsigned int pair) const override;
 
     /** Returns true if the blocks contain the complete operator. */
     bool is_in_blocks() const override { return !eliminated; }
 
-    /** Performs one Gauss-Seidel iteration over all pairs. The pairs of a group are visited three times in
-     * sequence. Blocks are in single precision, so @p gap has an error of the size of their round-off. */
+    /** Performs one Gauss-Seidel iteration over all groups; within a group, three iterations over its pairs.
+     * The blocks are in single precision, so the resulting @p gap has a round-off error of single precision. */
     void sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const override;
 
     void gather_pairs(Unknowns &values, const std::vector<std::size_t> &begin) const override;
@@ -75,33 +86,48 @@ namespace Voussoir
     std::unique_ptr<ContactJacobian> make_jacobian() const override;
 
     /** Performs one block Gauss-Seidel iteration in single precision. Call it after finish().
-     * @param own called as own(g) for each group g by the process that owns it; groups of one colour are not
-     * coupled and run in parallel. Before the call, W x of the groups already visited is added to the rows of
-     * g in @p Wx. The call writes the rows of @p x.
-     * @param x unknowns of all groups
-     * @param Wx receives the coupling part of W x, in addition to what @p own adds to its rows */
+     * @param own called as own(g) for each group g by the process that owns the group. Groups of one colour
+     * are not coupled and run in parallel. Before the call, the products of W with the groups already visited
+     * are added to the rows of g in @p Wx. The call computes the rows of g in @p x. It may
+     * add the product with the diagonal block to the rows of g in @p Wx.
+     * @param x unknowns, three values per pair
+     * @param Wx receives W x, three values per pair, without the diagonal blocks if own() does not add them */
     template <class Own> void gauss_seidel(const Own &own, Floats &x, Floats &Wx) const;
 
+    /** Returns the number of pairs of all groups. */
     unsigned int n_pairs() const override { return n() / 3; }
 
+    /** Returns the number of groups. */
     unsigned int n_groups() const { return static_cast<unsigned int>(offset.size() - 1); }
-    unsigned int n() const { return offset.back(); } ///< number of unknowns, three per pair
-    unsigned int begin(const unsigned int group) const { return offset[group]; } ///< first unknown
-    /** Returns the number of unknowns. */
-    unsigned int size(const unsigned int group) const { return offset[group + 1] - offset[group]; }
-    const std::vector<unsigned int> &neighbours(const unsigned int group) const { return coupled[group]; }
-    double                           memory() const; ///< memory consumption [bytes]
 
-    /** Returns the diagonal block of a group by column. If base nodes are eliminated, their part is
+    /** Returns the number of unknowns, three per pair. */
+    unsigned int n() const { return offset.back(); }
+
+    /** Returns the first unknown of a group. */
+    unsigned int begin(const unsigned int group) const { return offset[group]; }
+
+    /** Returns the number of unknowns of a group. */
+    unsigned int size(const unsigned int group) const { return offset[group + 1] - offset[group]; }
+
+    /** Returns the groups that are coupled with a group, ascending. */
+    const std::vector<unsigned int> &neighbours(const unsigned int group) const { return coupled[group]; }
+
+    /** Returns the memory consumption [bytes]. */
+    double memory() const;
+
+    /** Returns the diagonal block of a group, by column [m/N]. If base nodes are eliminated, their part is
      * subtracted, and the block is rounded to single precision. */
     std::vector<double> own_block(unsigned int group) const;
 
-    /** Copies the blocks to single precision and chooses the colours. Call it after all blocks are filled.
-     * @p base: eliminated base nodes, whose part is subtracted, or nullptr. */
-    void                      finish(std::shared_ptr<const BaseElimination> base = nullptr);
+    /** Copies the blocks to single precision and assigns the colours of the groups. Call it after all blocks
+     * are filled. @p base: eliminated base nodes, whose part is subtracted; nullptr: none. */
+    void finish(std::shared_ptr<const BaseElimination> base = nullptr);
+
+    /** Returns block (@p j, @p k) for j <= k in single precision, by column [m/N]. */
     const std::vector<float> &single_block(unsigned int j, unsigned int k) const { return single.at({j, k}); }
 
-    /** Computes y += W_jk x in single precision, also for j > k. */
+    /** Computes @p y += W_jk @p x in single precision, also for j > k. @p x: unknowns of group k; @p y: rows
+     * of group j. */
     void add_single(unsigned int j, unsigned int k, const float *x, float *y) const;
 
   private:

@@ -7,53 +7,66 @@
 
 namespace Voussoir
 {
-  /** Energy in joints [J]. */
+  /** Energies of all joints from JointLaw::bond_energy() [J]. */
   struct JointEnergy
   {
-    double stored = 0.;   ///< energy of the flank contacts of shear keys
-    double fracture = 0.; ///< energy of bonds, current and lost
+    /** Energy stored by laws with several contact surfaces: flank contacts of shear keys (KSM) [J]. */
+    double stored = 0.;
+
+    /** Energy stored and dissipated by all other laws with history variables: bonds (cohesive) [J]. */
+    double fracture = 0.;
   };
 
-  /** Joint laws of all pairs of a structure, and the position of their history variables in one array. */
+  /** Joint laws of all pairs of a structure, and the position of their history variables in one array.
+   *
+   * Arguments of the functions, pair after pair:
+   * - start: gap at the start of the step, three values per pair [m],
+   * - is_mean: true: forces are means over the step; false: forces at its end,
+   * - force, gap: force [N] and gap [m] of the solution, three values per pair,
+   * - memory: history variables of all pairs, JointLaw::n_memory() values per pair. */
   struct PairLaws
   {
     std::vector<const JointLaw *> of_pair; ///< law of each pair
 
-    /** Returns the initial history variables of all pairs, pair after pair. */
+    /** Returns the initial history variables of all pairs: zeros. */
     Unknowns initial_memory() const { return Unknowns(n_memory(), 0.); }
-    bool     have_memory() const { return n_memory() > 0; } ///< true if a law has history variables
-    bool     need_mean_force() const; ///< true if a law has JointLaw::needs_mean_force()
 
-    /** Returns the data of each pair for its law. The result points into @p memory.
-     * @param start gap at the start of the step, three values per pair [m]
-     * @param is_mean true: forces are means over the step; false: forces at its end
-     * @param memory history variables of all pairs */
+    /** Returns true if any law has history variables. */
+    bool have_memory() const { return n_memory() > 0; }
+
+    /** Returns true if any law requires mean forces (JointLaw::needs_mean_force()). */
+    bool need_mean_force() const;
+
+    /** Returns the data of each pair for its law. The result points into @p memory. */
     std::vector<PairHistory> histories(const Unknowns &start, bool is_mean, const Unknowns &memory) const;
 
-    /** Applies crack events to the pairs with the highest utilisation above 1: all pairs within a tenth of
-     * the largest one. Other pairs may be relieved by these events. Sets the history variables in @p memory
-     * and the forces of these pairs to 0, as a first guess. Returns the number of events. */
+    /** Applies events (JointLaw::apply_event()) to the pairs with the highest utilisation: all pairs above 1
+     * and above 0.9 of the largest value. These events may relieve the other pairs. Changes the history
+     * variables of these pairs, and sets their forces to 0 as a first guess. Returns the number of events. */
     unsigned int revise(const Unknowns &start, bool is_mean, const Unknowns &gap, Unknowns &force,
                         Unknowns &memory) const;
 
-    /** Updates the history variables @p memory for an accepted step. @p start: gap at the start of the step,
-     * three values per pair [m]. */
+    /** Updates the history variables after a step is accepted. */
     void commit(const Unknowns &start, bool is_mean, const Unknowns &force, const Unknowns &gap,
                 Unknowns &memory) const;
 
-    /** Returns the energy in the joints [J]. @p gap: three values per pair [m]. */
+    /** Returns the energies of the joints for gaps and history variables at the same time [J]. */
     JointEnergy joint_energy(const Unknowns &gap, const Unknowns &memory) const;
 
-    bool have_seats() const { return have_memory_with(true); } ///< true if JointEnergy::stored can be nonzero
-    /** Returns true if JointEnergy::fracture can be nonzero. */
+    /** Returns true if JointEnergy::stored can be nonzero: a law with several surfaces has history variables. */
+    bool have_seats() const { return have_memory_with(true); }
+
+    /** Returns true if JointEnergy::fracture can be nonzero: another law has history variables. */
     bool have_bonds() const { return have_memory_with(false); }
 
-    /** Returns the sum of SurfacesLaw::friction_correction() over all pairs in a step with mean forces [J]; 0
-     * for forces at the end of a step. @p memory: history variables before commit(). */
+    /** Returns the sum of SurfacesLaw::friction_correction() over all pairs [J]; 0 if @p is_mean is false.
+     * @p memory: history variables before commit(). */
     double friction_correction(const Unknowns &start, bool is_mean, const Unknowns &force,
                                const Unknowns &gap, const Unknowns &memory) const;
 
-    /** Appends a pair with its law and tributary area [m^2]. */
+    /** Appends a pair.
+     * @param law joint law; must outlive the object
+     * @param tributary_area tributary area [m^2] */
     void add(const JointLaw *law, double tributary_area);
 
   private:
@@ -65,14 +78,14 @@ namespace Voussoir
     std::vector<std::size_t> memory_end; ///< end of the history variables of each pair
   };
 
-  /** Joint laws of a structure, with ownership: one law per joint, and one per pair on an edge. */
+  /** Joint laws of a structure, with ownership of the laws. */
   struct JointLaws : PairLaws
   {
-    std::vector<std::unique_ptr<JointLaw>> of_joint; ///< one per joint
-    std::vector<std::unique_ptr<JointLaw>> of_edges; ///< one per pair on an edge
+    std::vector<std::unique_ptr<JointLaw>> of_joint; ///< law of each joint
+    std::vector<std::unique_ptr<JointLaw>> of_edges; ///< law of each pair on an edge, see assign()
 
-    /** Assigns the law of its joint to each pair. A pair on an edge of a joint with Coulomb friction (FJA)
-     * gets a law with friction on all its planes. Other laws do not support edges. */
+    /** Appends all @p pairs, with the law of their joint. A pair on an edge of a joint with Coulomb friction
+     * (FJA) has an own law, with friction on all its planes (Pair::planes). Other laws treat edges as flat. */
     void assign(const std::vector<Pair> &pairs);
   };
 } // namespace Voussoir

@@ -9,21 +9,26 @@
 
 namespace Voussoir
 {
-  /** Wall-clock times of the linear solutions with joints [s]. */
+  /** Wall-clock times of JointSystem::solve(), summed over all calls [s]. */
   struct SystemTimes
   {
-    double substitutions = 0., joints = 0.; ///< substitutions of the bodies; joint problem
+    double substitutions = 0.; ///< forward and backward substitutions of the bodies
+    double joints = 0.;        ///< joint problem
   };
 
   /** Base nodes on a compliant support in one step, see BaseElimination. Three values per base node. */
   struct BaseOfStep
   {
-    Unknowns displacement; ///< displacement of the base nodes without forces on them [m]
-    Unknowns force; ///< forces of the solution on the base nodes, means or values as the joint forces [N]
+    Unknowns displacement; ///< displacement of the base nodes without forces on them [m]; empty: zero
+
+    /** Forces of the support on the base nodes in the solution [N]. They are means over the step if the joint
+     * forces are means (StepOperator::has_mean_forces()). */
+    Unknowns force;
   };
 
-  /** Condensed bodies for one operator A and the joints between them. It solves A u = load + share G^T force
-   * (StepOperator) and gap = G u + offset with the joint laws between force and gap. */
+  /** Bodies, condensed to their interfaces, and the joints between them, for the operator A of a step. G is
+   * the matrix of all jumps (Structure::jump()). The class solves A u = load + share G^T force (StepOperator)
+   * and gap = G u + offset, where the joint laws relate force and gap. */
   class JointSystem
   {
   public:
@@ -31,33 +36,37 @@ namespace Voussoir
      * @param structure bodies and pairs; must outlive the object
      * @param laws joint laws of the pairs
      * @param parameters parameters of the contact solver
-     * @param step factors of the operator, and what the joint forces are
-     * @param springs springs to the ground, per component [N/m]; empty: none
-     * @param base base nodes and compliance of the support, or nullptr
-     * @param single_factors factors of the bodies in single precision (CondensedBody). The joint operator is
-     * in double precision in either case.
+     * @param step operator A, and its definition of the joint forces
+     * @param springs springs from the nodes to the ground, three values per node [N/m]; empty: none
+     * @param base base nodes and compliance of the support; nullptr: no support
+     * @param single_factors true: the factors of the bodies are in single precision (CondensedBody). The joint
+     * operator is always in double precision.
      *
-     * Throws InputError if a problem file is requested for a law without Coulomb friction, and
+     * Throws InputError if ContactParameters::write_problems is set for a law without Coulomb friction, and
      * ComputationError if a body cannot be factorised. */
     JointSystem(const Structure &structure, const PairLaws &laws, const ContactParameters &parameters,
                 const StepOperator &step, const Unknowns &springs = Unknowns(),
                 const BaseElimination::Nodes *base = nullptr, bool single_factors = false);
     JointSystem(const JointSystem &) = delete; // the solver has a pointer to the joint operator
 
-    /** Solves a step. It is solved again after each crack event.
+    /** Solves a step. After events of the joint laws (JointLaw::apply_event()) the step is solved again.
      * @param load nodal loads, three values per node [N]
      * @param offset gap for zero displacement, three values per pair [m]
      * @param start gap at the start of the step, three values per pair [m]
      * @param memory history variables before the step; receives the events of the step
-     * @param force first guess (zeros in a static system: none), then solution, three values per pair [N]
-     * @param gap receives three values per pair [m]
-     * @param u receives three values per node [m]
-     * @param base displacement of the base nodes without forces, receives their forces; nullptr: no support,
-     * or zero displacement */
+     * @param force initial guess; receives the joint forces, three values per pair [N]. In a static system,
+     * zeros mean that there is no guess.
+     * @param gap receives the gaps, three values per pair [m]
+     * @param u receives the displacements, three values per node [m]
+     * @param base displacement of the base nodes without forces; receives the forces of the support. nullptr:
+     * no support, or zero displacement
+     *
+     * Returns convergence and costs. The history variables of the laws are not updated: call commit(). */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &memory,
                         Unknowns &force, Unknowns &gap, Unknowns &u, BaseOfStep *base = nullptr);
 
-    /** Solves a step with the initial history variables of the laws, and discards them. */
+    /** Solves a step with the initial history variables of the laws, and discards the events of the step. The
+     * arguments are those of the other function. */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &force,
                         Unknowns &gap, Unknowns &u)
     {
@@ -65,40 +74,47 @@ namespace Voussoir
       return solve(load, offset, start, memory, force, gap, u);
     }
 
-    /** Returns the data of the pairs in the equations of a step. @p start: gap at the start of the step [m].
-     * The result points into @p memory. */
+    /** Returns the data of the pairs for their laws in a step. The result points into @p memory.
+     * @param start gap at the start of the step, three values per pair [m]
+     * @param memory history variables of all pairs */
     std::vector<PairHistory> histories(const Unknowns &start, const Unknowns &memory) const
     {
       return laws.histories(start, step.has_mean_forces(), memory);
     }
 
-    /** Updates the history variables @p memory for an accepted step with the solution @p force [N], @p gap
-     * [m]. @p start: gap at the start of the step [m]. */
+    /** Updates the history variables after a step is accepted.
+     * @param start gap at the start of the step, three values per pair [m]
+     * @param force joint forces of the solution, three values per pair [N]
+     * @param gap gaps of the solution, three values per pair [m]
+     * @param memory history variables after solve(); receives those for the next step */
     void commit(const Unknowns &start, const Unknowns &force, const Unknowns &gap, Unknowns &memory) const
     {
       laws.commit(start, step.has_mean_forces(), force, gap, memory);
     }
 
-    /** Returns PairLaws::friction_correction() [J]: work of friction on inclined surfaces, beyond the work of
-     * the tangential forces along the joints. */
+    /** Returns the friction energy of a step plus the work of the joint forces along the joints [J], see
+     * PairLaws::friction_correction(). The arguments are those of commit(). Call it before commit(). */
     double friction_correction(const Unknowns &start, const Unknowns &force, const Unknowns &gap,
                                const Unknowns &memory) const
     {
       return laws.friction_correction(start, step.has_mean_forces(), force, gap, memory);
     }
 
-    /** Solves A u = load without joint forces, three values per node. */
+    /** Solves A u = load without joint forces.
+     * @param load nodal loads, three values per node [N]
+     * @param u receives the displacements, three values per node [m] */
     void solve_free(const Unknowns &load, Unknowns &u);
 
     /** Returns the contact states of the pairs in the last solution. */
     const std::vector<PairState> &states() const { return solver->states(); }
-    /** Returns the active surfaces of the pairs in the last solution, one bit per surface; bit 0:
-     * the face. */
-    const std::vector<unsigned char> &touching() const { return solver->touching(); }
-    double                   memory() const; ///< memory consumption of factors and joint operator [bytes]
+    /** Returns the active surfaces of the pairs in the last solution, see PairEquations::active. */
+    const std::vector<unsigned char> &active_surfaces() const { return solver->active_surfaces(); }
+    /** Returns the memory consumption of factors and joint operator [bytes]. */
+    double memory() const;
+    /** Returns the operator W of the contact problem gap = W force + b. */
     const InterfaceOperator &joint_operator() const { return W; }
 
-    SystemTimes times; ///< since the construction
+    SystemTimes times; ///< wall-clock times since the construction
 
   private:
     struct Side ///< node of a pair: body, and number among its interface nodes

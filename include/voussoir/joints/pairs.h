@@ -17,8 +17,8 @@ namespace Voussoir
   std::vector<Pair> find_pairs(const SolidModel &model, unsigned int n_joints);
 
   /** Merges all bodies into one: coincident nodes on the two sides of the joints 1 to @p n_joints move
-   * together. @p feet_only: only base nodes are merged. */
-  void tie_joints(SolidModel &model, unsigned int n_joints, bool feet_only = false);
+   * together. @p base_only: only base nodes are merged. */
+  void tie_joints(SolidModel &model, unsigned int n_joints, bool base_only = false);
 } // namespace Voussoir
 
 #endif

@@ -14,14 +14,14 @@
 
 namespace Voussoir
 {
-  /** Writes energies to an archive of boost, or reads energies from it. */
+  /** Writes energies to a boost archive, or reads energies from an archive. */
   template <class Archive> void serialize(Archive &archive, Energy &e, unsigned int)
   {
     archive &e.kinetic &e.added_mass &e.strain &e.damping &e.friction &e.impact &e.input;
     archive &e.joint_stored &e.joint_fracture;
   }
 
-  /** Writes the state of the dam to an archive of boost, or reads the state from it. */
+  /** Writes the state of the dam to a boost archive, or reads the state from an archive. */
   template <class Archive> void serialize(Archive &archive, DynamicState &s, unsigned int)
   {
     archive &s.time &s.u &s.v &s.force &s.load &s.Ku &s.base_velocity &s.energy &s.memory;

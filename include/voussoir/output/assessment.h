@@ -16,19 +16,22 @@ namespace Voussoir
   /** Comparison of a result with its limit. */
   struct Verdict
   {
-    std::string           name, unit;
+    std::string           name;             ///< name of the limit in summary.json
+    std::string           unit;             ///< unit of value and limit
     double                value, limit;     ///< in @p unit
-    bool                  is_least = false; ///< true: the limit is a lower bound
-    std::optional<double> with_base{};      ///< stresses: value including nodes near the base
-    bool                  satisfied() const { return is_least ? value >= limit : value <= limit; }
+    bool                  is_least = false; ///< true: the limit is a lower bound; false: an upper bound
+    std::optional<double> with_base{};      ///< of stresses: value including the nodes near the base
+
+    /** Returns true if the limit is not exceeded. */
+    bool satisfied() const { return is_least ? value >= limit : value <= limit; }
   };
 
   /** Stress results of a run. */
   struct StressesOfRun
   {
-    const EnvelopeRecorder &envelope;
-    const FaceTension      &tension;
-    unsigned int            interval; ///< number of steps between two records
+    const EnvelopeRecorder &envelope; ///< principal stresses over time
+    const FaceTension      &tension;  ///< evaluation of the envelope
+    unsigned int            interval; ///< number of steps between two records of the envelope
   };
 
   /** Assessment of a run: demand-capacity ratios with duration and share of overstress, openings and slips at
@@ -38,16 +41,21 @@ namespace Voussoir
   class Assessment
   {
   public:
-    /** Compares all results with the limits. @p stresses, @p blocks: nullptr if not recorded. @p joints:
-     * nullptr for a tied dam. */
+    /** Compares all results with the limits.
+     * @param limits limits of the input file, section "Limits"
+     * @param model mesh of the dam
+     * @param stresses stress results; nullptr: not recorded
+     * @param joints joint results; nullptr: tied dam
+     * @param blocks forces at the base; nullptr: not recorded */
     Assessment(const LimitParameters &limits, const SolidModel &model, const StressesOfRun *stresses,
                const JointRecorder *joints, const BlockRecorder *blocks);
 
-    /** Adds "overstress", "waterstop", "residual", "keys", "limits" (value, limit and satisfied by name) and
-     * "limits_not_evaluated" (reasons by name) to @p summary. */
+    /** Adds the members "overstress", "waterstop", "residual", "keys", "limits" (value, limit and satisfied, by
+     * name of the limit) and "limits_not_evaluated" (reason, by name of the limit) to @p summary. */
     void add_to(Json &summary) const;
 
-    /** Returns the limits that are exceeded, with their values, or not evaluated. Empty: no limits. */
+    /** Returns a text for the log: the exceeded limits with their values, and the limits that are not
+     * evaluated. Empty: the input file has no limits. */
     std::string in_words() const;
 
   private:
@@ -69,7 +77,7 @@ namespace Voussoir
     std::optional<Json>                              overstress, waterstop, residual, keys;
   };
 
-  /** Returns value, position and time of an extreme. */
+  /** Returns the members value, position and time of an extreme. */
   Json json_of(const Extreme &extreme);
 } // namespace Voussoir
 

@@ -12,24 +12,28 @@ namespace Voussoir
   class BlockRecorder
   {
   public:
-    /** @p joint_water: water pressure in each pair [Pa], or empty. */
+    /** Prepares the records.
+     * @param dam dam in the static state
+     * @param joint_water water pressure in each pair [Pa]; empty: none */
     BlockRecorder(Dam &dam, const std::vector<double> &joint_water);
 
-    /** Computes the forces at the end of a step of the dam, or of the static state. */
+    /** Computes the forces on the bases. @p step: end of a step of the dam, or the static state. */
     void follow(const StepOfDam &step);
 
-    /** Adds the forces of the last follow() to the history and to the extremes. @p time: time [s]. */
+    /** Adds the forces of the last follow() to history and extremes. @p time: present time [s]. */
     void record(double time);
 
-    Table history; ///< rows of blocks.csv
+    Table history; ///< forces over time: rows of blocks.csv
 
-    /** Returns true if the scene has a strength of the base, which the safety against sliding requires. */
+    /** Returns true if the input file has a strength of the base (Limits/Base friction or cohesion), which the
+     * safety against sliding requires. */
     bool has_safety() const { return friction > 0. || cohesion > 0.; }
 
-    /** Returns the smallest safety against sliding [-] of all monoliths, at the centroid of a base. */
+    /** Returns the smallest safety against sliding over time of all monoliths [-]. Its position is the centroid
+     * of the base of the monolith. */
     Extreme least_safety() const;
 
-    /** Returns base and extremes of each monolith: "blocks" of summary.json. */
+    /** Returns area and extremes of the base of each monolith: "blocks" of summary.json. */
     Json json() const;
 
     template <class Archive> void serialize(Archive &archive, unsigned int) { archive &history &extremes; }

@@ -14,34 +14,40 @@ namespace Voussoir
   class FaceTension
   {
   public:
-    /** Computes the nodal areas of the faces, and finds the nodes near the base. */
+    /** Computes the nodal areas of the upstream and the downstream face, and finds the nodes near the base. */
     explicit FaceTension(const SolidModel &model);
 
-    /** Returns true if a node is near the base. */
+    /** Returns true if a node of the model is near the base. */
     bool is_near_base(const unsigned int node) const { return near_base[node]; }
 
-    /** Returns the largest maximum on a face away from the base [Pa], or NaN if there is no such node. */
+    /** Returns the largest maximum principal stress on a face away from the base [Pa]; NaN if there is no such
+     * node. @p surface: PhysicalId::upstream or downstream. */
     Extreme largest_away_from_base(const EnvelopeRecorder &envelope, const SolidModel &model,
                                    int surface) const;
 
-    /** Returns the smallest minimum of all nodes away from the base [Pa], or NaN if there is no such node. */
+    /** Returns the smallest minimum principal stress of all nodes away from the base [Pa]; NaN if there is no
+     * such node. */
     Extreme smallest_away_from_base(const EnvelopeRecorder &envelope, const SolidModel &model) const;
 
-    /** Returns the root mean square of the difference of two envelopes away from the base, weighted by area
-     * [Pa]. It includes the nodes where @p a has at least half of its maximum. It is 0 without tension, and
-     * NaN without the face. */
+    /** Returns the root mean square difference of the maxima of two envelopes on a face away from the base,
+     * weighted by area [Pa]. It includes the nodes where @p a is at least half of its maximum. It is 0 if
+     * there is no tension, and NaN if there is no such face. */
     double difference(const EnvelopeRecorder &a, const EnvelopeRecorder &b, int surface) const;
 
-    /** Returns the largest maximum on both faces away from the base, at least 0 [Pa]. */
+    /** Returns the largest maximum principal stress on both faces away from the base, at least 0 [Pa]: the
+     * tension in the progress lines. */
     double headline(const EnvelopeRecorder &envelope) const;
 
     /** Part of the area of a face. */
     struct Part
     {
-      double area = 0., whole = 0.; ///< area of the part and of the face [m^2]
+      double area = 0.;  ///< area of the part [m^2]
+      double whole = 0.; ///< area of the face [m^2]
+
+      /** Returns area divided by whole [-]. */
       double share() const { return whole > 0. ? area / whole : 0.; }
     };
-    /** Returns the nodal area of a face with a maximum above @p strength [Pa]. */
+    /** Returns the part of a face whose maximum principal stress exceeds @p strength [Pa] at any time. */
     Part above(const EnvelopeRecorder &envelope, int surface, double strength) const;
 
   private:

@@ -6,7 +6,10 @@
 
 namespace Voussoir
 {
-  /** Draws the figures of the run in @p directory with scripts/figures.py, whose output goes to @p log_file.
+  /** Draws the figures of a run with scripts/figures.py.
+   * @param directory output directory of the run
+   * @param log_file receives the output of the script
+   *
    * Returns an error message, or an empty string.
    *
    * The script is in the directory $VOUSSOIR_SCRIPTS, if it is set, or else in that of the build or

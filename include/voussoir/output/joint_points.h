@@ -8,13 +8,17 @@
 
 namespace Voussoir
 {
-  /** Largest value with its position [m] and time [s]. */
+  /** Largest value with its position and time. */
   struct Extreme
   {
-    double  value = 0., time = 0.;
-    Vector3 place = {{0., 0., 0.}};
+    double  value = 0.;             ///< largest value
+    double  time = 0.;              ///< time of the value [s]
+    Vector3 place = {{0., 0., 0.}}; ///< position of the value [m]
 
-    /** Replaces the value if the @p other one is larger. */
+    /** Replaces the value if another value is larger.
+     * @param other the other value
+     * @param at time of the other value [s]
+     * @param there position of the other value [m] */
     void raise(const double other, const double at, const Vector3 &there)
     {
       if (other > value)
@@ -34,30 +38,36 @@ namespace Voussoir
   public:
     JointPoints() = default;
 
-    /** Finds the waterstops. @p depth: distance of the waterstops from the upstream face [m]. Thinner parts
-     * of a joint have no waterstop. */
+    /** Finds the waterstops.
+     * @param model mesh of the dam
+     * @param pairs pairs of all joints
+     * @param n_joints number of joints
+     * @param depth distance of the waterstops from the upstream face [m]. Parts of a joint that are thinner
+     * have no waterstop. */
     JointPoints(const SolidModel &model, const std::vector<Pair> &pairs, unsigned int n_joints, double depth);
 
-    /** Adds opening and slip (n, a, b) of a pair to the record [m]. */
+    /** Adds a pair to the record of one time. @p pair: index of the pair. @p moved: opening and two slips of
+     * the pair in its frame (n, a, b) [m]. */
     void record(unsigned int pair, const Vector3 &moved);
 
-    /** Ends the record at @p time [s], after all pairs were added. */
+    /** Ends the record of one time, after all pairs were added. @p time: present time [s]. */
     void end_record(double time);
 
     /** Writes joint_points.csv with one line per pair, and joint_cells.csv with the quadrilaterals. */
     void write(const std::string &directory, const DamGeometry &geometry) const;
 
-    /** Returns the largest slip or opening at the last time [m]. */
+    /** Returns the largest value at the last recorded time [m]. @p slip: true for slip, false for opening. */
     Extreme residual(bool slip) const;
 
     /** Returns true if any joint has a waterstop. */
     bool has_waterstops() const { return !waterstops.empty(); }
 
-    /** Returns the largest height at the top of a joint without waterstop [m], and the number of this joint.
-     * The height is 0 if all waterstops reach the top. */
+    /** Returns the largest height at the top of a joint without waterstop [m], and the number of this joint
+     * (counted from 1). The height is 0 if all waterstops reach the top. */
     std::pair<double, unsigned int> height_without_waterstop() const;
 
-    Extreme waterstop_opening, waterstop_slip; ///< largest values at the waterstops [m]
+    Extreme waterstop_opening; ///< largest opening at the waterstops over time [m]
+    Extreme waterstop_slip;    ///< largest slip at the waterstops over time [m]
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {

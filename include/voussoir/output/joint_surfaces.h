@@ -14,6 +14,12 @@ namespace Voussoir
    *  - pressure (compression positive) and shear stress vector on side 1 [Pa], means over the step,
    *  - state: 0 open, 1 stick, 2 slip, -1 fixed base node.
    *
+   * @param file name of the VTU file
+   * @param model mesh of the dam
+   * @param structure pairs of the joints
+   * @param newmark state at the present time
+   * @param states contact states of the pairs
+   *
    * Throws WriteError if the file cannot be written. */
   void write_joint_surfaces(const std::string &file, const SolidModel &model, const Structure &structure,
                             const Newmark &newmark, const std::vector<PairState> &states);

@@ -16,18 +16,26 @@ namespace Voussoir
   public:
     KeyForces() = default; ///< no joint has keys
 
-    /** Finds the joints with keys. */
+    /** Finds the joints with keys.
+     * @param structure pairs of the joints
+     * @param parameters section "Joints" of the input file */
     KeyForces(const Structure &structure, const JointParameters &parameters);
 
-    /** Updates the largest forces. @p force: joint forces, three values per pair [N]. @p time: [s]. */
+    /** Updates the largest forces.
+     * @param time present time [s]
+     * @param force joint forces, three values per pair [N] */
     void record(double time, const Unknowns &force);
 
     /** Largest shear force of the keys of a joint. */
     struct OfJoint
     {
-      unsigned int joint;                                  ///< counted from 0
-      double       area, force, time;                      ///< [m^2], largest force [N], its time [s]
-      double       stress() const { return force / area; } ///< [Pa]
+      unsigned int joint; ///< index of the joint, counted from 0
+      double       area;  ///< area of the joint [m^2]
+      double       force; ///< largest shear force of the keys [N]
+      double       time;  ///< time of the largest force [s]
+
+      /** Returns force divided by area [Pa]. */
+      double stress() const { return force / area; }
     };
     std::vector<OfJoint> joints; ///< joints with keys
 

@@ -7,18 +7,18 @@
 #include <voussoir/output/block_recorder.h>
 #include <voussoir/output/face_tension.h>
 #include <voussoir/output/observer.h>
-#include <voussoir/output/recorder.h>
 #include <voussoir/output/run_state.h>
 #include <voussoir/output/stability_monitor.h>
+#include <voussoir/output/table_columns.h>
 #include <voussoir/output/time_error.h>
 
 namespace Voussoir
 {
-  /** Monitor of instability: record() throws ComputationError if the run has become unstable. */
+  /** Observer for instability: record() throws ComputationError if the run has become unstable. */
   class StabilityObserver : public Observer
   {
   public:
-    /** @p run: state at the start of the time loop. The observer refers to it. */
+    /** Computes the bounds. @p run: state at the start of the time loop; must outlive the observer. */
     explicit StabilityObserver(const RunState &run) : run(run), monitor(*run.dam, run.motion, *run.newmark) {}
     void record() override;
 
@@ -40,7 +40,7 @@ namespace Voussoir
     void save(boost::archive::binary_oarchive &archive) const override;
     void load(boost::archive::binary_iarchive &archive) override;
 
-    /** Returns the largest |energy balance| of the dam so far over the largest energy [-]. */
+    /** Returns the largest error of the energy balance so far, relative to the largest energy [-]. */
     double balance_error() const { return imbalance / std::max(run.largest_energy(), 1e-300); }
 
   private:
@@ -50,7 +50,7 @@ namespace Voussoir
     const RunState &run;
     double          imbalance = 0.; ///< largest |energy balance| so far [J]
     Table           history, energy;
-    Recorder        history_columns{history}, energy_columns{energy};
+    TableColumns    history_columns{history}, energy_columns{energy};
     TableFile       history_file, energy_file;
   };
 
@@ -69,10 +69,10 @@ namespace Voussoir
     void save(boost::archive::binary_oarchive &archive) const override;
     void load(boost::archive::binary_iarchive &archive) override;
 
-    /** Adds the largest opening and slip [m] to "extremes" of summary.json. */
+    /** Adds the largest opening and slip [m] to @p json, "extremes" of summary.json. */
     void add_extremes(Json &json) const;
 
-    JointRecorder joints;
+    JointRecorder joints; ///< the records
 
   private:
     const RunState &run;
@@ -83,7 +83,7 @@ namespace Voussoir
   class StressObserver : public Observer
   {
   public:
-    /** @p joints: recorder of the contact pressures for envelope.vtu. Both must outlive the observer. */
+    /** @p joints: recorder of the contact pressures for envelope.vtu. Both arguments must outlive the observer. */
     StressObserver(const RunState &run, const JointRecorder &joints);
     void start() override { follow(); }
     void follow() override;
@@ -99,14 +99,15 @@ namespace Voussoir
     /** Returns true if stresses are recorded. */
     bool is_recording() const { return run.scene().output.envelope_interval > 0; }
 
-    /** Adds the largest principal stresses [Pa] to "extremes" of summary.json. */
+    /** Adds the largest principal stresses [Pa] to @p json, "extremes" of summary.json. */
     void add_extremes(Json &json) const;
 
     /** Returns "tension_above_strength" of summary.json: area of each face with a maximum principal stress
      * above the tensile strength [m^2]. */
     Json json_of_strength() const;
 
-    /** Returns the boundary tractions for the stress recovery, or null if the scene disables them. */
+    /** Returns the boundary tractions for the stress recovery, or a null pointer if the input file disables
+     * them (Output/Stress recovery). */
     Tractions *known_tractions() { return run.scene().output.knows_tractions() ? &tractions : nullptr; }
 
   private:
@@ -118,17 +119,17 @@ namespace Voussoir
     Tractions            tractions;
 
   public:
-    StressRecovery   recovery;
-    FaceTension      tension;
-    EnvelopeRecorder envelope;
-    double           seconds = 0.; ///< wall time of follow() [s]
+    StressRecovery   recovery;     ///< stresses at the nodes from displacements
+    FaceTension      tension;      ///< evaluation of the envelope
+    EnvelopeRecorder envelope;     ///< largest and smallest principal stresses over time
+    double           seconds = 0.; ///< wall time of follow(), summed over all calls [s]
   };
 
   /** Forces of the foundation on the bases of the monoliths (blocks.csv). */
   class BlockObserver : public Observer
   {
   public:
-    /** @p run: state with the static state. It must outlive the observer. */
+    /** @p run: state after the static state; must outlive the observer. */
     explicit BlockObserver(const RunState &run);
     void follow() override;
     void record() override { blocks.record(run.newmark->state().time); }
@@ -138,7 +139,7 @@ namespace Voussoir
     void save(boost::archive::binary_oarchive &archive) const override;
     void load(boost::archive::binary_iarchive &archive) override;
 
-    BlockRecorder blocks;
+    BlockRecorder blocks; ///< the records
 
   private:
     const RunState &run;
@@ -150,7 +151,11 @@ namespace Voussoir
   class TimeErrorObserver : public Observer
   {
   public:
-    /** Starts the comparison run from the state of @p run. All arguments must outlive the observer. */
+    /** Starts the comparison run from the state of @p run. All arguments must outlive the observer.
+     * @param run run whose error is estimated
+     * @param joints joint results of the run
+     * @param stresses stress results of the run
+     * @param log receives a warning if the comparison run fails */
     TimeErrorObserver(const RunState &run, const JointRecorder &joints, StressObserver &stresses, Log &log);
     void follow() override;
     void gather_on_root() override;
@@ -158,23 +163,23 @@ namespace Voussoir
     void save(boost::archive::binary_oarchive &archive) const override;
     void load(boost::archive::binary_iarchive &archive) override;
 
-    /** Returns false if the comparison run has failed. */
-    bool has_estimate() const { return companion != nullptr && run.n_steps > 1; }
+    /** Returns true if there is an estimate; false if the comparison run has failed or has no step. */
+    bool has_estimate() const { return coarse_run != nullptr && run.n_steps > 1; }
 
-    /** Returns "error_estimate" of summary.json. */
+    /** Returns the member "error_estimate" of summary.json. */
     Json json() const;
 
-    /** Returns the memory of the comparison run [bytes]. */
+    /** Returns the memory consumption of the comparison run [bytes]. */
     double memory_consumption() const;
 
   private:
-    TimeError error() const { return companion->of(joints, stresses.envelope, stresses.tension); }
+    TimeError error() const { return coarse_run->of(joints, stresses.envelope, stresses.tension); }
 
     const RunState                    &run;
     const JointRecorder               &joints;
     const StressObserver              &stresses;
     Log                               &log;
-    std::unique_ptr<TimeErrorEstimate> companion;
+    std::unique_ptr<TimeErrorEstimate> coarse_run;
   };
 
   /** Fields on the mesh and on the joints for ParaView (solution-NNNNN.vtu, solution.pvd). */

@@ -17,40 +17,44 @@ namespace Voussoir
   class Overstress
   {
   public:
-    static constexpr unsigned int n_levels = 11;
-    using Levels = std::array<double, n_levels>;                      ///< one value per level
-    static double level(const unsigned int k) { return 1. + .1 * k; } ///< stress divided by f_t
+    static constexpr unsigned int n_levels = 11; ///< number of levels
+    using Levels = std::array<double, n_levels>; ///< one value per level
 
-    Overstress() = default; ///< inactive
+    /** Returns level @p k: stress divided by f_t, from 1 to 2 [-]. */
+    static double level(const unsigned int k) { return 1. + .1 * k; }
 
-    /** Sets all durations to zero. @p strength: f_t [Pa], 0: inactive. */
+    Overstress() = default; ///< inactive: add() ignores all stresses
+
+    /** Sets all durations to zero.
+     * @param strength tensile strength f_t [Pa]; 0: inactive
+     * @param n_nodes number of nodes */
     Overstress(const double strength, const std::size_t n_nodes)
         : strength(static_cast<float>(strength)), seconds(strength > 0. ? n_levels * n_nodes : 0, 0.)
     {
     }
 
-    /** Returns true if f_t is positive. */
-    bool watches() const { return strength > 0.f; }
+    /** Returns true if durations are recorded: f_t is positive. */
+    bool is_active() const { return strength > 0.f; }
 
     /** Returns true if there is a record after the initial one. A static state has no duration. */
     bool has_lasted() const { return last > 0.; }
 
-    /** Begins a record at the given time [s]. */
+    /** Begins a record. @p time: present time [s]. */
     void begin(const double time)
     {
       interval = last < 0. ? 0. : time - last;
       last = time;
     }
 
-    /** Adds the largest principal stress of a node [Pa] to the record. */
+    /** Adds a node to the record. @p stress: its maximum principal stress at the present time [Pa]. */
     void add(const std::size_t node, const float stress)
     {
-      if (watches() && stress > strength)
+      if (is_active() && stress > strength)
         for (unsigned int k = 0; k < n_levels && stress > static_cast<float>(level(k)) * strength; ++k)
           seconds[n_levels * node + k] += interval;
     }
 
-    /** Returns the duration of a node above the level @p k [s]. */
+    /** Returns the duration for which the stress of a node exceeds level @p k [s]. */
     double duration(const std::size_t node, const unsigned int k) const
     {
       return seconds[n_levels * node + k];
@@ -61,7 +65,7 @@ namespace Voussoir
     {
       for (std::size_t &i : begin)
         i *= n_levels;
-      if (watches())
+      if (is_active())
         Ranks::gather(seconds.data(), begin);
     }
 

@@ -21,10 +21,10 @@ namespace Voussoir
   /** Table of numbers with named columns. */
   struct Table
   {
-    std::vector<std::string>         columns;
-    std::vector<std::vector<double>> rows;
+    std::vector<std::string>         columns; ///< names of the columns
+    std::vector<std::vector<double>> rows;    ///< rows with one value per column
 
-    /** Writes the table as CSV. Throws WriteError. */
+    /** Writes the table as CSV. @p file: file name. Throws WriteError. */
     void write(const std::string &file) const;
 
     template <class Archive> void serialize(Archive &archive, unsigned int) { archive &columns &rows; }
@@ -34,10 +34,10 @@ namespace Voussoir
   class TableFile
   {
   public:
-    /** Creates the file with the rows so far. Throws WriteError. */
+    /** Creates the file with the present rows of @p table. @p name: file name. Throws WriteError. */
     void open(const std::string &name, const Table &table);
 
-    /** Appends the rows that are not in the file yet. Throws WriteError. */
+    /** Appends the rows of @p table that are not in the file yet. Throws WriteError. */
     void append(const Table &table);
 
   private:
@@ -45,19 +45,22 @@ namespace Voussoir
     std::size_t                 n_written = 0;
   };
 
-  /** Openings and slips of the joints, at the crest over time and the largest anywhere. Openings and slips
-   * are relative to the grouted state. */
+  /** Openings and slips of the joints relative to the grouted state: over time at the crest, and the largest
+   * values at all pairs. */
   class JointRecorder
   {
   public:
-    /** Both arguments must outlive the recorder. */
+    /** Prepares the records. Both arguments must outlive the recorder. */
     JointRecorder(const Structure &structure, const DamGeometry &geometry);
 
-    /** Largest openings and slips of one joint at the crest [m], and the time of the largest opening [s]. */
+    /** Largest openings and slips of one joint at the upstream and the downstream end of its crest. */
     struct Largest
     {
-      double opening_upstream = 0., opening_downstream = 0., slip_upstream = 0., slip_downstream = 0.,
-             time = 0.;
+      double opening_upstream = 0., opening_downstream = 0.; ///< largest openings [m]
+      double slip_upstream = 0., slip_downstream = 0.;       ///< largest slips [m]
+      double time = 0.;                                      ///< time of the largest opening [s]
+
+      /** Returns the larger opening of both ends [m]. */
       double                        opening() const { return std::max(opening_upstream, opening_downstream); }
       template <class Archive> void serialize(Archive &archive, unsigned int)
       {
@@ -65,24 +68,25 @@ namespace Voussoir
       }
     };
 
-    /** Adds the present openings, slips and pressures to the results. */
+    /** Adds openings, slips and pressures at the present time of @p newmark to the results. */
     void record(const Newmark &newmark);
 
-    /** Returns the largest openings and slips of each joint: joints.csv. */
+    /** Returns the table of joints.csv: largest openings and slips of each joint. */
     Table maxima() const;
 
-    /** Returns the largest and mean contact pressures of each joint: joint_pressures.csv. */
+    /** Returns the table of joint_pressures.csv: largest and mean contact pressures of each joint. */
     Table pressures() const;
 
-    /** Returns the largest contact pressure over time at each node of the model [Pa], 0 outside of joints. */
+    /** Returns the largest contact pressure over time at each node of the model [Pa]; 0 outside of joints. */
     std::vector<float> largest_pressure(const SolidModel &model) const;
 
-    Table                history;       ///< rows of joint_history.csv
-    Extreme              opening, slip; ///< largest anywhere [m]
-    JointReach           reach;         ///< records once it is set
-    JointPoints          points;        ///< records once it is set
-    KeyForces            keys;          ///< records once it is set
-    std::vector<Largest> largest;       ///< per joint
+    Table       history; ///< rows of joint_history.csv
+    Extreme     opening; ///< largest opening of all pairs [m]
+    Extreme     slip;    ///< largest slip of all pairs [m]
+    JointReach  reach;   ///< movement relative to the element width; the caller sets it before record()
+    JointPoints points;  ///< values at all pairs and waterstops; the caller sets it before record()
+    KeyForces   keys;    ///< shear forces of the keys; the caller sets it before record()
+    std::vector<Largest> largest; ///< largest values of each joint at the crest
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
@@ -100,29 +104,38 @@ namespace Voussoir
     std::vector<double> sum_of_means; ///< mean pressure of each joint, summed over history.rows [Pa]
   };
 
-  /** Returns the contact pressure of a pair, the normal force per area, compression > 0 [Pa]. */
+  /** Returns the contact pressure of a pair, the normal force divided by the tributary area [Pa]. Compression
+   * is positive. @p pair: index of the pair. */
   double joint_pressure(const Structure &structure, const DynamicState &state, unsigned int pair);
 
   /** Largest and smallest principal stresses of each node over time. */
   class EnvelopeRecorder
   {
   public:
-    /** @p initial: stresses to add to those of the displacements (self-weight), one per node. */
+    /** Prepares the records.
+     * @param recovery computes the stresses; must outlive the recorder
+     * @param initial stresses to add to those of the displacements, such as self-weight, one per node [Pa] */
     EnvelopeRecorder(const StressRecovery &recovery, std::vector<Stress> initial);
 
-    /** Computes the stresses of this rank's nodes and updates their extremes. @p time: time [s]. @p u:
-     * displacements, 3 per node [m]. @p tractions: as in StressRecovery::apply(). */
+    /** Computes the stresses of this rank's nodes and updates their extremes.
+     * @param time present time [s]
+     * @param u displacements, three values per free node [m]
+     * @param tractions known tractions, as in StressRecovery::apply() */
     void record(double time, const Unknowns &u, const std::vector<Vector3> &tractions);
 
-    /** Gathers the extremes of all nodes on every rank. All ranks: record() covers the nodes of one rank. */
+    /** Gathers the extremes of all nodes on every rank, because record() covers the nodes of one rank. All
+     * ranks must call it. */
     void gather_on_root();
 
-    /** Returns the largest maximum, or the smallest minimum, of the nodes on a surface [Pa]. Surface 0: all
-     * nodes. NaN: no nodes. */
+    /** Returns an extreme of the nodes on a surface [Pa]; NaN if there are no nodes.
+     * @param model mesh of the dam
+     * @param surface number of the surface; 0: all nodes
+     * @param largest true: largest maximum principal stress; false: smallest minimum principal stress */
     Extreme extreme(const SolidModel &model, int surface, bool largest) const;
 
-    std::vector<float> maximum, minimum, time_of_maximum, time_of_minimum; ///< per node [Pa], [s]
-    Overstress         overstress;                                         ///< records once it is set
+    std::vector<float> maximum, minimum;                 ///< extremes of each node over time [Pa]
+    std::vector<float> time_of_maximum, time_of_minimum; ///< times of the extremes [s]
+    Overstress         overstress; ///< durations of overstress; the caller sets it before record()
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
@@ -139,21 +152,30 @@ namespace Voussoir
   class FieldWriter
   {
   public:
-    /** @p model must outlive the writer. */
+    /** Prepares the writer. @p model must outlive the writer. */
     explicit FieldWriter(const SolidModel &model);
 
     /** Field with one value per node of the model. */
     struct NodalField
     {
-      std::string        name;
-      std::vector<float> values;
+      std::string        name;   ///< name in the file
+      std::vector<float> values; ///< one value per node of the model
     };
 
-    /** Writes a VTU file. @p u: displacements, 3 per free node [m], or empty. Throws WriteError. */
+    /** Writes a VTU file.
+     * @param file file name
+     * @param u displacements, three values per free node [m]; empty: none
+     * @param fields other fields
+     *
+     * Throws WriteError. */
     void write_vtu(const std::string &file, const Unknowns &u, const std::vector<NodalField> &fields) const;
 
-    /** Writes nodes and quadrilaterals of the upstream and downstream faces to faces.csv and
-     * faces_cells.csv. @p maximum, @p minimum: principal stresses of the nodes [Pa]. Throws WriteError. */
+    /** Writes nodes and quadrilaterals of the upstream and downstream faces to faces.csv and faces_cells.csv.
+     * @param directory output directory
+     * @param geometry geometry of the dam, for the developed positions
+     * @param maximum, minimum principal stresses of the nodes [Pa]
+     *
+     * Throws WriteError. */
     void write_faces(const std::string &directory, const DamGeometry &geometry,
                      const std::vector<float> &maximum, const std::vector<float> &minimum) const;
 

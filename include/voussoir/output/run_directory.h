@@ -8,33 +8,39 @@
 
 namespace Voussoir
 {
-  /** Output directory of a run. Its files are unchanged until the run has read all its input. A checkpoint,
-   * and files of other programs, are removed only on request. Two runs cannot use it simultaneously: a run
-   * locks its file `.voussoir`. */
+  /** Output directory of a run. Its files are unchanged until the run has read all its input (begin()). A
+   * checkpoint, and files of other programs, are removed only on request. Two runs cannot use a directory
+   * simultaneously, because a run locks the file `.voussoir` in the directory. */
   class RunDirectory
   {
   public:
+    /** @p path: path of the directory, which claim() creates. */
     explicit RunDirectory(std::string path) : path(std::move(path)) {}
-    ~RunDirectory(); ///< removes the files of claim() if begin() was not called
+
+    /** Removes the lock, and the files and directories of claim() if begin() was not called. */
+    ~RunDirectory();
     RunDirectory(const RunDirectory &) = delete;
     RunDirectory &operator=(const RunDirectory &) = delete;
 
     /** Creates the directory if necessary, and locks it.
      *
-     * @param resume the run continues a checkpoint
-     * @param overwrite existing files may be replaced
-     * @param inputs files that the run reads
+     * @param resume true: the run continues a checkpoint
+     * @param overwrite true: existing files may be replaced
+     * @param inputs names of the files that the run reads
      *
      * Throws InputError if the directory cannot be written to, if another run uses it, or if an input would
      * be overwritten. Without @p resume and @p overwrite, also if it contains a checkpoint or other files. */
     void claim(bool resume, bool overwrite, const std::vector<std::string> &inputs);
 
-    /** Removes the results of an earlier run, after all input was read. With @p resume no file is removed. @p
-     * keep_problems: files in contact/ are not removed. In a directory of another program only a checkpoint
-     * is removed. Throws WriteError. */
+    /** Removes the results of an earlier run, after all input was read. In a directory with files of other
+     * programs only a checkpoint is removed.
+     * @param resume true: no file is removed
+     * @param keep_problems true: the files in contact/ are not removed
+     *
+     * Throws WriteError. */
     void begin(bool resume, bool keep_problems);
 
-    const std::string path; ///< path on the command line
+    const std::string path; ///< path of the directory, as on the command line
 
   private:
     void lock();

@@ -12,30 +12,30 @@ namespace Voussoir
    *  state; observers only read the state. */
   struct RunState
   {
-    std::unique_ptr<Dam>     dam;
-    GroundMotion             motion;
-    StaticState              statics;
-    std::unique_ptr<Newmark> newmark;
+    std::unique_ptr<Dam>     dam;     ///< the dam with its foundation
+    GroundMotion             motion;  ///< ground motion, with the time step of the dam
+    StaticState              statics; ///< static state before the earthquake
+    std::unique_ptr<Newmark> newmark; ///< time integration of the dam; see start()
 
-    unsigned int           n_steps = 0;    ///< of the whole run; 0: static state only
+    unsigned int           n_steps = 0;    ///< number of steps of the whole run; 0: static state only
     unsigned int           step = 0;       ///< number of steps done
     unsigned int           start_step = 0; ///< value of @p step at the start of this process
     std::vector<PairState> pairs_at_start; ///< contact states of the pairs at @p start_step
 
-    Unknowns u_before;               ///< displacement before the last step, 3 per node [m]
+    Unknowns u_before;               ///< displacement before the last step, three values per node [m]
     Vector3  base_velocity_before{}; ///< DynamicState::base_velocity before the last step [m/s]
-    Unknowns acceleration;           ///< mean over the last step, with that of the base, 3 per node [m/s^2]
+    Unknowns acceleration; ///< mean absolute acceleration of the last step, three values per node [m/s^2]
 
     /** Returns the scene of the dam. */
     const Scene &scene() const { return dam->scene; }
 
-    /** Returns time steps of dam and rock, and the number of steps. */
+    /** Returns the time steps of dam and rock, and the number of steps. */
     TimeGrid grid() const { return {motion.dt, scene().foundation.substeps, n_steps}; }
 
-    /** Returns true if all steps are done. */
+    /** Returns true if all steps of the run are done. */
     bool is_last() const { return step == n_steps; }
 
-    /** Returns true if the present step is a multiple of @p interval. Interval 0: never. */
+    /** Returns true if the number of steps done is a multiple of @p interval [steps]. Interval 0: never. */
     bool is_due(const unsigned int interval) const { return interval > 0 && step % interval == 0; }
 
     /** Returns the contact states of the pairs after the last step. */
@@ -44,18 +44,20 @@ namespace Voussoir
       return step == start_step ? pairs_at_start : newmark->pair_states();
     }
 
-    /** Initializes neighbours and time integration from the static state. @p parameters: settings of the
+    /** Initializes neighbours and time integration from the static state. @p parameters: parameters of the
      * contact solver. */
     void start(const ContactParameters &parameters);
 
-    /** Returns the loads at the end of the next step, without those of the neighbours, 3 per node [N]. */
+    /** Returns the loads at the end of the next step, without those of the neighbours, three values per node
+     * [N]. */
     Unknowns next_load() const;
 
-    /** Returns the acceleration of the base after @p after steps [m/s^2]; 0 if displacements are absolute. */
+    /** Returns the acceleration of the base after a number of steps [m/s^2]; 0 if displacements are absolute.
+     * @p after: number of steps since the start of the motion. */
     Vector3 ground_acceleration(unsigned int after) const;
 
-    /** Returns the displacement of a node of the mesh relative to the base, with the static displacement [m].
-     *  On rock the reference is the lowest part of the base. */
+    /** Returns the displacement of a node of the mesh relative to the base, including the static displacement
+     *  [m]. On rock the reference is the lowest part of the base. */
     Vector3 relative_to_base(unsigned int node) const;
 
     /** Returns the largest energy of the run, the reference of energy balances [J]. */

@@ -8,8 +8,11 @@
 
 namespace Voussoir
 {
-  /** Returns the table of spectrum.csv: pseudo-acceleration [m/s^2] of the components of the motion over the
-   * period [s], with the damping ratio "Motion/Damping". For an artificial motion it includes the targets. */
+  /** Returns the table of spectrum.csv: pseudo-acceleration of the three components of the motion [m/s^2] over
+   * the period [s], for the damping ratio "Motion/Damping". With an artificial motion, additional columns
+   * contain the design spectrum.
+   * @param motion ground motion
+   * @param parameters section "Motion" of the input file */
   Table spectrum_table(const GroundMotion &motion, const MotionParameters &parameters);
 } // namespace Voussoir
 

@@ -12,15 +12,16 @@ namespace Voussoir
   /** Bounds of a ground motion and of the response of linear structures to the motion. */
   struct MotionBounds
   {
-    double velocity = 0., displacement = 0.; ///< largest of the ground, PGV and PGD [m/s], [m]
+    double velocity = 0.;     ///< peak ground velocity (PGV) [m/s]
+    double displacement = 0.; ///< peak ground displacement (PGD) [m]
     /** Upper bound of the velocity of an oscillator of any frequency on this ground [m/s]. The bound of
      * Duhamel's integral with the damping alpha M is the maximum over t of the integral of
      * |a(s)| exp(-alpha (t - s)/2) ds. */
     double oscillator = 0.;
   };
 
-  /** Returns the bounds of a ground motion. @p mass_damping: alpha [1/s]. Velocity and displacement are
-   * integrals of the piecewise linear acceleration, from rest. */
+  /** Returns the bounds of a ground motion. Velocity and displacement are integrals of the piecewise linear
+   * acceleration, from rest. @p mass_damping: factor alpha of the mass matrix in the damping matrix [1/s]. */
   MotionBounds bounds_of(const GroundMotion &motion, double mass_damping);
 
   /** Monitor of instability. It compares the nodes of dam and rock, and the energy that enters the rock, with
@@ -41,12 +42,18 @@ namespace Voussoir
   class StabilityMonitor
   {
   public:
-    /** Computes the bounds at the start of the time loop, and sets those of Neighbour::monitor(). @p dam must
-     * outlive the object. */
+    /** Computes the bounds at the start of the time loop, and sets those of Neighbour::monitor().
+     * @param dam dam; must outlive the object
+     * @param motion ground motion of the run
+     * @param newmark time integration in the static state */
     StabilityMonitor(const Dam &dam, const GroundMotion &motion, const Newmark &newmark);
 
-    /** Returns the instability after step @p step with a remedy, or an empty text. Energies and joints are
-     * checked in each step, the nodes in each NeighbourMonitor::interval-th step and in the @p last one. */
+    /** Returns a message about an instability with suggestions, or an empty text. Energies and joints are
+     * checked in each step, the nodes in each NeighbourMonitor::interval-th step and in
+     * the last step.
+     * @param newmark present state
+     * @param step number of steps done
+     * @param last true: it is the last step of the run */
     std::string instability(const Newmark &newmark, unsigned int step, bool last) const;
 
   private:

@@ -31,30 +31,40 @@ namespace Voussoir
   class TimeErrorEstimate
   {
   public:
-    /** @p dt: time step of the run [s]. @p start: state of the run at the start. @p reference_jump: jumps at
-     * which the joints are closed, 3 per pair [m]. @p dam must outlive the object. */
+    /** Starts the comparison run.
+     * @param dam dam; must outlive the object
+     * @param parameters parameters of the contact solver
+     * @param dt time step of the run [s]; the comparison run has 2 dt
+     * @param rule velocity correction of closed pairs
+     * @param start state of the run at its start
+     * @param reference_jump jumps at which the joints are closed, three values per pair [m] */
     TimeErrorEstimate(const Dam &dam, const ContactParameters &parameters, double dt, ImpactRule rule,
                       const DynamicState &start, const Unknowns &reference_jump);
 
-    /** Starts the records of stresses. @p tractions: boundary tractions that @p stress uses, or null. Both
-     * must outlive the object. */
+    /** Starts the records of stresses. Both arguments must outlive the object.
+     * @param stress computes the stresses
+     * @param tractions boundary tractions that @p stress uses; nullptr: none */
     void record_stresses(const StressRecovery &stress, Tractions *tractions);
 
     /** Advances the comparison run in every second call. The time loop calls it after each step of the run.
-     * @p load: loads at the end of the step, 3 per node [N]. @p base_velocity: as in Newmark::advance()
-     * [m/s].
-     * @p ground: acceleration of the base at the end of the step [m/s^2]. */
+     * @param step number of steps done by the run
+     * @param load loads at the end of the step, three values per node [N]
+     * @param base_velocity velocity of the base, as in Newmark::advance() [m/s]
+     * @param ground acceleration of the base at the end of the step [m/s^2] */
     void advance(unsigned int step, const Unknowns &load, const Vector3 &base_velocity,
                  const Vector3 &ground);
 
-    /** Gathers the stresses of all nodes on every rank. All ranks. */
+    /** Gathers the stresses of all nodes on every rank. All ranks must call it. */
     void gather_on_root()
     {
       if (envelope)
         envelope->gather_on_root();
     }
 
-    /** Returns the estimate from the results of the run. */
+    /** Returns the estimate.
+     * @param joints joint results of the run
+     * @param envelope stress envelope of the run
+     * @param tension evaluation of the envelope */
     TimeError of(const JointRecorder &joints, const EnvelopeRecorder &envelope,
                  const FaceTension &tension) const;
 
@@ -69,7 +79,7 @@ namespace Voussoir
     std::unique_ptr<Support> support; // constructed before newmark, which uses it
 
   public:
-    Newmark newmark;
+    Newmark newmark; ///< time integration of the comparison run
 
   private:
     void   record_stresses();

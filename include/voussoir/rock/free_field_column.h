@@ -66,7 +66,7 @@ namespace Voussoir
     RayleighDamping damping;
     double          dt;
     IncidentWave    wave;
-    Vector3         delay, foot_stiffness;
+    Vector3         delay, bottom_stiffness;
     EndlessColumn   rising,
         leaving; ///< incident wave above its entrance; wave that leaves below the lowest node
     std::vector<double> u, w, x;

@@ -42,7 +42,7 @@ namespace Voussoir
     void add_layers(const RockModel &model, unsigned int n_steps);
     void step(unsigned int n_left, const double *force, Unknowns &u, Unknowns &w, Unknowns &x) const;
     std::vector<std::vector<unsigned int>> reach(unsigned int n_steps) const;
-    Unknowns                               feet_of(const Unknowns &u, const Unknowns &w) const;
+    Unknowns                               at_base(const Unknowns &u, const Unknowns &w) const;
 
     RayleighDamping           damping;
     double                    dt;

@@ -44,6 +44,9 @@ namespace Voussoir
       return surfaces[node].count(surface) > 0;
     }
 
+    /** Returns the position of a free node as "(x, y, z) m", for messages. @p free_node: its number. */
+    std::string place_of(unsigned int free_node) const;
+
     /** Returns the material of a cell. @p materials: one per zone of the mesh (HexMesh::zones), or a single
      * one for all cells. */
     const Material &material_of(const dealii::DoFHandler<3>::active_cell_iterator &cell,

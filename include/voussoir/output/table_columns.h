@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef voussoir_recorder_h
-#define voussoir_recorder_h
+#ifndef voussoir_table_columns_h
+#define voussoir_table_columns_h
 
 #include <voussoir/output/recorders.h>
 
@@ -9,27 +9,29 @@
 
 namespace Voussoir
 {
-  /** Table that is filled row by row, from columns that are declared by name and value. */
-  class Recorder
+  /** Columns of a table, declared by name and by a function that returns the present value. record() adds a row
+   * to the table. */
+  class TableColumns
   {
   public:
-    /** Removes the columns of @p table, which must outlive the recorder. */
-    explicit Recorder(Table &table) : table(table) { table.columns.clear(); }
+    /** Removes the columns of @p table, which must outlive the object. */
+    explicit TableColumns(Table &table) : table(table) { table.columns.clear(); }
 
-    /** Adds a column with the value that @p value returns. */
+    /** Adds a column. @p value returns the present value of the column. */
     void add(const std::string &name, const std::function<double()> &value)
     {
       add(std::vector<std::string>{name}, [value] { return std::vector<double>{value()}; });
     }
 
-    /** Adds several columns. @p values returns one value for each column. */
+    /** Adds several columns. @p values returns one present value for each column. */
     void add(const std::vector<std::string> &names, const std::function<std::vector<double>()> &values)
     {
       table.columns.insert(table.columns.end(), names.begin(), names.end());
       sources.push_back(values);
     }
 
-    /** Adds columns. @p values returns their names and values, with the same names in each call. */
+    /** Adds columns. @p values returns names and present values of the columns, with the same names in each
+     * call. */
     void add_named(const std::function<std::vector<std::pair<std::string, double>>()> &values)
     {
       std::vector<std::string> names;
@@ -45,7 +47,7 @@ namespace Voussoir
           });
     }
 
-    /** Adds the columns NAME_x, NAME_y and NAME_z. */
+    /** Adds the columns NAME_x, NAME_y and NAME_z. @p value returns the present values of the three columns. */
     void add_vector(const std::string &name, const std::function<Vector3()> &value)
     {
       add({name + "_x", name + "_y", name + "_z"},
@@ -56,7 +58,7 @@ namespace Voussoir
           });
     }
 
-    /** Adds a row with the present values. */
+    /** Adds a row with the present values of all columns to the table. */
     void record()
     {
       std::vector<double> row;
