@@ -225,7 +225,7 @@ namespace Voussoir
         }
         std::copy(sum.begin(), sum.end(), forces.begin() + 6 * std::size_t(a));
       }
-    split.gather_on_root(forces, 6, seeds);
+    split.gather(forces, 6, seeds);
     if (coarse)
       coarse->solve(forces, motions);
     Ranks::broadcast(motions.data(), motions.size(), 0);

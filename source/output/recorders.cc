@@ -194,11 +194,11 @@ namespace Voussoir
     }
   }
 
-  void EnvelopeRecorder::gather_on_root()
+  void EnvelopeRecorder::gather()
   {
     for (auto *values : {&maximum, &minimum, &time_of_maximum, &time_of_minimum})
       Ranks::gather(values->data(), begin);
-    overstress.gather_on_root(begin);
+    overstress.gather(begin);
   }
 
   Extreme EnvelopeRecorder::extreme(const SolidModel &model, const int surface, const bool largest) const

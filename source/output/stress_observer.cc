@@ -39,7 +39,7 @@ namespace Voussoir
     if (run.is_due(run.scene().output.envelope_interval))
       envelope.record(run.newmark->state().time, run.newmark->state().u, tractions_now());
     if (run.is_due(run.scene().output.progress_interval) || run.is_last())
-      envelope.gather_on_root();
+      envelope.gather();
     seconds += watch.seconds();
   }
 

@@ -53,12 +53,12 @@ namespace Voussoir
       free_field->gather_on_root();
     if (!boundary)
       return;
-    split.gather_on_root(boundary_w, 3, boundary->nodes());
+    split.gather(boundary_w, 3, boundary->nodes());
     const std::vector<unsigned int> node = boundary->nodes_of_points();
     for (Unknowns *values : {&field, &field_before, &field_next})
-      split.gather_on_root(*values, 3, node);
+      split.gather(*values, 3, node);
     for (auto *values : boundary->state())
       if (values->size() == 3 * node.size())
-        split.gather_on_root(*values, 3, node);
+        split.gather(*values, 3, node);
   }
 } // namespace Voussoir

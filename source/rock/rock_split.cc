@@ -100,8 +100,8 @@ namespace Voussoir
     Ranks::gather(data.data(), parts);
   }
 
-  void RockSplit::gather_on_root(std::vector<double> &data, const unsigned int n,
-                                 const std::vector<unsigned int> &node) const
+  void RockSplit::gather(std::vector<double> &data, const unsigned int n,
+                         const std::vector<unsigned int> &node) const
   {
     if (is_trivial() || data.empty())
       return;

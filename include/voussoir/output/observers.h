@@ -87,7 +87,7 @@ namespace Voussoir
     StressObserver(const RunState &run, const JointRecorder &joints);
     void start() override { follow(); }
     void follow() override;
-    void gather_on_root() override { envelope.gather_on_root(); }
+    void gather_on_root() override { envelope.gather(); }
     void finish(const std::string &directory, Log &log) override;
     void report(Log &log) const override;
     void save(boost::archive::binary_oarchive &archive) const override;

@@ -61,7 +61,7 @@ namespace Voussoir
     }
 
     /** Exchanges the durations of all ranks. Rank r owns the nodes begin[r] to begin[r + 1]. */
-    void gather_on_root(std::vector<std::size_t> begin)
+    void gather(std::vector<std::size_t> begin)
     {
       for (std::size_t &i : begin)
         i *= n_levels;

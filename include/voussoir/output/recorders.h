@@ -125,7 +125,7 @@ namespace Voussoir
 
     /** Gathers the extremes of all nodes on every rank, because record() covers the nodes of one rank. All
      * ranks must call it. */
-    void gather_on_root();
+    void gather();
 
     /** Returns an extreme of the nodes on a surface [Pa]; NaN if there are no nodes.
      * @param model mesh of the dam

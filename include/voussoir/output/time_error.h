@@ -58,7 +58,7 @@ namespace Voussoir
     void gather_on_root()
     {
       if (envelope)
-        envelope->gather_on_root();
+        envelope->gather();
     }
 
     /** Returns the estimate.

@@ -57,8 +57,7 @@ namespace Voussoir
     void gather_chunks(std::vector<double> &data, unsigned int n) const;
 
     /** Gathers items of @p n values on all processes. The owner of entry i of @p node supplies item i. */
-    void gather_on_root(std::vector<double> &data, unsigned int n,
-                        const std::vector<unsigned int> &node) const;
+    void gather(std::vector<double> &data, unsigned int n, const std::vector<unsigned int> &node) const;
 
   private:
     std::vector<std::size_t>               begin; ///< first chunk of each process
