@@ -117,9 +117,10 @@ namespace Voussoir
           {
             std::ostringstream message;
             message << "The static state did not converge in step " << i + 1 << " of " << path.n_steps()
-                    << ": residual " << result.residual << " of the joint forces and "
-                    << result.residual_over_load << " of the load, after " << result.iterations
-                    << " Newton steps. Increase \"Statics/Water increments\".";
+                    << ": the residual is " << result.residual << " of the joint forces and "
+                    << result.residual_over_load
+                    << " of the load (limit \"Contact/Tolerance\" = " << parameters.tolerance << "), after "
+                    << result.iterations << " Newton steps. Increase \"Statics/Water increments\".";
             throw ComputationError(message.str());
           }
         } while (water && water->spread(system->states(), pressure));

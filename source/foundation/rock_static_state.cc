@@ -200,8 +200,9 @@ namespace Voussoir
     if (total.converged && error > enough)
     {
       std::ostringstream message;
-      message << "The static state of dam and rock did not converge: relative error " << error << " after "
-              << round << " iterations. Check the materials and the elements of the rock.";
+      message << "The static state of dam and rock did not converge: relative error " << error << " (limit "
+              << enough << ") after " << round
+              << " iterations. Check the materials and the elements of the rock.";
       throw ComputationError(message.str());
     }
     for (std::size_t k = 0; k < r.size(); ++k)
