@@ -126,7 +126,8 @@ namespace Voussoir
     const Stopwatch    watch;
     constexpr double   tolerance = 1e-11;
     const unsigned int iterations = rock->solve(b, u, log, tolerance, part);
-    log.line("          load %u: %u iterations, %.1f s", ++n_solutions, iterations, watch.seconds());
+    log.line("          static solution %u of the rock: %u iterations, %.1f s", ++n_solutions, iterations,
+             watch.seconds());
     u_base.resize(3 * base_nodes.size());
     for (std::size_t i = 0; i < base_nodes.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
