@@ -127,7 +127,7 @@ namespace Voussoir
       const double memory = state.newmark->memory() +
                             (observers->time_error ? observers->time_error->memory_consumption() : 0.);
       const std::vector<double> bytes = Ranks::of_all(memory);
-      log.line("Shaking   %.2f s in %u steps of %g s; joints and factors hold %.2f GiB",
+      log.line("Shaking   %.2f s in %u steps of %g s; memory of joint operators and factors %.2f GiB",
                state.grid().duration(), state.n_steps, state.motion.dt,
                std::accumulate(bytes.begin(), bytes.end(), 0.) / std::pow(2., 30));
       log.line("\n   time  newton  open  slip  opening [mm]  slip [mm]  tension [MPa]  elapsed     left");

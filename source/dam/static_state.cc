@@ -150,7 +150,8 @@ namespace Voussoir
             step.overlap = std::max(step.overlap, -dam.structure.jump(pair, state.u)[0]);
         state.steps.push_back(step);
         if (path.ends_part(i) && (path.n_parts() > 1 || step.n_wet > 0))
-          log.line("Stage     %s: crest %.1f mm downstream, %u pairs open, %u wet, largest opening %.2f mm",
+          log.line("Stage     %s: crest %.1f mm downstream, %u pairs open, %u pairs under water pressure, "
+                   "largest opening %.2f mm",
                    part.name.c_str(), 1e3 * state.crown[0], step.n_open, step.n_wet, 1e3 * step.opening);
         if (path.ends_part(i) && step.overlap > usual_gap)
           log.line("warning: stage %s: joints above the lift of %g m overlap by %.1f mm, more than the usual "
