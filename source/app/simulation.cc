@@ -304,7 +304,8 @@ namespace Voussoir
     if (state.n_steps > 0)
       counters.report(state, observers->stresses.seconds, log);
     const double balance_error = observers->history.balance_error();
-    log.line("Energy    balance closes to %.1e of the largest energy", balance_error);
+    log.line("Energy    error of the energy balance %.1e of the largest energy (limit %.0e)", balance_error,
+             largest_balance_error);
     for (const Neighbour *neighbour : state.dam->neighbours)
       neighbour->report_balance(log);
     checkpoint.remove(); // the run is complete
