@@ -130,6 +130,9 @@ namespace Voussoir
       log.line("Shaking   %.2f s in %u steps of %g s; memory of joint operators and factors %.2f GiB",
                state.grid().duration(), state.n_steps, state.motion.dt,
                std::accumulate(bytes.begin(), bytes.end(), 0.) / std::pow(2., 30));
+      log.line(
+          "          newton: mean since the start; open, slip: pairs at this time; opening [mm], slip [mm], "
+          "tension: largest since the start");
       log.line("\n   time  newton  open  slip  opening [mm]  slip [mm]  tension [MPa]  elapsed     left");
     }
     if (options.resume)
