@@ -69,7 +69,7 @@ namespace
     for (const std::string axes : {"x y", "x y y", "x y z z", "a b c", "--x y z", "- x y"})
     {
       parameters.axes = axes;
-      expect_error([&] { parameters.check(); }, {"'Axes'"});
+      expect_error([&] { parameters.check(); }, {"\"Mesh/Axes\""});
     }
   }
 
@@ -90,12 +90,12 @@ namespace
     for (const double height : {-1., 20., 150.})
     {
       parameters.arch210.smallest_height = height;
-      expect_error([&] { parameters.check(); }, {"Mesh/Arch210", "Smallest height"});
+      expect_error([&] { parameters.check(); }, {"\"Mesh/Arch210/Smallest height\""});
     }
     parameters.arch210.smallest_height = 12; // the outermost of 28 joints is 30.6 m high
     parameters.arch210.check();
     parameters.source = "file";
-    expect_error([&] { parameters.check(); }, {"'File'"});
+    expect_error([&] { parameters.check(); }, {"\"Mesh/File\""});
   }
 
   void test_bad_files()

@@ -409,11 +409,11 @@ namespace
     {
       MeshParameters p = parameters(5, 12, 4, 1);
       spoil(p.arch210_rock);
-      expect_error([&] { make_mesh(p, ""); }, {"Mesh/Arch210/Rock", part});
+      expect_error([&] { make_mesh(p, ""); }, {"\"Mesh/Arch210/Rock/" + part + "\""});
     };
-    bad([](auto &rock) { rock.sides = 10; }, "'Sides'");
-    bad([](auto &rock) { rock.element_size = 0; }, "'Element size'");
-    bad([](auto &rock) { rock.n_layers = 3; }, "'Boundary layers'");
+    bad([](auto &rock) { rock.sides = 10; }, "Sides");
+    bad([](auto &rock) { rock.element_size = 0; }, "Element size");
+    bad([](auto &rock) { rock.n_layers = 3; }, "Boundary layers");
   }
 } // namespace
 

@@ -46,7 +46,7 @@ def estimate():
     run = ["scene.prm", *DURATION]
     runs(*run, "--output", "fine", "--set", "Dynamics/Steps per sample=16")
     text = runs(*run, "--output", "steps2", "--set", "Dynamics/Steps per sample=2", "--set", "Dynamics/Error estimate=true")
-    expect("error by the time step, by estimate" in text, text)
+    expect("estimated error of the time step: all openings" in text, text)
     told, true = summary("steps2")["error_estimate"], error("steps2", "fine")
     print(f"    estimate {told['openings']:.4f}, true {true:.4f}")
     expect(true / 2 < told["openings"] < 2 * true, f"the estimate {told} is not within a factor of 2 of {true}")

@@ -91,7 +91,7 @@ def entries():
 
     lines = warned(*cohesive("2 MPa", "150 N/m"))
     print("   ", lines)
-    expect(len(lines) == 1 and f"up to {length:.2g} m apart" in lines[0] and "= 0.9 m" in lines[0] and "to 0.9 m" in lines[0], f"{lines}")
+    expect(len(lines) == 1 and f"up to {length:.2g} m apart" in lines[0] and "limit is 0.9 m" in lines[0] and "to 0.9 m" in lines[0], f"{lines}")
     expect("Set Joints/Fracture energy" in warned(*cohesive("2 MPa", "0"))[0], "no fracture energy")
     finer = ["--set", "Elements/Degree=2"]
     for share, n in ((.999, 1), (1.001, 0)):

@@ -127,7 +127,7 @@ def stages():
     found, shown = result("filled", *settings(Statics__Stages="fill 80, fill 140", Statics__Water_increments=2))
     names, rows = table("filled/stages.csv")
     expect(len(rows) == 6 and [row[names.index("level")] for row in rows] == [80, 80, 140, 140, 195, 195], f"{names} {rows}")
-    expect("Stage     fill 140: crest" in shown and not Path("once/stages.csv").exists(), shown)
+    expect("Stage     fill 140 m: crest" in shown and not Path("once/stages.csv").exists(), shown)
     # Once more into the same directory: the same; then without stages: none are left of the run before.
     stages_then, summary_then = Path("filled/stages.csv").read_bytes(), found["static"]
     again, _ = result("filled", *settings(Statics__Stages="fill 80, fill 140", Statics__Water_increments=2))
@@ -254,7 +254,7 @@ def uplift():
     wet, shown = result("wet", *cold, *settings(Loads__Uplift__Joints="true"))
     line = next(x for x in shown.splitlines() if x.startswith("Stage "))
     print("   ", line, "; dry", dry["static"]["open_pairs"], "open")
-    n_open, n_wet = (int(line.split(word)[0].split()[-1]) for word in (" pairs open", " wet"))
+    n_open, n_wet = (int(line.split(word)[0].split()[-1]) for word in (" pairs open", " pairs under"))
     expect(0 < n_wet <= n_open and wet["static"]["open_pairs"] >= dry["static"]["open_pairs"], line)
     openings = [x["extremes"]["max_opening"]["value"] for x in (dry, wet)]
     expect(wet["static"]["crest_displacement"] != dry["static"]["crest_displacement"], f"{openings}")

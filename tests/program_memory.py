@@ -45,7 +45,7 @@ def scene(name, joints, along, up, through, rock="", more=""):
 
 def estimate(text):
     """Of a run, and more for each halving [bytes]."""
-    found = re.search(r"about ([\d.]+) GiB, and ([\d.]+) GiB more for each halving", text)
+    found = re.search(r"about ([\d.]+) GiB, and ([\d.]+) GiB more for each halved time step", text)
     expect(found, f"no estimate in {text}")
     return [float(x) * GIB for x in found.groups()]
 

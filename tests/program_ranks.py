@@ -71,7 +71,7 @@ def any_number(name, ranks, *arguments):
     for n in ranks:
         status, out, error = on_ranks(n, "scene.prm", "--output", f"{name}.{n}", *arguments)
         expect(status == 0, f"{name} on {n} ranks: status {status}: {out[-1000:]}{error[-2000:]}")
-        expect(out.count("Energy    balance") == 1, f"one rank speaks: {out}")
+        expect(out.count("Energy    error") == 1, f"one rank speaks: {out}")
         same_bits(f"{name}.1", f"{name}.{n}")
         print(f"    {name}: {n} ranks, the same bits")
 

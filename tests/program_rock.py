@@ -57,7 +57,7 @@ def at_dam():
     same_as_nodal = crest("none", *alike[:2], "Foundation/Nodal layers=1000", "Foundation/Layers at the dam=1000")
     expect(same_as_nodal == crest("plain", *alike, "Foundation/Layers at the dam=0"), "layers at the boundary stay nodal")
     logs = {name: Path(name, "log.txt").read_text() for name in ("nodal", "two", "all", "none")}
-    expect("dam's base are as the dam's" not in logs["nodal"], "no layers")
+    expect("have the dam's element type" not in logs["nodal"], "no layers")
     expect("elements of rock in" not in logs["two"] + logs["all"], "all of the layers")
     expect(re.search(r"warning: (\d+) of \1 elements of rock in .*too stiff", logs["none"]) is not None, "none of the layers")
     expect("of nodal quadrature at the artificial boundary, not" not in "".join(logs.values()), "as many layers as set")

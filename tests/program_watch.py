@@ -64,9 +64,9 @@ def balance():
     error = max(column) / result["largest_energy"]
     print(f"    energy balance: {result['energy_balance_error']:.3e}; from energy.csv {error:.3e}")
     expect(abs(error / result["energy_balance_error"] - 1) < 1e-6, "balance of energy.csv and summary.json")
-    shown = float(re.search(r"balance closes to (\S+) of", log)[1])
+    shown = float(re.search(r"error of the energy balance (\S+) of", log)[1])
     expect(abs(shown / error - 1) < .06, f"balance in log.txt: {shown}")
-    shown = float(re.search(r"that of the rock to (\S+)", log)[1])
+    shown = float(re.search(r"energy balance of the rock (\S+)", log)[1])
     expect(abs(shown / result["rock"]["energy_balance_error"] - 1) < .06, f"balance of the rock in log.txt: {shown}")
 
 

@@ -150,9 +150,8 @@ namespace Voussoir
     if (run.motion.acceleration.size() > samples_then && run.step + ahead + 1 >= samples_then)
       throw InputError(
           "The checkpoint " + file +
-          " was written one step before the end of its motion or later. The end has already acted on the "
-          "rock, which is a "
-          "step ahead of the dam, so the run cannot be resumed with a longer motion. Set the previous "
+          " lies in the last two steps of the motion. The rock has already received the end, so the motion "
+          "cannot be lengthened. Set the previous "
           "\"Motion/Duration\", or run without --resume.");
   }
 

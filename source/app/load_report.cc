@@ -27,8 +27,8 @@ namespace Voussoir
         log.line("warning: the load %s is zero: it does not reach the dam. Check its entries in Loads.",
                  load.name.c_str());
       else if (!usual || load.factor != 1.)
-        log.line("Loads     %s x %g: %.4g %.4g %.4g MN%s", load.name.c_str(), load.factor, 1e-6 * f[0],
-                 1e-6 * f[1], 1e-6 * f[2],
+        log.line("Loads     %s x %g: %.4g %.4g %.4g MN (downstream, left bank, up)%s", load.name.c_str(),
+                 load.factor, 1e-6 * f[0], 1e-6 * f[1], 1e-6 * f[2],
                  dam.base_is_held() ? ", without the forces on the fixed base" : "");
     }
     if (scene.loads.uplift.base && scene.loads.factor("uplift") != 0.)
@@ -37,8 +37,9 @@ namespace Voussoir
       for (const auto &monolith : base_uplift(scene, *dam.model).of_monolith)
         for (unsigned int c = 0; c < 3; ++c)
           sum[c] += 1e-6 * monolith.second[c];
-      log.line("Loads     uplift at the base: %.4g %.4g %.4g MN, a part of the compression there", sum[0],
-               sum[1], sum[2]);
+      log.line("Loads     uplift at the base: %.4g %.4g %.4g MN (downstream, left bank, up), a part of the "
+               "compression there",
+               sum[0], sum[1], sum[2]);
     }
   }
 

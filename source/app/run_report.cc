@@ -115,7 +115,7 @@ namespace Voussoir
     }
     dam.foundation->report(log, run.grid());
     report_zones(log, dam.rock_zones, "Foundation/Zones");
-    log.line("Damping   Rayleigh, C = %.4g 1/s M + %.4g s K: %.3g %% at %g Hz and %g Hz",
+    log.line("Damping   Rayleigh, C = a M + b K with a = %.4g 1/s, b = %.4g s (%.3g %% at %g and %g Hz)",
              scene.damping.mass_factor(), scene.damping.stiffness_factor(), 100. * scene.damping.ratio,
              scene.damping.frequency_1, scene.damping.frequency_2);
     if (!dam.has_water)
@@ -132,7 +132,8 @@ namespace Voussoir
       const char        *title = "Groups";
       for (std::string row; std::getline(groups, row); title = "")
         log.line("%-9s %s", title, row.c_str());
-      log.line("Unknowns  %u of the bodies, %zu of the joints", 3 * n_nodes, 3 * dam.structure.pairs.size());
+      log.line("Unknowns  %u of the monoliths, %zu of the joints", 3 * n_nodes,
+               3 * dam.structure.pairs.size());
       log.line("Steps     %u of %g s%s", run.n_steps, run.motion.dt, dam.foundation->about_steps().c_str());
       log.line("Memory    %s", in_words(memory_need(scene, make_mesh(scene.mesh, scene.directory))).c_str());
     }

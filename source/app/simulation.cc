@@ -127,9 +127,12 @@ namespace Voussoir
       const double memory = state.newmark->memory() +
                             (observers->time_error ? observers->time_error->memory_consumption() : 0.);
       const std::vector<double> bytes = Ranks::of_all(memory);
-      log.line("Shaking   %.2f s in %u steps of %g s; joints and factors hold %.2f GiB",
+      log.line("Shaking   %.2f s in %u steps of %g s; memory of joint operators and factors %.2f GiB",
                state.grid().duration(), state.n_steps, state.motion.dt,
                std::accumulate(bytes.begin(), bytes.end(), 0.) / std::pow(2., 30));
+      log.line(
+          "          newton: mean since the start; open, slip: pairs at this time; opening [mm], slip [mm], "
+          "tension: largest since the start");
       log.line("\n   time  newton  open  slip  opening [mm]  slip [mm]  tension [MPa]  elapsed     left");
     }
     if (options.resume)
@@ -304,7 +307,8 @@ namespace Voussoir
     if (state.n_steps > 0)
       counters.report(state, observers->stresses.seconds, log);
     const double balance_error = observers->history.balance_error();
-    log.line("Energy    balance closes to %.1e of the largest energy", balance_error);
+    log.line("Energy    error of the energy balance %.1e of the largest energy (limit %.0e)", balance_error,
+             largest_balance_error);
     for (const Neighbour *neighbour : state.dam->neighbours)
       neighbour->report_balance(log);
     checkpoint.remove(); // the run is complete

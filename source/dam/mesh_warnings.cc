@@ -58,10 +58,9 @@ namespace Voussoir
         return "";
       std::ostringstream text;
       text.precision(2);
-      text << "nodes of cohesive joints are up to " << distance
-           << " m apart, more than E G_f/f_t^2 = " << required
-           << " m (with Joints/Fracture energy and Joints/Strength). The cracked pairs then depend on the "
-              "number of increments and on the time step. ";
+      text << "nodes of cohesive joints are up to " << distance << " m apart. The limit is " << required
+           << " m (Young's modulus times Joints/Fracture energy, divided by the square of Joints/Strength). "
+              "Above it, the cracked pairs depend on the number of increments and on the time step. ";
       if (required > 0.)
         text << "Refine the mesh along these joints to " << required << " m, or compare several "
              << "Statics/Water increments.";

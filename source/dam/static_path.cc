@@ -79,7 +79,7 @@ namespace Voussoir
         break;
       case StaticStage::Kind::fill:
         check_level(at.reservoir.level = stage.value);
-        add_part(in_words("fill ", stage.value), at, grouted);
+        add_part(in_words("fill ", stage.value) + " m", at, grouted);
         break;
       case StaticStage::Kind::day:
         at.loads.temperature = dam.scene.loads.temperature;

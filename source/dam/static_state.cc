@@ -117,9 +117,10 @@ namespace Voussoir
           {
             std::ostringstream message;
             message << "The static state did not converge in step " << i + 1 << " of " << path.n_steps()
-                    << ": residual " << result.residual << " of the joint forces and "
-                    << result.residual_over_load << " of the load, after " << result.iterations
-                    << " Newton steps. Increase \"Statics/Water increments\".";
+                    << ": the residual is " << result.residual << " of the joint forces and "
+                    << result.residual_over_load
+                    << " of the load (limit \"Contact/Tolerance\" = " << parameters.tolerance << "), after "
+                    << result.iterations << " Newton steps. Increase \"Statics/Water increments\".";
             throw ComputationError(message.str());
           }
         } while (water && water->spread(system->states(), pressure));
@@ -149,7 +150,8 @@ namespace Voussoir
             step.overlap = std::max(step.overlap, -dam.structure.jump(pair, state.u)[0]);
         state.steps.push_back(step);
         if (path.ends_part(i) && (path.n_parts() > 1 || step.n_wet > 0))
-          log.line("Stage     %s: crest %.1f mm downstream, %u pairs open, %u wet, largest opening %.2f mm",
+          log.line("Stage     %s: crest %.1f mm downstream, %u pairs open, %u pairs under water pressure, "
+                   "largest opening %.2f mm",
                    part.name.c_str(), 1e3 * state.crown[0], step.n_open, step.n_wet, 1e3 * step.opening);
         if (path.ends_part(i) && step.overlap > usual_gap)
           log.line("warning: stage %s: joints above the lift of %g m overlap by %.1f mm, more than the usual "

@@ -46,18 +46,19 @@ namespace Voussoir
   {
     for (const Matrix3 &m : structure.mass)
       inverse_mass.push_back(inverse(m));
-    std::vector<bool> in_pair(structure.n_nodes(), false);
+    std::vector<unsigned int> joint_of(structure.n_nodes(), 0); // counted from 1; 0: none
     for (const Pair &pair : structure.pairs)
     {
       Matrix3 H{};
       for (const unsigned int node : {pair.node_1, pair.node_2})
         if (node != rigid_ground)
         {
-          if (in_pair[node])
-            throw InputError("The node of the mesh at " + place(pair.place) +
-                             " belongs to two joints. Joints must not cross or share nodes of one monolith: "
+          if (joint_of[node] > 0)
+            throw InputError("The node of the mesh at " + place(pair.place) + " belongs to two joints, " +
+                             std::to_string(joint_of[node]) + " and " + std::to_string(pair.joint + 1) +
+                             ". Joints must not cross or share nodes of one monolith: "
                              "change the joints in the mesh.");
-          in_pair[node] = true;
+          joint_of[node] = pair.joint + 1;
           for (unsigned int j = 0; j < 3; ++j)
           {
             const Vector3 Mq = inverse_mass[node] * pair.frame[j];

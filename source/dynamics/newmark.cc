@@ -4,6 +4,7 @@
 #include <voussoir/dynamics/newmark.h>
 
 #include <voussoir/base/error.h>
+#include <voussoir/contact/law_table.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +52,8 @@ namespace Voussoir
   {
     if (laws.need_mean_force() && rule != ImpactRule::mean_force)
       throw InputError("The law of joint " + std::to_string(joint_of_mean_force(structure, laws)) +
-                       " requires joint forces that are means over the step. Set \"Dynamics/Impact\" to "
+                       " (one of the joint models " + joint_laws_of_mean_force() +
+                       ") requires joint forces that are means over the step. Set \"Dynamics/Impact\" to "
                        "mean-force.");
     if (support && rule != ImpactRule::mean_force)
       throw InputError(

@@ -51,7 +51,8 @@ namespace Voussoir
       std::ostringstream message;
       message << "The contact solver did not converge at t = " << now.time + dt
               << " s, even with a time step of " << dt << " s. The residual is " << failed.residual
-              << " of the joint forces and " << failed.residual_over_load << " of the load, after "
+              << " of the joint forces and " << failed.residual_over_load
+              << " of the load (limit \"Contact/Tolerance\" = " << parameters.tolerance << "), after "
               << failed.iterations << " Newton steps and " << failed.sweeps
               << " Gauss-Seidel iterations. Increase \"Dynamics/Steps per sample\" or \"Contact/Maximum "
                  "iterations\".";

@@ -176,6 +176,6 @@ namespace Voussoir
   void ExplicitRock::report_balance(Log &log) const
   {
     if (balance)
-      log.line("          that of the rock to %.1e", balance->error());
+      log.line("          error of the energy balance of the rock %.1e (same limit)", balance->error());
   }
 } // namespace Voussoir

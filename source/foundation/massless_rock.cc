@@ -130,7 +130,7 @@ namespace Voussoir
       void report_balance(Log &log) const override
       {
         if (supported)
-          log.line("          that of the rock to %.1e", balance_error());
+          log.line("          error of the energy balance of the rock %.1e (same limit)", balance_error());
       }
 
       std::vector<std::vector<double> *> state() override

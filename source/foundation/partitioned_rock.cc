@@ -17,8 +17,8 @@ namespace Voussoir
   {
     std::ostringstream text;
     text.precision(4);
-    text << ", in each " << parameters.substeps << " of the rock; critical time step of the rock "
-         << dt_critical << " s";
+    text << ", " << parameters.substeps << (parameters.substeps == 1 ? " rock step each" : " rock steps each")
+         << "; critical time step of the rock " << dt_critical << " s";
     return text.str();
   }
 

@@ -19,7 +19,9 @@ namespace Voussoir
       if (parameters.layers_at_dam == 0)
         return;
       const unsigned int n = model.n_cells_at_dam, n_nodal = model.n_nodal_at_dam;
-      log.line("          %u elements at the dam's base are as the dam's", n - n_nodal);
+      log.line(
+          "          %u rock elements at the base have the dam's element type (Foundation/Layers at the dam)",
+          n - n_nodal);
       if (n == 0)
         log.line(
             "warning: \"Foundation/Layers at the dam\" has no effect, because no rock element has a face "

@@ -126,7 +126,8 @@ namespace Voussoir
     const Stopwatch    watch;
     constexpr double   tolerance = 1e-11;
     const unsigned int iterations = rock->solve(b, u, log, tolerance, part);
-    log.line("          load %u: %u iterations, %.1f s", ++n_solutions, iterations, watch.seconds());
+    log.line("          static solution %u of the rock: %u iterations, %.1f s", ++n_solutions, iterations,
+             watch.seconds());
     u_base.resize(3 * base_nodes.size());
     for (std::size_t i = 0; i < base_nodes.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
@@ -200,8 +201,9 @@ namespace Voussoir
     if (total.converged && error > enough)
     {
       std::ostringstream message;
-      message << "The static state of dam and rock did not converge: relative error " << error << " after "
-              << round << " iterations. Check the materials and the elements of the rock.";
+      message << "The static state of dam and rock did not converge: relative error " << error << " (limit "
+              << enough << ") after " << round
+              << " iterations. Check the materials and the elements of the rock.";
       throw ComputationError(message.str());
     }
     for (std::size_t k = 0; k < r.size(); ++k)

@@ -332,7 +332,8 @@ namespace Voussoir
     std::ostringstream message;
     message
         << "The static solution of the rock did not converge: after " << std::min(n, most)
-        << " iterations the residual is " << residual / size << " of the load. Check the materials in "
+        << " iterations the residual is " << residual / size << " of the load (limit "
+        << std::max(tolerance, goal / size) << "). Check the materials in "
         << "section Foundation, and improve distorted rock elements; `voussoir mesh` prints their quality.";
     throw ComputationError(message.str());
   }

@@ -24,8 +24,8 @@ namespace Voussoir
   {
     std::ostringstream text;
     text.precision(4);
-    text << ", in each " << parameters.substeps
-         << " of the rock, coupled by mean tractions; critical time step "
+    text << ", " << parameters.substeps << (parameters.substeps == 1 ? " rock step" : " rock steps")
+         << " each, coupled by mean tractions; critical time step "
          << "of the rock " << dt_critical << " s";
     return text.str();
   }

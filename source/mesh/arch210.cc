@@ -172,21 +172,24 @@ namespace Voussoir
 
   void Arch210Parameters::check() const
   {
-    const std::string section = "Mesh/Arch210: ";
+    const std::string entry = "Entry \"Mesh/Arch210/";
     if (n_joints > 60)
-      throw InputError(section + "'Joints' is " + std::to_string(n_joints) + ". Choose 0 to 60.");
+      throw InputError(entry + "Joints\" is " + std::to_string(n_joints) + ". Choose 0 to 60.");
     if (elements_along == 0 || elements_up == 0 || elements_through == 0)
-      throw InputError(section +
-                       "a number of elements is 0. Choose at least 1 along, up and through the dam.");
+      throw InputError(entry +
+                       (elements_along == 0 ? "Elements along"
+                        : elements_up == 0  ? "Elements up"
+                                            : "Elements through") +
+                       "\" is 0. Choose at least 1.");
     const double monolith = 2 * half_crest_length() / (n_joints + 1);
     const auto   spoils = [&](const double height)
     { return !(height < H / 2) || end_of_crest(height) < half_crest_length() - monolith / 2; };
     if (!(end_wall_height > 0) || spoils(end_wall_height))
-      throw InputError(section + "'End wall height' is " + std::to_string(end_wall_height) +
+      throw InputError(entry + "End wall height\" is " + std::to_string(end_wall_height) +
                        " m. Choose a height above 0 that leaves at least half of the end monoliths' crest.");
     if (!(smallest_height >= 0) || spoils(smallest_height))
       throw InputError(
-          section + "'Smallest height' is " + std::to_string(smallest_height) +
+          entry + "Smallest height\" is " + std::to_string(smallest_height) +
           " m. Choose a height that the dam exceeds over at least half of the crest of the end monoliths.");
   }
 

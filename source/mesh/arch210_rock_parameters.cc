@@ -37,16 +37,16 @@ namespace Voussoir
 
   void Arch210RockParameters::check() const
   {
-    const std::string section = "Mesh/Arch210/Rock: ";
+    const std::string entry = "Entry \"Mesh/Arch210/Rock/";
     for (const auto &length : {std::make_pair("Upstream", upstream), std::make_pair("Downstream", downstream),
                                std::make_pair("Sides", sides), std::make_pair("Depth", depth)})
       if (!(length.second >= 50))
-        throw InputError(section + "'" + length.first + "' is " + std::to_string(length.second) +
+        throw InputError(entry + length.first + "\" is " + std::to_string(length.second) +
                          " m. Choose at least 50 m; one height of the dam is usual.");
     if (!(element_size >= 1))
-      throw InputError(section + "'Element size' is " + std::to_string(element_size) +
+      throw InputError(entry + "Element size\" is " + std::to_string(element_size) +
                        " m. Choose at least 1 m.");
     if (n_layers < 6)
-      throw InputError(section + "'Boundary layers' is " + std::to_string(n_layers) + ". Choose at least 6.");
+      throw InputError(entry + "Boundary layers\" is " + std::to_string(n_layers) + ". Choose at least 6.");
   }
 } // namespace Voussoir

@@ -50,7 +50,7 @@ namespace Voussoir
     std::string last_line(const std::string &file)
     {
       std::ifstream in(file);
-      std::string   last = "no reason given.";
+      std::string   last = "not given.";
       for (std::string line; std::getline(in, line);)
         if (line.find_first_not_of(" \t\r") != std::string::npos)
           last = line;
@@ -78,8 +78,8 @@ namespace Voussoir
     std::error_code error;
     if (!fs::is_regular_file(file, error))
       throw InputError("mesh " + file +
-                       ": the file does not exist or cannot be read. Check the entry 'File' of subsection "
-                       "'Mesh'. The path is relative to the directory of the input file.");
+                       ": the file does not exist or cannot be read. Check the entry "
+                       "\"Mesh/File\". The path is relative to the directory of the input file.");
     const fs::path script = find_script("mesh_to_msh.py");
     if (script.empty())
       throw InputError(
@@ -105,7 +105,8 @@ namespace Voussoir
           "install python3-meshio), set the environment variable VOUSSOIR_PYTHON to a Python interpreter "
           "that has it, or convert the mesh to MSH 4.1 yourself.");
     if (status != 0)
-      throw InputError("mesh " + file + ": it cannot be converted: " + last_line(said));
+      throw InputError("mesh " + file +
+                       ": it cannot be converted. Export it as MSH 4.1 instead. Reason: " + last_line(said));
     try
     {
       return read_gmsh(made, subdivided);

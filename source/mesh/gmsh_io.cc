@@ -55,8 +55,8 @@ namespace Voussoir
         stream.open(file);
       if (!stream.is_open() || !std::getline(stream, line))
         throw InputError("mesh " + file +
-                         ": the file does not exist or cannot be read. Check the entry 'File' of " +
-                         "subsection 'Mesh'. The path is relative to the directory of the input file.");
+                         ": the file does not exist or cannot be read. Check the entry "
+                         "\"Mesh/File\". The path is relative to the directory of the input file.");
       for (bool in_comments = false; line.rfind("$MeshFormat", 0) != 0;)
       {
         in_comments = (in_comments || line.rfind("$Comments", 0) == 0) && line.rfind("$EndComments", 0) != 0;

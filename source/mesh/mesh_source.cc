@@ -25,15 +25,15 @@ namespace Voussoir
       const std::string letter = word.substr(is_signed ? 1 : 0);
       const std::size_t coordinate = letter.size() == 1 ? std::string("xyz").find(letter) : std::string::npos;
       if (n == 3 || coordinate == std::string::npos || used[coordinate])
-        throw InputError("Mesh: 'Axes' is '" + text +
-                         "'. Give the axes of the file that point downstream, to the " +
+        throw InputError("Entry \"Mesh/Axes\" is \"" + text +
+                         "\". Give the axes of the file that point downstream, to the " +
                          "left bank and up: each of x, y and z once, with a minus sign for the opposite " +
-                         "direction, as in 'y -x z'.");
+                         "direction, as in \"y -x z\".");
       used[coordinate] = true;
       axes[n] = {static_cast<unsigned int>(coordinate), word[0] == '-' ? -1. : 1.};
     }
     if (n != 3)
-      throw InputError("Mesh: 'Axes' is '" + text + "', but must name three axes, as in 'x y z'.");
+      throw InputError("Entry \"Mesh/Axes\" is \"" + text + "\", but must name three axes, as in \"x y z\".");
     return axes;
   }
 
@@ -85,8 +85,9 @@ namespace Voussoir
       arch210_rock.check();
     }
     else if (file.empty())
-      throw InputError("Mesh: 'Source' is 'file', but the entry 'File' is empty. Give the path of a gmsh "
-                       "mesh, relative to the directory of the input file.");
+      throw InputError(
+          "Entry \"Mesh/Source\" is file, but the entry \"Mesh/File\" is empty. Give the path of a gmsh "
+          "mesh, relative to the directory of the input file.");
   }
 
   HexMesh make_mesh(const MeshParameters &parameters, const std::string &scene_directory)

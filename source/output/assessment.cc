@@ -303,20 +303,23 @@ namespace Voussoir
 
   namespace
   {
-    /** Returns a text such as "tension upstream 3.1 of 2 MPa (4.5 with the base)". */
+    /** Returns a text such as "tension upstream 3.1 MPa (limit 2 MPa; 4.5 MPa with the base)". */
     std::string sentence(const Verdict &verdict)
     {
       std::string name = verdict.name;
       std::replace(name.begin(), name.end(), '_', ' ');
-      const bool   stress = verdict.unit == "Pa", length = verdict.unit == "m";
-      const double scale = stress ? 1e-6 : length ? 1e3 : 1.;
-      const char  *unit = stress ? "MPa" : length ? "mm" : verdict.unit.c_str();
-      char         text[160], more[60] = "";
+      const bool        stress = verdict.unit == "Pa", length = verdict.unit == "m";
+      const double      scale = stress ? 1e-6 : length ? 1e3 : 1.;
+      const std::string unit = stress                 ? " MPa"
+                               : length               ? " mm"
+                               : verdict.unit.empty() ? ""
+                                                      : " " + verdict.unit;
+      char              text[160], more[60] = "";
       if (verdict.with_base)
-        std::snprintf(more, sizeof(more), " (%.3g with the base)", scale * *verdict.with_base);
-      std::snprintf(text, sizeof(text), "%s %.3g %s %.3g%s%s%s", name.c_str(), scale * verdict.value,
-                    verdict.is_least ? "instead of" : "of", scale * verdict.limit, *unit ? " " : "", unit,
-                    more);
+        std::snprintf(more, sizeof(more), "; %.3g%s with the base", scale * *verdict.with_base, unit.c_str());
+      std::snprintf(text, sizeof(text), "%s %.3g%s (%s %.3g%s%s)", name.c_str(), scale * verdict.value,
+                    unit.c_str(), verdict.is_least ? "required" : "limit", scale * verdict.limit,
+                    unit.c_str(), more);
       return text;
     }
   } // namespace

@@ -9,14 +9,13 @@ namespace Voussoir
 {
   void check_energies(const Scene &scene, const double dam, const double rock, const std::string &directory)
   {
-    constexpr double allowed = 1e-4;
-    const bool       of_rock = !(rock <= allowed);
-    if (!of_rock && dam <= allowed)
+    const bool of_rock = !(rock <= largest_balance_error);
+    if (!of_rock && dam <= largest_balance_error)
       return;
     std::ostringstream message;
     message.precision(2);
     message << "The energies of the " << (of_rock ? "rock" : "dam") << " do not balance: their error is "
-            << (of_rock ? rock : dam) << " of the largest energy, the limit is " << allowed
+            << (of_rock ? rock : dam) << " of the largest energy, the limit is " << largest_balance_error
             << ". Do not use the results in " << directory << ". Column \""
             << (of_rock ? "rock_balance" : "balance")
             << "\" of energy.csv shows when the error begins. Use a "

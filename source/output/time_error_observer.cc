@@ -60,12 +60,11 @@ namespace Voussoir
       return;
     const TimeError error = this->error();
     if (!run.dam->structure.pairs.empty())
-      log.line("          error by the time step, by estimate: %.2g %% of the joints' openings; %.2g mm of "
-               "the largest",
+      log.line("          estimated error of the time step: all openings %.2g %%, largest opening %.2g mm",
                100. * error.opening, 1e3 * error.largest_opening);
     if (std::isfinite(error.tension_upstream))
-      log.line("          error by the time step, by estimate: %.2g and %.2g MPa of the largest tension "
-               "upstream and downstream",
+      log.line("          estimated error of the time step: largest tension %.2g MPa upstream, %.2g MPa "
+               "downstream",
                1e-6 * error.tension_upstream, 1e-6 * error.tension_downstream);
   }
 

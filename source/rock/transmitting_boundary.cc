@@ -72,8 +72,8 @@ namespace Voussoir
                          " make it unstable. Set \"Foundation/Nodal layers\" to at least " +
                          std::to_string(layers) + " (now " + std::to_string(p.rock.nodal_layers) +
                          "), \"Foundation/Nodal quadrature everywhere\" to true, or "
-                         "\"Foundation/Stiffness damping\" to at least 0.2 rock time steps, here " +
-                         number(damping) + " s.");
+                         "\"Foundation/Stiffness damping\" to at least " +
+                         number(damping) + " s (0.2 times the rock time step).");
     }
 
     constexpr double near_critical = .9; ///< share of the critical time step [-]
@@ -105,12 +105,12 @@ namespace Voussoir
           " (the largest of \"Foundation/Poisson's ratio\" and \"Foundation/Zones\"; the time step "
           "of the rock is " +
           number(p.dt / critical) +
-          " of the critical one). Set \"Foundation/Stiffness damping\" to at least " + number(share) +
-          " rock time steps, here " + number(share * p.dt) +
-          (is_near ? " s, or to " + number(needed_damping(poisson, false)) +
-                         " time steps with a time step of at most " + number(near_critical) +
-                         " of the critical one"
-                   : " s") +
+          " of the critical one). Set \"Foundation/Stiffness damping\" to at least " + number(share * p.dt) +
+          " s (" + number(share) + " times the rock time step)" +
+          (is_near ? ", or to " + number(needed_damping(poisson, false)) +
+                         " times the rock time step with a rock time step of at most " +
+                         number(near_critical) + " of the critical one"
+                   : "") +
           ", or set \"Foundation/Boundary\" to viscous-spring.");
     }
   } // namespace

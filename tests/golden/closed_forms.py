@@ -192,7 +192,7 @@ def oscillator():
                 work -= dt * mass * (a0 * math.sin(w * k * dt) * v + a0 * math.sin(w * (k - 1) * dt) * before[1]) / 2
             for column, value in ((1, .5 * mass * v * v), (2, .5 * stiffness * u * u), (4, lost), (7, work)):
                 check.close(f"energy, column {column}, {name}", energy[k][column], value, 5e-3, abs(work) + .5 * stiffness * size**2)
-        a, b = (float(x) for x in re.search(r"C = (\S+) 1/s M \+ (\S+) s K", shown).groups())
+        a, b = (float(x) for x in re.search(r"a = (\S+) 1/s, b = (\S+) s ", shown).groups())
         check.close(f"printed factors {name}", a / 2 / w + b * w / 2, xi, 1e-3)
         lines = runs("modes", f"{directory}.prm", "--count", "5").split()
         check.close("frequency", min((float(x) for x in lines[4::2]), key=lambda x: abs(x - f)), f, 1e-6)

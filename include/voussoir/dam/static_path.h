@@ -10,7 +10,7 @@ namespace Voussoir
    * this stage. The joints are grouted up to a height. */
   struct StaticPart
   {
-    std::string name;         ///< such as "fill 100"
+    std::string name;         ///< such as "fill 100 m"
     double      level = 0.;   ///< of the reservoir [m]
     double      grouted = 0.; ///< height up to which the joints carry forces [m]
     Unknowns    raised;       ///< loads with StaticLoad::is_raised at the end of the stage [N]

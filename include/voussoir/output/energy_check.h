@@ -8,7 +8,11 @@ namespace Voussoir
 {
   struct Scene;
 
-  /** Throws ComputationError if the error of an energy balance exceeds 1e-4. Normal runs have at most 1e-7.
+  /** Limit of the error of an energy balance, relative to the largest energy [-]. */
+  constexpr double largest_balance_error = 1e-4;
+
+  /** Throws ComputationError if the error of an energy balance exceeds largest_balance_error. Normal
+   * runs have at most 1e-7.
    *
    * @param scene input file
    * @param dam, rock largest error of the run, relative to the largest energy [-]; 0: not present
