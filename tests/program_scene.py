@@ -93,7 +93,7 @@ def values():
 
     shown = runs(*check("Reservoir/Water level=19500 cm", "Damping/Frequency 1=0.0012 kHz", "Statics/Gravity=1 g",
                         "Concrete/Young's modulus=25 GPa", "Concrete/Density=2.45 t/m3"))
-    expect("level 195 m" in shown and "at 1.2 Hz" in shown and not re.search("warning: (?!the motion does not end)", shown), shown)
+    expect("level 195 m" in shown and "at 1.2 and" in shown and not re.search("warning: (?!the motion does not end)", shown), shown)
     write("scene2.prm", "include scene.prm\nsubsection Output\n  set Figures = false\nend\n"
                         "subsection Reservoir\n  set Water level = 15 MPa\nend\n")
     refused(["scene2.prm", "--validate"], "scene2.prm, line 6", "Reservoir/Water level", "is in m", "pressure")

@@ -605,7 +605,7 @@ def rock():
             runs("scene.prm", "--output", "long", "--overwrite", *chosen[:-1])
             same_to_the_bit("long", "end")
         else:
-            refused(["scene.prm", "--output", "end", *chosen], "Motion/Duration", "end of its motion")
+            refused(["scene.prm", "--output", "end", *chosen], "Motion/Duration", "last two steps of the motion")
         shutil.rmtree("end")
 
 

@@ -82,9 +82,10 @@ namespace Voussoir
           names.push_back(joined({entry.path.begin(), end}));
       }
       if (result.empty())
-        throw InputError("There is no section or entry \"" + section + "\". Did you mean \"" +
-                         nearest_name(names, section) +
-                         "\"? `voussoir parameters` without a section prints all entries.");
+        throw InputError(
+            "There is no section or entry \"" + section + "\". Did you mean \"" +
+            nearest_name(names, section) +
+            "\"? `voussoir parameters [prm|json|markdown]` without a section prints all entries.");
       return result;
     }
 

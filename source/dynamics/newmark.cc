@@ -4,7 +4,6 @@
 #include <voussoir/dynamics/newmark.h>
 
 #include <voussoir/base/error.h>
-#include <voussoir/contact/law_table.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,8 +51,7 @@ namespace Voussoir
   {
     if (laws.need_mean_force() && rule != ImpactRule::mean_force)
       throw InputError("The law of joint " + std::to_string(joint_of_mean_force(structure, laws)) +
-                       " (one of the joint models " + joint_laws_of_mean_force() +
-                       ") requires joint forces that are means over the step. Set \"Dynamics/Impact\" to "
+                       " requires joint forces that are means over the step. Set \"Dynamics/Impact\" to "
                        "mean-force.");
     if (support && rule != ImpactRule::mean_force)
       throw InputError(
