@@ -215,7 +215,7 @@ namespace Voussoir
       catch (const WriteError &) // only the first error is reported
       {
       }
-      const bool resumable = std::filesystem::exists(directory + "/checkpoint.bin");
+      const bool resumable = checkpoint.exists();
       throw ComputationError(
           error.what() + (" The tables in " + directory) + " end before this step." +
           (resumable ? " --resume continues from the last checkpoint, with other values of section Contact. "
@@ -315,9 +315,12 @@ namespace Voussoir
     if (scene.output.figures)
       report_figures(directory, log);
     log.line("Results   %s", directory.c_str());
+    double of_neighbours = 0.; // or not a number
+    for (const Neighbour *neighbour : state.dam->neighbours)
+      if (const double error = neighbour->balance_error(); !(error <= of_neighbours))
+        of_neighbours = error;
     if (state.n_steps > 0)
-      for (const Neighbour *neighbour : state.dam->neighbours)
-        check_energies(scene, balance_error, neighbour->balance_error(), directory);
+      check_energies(scene, balance_error, of_neighbours, directory);
   }
 
   /** Sends the state of neighbours and observers to the first rank. */

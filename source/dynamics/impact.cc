@@ -54,8 +54,9 @@ namespace Voussoir
         if (node != rigid_ground)
         {
           if (joint_of[node] > 0)
-            throw InputError("The node of the mesh at " + place(pair.place) + " belongs to two joints, " +
-                             std::to_string(joint_of[node]) + " and " + std::to_string(pair.joint + 1) +
+            throw InputError("The node of the mesh at " + place(pair.place) +
+                             " belongs to two pairs, of the joints " + std::to_string(joint_of[node]) +
+                             " and " + std::to_string(pair.joint + 1) +
                              ". Joints must not cross or share nodes of one monolith: "
                              "change the joints in the mesh.");
           joint_of[node] = pair.joint + 1;

@@ -90,9 +90,9 @@ namespace Voussoir
     catch (const ExceptionBase &)
     {
       throw ComputationError(
-          "The natural frequencies did not converge: " + std::to_string(n_modes) + " modes in " +
+          "The natural frequencies could not be computed (" + std::to_string(n_modes) + " modes, at most " +
           std::to_string(control.max_steps()) +
-          " iterations. Put the base faces of the dam into the surface \"base\", or reduce "
+          " iterations). Put the base faces of the dam into the surface \"base\", or reduce "
           "the number of modes (--count).");
     }
     std::vector<NaturalMode> modes;

@@ -56,7 +56,7 @@ namespace Voussoir
         cholmod_factorize(cholmod.A, cholmod.L, &cholmod.common);
         cholmod.check_memory();
         cholmod_free_sparse(&cholmod.A, &cholmod.common);
-        if (cholmod.L->minor < n)
+        if (cholmod.common.status < CHOLMOD_OK || cholmod.L->minor < n)
           throw ComputationError(
               "The coarse problem of the static solution of the rock is not positive definite. "
               "Improve distorted rock elements; `voussoir mesh` prints their quality.");
@@ -73,6 +73,9 @@ namespace Voussoir
         b.dtype = CHOLMOD_DOUBLE;
         cholmod_dense *x = cholmod_solve(CHOLMOD_A, cholmod.L, &b, &cholmod.common);
         cholmod.check_memory();
+        if (!x)
+          throw ComputationError(
+              "CHOLMOD could not solve the coarse problem of the static state of the rock.");
         const double *values = static_cast<double *>(x->x);
         motions.assign(values, values + forces.size());
         cholmod_free_dense(&x, &cholmod.common);

@@ -122,7 +122,7 @@ namespace Voussoir
       shake(*region, model, p, rising, grid.n_substeps() + 2);
     model.stiffness = BlockSparseMatrix(); // frees memory; not used by the region
     region->keep_energy();
-    balance = std::make_unique<RockBalance>(*region, parameters.is_subcycled());
+    balance = std::make_unique<RockBalance>(*region, base() == Base::coupled);
     rock_monitor = std::make_unique<RockMonitor>(parameters, model, *region, *balance);
   }
 

@@ -159,7 +159,7 @@ namespace Voussoir
     static constexpr unsigned int interval = 10;
 
     /** Stores the bounds at the start of the time loop. The bounds of energies follow from the ground
-     * @p motion. */
+     * @p motion. Must be called on all ranks, with equal bounds. */
     virtual void set_bounds(const GroundMotion &motion, const NeighbourBounds &bounds) = 0;
 
     /** Returns a message if an energy exceeds its bound, otherwise an empty string. Called on the first rank
@@ -217,8 +217,8 @@ namespace Voussoir
      * only the values of the nodes that it computes. Must be called by all ranks. */
     virtual void gather_on_root() {}
 
-    /** Returns the monitor of the instability, or nullptr if there is nothing to monitor. Must be called
-     * after start(). */
+    /** Returns the monitor of the instability, or nullptr if there is nothing to monitor or before
+     * start(). */
     virtual NeighbourMonitor *monitor() { return nullptr; }
   };
 

@@ -14,7 +14,8 @@ namespace Voussoir
   class RockMonitor : public NeighbourMonitor
   {
   public:
-    /** Stores the references, which must outlive the object. There are no bounds before set_bounds().
+    /** Stores the references, which must outlive the object. energy_excess() and motion_excess() require
+     * set_bounds().
      *
      * @param parameters parameters of the rock
      * @param model rock model; the stiffness matrix may be empty
@@ -27,7 +28,7 @@ namespace Voussoir
      * and the static strain energy. */
     void set_bounds(const GroundMotion &motion, const NeighbourBounds &bounds) override;
 
-    /** Gathers the motion of the rock on the first rank if a node of any rank exceeds its bound and the next
+    /** Gathers the motion of the rock on all ranks if a node of any rank exceeds its bound and the next
      * call of motion_excess() is due. Must be called by all ranks at the end of each time step.
      *
      * @param step number of the time step of the dam, from 1

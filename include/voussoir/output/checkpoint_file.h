@@ -27,7 +27,7 @@ namespace Voussoir
   using Provenance = std::map<std::string, std::string>;
 
   /** Returns the values of all entries in the text of an input file, by "Section/Entry". Entries that may
-   * change when a run is resumed are excluded: output intervals, figures, contact solver and duration of the
+   * change when a run is resumed are excluded: intervals of checkpoint, progress and solution, figures, contact solver and duration of the
    * motion. */
   Provenance decisive_entries(const std::string &scene_text);
 
