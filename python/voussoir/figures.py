@@ -112,7 +112,7 @@ def energy(runs, save):
         above.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
         above.set_title(f"{run.heading}\nEnergies", loc="left")
         below.plot(time, 100 * balance, color="k", linewidth=1)
-        below.text(1.02, 0.95, f"at most\n{np.abs(balance).max():.1e}", transform=below.transAxes, va="top")
+        below.text(1.02, 0.95, f"at most\n{100 * np.abs(balance).max():.1e} %", transform=below.transAxes, va="top")
         below.set(xlabel="time [s]", ylabel="balance [% of\nlargest energy]", xlim=(time[0], time[-1]))
         below.ticklabel_format(axis="y", scilimits=(-2, 3), useMathText=True)
         figure.align_ylabels([above, below])
