@@ -50,8 +50,8 @@ namespace Voussoir
    * - force: force of side 1 on side 2 [N]; force[0] > 0 is compression.
    * - gap: displacement of side 2 relative to side 1 since grouting [m]; gap[0] >= 0 is the opening.
    * - start: gap at the start of the step [m]. The slip of the step is the tangential part of gap - start.
-   *   Friction acts against the slip: force_t = -mu force_n slip/|slip|. (The paper's P_tau has the opposite
-   *   sign.)
+   *   Friction acts against the slip: force_t = -mu force_n slip/|slip|. (P_tau of Hu, Zhang and Lin 2008 has
+   *   the opposite sign.)
    *
    * One constant object serves all pairs of a joint. Values that change are history variables, n_memory() per
    * pair. The time integration stores the history variables, also for reduced time steps and checkpoints.
@@ -61,7 +61,8 @@ namespace Voussoir
    * 2. utilisation() for each pair. If a value exceeds 1, apply_event() for the pairs with the largest
    *    values, and the step is solved again from 1;
    * 3. commit() once for each pair;
-   * 4. solve_impulse(), stop_normal() or solve_acceleration() for the velocity correction (Impact). */
+   * 4. solve_impulse(), stop_normal() or solve_acceleration() for the velocity correction (Impact),
+   *    with the history variables of 1 and 2, before commit(). */
   class JointLaw
   {
   public:
@@ -99,7 +100,8 @@ namespace Voussoir
                                   unsigned char active) const = 0;
 
     /** Returns the total impulse of a step after a correction that never adds energy [N s]. The correction
-     * removes only the velocity normal to the active surfaces.
+     * removes only the velocity normal to the active surfaces. The velocity after the correction is
+     * v + H (result - applied).
      * @param H inverse mass of the pair [1/kg]
      * @param v velocity of side 2 relative to side 1 at the end of the step, before the correction [m/s]
      * @param applied impulse of the joint force in the step, before the correction [N s]
@@ -130,28 +132,29 @@ namespace Voussoir
     virtual bool needs_mean_force() const { return false; }
 
     /** Returns the utilisation of a pair, such as tensile stress over strength [-]. A converged solution with
-     * a value above 1 is not accepted, see apply_event().
+     * a value above 1 is not accepted, see apply_event(). The default is 0.
      * @param force force of the solution [N]
      * @param gap gap of the solution [m]
      * @param history data of the pair */
     virtual double utilisation(const Vector3 &force, const Vector3 &gap, const PairHistory &history) const;
 
     /** Stores an event of the step, such as a crack or the contact of a key flank. The solver then solves the
-     * step again with the new history variables.
+     * step again with the new history variables, and begins with a zero force of the pair. The event follows
+     * from the history variables alone. The default does nothing.
      * @param memory n_memory() history variables of the pair, which the event changes */
     virtual void apply_event(double *memory) const;
 
-    /** Updates the history variables after a step is accepted.
+    /** Updates the history variables after a step is accepted. The default does nothing.
      * @param force force of the accepted solution [N]
      * @param gap gap of the accepted solution [m]
      * @param history data of the pair
-     * @param memory receives the history variables for the next step; the same values as history.memory */
+     * @param memory on entry the values of history.memory, on return those for the next step */
     virtual void commit(const Vector3 &force, const Vector3 &gap, const PairHistory &history,
                         double *memory) const;
 
     /** Returns the energy of a pair [J]: the energy that the bond stores and has dissipated, or the energy
      * stored by the contact compliance of key flanks. It counts only if the law has history variables, see
-     * PairLaws::joint_energy().
+     * PairLaws::joint_energy(). The default is 0.
      * @param gap gap at one time [m]
      * @param area tributary area of the pair [m^2]
      * @param memory history variables at the same time */
