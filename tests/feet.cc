@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A dam on feet that give way: the operator of its joints with the feet eliminated, and what a solution says
-// of feet and joints, against the system that is not reduced.
+// A dam with compliant base nodes: the joint operator after their elimination, and a solution, against the
+// complete system.
 
 #include "blocks.h"
 
@@ -19,8 +19,8 @@ namespace
 {
   constexpr StepOperator step = {4e6, 1.02, 0., 2.}; // step of 1 ms with damping, mean forces
 
-  /** Three blocks in a row, which stand on feet at some of their nodes: A u = load + G^T force + L^T
-   * foot_force, L u = place - R foot_force. */
+  /** Three blocks in a row, with some of their nodes as base nodes: A u = load + G^T force + L^T
+   * base_force, L u = displacement - R base_force. */
   struct Standing
   {
     Standing() : model(blocks(3, false), 1)
@@ -29,11 +29,11 @@ namespace
       concrete.young = 1e9;
       structure = with_joints(model, {concrete, concrete, concrete});
       for (unsigned int i = 0; i < structure.n_nodes(); i += 9) // inside, outside, and at the joints
-        feet.node.push_back(i);
-      feet.compliance = compliance();
+        base.node.push_back(i);
+      base.compliance = compliance();
       for (Body &body : structure.bodies)
       {
-        for (const unsigned int node : feet.node)
+        for (const unsigned int node : base.node)
           if (node >= body.first_node && node < body.first_node + body.n_nodes())
             body.interface.push_back(node - body.first_node);
         std::sort(body.interface.begin(), body.interface.end());
@@ -41,10 +41,10 @@ namespace
       }
     }
 
-    /** Symmetric and positive definite; each foot feels the next two, also those of the next block. */
+    /** Symmetric and positive definite; each base node is coupled to the next two, also those of the next block. */
     BlockSparseMatrix compliance() const
     {
-      const unsigned int                     n = feet.node.size();
+      const unsigned int                     n = base.node.size();
       std::vector<std::vector<unsigned int>> columns(n);
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int k = i - std::min(i, 2u); k < std::min(n, i + 3); ++k)
@@ -66,7 +66,7 @@ namespace
     }
 
     std::size_t n_u() const { return 3 * std::size_t(structure.n_nodes()); }
-    std::size_t n() const { return n_u() + 3 * feet.node.size(); }
+    std::size_t n() const { return n_u() + 3 * base.node.size(); }
 
     Unknowns A(const Unknowns &u) const
     {
@@ -81,22 +81,22 @@ namespace
       return Au;
     }
 
-    /** Of all unknowns, displacements and forces of the feet: A u - share L^T f, then L u + R f. */
+    /** Product of the complete system with displacements and base forces: A u - share L^T f, then L u + R f. */
     Unknowns product(const Unknowns &x) const
     {
       const Unknowns u(x.begin(), x.begin() + n_u()), f(x.begin() + n_u(), x.end());
       Unknowns       result = A(u), Rf(f.size());
-      feet.compliance.multiply(f.data(), Rf.data());
+      base.compliance.multiply(f.data(), Rf.data());
       for (std::size_t k = 0; k < f.size(); ++k)
       {
-        const std::size_t at = 3 * std::size_t(feet.node[k / 3]) + k % 3;
+        const std::size_t at = 3 * std::size_t(base.node[k / 3]) + k % 3;
         result[at] -= step.share * f[k];
         result.push_back(u[at] + Rf[k]);
       }
       return result;
     }
 
-    /** Solves for all columns of @p rhs at once. */
+    /** Solves for all columns of @p rhs. */
     void solve(Unknowns &rhs) const
     {
       const int        size = n(), n_rhs = rhs.size() / n();
@@ -116,15 +116,15 @@ namespace
 
     SolidModel             model;
     Structure              structure;
-    BaseElimination::Nodes feet;
+    BaseElimination::Nodes base;
   };
 
   JointSystem system_of(const Standing &dam, const JointLaws &laws)
   {
-    return JointSystem(dam.structure, laws, tight(), step, Unknowns(), &dam.feet);
+    return JointSystem(dam.structure, laws, tight(), step, Unknowns(), &dam.base);
   }
 
-  /** What unit forces of the joints open, column by column. */
+  /** Gaps for unit joint forces, column by column. */
   void test_operator()
   {
     const Standing    dam;
@@ -168,7 +168,7 @@ namespace
           single = std::max(single, std::abs(block[std::size_t(k) * W.size(g) + i] -
                                              dense[(W.begin(g) + k) * n + W.begin(g) + i]));
     }
-    const JointSystem loose(dam.structure, laws, tight(), step); // without feet
+    const JointSystem loose(dam.structure, laws, tight(), step); // without base nodes
     for (std::size_t k = 0; k < n; ++k)
     {
       Unknowns unit(n, 0.), gap;
@@ -180,10 +180,10 @@ namespace
     below("operator of the joints against the whole system / largest", error / size, 1e-12);
     below("  diagonal blocks", diagonal / size, 1e-12);
     below("  own blocks of the joints, in single precision", single / size, 1e-6);
-    above("  what the feet take off", far / size, .01);
+    above("  part of the elimination", far / size, .01);
   }
 
-  /** Contact and friction: what a solution says of bodies, joints and feet fits together. */
+  /** Contact and friction: a solution satisfies the equations of bodies, joints and base nodes. */
   void test_solution()
   {
     const Standing    dam;
@@ -191,17 +191,17 @@ namespace
     JointSystem       system = system_of(dam, laws);
     const std::size_t n = 3 * dam.structure.pairs.size();
     Unknowns          load(dam.n_u()), none(n, 0.), offset(n), force(n, 0.), gap, u, memory;
-    BaseOfStep        feet;
+    BaseOfStep        base;
     for (double &f : load)
       f = 1e6 * random_number();
     for (double &x : offset)
       x = 1e-4 * random_number();
-    for (std::size_t k = 0; k < 3 * dam.feet.node.size(); ++k)
-      feet.displacement.push_back(1e-3 * random_number());
-    const ContactResult result = system.solve(load, offset, none, memory, force, gap, u, &feet);
-    report("joints on feet: residual", result.residual, "converged", result.converged);
+    for (std::size_t k = 0; k < 3 * dam.base.node.size(); ++k)
+      base.displacement.push_back(1e-3 * random_number());
+    const ContactResult result = system.solve(load, offset, none, memory, force, gap, u, &base);
+    report("joints and base nodes: residual", result.residual, "converged", result.converged);
     Unknowns x = u;
-    x.insert(x.end(), feet.force.begin(), feet.force.end());
+    x.insert(x.end(), base.force.begin(), base.force.end());
     Unknowns expected = load;
     for (std::size_t p = 0; p < n / 3; ++p)
     {
@@ -210,8 +210,8 @@ namespace
         x *= step.share;
       dam.structure.add_pair_force(dam.structure.pairs[p], f, expected);
     }
-    const double forces = largest(expected), places = largest(feet.displacement);
-    expected.insert(expected.end(), feet.displacement.begin(), feet.displacement.end());
+    const double forces = largest(expected), places = largest(base.displacement);
+    expected.insert(expected.end(), base.displacement.begin(), base.displacement.end());
     const Unknowns left = dam.product(x);
     double         of_bodies = 0., of_base = 0., of_gaps = 0.;
     for (std::size_t k = 0; k < left.size(); ++k)
@@ -223,10 +223,10 @@ namespace
       of_gaps = std::max(
           of_gaps, std::abs(dam.structure.jump(dam.structure.pairs[k / 3], u)[k % 3] + offset[k] - gap[k]));
     below("  equations of motion / largest force", of_bodies / forces, 1e-12);
-    below("  feet: place - R force / largest place", of_base / places, 1e-12);
+    below("  base nodes: displacement - R force / largest displacement", of_base / places, 1e-12);
     below("  gaps / largest", of_gaps / largest(gap), 1e-10);
     above("  forces of the joints", largest(force), 0.);
-    above("  forces on the feet / largest force", largest(feet.force) / forces, .01);
+    above("  forces on the base nodes / largest force", largest(base.force) / forces, .01);
   }
 
   /** A part of a step of massless rock is a whole step of that length. */

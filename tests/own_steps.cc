@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rock at steps of its own, coupled by mean tractions: compliance of its feet, energy, accuracy, joints.
+// Subcycled rock, coupled by mean tractions: compliance of its base nodes, energy, accuracy, joints.
 
 #include "rock_block.h"
 
@@ -29,7 +29,7 @@ namespace
     return make_rock_model(make_mesh(ground, true, false), p);
   }
 
-  /** Places of the feet after m steps with unit forces held. */
+  /** Displacements of the base nodes after m steps with constant unit forces. */
   void compliance()
   {
     const RockModel           model = model_of(box(6));
@@ -62,7 +62,7 @@ namespace
           if (m == 1 && i == j)
             own = std::max(own, std::abs(dense[i * n + i] * 2. * model.mass[feet[i / 3]] / (h * h) - 1.));
         }
-      const std::string name = "compliance of the feet, m = " + std::to_string(m);
+      const std::string name = "compliance of the base nodes, m = " + std::to_string(m);
       below(name + ": asymmetry / largest", asymmetry / largest, 1e-14);
       if (m == 1)
       {
@@ -96,7 +96,7 @@ namespace
     }
   }
 
-  /** What a run says of its energies and feet, relative. */
+  /** Energies and base nodes of a run, relative errors. */
   struct Account
   {
     double dam = 0., rock = 0., interface = 0., largest = 0., apart = 0., far = 1e-300;
@@ -122,7 +122,7 @@ namespace
       below(name + ": account of the dam", dam / largest, limit);
       below(name + ": account of the rock", rock, limit);
       below(name + ": energy made by the coupling", interface / largest, limit);
-      below(name + ": feet of dam and rock apart / displacement", apart / far, 1e-12);
+      below(name + ": distance of the base nodes of dam and rock / displacement", apart / far, 1e-12);
     }
   };
 

@@ -153,8 +153,48 @@ def maths():
     total = accuracy.combined(Norms(), [np.array([.3, 0]), np.array([-.3, .4])])
     expect(np.allclose(total, (.5 * np.hypot(.3, .3), .4, .4)), f"{total}")
     expect(accuracy.number("2%", "--for", "%") == 2 and accuracy.number("5", "--seconds") == 5, "numbers")
+    cheapest(accuracy, np)
+    strongest(accuracy, np)
     digests(accuracy)
     asked_for(accuracy, np)
+
+
+def cheapest(accuracy, np):
+    """The proposed setting is the cheapest one that meets the target error; without one it is the most accurate one."""
+    errors, costs = (.1, .02, .005), (1., 2., 8.)
+
+    class Levels:
+        levels, limit = [{}] * 3, np.zeros(2)
+
+        def key(self, k):
+            return str(k)
+
+    class Measured:
+        cost = {accuracy.FIRST: 1., **{str(k): cost for k, cost in enumerate(costs)}}
+
+        def measures(self, name):
+            return np.array([errors[int(name)], 0.])
+
+        def norm(self, vector):
+            return abs(vector[0]), abs(vector[1]), max(abs(vector))
+
+    best, closest = accuracy.plan([Levels()], Measured(), .05)
+    expect(best[0] == 2. and best[2] == [1] and closest[2] == [2], f"{best}, {closest}")
+    best, closest = accuracy.plan([Levels()], Measured(), .001)
+    expect(best is None and closest[2] == [2], f"{best}, {closest}")
+
+
+def strongest(accuracy, np):
+    """The strongest part of a motion has its peak, begins from zero, and is not tapered if it is the beginning."""
+    dt, t = .01, np.arange(1001) * .01
+    for centre in (1., 6.):
+        a = .5 + 4. * np.exp(-((t - centre) / .2) ** 2)
+        part, begin = accuracy.strongest(np.column_stack([t, a, a, a]), 2.)
+        expect(len(part) == 201 and begin < centre < begin + 2., f"a part from {begin} s on, the peak is at {centre} s")
+        expect(abs(part[:, 1].max() - 4.5) < 1e-9 and part[0, 0] == 0 and abs(part[-1, 0] - 200 * dt) < 1e-9, f"{part[:, 1].max()}")
+        expect(part[0, 1] == (0. if begin > 0 else a[0]), f"from {begin} s on it begins with {part[0, 1]}")
+    part, begin = accuracy.strongest(np.column_stack([t, *3 * [np.exp(-t)]]), 2.)
+    expect(begin == 0. and part[0, 1] == 1., f"a strong beginning is kept: {begin}, {part[0, 1]}")
 
 
 def digests(accuracy):

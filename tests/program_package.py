@@ -25,6 +25,7 @@ def package():
     """run() and load() give what is in the files."""
     import numpy as np
     import voussoir
+    from voussoir import program
     os.environ["VOUSSOIR_PROGRAM"] = VOUSSOIR
     write_scene()
     run = voussoir.run("scene.prm", "out", {"Joints/Model": "FJB", "Motion/Duration": 0.3, "Output/Figures": False}, threads=1)
@@ -46,6 +47,14 @@ def package():
     else:
         mesh = run.mesh()
         expect(len(mesh.points) > 0 and np.isfinite(mesh.points).all(), "no points")
+    Path("failing").write_text('#!/bin/sh\necho "voussoir: failed: no result" >&2\nexit "$1"\n')
+    Path("failing").chmod(0o755)
+    for status, kind in (("1", voussoir.ComputationError), ("2", voussoir.InputError)):
+        try:
+            program.call(status, program=Path("failing").resolve())
+            raise AssertionError(f"status {status} is no error")
+        except (voussoir.InputError, voussoir.ComputationError) as error:
+            expect(type(error) is kind and str(error) == "no result", f"status {status}: {error!r}")
     again = voussoir.load("out")
     expect((again.history["crest_x"] == run.history["crest_x"]).all(), "load")
     expect(voussoir.scene("scene.prm", {"Joints/Friction": 0.5})["Joints/Friction"] == "0.5", "scene")

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/cholmod_objects.h>
 #include <voussoir/base/error.h>
 #include <voussoir/foundation/coarse_rock.h>
-
-#include <cholmod.h>
 
 #include <algorithm>
 #include <new>
@@ -11,26 +10,12 @@ namespace Voussoir
 {
   namespace
   {
-    /** Objects of CHOLMOD with automatic release of their memory. */
-    struct Cholmod
+    struct Cholmod : CholmodObjects
     {
-      cholmod_common  common;
-      cholmod_sparse *A = nullptr;
-      cholmod_factor *L = nullptr;
-
       Cholmod()
       {
-        cholmod_start(&common);
-        common.print = 0;
         common.supernodal = CHOLMOD_SUPERNODAL; // L L^T, which an indefinite matrix does not have
       }
-      ~Cholmod()
-      {
-        cholmod_free_sparse(&A, &common);
-        cholmod_free_factor(&L, &common);
-        cholmod_finish(&common);
-      }
-      Cholmod(const Cholmod &) = delete;
 
       void check_memory() const
       {
@@ -105,7 +90,7 @@ namespace Voussoir
         return result;
       }
 
-      mutable Cholmod cholmod;
+      Cholmod cholmod;
     };
   } // namespace
 

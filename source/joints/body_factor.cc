@@ -2,10 +2,10 @@
 #include <deal.II/base/exceptions.h>
 
 #include <voussoir/base/blas.h>
+#include <voussoir/base/cholmod_objects.h>
 #include <voussoir/base/error.h>
 #include <voussoir/joints/body_factor.h>
 
-#include <cholmod.h>
 #include <omp.h>
 
 #include <algorithm>
@@ -173,23 +173,8 @@ namespace Voussoir
     };
   } // namespace
 
-  struct BodyFactor::Cholmod
+  struct BodyFactor::Cholmod : CholmodObjects
   {
-    cholmod_common  common;
-    cholmod_sparse *A = nullptr;
-    cholmod_factor *L = nullptr;
-
-    Cholmod()
-    {
-      cholmod_start(&common);
-      common.print = 0;
-    }
-    ~Cholmod()
-    {
-      cholmod_free_sparse(&A, &common);
-      cholmod_free_factor(&L, &common);
-      cholmod_finish(&common);
-    }
   };
 
   BodyFactor::BodyFactor(const Structure &structure, const Body &body, const StepOperator &step,
