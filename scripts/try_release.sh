@@ -96,7 +96,7 @@ version_of() # SYSTEM PACKAGE: upstream version of an installed package
   chroot "$1" dpkg-query -W "$2" 2>/dev/null | cut -f 2 | sed 's/^[0-9]*://; s/[-+].*//' || true
 }
 
-table="| release | deal.II | compiler | builds without a warning | quick tests | coarse scene: same digits | run |
+table="| release | deal.II | compiler | builds without a warning | quick tests | tables of the coarse scene | run |
 |---|---|---|---|---|---|---|"
 failed=0
 for release in "$@"; do
