@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The checks before a release, some hours: all tests, sanitizers, all mutants, the benchmarks that judge themselves, line coverage.
+# The checks before a release, some hours: all tests, sanitizers, all mutants, the benchmarks that judge themselves, line coverage, and
+# the quick tests on Debian 13 (as root, with debootstrap).
 # Goes on after a check that fails; build/full.md has date, machine and a row for each check, to be put into doc/verification.md,
 # and build/logs what each printed. Exit status: 0 if all passed.
-# Usage: scripts/full.sh [CHECK...]     tests, sanitizers, mutants, benchmarks, coverage; all without one
+# Usage: scripts/full.sh [CHECK...]     tests, sanitizers, mutants, benchmarks, coverage, systems; all without one
 # shellcheck disable=SC2317 # the checks are called by their names
 set -euo pipefail
 # shellcheck source=environment.sh
@@ -13,6 +14,7 @@ cd "$root"
 tests() { scripts/test.sh; }
 sanitizers() { scripts/sanitize.sh; }
 mutants() { scripts/mutants.sh --table build/mutants.md; }
+systems() { scripts/try_release.sh trixie; }
 
 # Those whose exit status says whether the physics came out, on one thread. calculix.py and peers.py skip (77) without their data.
 benchmarks()
@@ -52,13 +54,14 @@ summary_of()
   case $1 in
     tests | sanitizers | coverage) grep -E 'tests passed|^\| all \|' "$2" | tail -n 2 | sed 's/^| all | \(.*\) | \(.*\) | \(.*\) |$/\3 of \1 lines/' ;;
     mutants) tail -n 1 "$2" ;;
+    systems) grep '^| trixie' "$2" | sed 's/^| //; s/ |$//; s/ | /, /g' ;;
     benchmarks) grep -E ': (skipped|failed)' "$2" || echo "all within their limits" ;;
   esac | paste -sd ';' | sed 's/;/; /g'
 }
 
 mkdir -p build/logs
 if (($# == 0)); then
-  set -- tests sanitizers mutants benchmarks coverage
+  set -- tests sanitizers mutants benchmarks coverage systems
 fi
 failed=0
 {
@@ -68,7 +71,7 @@ failed=0
 for check in "$@"; do
   begin=$SECONDS result=passed
   echo "full: $check"
-  bash -c "$(declare -f tests sanitizers mutants benchmarks coverage); root=$(printf %q "$root"); set -euo pipefail; $check" \
+  bash -c "$(declare -f tests sanitizers mutants benchmarks coverage systems); root=$(printf %q "$root"); set -euo pipefail; $check" \
     >"build/logs/full_$check.log" 2>&1 </dev/null || { result=failed; failed=1; tail -n 20 "build/logs/full_$check.log" >&2; }
   echo "| $check | $result | $(summary_of "$check" "build/logs/full_$check.log" || true) | $(((SECONDS - begin + 59) / 60)) |" >>build/full.md
 done

@@ -3,7 +3,7 @@
 # Builds and tests Voussoir on other releases of Debian or Ubuntu. For each: a root file system by debootstrap, scripts/setup.sh, the
 # program with warnings as errors, the quick tests, and the coarse scene (test golden_coarse: stored tables, to 1e-5).
 # Prints a table of the systems; VOUSSOIR_RELEASES/RELEASE-COMPILER.log has all output.
-# Usage: scripts/try_release.sh [--compiler gcc|clang] RELEASE...     as root; bookworm, trixie, sid, noble, resolute
+# Usage: scripts/try_release.sh [--compiler gcc|clang] RELEASE...     as root; bookworm, trixie, sid, noble, resolute; all without one
 # Environment: VOUSSOIR_RELEASES directory of the root file systems (build-releases), about 4 GB each; they are kept and used again
 #              VOUSSOIR_MIRROR   package mirror (deb.debian.org for Debian, archive.ubuntu.com for Ubuntu)
 # Exit status: 0 if all releases that could be reached passed.

@@ -162,17 +162,19 @@ namespace Voussoir
     /** Returns the optional parts of this program. */
     std::string features()
     {
-      std::string result = "coarse solver of the rock: ";
 #ifdef VOUSSOIR_WITH_TRILINOS
-      result += "Trilinos";
+      std::string result = "coarse solver of the rock: Trilinos";
 #else
-      result += "CHOLMOD";
+      std::string result = "coarse solver of the rock: CHOLMOD";
 #endif
-      result += ", natural frequencies: ";
-#ifdef VOUSSOIR_WITH_ARPACK
-      result += "ARPACK";
-#else
-      result += "none";
+#ifndef VOUSSOIR_WITH_MPI
+      result += "; no MPI";
+#endif
+#ifndef VOUSSOIR_WITH_ARPACK
+      result += "; no natural frequencies (ARPACK)";
+#endif
+#ifndef VOUSSOIR_WITH_FCLIB
+      result += "; no contact problems (FCLib)";
 #endif
       return result;
     }

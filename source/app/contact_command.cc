@@ -207,6 +207,7 @@ namespace Voussoir
     omp_set_num_threads(1); // small problems; CPU time is that of the solution
     if (files.empty())
       throw InputError("`voussoir contact` requires FCLib files. `voussoir --help` shows the usage.");
+    require_fclib();
     ContactParameters parameters = parameters_of(options);
     const Equations   equations = choose_solver(options.solver, parameters);
     if (!options.solutions.empty())

@@ -8,11 +8,13 @@
 #include <cstdlib>
 #include <ctime>
 #include <fcntl.h>
-#include <mpi.h>
 #include <numeric>
 #include <thread>
 #include <unistd.h>
 
+#ifdef VOUSSOIR_WITH_MPI
+#include <mpi.h>
+#endif
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -42,6 +44,7 @@ namespace Voussoir
       const double begin;
     };
 
+#ifdef VOUSSOIR_WITH_MPI
     template <class T> MPI_Datatype type_of();
     template <> MPI_Datatype        type_of<double>()
     {
@@ -100,6 +103,18 @@ namespace Voussoir
       omp_set_num_threads(std::max(1, std::min(omp_get_num_procs(), n_cores / n_on_machine)));
 #endif
     }
+
+    void any_of(unsigned int &bits)
+    {
+      const InMessage now;
+      MPI_Allreduce(MPI_IN_PLACE, &bits, 1, MPI_UNSIGNED, MPI_BOR, MPI_COMM_WORLD);
+    }
+#else
+    // There is one rank: start() refuses more.
+    template <class T> void gather_any(T *, const std::vector<std::size_t> &) {}
+    template <class T> void broadcast_any(T *, std::size_t, unsigned int) {}
+    void                    any_of(unsigned int &) {}
+#endif
   } // namespace
 
   unsigned int Ranks::rank()
@@ -131,6 +146,85 @@ namespace Voussoir
     return result;
   }
 
+  void Ranks::gather(double *data, const std::vector<std::size_t> &begin)
+  {
+    gather_any(data, begin);
+  }
+
+  void Ranks::gather(float *data, const std::vector<std::size_t> &begin)
+  {
+    gather_any(data, begin);
+  }
+
+  void Ranks::gather(float *a, float *b, const std::vector<std::size_t> &begin)
+  {
+    if (n_ranks == 1)
+      return;
+    std::vector<float>       both(2 * begin.back());
+    std::vector<std::size_t> parts(begin);
+    for (std::size_t &i : parts)
+      i *= 2;
+    const auto part = [&](const unsigned int r, const bool second)
+    { return both.data() + begin[r] + begin[second ? r + 1 : r]; };
+    const std::size_t first = begin[this_rank], n = begin[this_rank + 1] - first;
+    std::copy_n(a + first, n, part(this_rank, false));
+    std::copy_n(b + first, n, part(this_rank, true));
+    gather_any(both.data(), parts);
+    for (unsigned int r = 0; r < n_ranks; ++r)
+    {
+      std::copy_n(part(r, false), begin[r + 1] - begin[r], a + begin[r]);
+      std::copy_n(part(r, true), begin[r + 1] - begin[r], b + begin[r]);
+    }
+  }
+
+  void Ranks::gather(unsigned int *data, const std::vector<std::size_t> &begin)
+  {
+    gather_any(data, begin);
+  }
+
+  void Ranks::broadcast(double *data, const std::size_t n, const unsigned int root)
+  {
+    broadcast_any(data, n, root);
+  }
+
+  void Ranks::broadcast(float *data, const std::size_t n, const unsigned int root)
+  {
+    broadcast_any(data, n, root);
+  }
+
+  unsigned int Ranks::any(unsigned int bits)
+  {
+    if (n_ranks > 1)
+      any_of(bits);
+    return bits;
+  }
+
+  bool Ranks::have_same(const std::string &text)
+  {
+    const auto digest = static_cast<unsigned int>(std::hash<std::string>()(text));
+    return any(any(digest) == digest ? 0 : 1) == 0; // two different hashes differ from their or
+  }
+
+  void Ranks::on_first(const std::function<void()> &action)
+  {
+    std::exception_ptr failure;
+    if (is_first())
+      try
+      {
+        action();
+      }
+      catch (...)
+      {
+        failure = std::current_exception();
+      }
+    const bool failed = any(failure ? 1 : 0) != 0;
+    if (failure)
+      std::rethrow_exception(failure);
+    if (failed)
+      throw FailedElsewhere();
+  }
+
+#ifdef VOUSSOIR_WITH_MPI
   void Ranks::start(const unsigned int n)
   {
     if (n == 1)
@@ -190,87 +284,6 @@ namespace Voussoir
     return largest;
   }
 
-  void Ranks::gather(double *data, const std::vector<std::size_t> &begin)
-  {
-    gather_any(data, begin);
-  }
-
-  void Ranks::gather(float *data, const std::vector<std::size_t> &begin)
-  {
-    gather_any(data, begin);
-  }
-
-  void Ranks::gather(float *a, float *b, const std::vector<std::size_t> &begin)
-  {
-    if (n_ranks == 1)
-      return;
-    std::vector<float>       both(2 * begin.back());
-    std::vector<std::size_t> parts(begin);
-    for (std::size_t &i : parts)
-      i *= 2;
-    const auto part = [&](const unsigned int r, const bool second)
-    { return both.data() + begin[r] + begin[second ? r + 1 : r]; };
-    const std::size_t first = begin[this_rank], n = begin[this_rank + 1] - first;
-    std::copy_n(a + first, n, part(this_rank, false));
-    std::copy_n(b + first, n, part(this_rank, true));
-    gather_any(both.data(), parts);
-    for (unsigned int r = 0; r < n_ranks; ++r)
-    {
-      std::copy_n(part(r, false), begin[r + 1] - begin[r], a + begin[r]);
-      std::copy_n(part(r, true), begin[r + 1] - begin[r], b + begin[r]);
-    }
-  }
-
-  void Ranks::gather(unsigned int *data, const std::vector<std::size_t> &begin)
-  {
-    gather_any(data, begin);
-  }
-
-  void Ranks::broadcast(double *data, const std::size_t n, const unsigned int root)
-  {
-    broadcast_any(data, n, root);
-  }
-
-  void Ranks::broadcast(float *data, const std::size_t n, const unsigned int root)
-  {
-    broadcast_any(data, n, root);
-  }
-
-  unsigned int Ranks::any(unsigned int bits)
-  {
-    if (n_ranks > 1)
-    {
-      const InMessage now;
-      MPI_Allreduce(MPI_IN_PLACE, &bits, 1, MPI_UNSIGNED, MPI_BOR, MPI_COMM_WORLD);
-    }
-    return bits;
-  }
-
-  bool Ranks::have_same(const std::string &text)
-  {
-    const auto digest = static_cast<unsigned int>(std::hash<std::string>()(text));
-    return any(any(digest) == digest ? 0 : 1) == 0; // two different hashes differ from their or
-  }
-
-  void Ranks::on_first(const std::function<void()> &action)
-  {
-    std::exception_ptr failure;
-    if (is_first())
-      try
-      {
-        action();
-      }
-      catch (...)
-      {
-        failure = std::current_exception();
-      }
-    const bool failed = any(failure ? 1 : 0) != 0;
-    if (failure)
-      std::rethrow_exception(failure);
-    if (failed)
-      throw FailedElsewhere();
-  }
-
   void Ranks::exchange(float *data, const std::vector<Transfer> &list)
   {
     const bool concerned = std::any_of(
@@ -314,6 +327,23 @@ namespace Voussoir
     }
     MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   }
+#else
+  void Ranks::start(const unsigned int n)
+  {
+    if (n != 1)
+      throw InputError("The launcher started " + std::to_string(n) +
+                       " processes, but this program was built without MPI. Start one process, or build with "
+                       "VOUSSOIR_WITH_MPI=ON.");
+  }
+
+  int Ranks::finish(const int status, const std::string &)
+  {
+    return status;
+  }
+
+  void Ranks::exchange(float *, const std::vector<Transfer> &) {}
+  void Ranks::exchange(const std::vector<Message> &) {}
+#endif
 
   Shares::Shares(const std::vector<double> &weight)
   {

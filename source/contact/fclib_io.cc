@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/contact/fclib_io.h>
+
+#ifdef VOUSSOIR_WITH_FCLIB
 #include <voussoir/base/guarded.h>
 #include <voussoir/base/output_file.h>
-#include <voussoir/contact/fclib_io.h>
 
 #include <cmath>
 #include <cstdio>
@@ -281,4 +283,30 @@ namespace Voussoir
     if (fclib_write_guesses(1, &guess, file.c_str()) != 1)
       throw WriteError("The initial guess cannot be written to " + file + ".");
   }
+
+  void require_fclib() {}
 } // namespace Voussoir
+
+#else
+
+namespace Voussoir
+{
+  void require_fclib()
+  {
+    throw InputError(
+        "This program was built without FCLib, so `voussoir contact` and Contact/Write problems do not work. "
+        "Install libfclib and HDF5, then build again.");
+  }
+
+  FrictionProblem read_fclib(const std::string &)
+  {
+    require_fclib();
+    return {};
+  }
+
+  void write_fclib(const std::string &, const FrictionProblem &, const Unknowns &, const Unknowns &)
+  {
+    require_fclib();
+  }
+} // namespace Voussoir
+#endif

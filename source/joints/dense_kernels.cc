@@ -4,9 +4,14 @@
 #include <algorithm>
 #include <cstring>
 
-#define VOUSSOIR_CLONES __attribute__((target_clones("avx512f", "fma", "avx", "default"), optimize("O3")))
-#define VOUSSOIR_WIDE __attribute__((target("avx512f"), optimize("O3")))
-#define VOUSSOIR_OTHERS __attribute__((target_clones("fma", "avx", "default"), optimize("O3")))
+#ifdef __clang__ // vectorises at -O2
+#define VOUSSOIR_OPTIMIZE
+#else
+#define VOUSSOIR_OPTIMIZE __attribute__((optimize("O3")))
+#endif
+#define VOUSSOIR_CLONES VOUSSOIR_OPTIMIZE __attribute__((target_clones("avx512f", "fma", "avx", "default")))
+#define VOUSSOIR_WIDE VOUSSOIR_OPTIMIZE __attribute__((target("avx512f")))
+#define VOUSSOIR_OTHERS VOUSSOIR_OPTIMIZE __attribute__((target_clones("fma", "avx", "default")))
 #define VOUSSOIR_INLINE inline __attribute__((always_inline))
 
 namespace Voussoir

@@ -12,7 +12,7 @@
 #ifdef __clang__
 #define VOUSSOIR_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #else
-#define VOUSSOIR_SHUFFLE(a, b, ...) __builtin_shuffle(a, b, Index{__VA_ARGS__})
+#define VOUSSOIR_SHUFFLE(a, b, ...) __builtin_shuffle(a, b, decltype((a) < (b)){__VA_ARGS__})
 #endif
 
 namespace Voussoir
@@ -67,8 +67,7 @@ namespace Voussoir
      * order for all packs. */
     VOUSSOIR_INLINE void add_lanes(const Pack (&s)[width][1], double *sums)
     {
-      typedef long long Index __attribute__((vector_size(8 * width)));
-      Pack              of_two[4], of_four[2];
+      Pack of_two[4], of_four[2];
       for (std::size_t k = 0; k < 4; ++k)
         of_two[k] = VOUSSOIR_SHUFFLE(s[2 * k][0], s[2 * k + 1][0], 0, 1, 2, 3, 8, 9, 10, 11) +
                     VOUSSOIR_SHUFFLE(s[2 * k][0], s[2 * k + 1][0], 4, 5, 6, 7, 12, 13, 14, 15);
@@ -81,7 +80,6 @@ namespace Voussoir
 
     VOUSSOIR_INLINE void add_lanes(const Half (&s)[width][2], double *sums)
     {
-      typedef long long Index __attribute__((vector_size(4 * width)));
       for (std::size_t k = 0; k < width; k += 4)
       {
         const Half first = s[k][0] + s[k][1], second = s[k + 1][0] + s[k + 1][1],

@@ -17,6 +17,9 @@ namespace Voussoir
     std::string         title;
   };
 
+  /** Throws InputError if the program was built without FCLib (VOUSSOIR_WITH_FCLIB=OFF). */
+  void require_fclib();
+
   /** Reads the problem "fclib_local" of an FCLib file (Acary et al.): three-dimensional, without bilateral
    * part, W as triplets, by rows or by columns. The file is read in a child process, see run_guarded().
    * Throws InputError with the file name and the defect. */

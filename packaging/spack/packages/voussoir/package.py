@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Spack recipe. Use: spack repo add packaging/spack; spack dev-build -d . voussoir@main
+Without FCLib, which Spack does not have: `voussoir contact` and Contact/Write problems end with a message."""
+
+from spack.package import *  # noqa: F403
+
+try:  # Spack 1.0 and later
+    from spack_repo.builtin.build_systems.cmake import CMakePackage
+except ImportError:
+    from spack.package import CMakePackage
+
+
+class Voussoir(CMakePackage):
+    """Earthquake analysis of concrete arch dams whose contraction joints open, close and slide."""
+
+    license("GPL-3.0-or-later")  # noqa: F405
+
+    version("main")  # noqa: F405
+
+    variant("mpi", default=True, description="Runs with more than one process")  # noqa: F405
+    variant("trilinos", default=False, description="Coarse solver of the rock's static state by Trilinos' ML")  # noqa: F405
+    variant("arpack", default=True, description="Natural frequencies and mode shapes")  # noqa: F405
+
+    depends_on("c", type="build")  # noqa: F405
+    depends_on("cxx", type="build")  # noqa: F405
+    depends_on("cmake@3.16:", type="build")  # noqa: F405
+    depends_on("ninja", type="build")  # noqa: F405
+    depends_on("dealii@9.4:")  # noqa: F405
+    for feature in ("mpi", "trilinos", "arpack"):
+        depends_on(f"dealii+{feature}", when=f"+{feature}")  # noqa: F405
+    depends_on("trilinos@:16", when="+trilinos")  # noqa: F405
+    depends_on("suite-sparse")  # noqa: F405
+    depends_on("openblas")  # noqa: F405
+    depends_on("gmsh")  # noqa: F405
+    depends_on("python@3.9:", type="run")  # noqa: F405
+    depends_on("py-matplotlib", type="run")  # noqa: F405
+
+    generator("ninja")  # noqa: F405
+
+    def cmake_args(self):
+        features = [self.define_from_variant(f"VOUSSOIR_WITH_{name.upper()}", name) for name in ("mpi", "trilinos", "arpack")]
+        return features + [self.define("VOUSSOIR_WITH_FCLIB", False), self.define("VOUSSOIR_UNITY", True)]
