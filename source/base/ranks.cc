@@ -25,7 +25,6 @@ namespace Voussoir
   {
     unsigned int this_rank = 0, n_ranks = 1;
     std::size_t  messages = 0;
-    int          screen = STDERR_FILENO; ///< stderr, for messages of this rank only
 
     double waited = 0.; ///< CPU time in messages [s]
 
@@ -45,6 +44,8 @@ namespace Voussoir
     };
 
 #ifdef VOUSSOIR_WITH_MPI
+    int screen = STDERR_FILENO; ///< stderr, for messages of this rank only
+
     template <class T> MPI_Datatype type_of();
     template <> MPI_Datatype        type_of<double>()
     {
