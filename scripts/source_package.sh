@@ -7,6 +7,12 @@ set -euo pipefail
 # shellcheck source=environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
+for tool in dpkg-buildpackage dh dh_python3 lintian; do
+  if ! command -v "$tool" >/dev/null; then
+    echo "source_package: $tool is missing: apt-get install dpkg-dev debhelper dh-python lintian" >&2
+    exit 2
+  fi
+done
 version=$(sed -n 's/^project(voussoir VERSION \([0-9.]*\) .*/\1/p' "$root/CMakeLists.txt")
 directory=$root/build-source tree=$root/build-source/voussoir-$version
 rm -rf "$directory"
