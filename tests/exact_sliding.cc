@@ -182,6 +182,28 @@ namespace
                message.find("cohesive") == std::string::npos);
   }
 
+  /** A saved state must have the history variables of the laws. */
+  void test_saved_history()
+  {
+    Column column = make_column({bar(0., 1., 1, 1e-9, 1.)}, nullptr, true);
+    column.structure.pairs.push_back(wall(column.node[0][0]));
+    column.structure.collect_interfaces();
+    const Wearing law;
+    JointLaws     laws;
+    laws.add(&law, 1.);
+    Newmark newmark(column.structure, laws, tight(), .01, ImpactRule::mean_force);
+    newmark.start({.1, 0., 0.}, {0., 0., 0.}, {0., 0., 0.}, {0., 0., 0.}, {0., 0., 0.}, {1.});
+    DynamicState saved = newmark.state();
+    const auto   resume = [&] { newmark.resume(saved, newmark.initial_energy(), 0., {0., 0., 0.}); };
+    resume();
+    report("history variable of a resumed run", newmark.state().memory[0], "1",
+           newmark.state().memory[0] == 1.);
+    saved.memory = {1., 0.};
+    throws("saved state with another number of history variables", resume, {"has 2", "have 1", "--resume"});
+    saved.memory.clear();
+    throws("saved state without history variables", resume, {"has 0", "have 1"});
+  }
+
   /** A block of 1 kg is thrown at a wall with 1 m/s normal to it and 2 m/s along it, and loses the friction
    *  times 1 m/s: that of its history before the step of the impact. */
   void test_history_at_impact()
@@ -214,6 +236,6 @@ namespace
 int main(int argc, char **argv)
 {
   return run_all({test_circle, test_changing_pressure, test_small_circle, test_history_at_impact,
-                  test_law_that_needs_means},
+                  test_law_that_needs_means, test_saved_history},
                  argc, argv);
 }

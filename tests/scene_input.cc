@@ -348,13 +348,13 @@ namespace
     for (const DeclaredEntry &declared : declared_entries(prm))
       if (declared.name() == "Joints/Friction" || declared.name() == "Joints/Keys/Height")
         entries.push_back({declared, "0.5", "a.prm, line 1"});
-    scene.joints.model = "grooved";
+    scene.joints.model = "no such law";
     expect(scene_warnings(scene, entries, prm.usual_ranges()).empty(),
            "an entry of a law of one's own is said to have no effect");
     scene.joints.model = "FJB";
     expect(scene_warnings(scene, entries, prm.usual_ranges()).size() == 2,
            "two entries without effect, of different laws");
-    scene.joints.overrides[2] = "grooved";
+    scene.joints.overrides[2] = "no such law";
     expect(scene_warnings(scene, entries, prm.usual_ranges()).empty(), "a law of one's own in one joint");
   }
 

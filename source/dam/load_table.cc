@@ -219,9 +219,9 @@ namespace Voussoir
 
   KnownTraction known_traction(const Scene &scene)
   {
-    std::vector<std::pair<const LoadRow *, double>> parts; // rows with load factors
+    std::vector<std::pair<const LoadRow *, double>> parts; // active rows with load factors
     for (const LoadRow &load : load_table())
-      if (load.traction)
+      if (load.traction && load.acts(scene))
         parts.emplace_back(&load, scene.loads.factor(load.name));
     return [&scene, parts](const int surface, const double z, const Vector3 &normal)
     {

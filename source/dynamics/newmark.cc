@@ -107,6 +107,13 @@ namespace Voussoir
   void Newmark::resume(const DynamicState &state, const Energy &first_energy, const double largest_so_far,
                        const Unknowns &reference_jump)
   {
+    const std::size_t n_saved = state.memory.size(), n_memory = laws.initial_memory().size();
+    if (n_saved != n_memory)
+      throw InputError("The checkpoint has " + std::to_string(n_saved) +
+                       " history variables in all pairs, but the joint laws of this program have " +
+                       std::to_string(n_memory) +
+                       " (JointLaw::n_memory()). Use the laws of the program that wrote the checkpoint, or "
+                       "run without --resume.");
     first = first_energy;
     largest = largest_so_far;
     reference = reference_jump;

@@ -164,7 +164,8 @@ namespace Voussoir
      * The solver uses these forces as unknowns, see PairSurfaces. */
     virtual const SurfacesLaw *surfaces_law() const { return nullptr; }
 
-    /** Returns the coefficient of friction [-] if the law is Coulomb's law on one flat face, else -1. */
+    /** Returns the coefficient of friction [-] if the law is Coulomb's law with constant friction on one flat
+     * face, else -1. */
     virtual double flat_friction() const { return -1.; }
   };
 } // namespace Voussoir

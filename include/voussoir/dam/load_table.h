@@ -67,7 +67,7 @@ namespace Voussoir
   /** Returns the active static loads of an input file, with the factors of its load combination. */
   std::vector<StaticLoad> static_loads(const Scene &scene, const LoadSite &site);
 
-  /** Returns the tractions of all loads on the faces [Pa], with the factors of the load combination and
+  /** Returns the tractions of all active loads on the faces [Pa], with the factors of the load combination and
    * without the hydrodynamic added mass. @p scene must outlive the result. */
   KnownTraction known_traction(const Scene &scene);
 } // namespace Voussoir

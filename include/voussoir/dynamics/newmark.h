@@ -47,7 +47,9 @@ namespace Voussoir
      * @param state state at the time of the checkpoint
      * @param first energies at the start of the run
      * @param largest_energy value of largest_energy() at the time of the checkpoint [J]
-     * @param reference as in start() */
+     * @param reference as in start()
+     *
+     * Throws InputError if @p state has another number of history variables than the laws. */
     void resume(const DynamicState &state, const Energy &first, double largest_energy,
                 const Unknowns &reference);
 
