@@ -47,7 +47,7 @@ namespace Voussoir
     void start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
                const Unknowns &reference, const Unknowns &memory = {});
 
-    /** Restores a saved state, instead of start().
+    /** Restores a saved state; start() is not required.
      * @param state state at the time of the checkpoint
      * @param first energies at the start of the run
      * @param largest_energy value of largest_energy() at the time of the checkpoint [J]
