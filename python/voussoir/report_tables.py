@@ -195,8 +195,9 @@ def verdict(run):
     for name, limit in limits.items():
         if not limit["satisfied"]:
             unit = {"Pa": "MPa", "m": "mm"}.get(limit.get("unit", ""), limit.get("unit", "")) or ("%" if "share" in name else "")
-            texts.append(f"{WORDS.get(name, name.replace('_', ' '))} {number(limit['value'], unit)} "
-                         f"{'instead of' if limit.get('is_least') else 'of'} {with_unit(limit['limit'], unit)}")
+            value = f"{number(limit['value'], unit)}{' ' + unit if unit else ''}"
+            bound = "required" if limit.get("is_least") else "limit"  # as in the log
+            texts.append(f"{WORDS.get(name, name.replace('_', ' '))} {value} ({bound} {with_unit(limit['limit'], unit)})")
     if not texts:
         return ("", f"{len(limits)} of {len(limits) + len(unjudged)} limits are satisfied.{rest}") if unjudged else (
             "satisfied", "All limits of the scene are satisfied.")

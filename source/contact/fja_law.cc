@@ -38,11 +38,12 @@ namespace Voussoir
         return active ? solve_coulomb(H, v, mu) : Vector3{};
       }
 
-      Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &w, const double still,
-                                 const PairHistory &history, const unsigned char active) const override
+      Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &w,
+                                 const double stick_speed, const PairHistory &history,
+                                 const unsigned char active) const override
       {
         const double speed = length(w[1], w[2]);
-        if (speed <= still || !active)
+        if (speed <= stick_speed || !active)
           return solve_impulse(H, b, history, active);
         const double e1 = w[1] / speed, e2 = w[2] / speed, h = H[0] - mu * (H[1] * e1 + H[2] * e2);
         const double normal = h > 0. ? std::max(0., -b[0] / h) : std::max(0., -b[0] / H[0]);

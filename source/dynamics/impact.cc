@@ -157,7 +157,7 @@ namespace Voussoir
     double fastest = 0.;
     for (const double x : v)
       fastest = std::max(fastest, std::abs(x));
-    const double still = std::max(1e-9 * fastest, 1e-12);
+    const double stick_speed = std::max(1e-9 * fastest, 1e-12);
     for (std::size_t p = 0; p < structure.pairs.size(); ++p)
     {
       const Pair     &pair = structure.pairs[p];
@@ -175,7 +175,7 @@ namespace Voussoir
       }
       else if (closed || law.is_tangentially_tied())
       {
-        const Vector3 f = law.solve_acceleration(pair_inverse[p], jump, structure.jump(pair, v), still,
+        const Vector3 f = law.solve_acceleration(pair_inverse[p], jump, structure.jump(pair, v), stick_speed,
                                                  histories[p], system.active_surfaces()[p]);
         add_impulse(pair, f, a);
         set(result, p, f);

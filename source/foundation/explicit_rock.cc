@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
+
 #include <voussoir/base/error.h>
 #include <voussoir/base/free_memory.h>
 #include <voussoir/foundation/explicit_rock.h>
@@ -37,8 +39,10 @@ namespace Voussoir
         source(site.source), incompatible_modes(site.incompatible_modes)
   {
     if (site.degree != 1)
-      throw InputError(
-          "Foundation/Model = rock needs Elements/Degree = 1, because dam and rock share their nodes.");
+      throw InputError("Foundation/Model = rock requires Elements/Degree = 1, not " +
+                       std::to_string(site.degree) +
+                       ", because dam and rock share their nodes. Set \"Elements/Degree\" to 1, or "
+                       "\"Foundation/Model\" to massless.");
   }
 
   void ExplicitRock::add_stiffness(const SolidModel &dam, Structure &)
@@ -71,15 +75,26 @@ namespace Voussoir
     dt_critical = Voussoir::critical_time_step(largest_frequency(make_operator(model), model.mass), damping);
   }
 
+  namespace
+  {
+    /** Returns the static state of the rock, which must exist. */
+    RockStaticState &existing(const std::unique_ptr<RockStaticState> &state)
+    {
+      Assert(state,
+             dealii::ExcMessage("The static state requires add_stiffness() before and start() after."));
+      return *state;
+    }
+  } // namespace
+
   Unknowns ExplicitRock::static_springs(const Structure &structure) const
   {
-    return static_state->springs(structure);
+    return existing(static_state).springs(structure);
   }
 
   ContactResult ExplicitRock::solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
                                            Unknowns &load, Log &log)
   {
-    return static_state->solve(solve, springs, u, load, log);
+    return existing(static_state).solve(solve, springs, u, load, log);
   }
 
   Vector3 ExplicitRock::arrival() const

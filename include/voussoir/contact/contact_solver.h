@@ -32,19 +32,27 @@ namespace Voussoir
   class ContactSolver
   {
   public:
+    // Values per pair have the components (n, a, b) of the frame of the pair. Forces are those of side 1 on
+    // side 2, gaps are displacements of side 2 relative to side 1 (JointLaw). If several ranks share W, all
+    // ranks call the constructor, solve() and guess_bonded(), with equal arguments.
+
     /** Prepares the solver for problems with the operator @p W.
      * @param W operator; must outlive the solver
-     * @param laws joint law of each pair; must outlive the solver
+     * @param laws joint law of each pair, W.n_pairs() in number; the laws must outlive the solver
      * @param parameters tolerance, limits and method */
     ContactSolver(const ContactOperator &W, std::vector<const JointLaw *> laws,
                   const ContactParameters &parameters);
     ~ContactSolver();
 
-    /** Solves a contact problem. If the solver does not converge, @p force and @p gap are the best iterate.
+    /** Solves a contact problem, within the limits ContactParameters::max_iterations and max_seconds.
      * @param b gaps without joint forces, three values per pair [m]
      * @param history history of each pair
-     * @param force receives the solution, three values per pair [N]; its initial value is the initial guess
-     * @param gap receives W force + b, three values per pair [m] */
+     * @param force receives the solution, three values per pair [N]; its initial value is the initial guess,
+     * or zero if it is not finite
+     * @param gap receives W force + b, three values per pair [m]
+     *
+     * Returns convergence and effort. If ContactResult::converged is false, @p force and @p gap are the best
+     * iterate. This includes values of @p b or @p history that are not finite; there is no exception. */
     ContactResult solve(const Unknowns &b, const std::vector<PairHistory> &history, Unknowns &force,
                         Unknowns &gap);
 
@@ -52,13 +60,16 @@ namespace Voussoir
      * three values per pair [m]. */
     ContactResult solve(const Unknowns &b, const Unknowns &start, Unknowns &force, Unknowns &gap);
 
-    /** Computes an initial guess for a static state: forces that keep all gaps at zero, W force + b = 0,
-     * approximately. @p force receives three values per pair [N]. */
+    /** Computes an initial guess for a static state: forces that keep all gaps at zero, W force + b = 0, with
+     * a relative error of about 1e-3. Call it before solve().
+     * @param b gaps without joint forces, three values per pair [m]
+     * @param force receives three values per pair [N] */
     void guess_bonded(const Unknowns &b, Unknowns &force);
 
-    /** Returns the contact state of each pair in the last solution. */
+    /** Returns the contact state of each pair in the last solution; before the first one, all are open. */
     const std::vector<PairState> &states() const { return state; }
-    /** Returns the active surfaces of each pair in the last solution, see PairEquations::active. */
+    /** Returns the active surfaces of each pair in the last solution, see PairEquations::active; before the
+     * first one, 0. */
     const std::vector<unsigned char> &active_surfaces() const { return active; }
 
   private:

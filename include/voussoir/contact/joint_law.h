@@ -105,7 +105,11 @@ namespace Voussoir
      * @param H inverse mass of the pair [1/kg]
      * @param v velocity of side 2 relative to side 1 at the end of the step, before the correction [m/s]
      * @param applied impulse of the joint force in the step, before the correction [N s]
-     * @param active active surfaces, see PairEquations::active */
+     * @param active active surfaces, see PairEquations::active
+     *
+     * The default is for one flat face. It changes only the normal component of @p applied, to
+     * max(applied[0] - v[0] / H[0], min(0, applied[0])). The normal velocity becomes zero, unless this
+     * requires more tension than @p applied has. An open pair (@p active 0) keeps @p applied. */
     virtual Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &applied,
                                 unsigned char active) const;
 
@@ -114,13 +118,14 @@ namespace Voussoir
      * @param H inverse mass of the pair [1/kg]
      * @param b acceleration of side 2 relative to side 1 without the force [m/s^2]
      * @param slip_velocity velocity of side 2 relative to side 1 [m/s]
-     * @param still speed up to which a pair does not slip [m/s]
+     * @param stick_speed largest slip speed of a sticking pair [m/s]; a faster pair slips
      * @param history data of the pair
      * @param active active surfaces, see PairEquations::active
      *
      * The default is solve_impulse(H, b, history, active). */
     virtual Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
-                                       double still, const PairHistory &history, unsigned char active) const;
+                                       double stick_speed, const PairHistory &history,
+                                       unsigned char active) const;
 
     /** Returns true if slip is zero for open and closed pairs. */
     virtual bool is_tangentially_tied() const { return false; }

@@ -20,42 +20,67 @@ namespace Voussoir
   class Dam
   {
   public:
-    /** Reads the mesh and assembles the dam. @p tie_all: all joints are tied, for natural frequencies. The @p
-     * scene must outlive the object. Throws InputError if mesh and input file do not fit. */
+    /** Reads the mesh and assembles the dam. Must be called by all ranks.
+     * @param scene input file; must outlive the object
+     * @param tie_all true: all joints are tied, for natural frequencies
+     *
+     * Throws InputError for an invalid mesh, or if mesh and input file do not fit. Throws ComputationError if
+     * a stiffness matrix cannot be factorised. */
     explicit Dam(const Scene &scene, bool tie_all = false);
 
-    /** Returns FoundationSite::one_body. @p tied: all joints are tied. */
+    /** Returns FoundationSite::one_body for the input file. @p tied: true if all joints are tied. */
     static bool is_one_body(const Scene &scene, bool tied);
 
-    /** Returns true if the base nodes are fixed. */
+    /** Returns true if the lowest base nodes are fixed. */
     bool base_is_held() const { return lowest_base.empty(); }
 
-    /** Returns the mean displacement of the lowest base nodes [m], or zero if the base is fixed. */
+    /** Returns the mean displacement x, y, z of the lowest base nodes, within 1 mm of the lowest height [m].
+     * It is zero if these nodes are fixed. @p u: displacement, three values per free node [m]. */
     Vector3 base_motion(const Unknowns &u) const;
 
-    const Scene          &scene;
-    std::vector<Material> materials;                  ///< of the concrete, by zone of the mesh
-    std::vector<Zone>     concrete_zones, rock_zones; ///< zones of the mesh
-    std::string           groups;                     ///< table of the mesh groups: group_table()
-    std::string           ungrouped;                  ///< faces_without_group()
+    const Scene          &scene;          ///< input file
+    std::vector<Material> materials;      ///< of the concrete, one per entry of HexMesh::zones
+    std::vector<Zone>     concrete_zones; ///< zones of the monoliths
+    std::vector<Zone>     rock_zones;     ///< zones of the rock; empty for a rigid foundation
+    std::string           groups;         ///< table of the mesh groups: group_table()
+    std::string           ungrouped;      ///< faces_without_group()
 
-    std::vector<std::string> mesh_warnings; ///< see Voussoir::mesh_warnings()
-    std::size_t              n_cells = 0;
-    unsigned int             n_monoliths = 0, n_joints = 0;
-    double volume = 0., crest_length = 0., size = 0.; ///< [m^3], [m], diagonal of the bounding box [m]
-    std::unique_ptr<SolidModel>  model;
-    Structure                    structure;
-    JointLaws                    laws;
-    std::unique_ptr<DamGeometry> geometry;
-    std::unique_ptr<Foundation>  foundation;
+    std::vector<std::string> mesh_warnings;     ///< see Voussoir::mesh_warnings()
+    std::size_t              n_cells = 0;       ///< number of concrete elements
+    unsigned int             n_monoliths = 0;   ///< number of monoliths
+    unsigned int             n_joints = 0;      ///< number of contraction joints, also if they are tied
+    double                   volume = 0.;       ///< of the concrete [m^3]
+    double                   crest_length = 0.; ///< see Voussoir::crest_length() [m]
+    double                   size = 0.;         ///< diagonal of the bounding box of the concrete [m]
+
+    std::unique_ptr<SolidModel> model;     ///< finite element mesh, and numbers of the free nodes
+    Structure                   structure; ///< stiffness, mass and pairs of the free nodes
+
+    /** Laws of all pairs. JointLaws::of_joint has the law of each joint, then the law of tied pairs at the
+     * base. */
+    JointLaws laws;
+
+    std::unique_ptr<DamGeometry> geometry;   ///< crest, crown and upper ends of the joints
+    std::unique_ptr<Foundation>  foundation; ///< foundation under the base
     std::vector<Neighbour *>     neighbours; ///< in the order of their calls; the first is the foundation
-    std::vector<StaticLoad>      loads;
-    std::array<Unknowns, 3>      inertia;         ///< load per unit base acceleration [N s^2/m]
-    double                       added_mass = 0.; ///< for motion along x [kg]
-    std::vector<Stress>          initial_stress;  ///< per node of the model [Pa]
-    Vector3 self_weight_crown = {{0., 0., 0.}};   ///< crown displacement of staged weight [m]
-    bool    has_water = false;                    ///< true: water on the upstream face
-    bool    tied = false;                         ///< true: all joints are tied, without pairs
+    std::vector<StaticLoad>      loads;      ///< active static loads, with the factors of their combination
+
+    /** Inertia loads per unit base acceleration in x, y and z: minus the mass matrix, with added mass and
+     * without rock, times the unit vector. Three values per free node [N s^2/m]. */
+    std::array<Unknowns, 3> inertia;
+
+    double added_mass = 0.; ///< total hydrodynamic added mass for motion along x [kg]; 0 without water
+
+    /** Stress at zero displacement, by staged self-weight and initial strains. One value per node of the
+     * model, also of fixed nodes [Pa]. */
+    std::vector<Stress> initial_stress;
+
+    /** Displacement of the crown under staged self-weight, x, y, z [m]. It precedes grouting and is not
+     * included in other displacements. */
+    Vector3 self_weight_crown = {{0., 0., 0.}};
+
+    bool has_water = false; ///< true: water pressure on the upstream face, from the reservoir
+    bool tied = false;      ///< true: all joints are tied, without pairs
 
   private:
     HexMesh open_monoliths(const HexMesh &mesh, const std::string &source);

@@ -17,7 +17,10 @@ namespace Voussoir
   class Newmark
   {
   public:
-    /** Condenses the bodies for time steps of length @p dt.
+    // Nodes are the free nodes of the structure. Values per node have the components x, y, z, values per pair
+    // the components (n, a, b) of Pair::frame. All ranks call start(), resume() and advance().
+
+    /** Condenses the bodies for time steps of length @p dt. start() or resume() must follow.
      * @param structure masses, stiffness matrices, damping and pairs
      * @param laws joint laws of the pairs
      * @param parameters parameters of the contact solver
@@ -28,14 +31,15 @@ namespace Voussoir
      * @param single_factors stores the factors in single precision, which halves the memory traffic of a
      * step. The unknown of the step is then an increment, see StepEquation. Ignored with a @p support.
      *
-     * Throws InputError if @p rule is not ImpactRule::mean_force but a law or the support requires it. */
+     * Throws InputError if @p rule is not ImpactRule::mean_force but a law or the support requires it, or if
+     * a node belongs to two pairs. Throws ComputationError if a body cannot be factorised. */
     Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters, double dt,
             ImpactRule rule, Support *support = nullptr, bool single_factors = false);
 
-    /** Sets the initial state at time 0.
+    /** Sets the initial state at time 0. The velocity of the base is zero.
      * @param u displacement, three values per node [m]
      * @param v velocity, three values per node [m/s]
-     * @param force joint forces of this state, three values per pair [N]
+     * @param force joint forces of this state, on side 2, three values per pair [N]
      * @param load nodal loads of this state, three values per node [N]
      * @param reference displacement jump of each pair at which the joint is closed and without slip, three
      * values per pair [m]
@@ -43,7 +47,7 @@ namespace Voussoir
     void start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
                const Unknowns &reference, const Unknowns &memory = {});
 
-    /** Restores a saved state.
+    /** Restores a saved state; start() is not required.
      * @param state state at the time of the checkpoint
      * @param first energies at the start of the run
      * @param largest_energy value of largest_energy() at the time of the checkpoint [J]
@@ -54,19 +58,20 @@ namespace Voussoir
                 const Unknowns &reference);
 
     /** Advances the state by one step to time + dt.
-     * @param load nodal loads at the end of the step [N]
-     * @param base_velocity velocity of the base at the end of the step if displacements are absolute [m/s].
-     * Mass-proportional damping acts on the velocity relative to it.
+     * @param load nodal loads at the end of the step, three values per node [N]
+     * @param base_velocity velocity x, y, z of the base at the end of the step [m/s]: absolute, or zero if
+     * displacements are relative to the base. Mass-proportional damping acts on the velocity relative to it.
      *
      * If the joints do not converge, two reduced steps of dt/2 replace the step, and so on down to dt/8. Throws
      * ComputationError if the smallest steps do not converge, or if displacements are not finite. After a
      * failure to converge, the state is that at the end of the last accepted step, full or reduced.
      *
-     * Returns convergence and costs of the contact problems. */
+     * Returns convergence and costs of the contact problems, with those of reduced steps and failed attempts.
+     */
     ContactResult advance(const Unknowns &load, const Vector3 &base_velocity = {{0., 0., 0.}});
 
-    const DynamicState &state() const { return now; }            ///< current state
-    const Energy       &initial_energy() const { return first; } ///< energies at the start
+    const DynamicState &state() const { return now; }            ///< current state; advance() changes it
+    const Energy       &initial_energy() const { return first; } ///< energies at the start of the run
 
     /** Returns the maximum over time of the input, the kinetic energy, the change of strain energy and the
      * damping [J]. */
@@ -76,13 +81,16 @@ namespace Voussoir
      * larger [-]. */
     double energy_error() const;
 
-    /** Returns opening and slip of a pair relative to the reference of start(), in its frame (n,a,b) [m]. */
+    /** Returns the current opening (n > 0: open) and slip (a, b) of a pair [m]: the displacement of side 2
+     * relative to side 1, minus the reference of start(). */
     Vector3 opening_and_slip(unsigned int pair) const;
 
-    /** Returns the contact states of the pairs in the last accepted step, full or reduced. */
+    /** Returns the contact states of the pairs in the last accepted step, full or reduced. Before the first
+     * step of this object, all pairs are open. */
     const std::vector<PairState> &pair_states() const { return levels[last_level]->system.states(); }
 
-    /** Returns the impulses of the joint forces in the last step, three values per pair [N s]. */
+    /** Returns the impulses of the joint forces on side 2 in the last step, after the velocity correction,
+     * three values per pair [N s]. Those of reduced steps are added. Zero before the first step. */
     const Unknowns &impulses() const { return impulse; }
 
     /** Returns the joint system of the full time step. */

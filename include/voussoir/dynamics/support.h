@@ -21,21 +21,23 @@ namespace Voussoir
     virtual ~Support() = default;
 
     /** Returns the equation numbers of the dam nodes on the support, ascending. All vectors below have three
-     * values per entry. */
+     * values x, y, z per entry. Displacements are those of the dam: they include the static ones. */
     virtual const std::vector<unsigned int> &base_nodes() const = 0;
 
     /** Returns the number of substeps in a full time step of the dam. */
     virtual unsigned int n_substeps() const = 0;
 
     /** Returns the compliance matrix: displacements of the base nodes after @p n substeps from rest, for
-     * constant unit forces on them [m/N]. */
+     * constant unit forces on them, with one block row per entry of base_nodes() [m/N]. @p n: 1 to
+     * n_substeps(). */
     virtual BlockSparseMatrix compliance(unsigned int n) const = 0;
 
     /** Returns the displacement of the base nodes after the next @p n substeps without coupling forces [m].
-     * @p at: displacement of the base nodes at the start of the step [m]. The support does not advance. */
+     * @p at: displacement of the base nodes at the start of the step [m]. The support does not advance. Must
+     * be called by all ranks. */
     virtual Unknowns predict(unsigned int n, const Unknowns &at) = 0;
 
-    /** Advances the support by the @p n substeps of the last predict().
+    /** Advances the support by the @p n substeps of the last predict(). Must be called by all ranks.
      * @param n number of substeps
      * @param force constant coupling forces on the base nodes of the dam [N]; the support has the opposite
      * @param place displacement of the base nodes at the end of the step [m]

@@ -10,14 +10,15 @@ namespace Voussoir
    * dam node, unless the monoliths share it. */
   struct BaseNode
   {
-    unsigned int              rock;  ///< number of the node in the rock
+    unsigned int              rock;  ///< number of the rock node, see find_base_nodes()
     std::vector<unsigned int> nodes; ///< equation numbers of the dam nodes (SolidModel::equation), ascending
   };
 
-  /** Returns the base nodes of the @p dam, ascending by rock node.
+  /** Returns the base nodes of the @p dam, ascending by rock node. Nodes coincide if their distance is at
+   * most 1e-6 of the size of the base.
    *
    * @param dam model of the dam with free base nodes
-   * @param points positions of the rock nodes [m]
+   * @param points positions of the rock nodes [m]; BaseNode::rock is an index in this array
    * @param source name of the mesh in messages
    *
    * Throws InputError if a node of the dam base has no rock node. */
@@ -45,7 +46,7 @@ namespace Voussoir
      *
      * @param of_base matrix with one 3x3 block row per base node, such as a compliance [m/N]
      *
-     * Returns the matrix with one block row per entry of node. */
+     * Returns the matrix with one block row per entry of node, in the same unit. */
     BlockSparseMatrix matrix(const BlockSparseMatrix &of_base) const;
 
     std::vector<unsigned int> node;      ///< equation numbers of the dam nodes, ascending

@@ -16,7 +16,7 @@ namespace Voussoir
   class ExplicitRock : public Foundation
   {
   public:
-    /** Stores the parameters and the mesh of @p site. Throws InputError if the element degree is not 1. */
+    /** Copies the parameters and the mesh of @p site. Throws InputError if the element degree is not 1. */
     explicit ExplicitRock(const FoundationSite &site);
 
     Base base() const override = 0;
@@ -36,15 +36,20 @@ namespace Voussoir
     /** Adds the object "rock" with size, boundary, time steps and, after start(), energies. */
     void add_to_summary(Json &summary, const TimeGrid &grid) const override;
 
-    /** Returns the travel times of the S waves (x, y) and the P wave (z) from the bottom of the rock to the
-     * lowest base node [s]. The P wave enters later, so that all components arrive at the same time. */
+    /** Returns the travel times of the upward waves to the lowest base node: S waves with motion in x and y,
+     * P wave with motion in z [s]. The waves enter one element below the lowest rock node. Must be called
+     * after add_stiffness(). */
     Vector3 arrival() const;
-    double  delay() const override { return arrival()[0]; }
 
-    /** Returns the critical time step of the rock [s]. */
+    /** Returns the time at which the ground motion arrives at the lowest base node: the travel time of the S
+     * waves, arrival()[0] [s]. All components arrive at this time, because the faster P wave enters the rock
+     * later by arrival()[0] - arrival()[2]. */
+    double delay() const override { return arrival()[0]; }
+
+    /** Returns the critical time step of the rock, with its damping [s]; 0 before add_stiffness(). */
     double critical_time_step() const { return dt_critical; }
 
-    // Static state by RockStaticState. Must be called before start().
+    // Static state by RockStaticState. Must be called after add_stiffness() and before start().
     Unknowns      static_springs(const Structure &structure) const override;
     ContactResult solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
                                Unknowns &load, Log &log) override;
@@ -58,7 +63,7 @@ namespace Voussoir
     double seconds() const override { return seconds_advancing; }
     double work() const override { return work_advancing; }
 
-    // Energies by RockBalance: zero or empty before start().
+    // Energies by RockBalance: zero or empty before start(). report_balance() then writes nothing.
     std::vector<std::pair<std::string, double>> energies() const override;
     double                                      balance_error() const override;
     void                                        report_balance(Log &log) const override;
@@ -75,9 +80,11 @@ namespace Voussoir
     /** Creates the region at rest with its incident waves, its balance and its monitor. Frees the memory of
      * the static state and of the stiffness matrix of the model.
      *
-     * @param outcrop ground motion at a free surface
+     * @param outcrop ground motion at a free surface; the upward wave has half of its displacement
      * @param steps time steps
-     * @param delay delay of the incident waves [s]
+     * @param delay shift of the incident waves relative to ExplicitRegion::time() [s]. PartitionedRock: 0.
+     * SubcycledRock: half a rock time step, because its rock displacements belong to a time that is earlier
+     * by this shift. Independent of delay(), which is a travel time.
      * @param near_base rock nodes that SubcycledRock::predict() requires; empty: none. They are computed by
      * predicting_rank, the base nodes by all ranks. */
     void make_rock(const GroundMotion &outcrop, const TimeGrid &steps, double delay,
@@ -95,16 +102,16 @@ namespace Voussoir
     // From add_stiffness() on.
     std::array<double, 3> centre{};         ///< mean position of the base, source of scattered waves [m]
     RockModel             model;            ///< after start() without stiffness matrix
-    std::vector<BaseNode> at_base;          ///< base nodes
+    std::vector<BaseNode> at_base;          ///< base nodes, ascending by rock node
     double                dt_critical = 0.; ///< critical time step of the rock [s]
 
     std::unique_ptr<RockStaticState> static_state; ///< from add_stiffness() to start()
 
     // From start() on.
-    TimeGrid                        grid;   ///< time steps of the run
-    std::unique_ptr<ExplicitRegion> region; ///< time integration of the rock
-    std::unique_ptr<RockBalance>    balance;
-    std::unique_ptr<RockMonitor>    rock_monitor;
+    TimeGrid                        grid;         ///< time steps of the run
+    std::unique_ptr<ExplicitRegion> region;       ///< time integration of the rock
+    std::unique_ptr<RockBalance>    balance;      ///< energies of the rock and of its coupling with the dam
+    std::unique_ptr<RockMonitor>    rock_monitor; ///< monitor of the instability
 
     /** Rank that owns most nodes near the base. It computes the nodes near the base of the other ranks, too,
      * so that it can compute SubcycledRock::predict() without messages. */

@@ -30,6 +30,9 @@ namespace Voussoir
     bool one_body = false;
   };
 
+  // Nodes of the dam are its free nodes, numbered by SolidModel::equation. Components are in the axes of the
+  // mesh: x downstream, y to the left bank, z up.
+
   /** Solves for the static state of the dam under nodal loads, three values per node of the dam [N]. */
   using DamSolve = std::function<ContactResult(const Unknowns &load)>;
 
@@ -51,17 +54,21 @@ namespace Voussoir
     /** Writes properties and warnings to the log. Without an earthquake the grid has no time steps. */
     virtual void report(Log & /*log*/, const TimeGrid & /*grid*/) const {}
 
-    /** Returns the time that the ground motion needs to the base of the dam [s]. */
+    /** Returns the time from the start of the ground motion to its arrival at the lowest base node [s]. It is
+     * the same for all components, and 0 if the motion is prescribed. An automatic duration of the run is
+     * longer by this time. Must be called after BaseSupport::add_stiffness(). */
     virtual double delay() const { return 0.; }
 
-    /** Returns the text after "Steps N of DT s" in the log. */
+    /** Returns the text after "Steps N of DT s" in the log, with the punctuation before it. Examples:
+     *  - "; the scheme is implicit: there is no critical time step" (the default),
+     *  - ", 1 rock step each; critical time step of the rock 0.00125 s". */
     virtual std::string about_steps() const;
 
-    /** Adds properties and results of the foundation to summary.json. */
+    /** Adds properties and results of the foundation to summary.json, at the end of the run. */
     virtual void add_to_summary(Json & /*summary*/, const TimeGrid & /*grid*/) const {}
 
     /** Throws InputError if the time integration would be unstable. The message uses the number of time steps
-     * of the dam per sample of the ground motion. */
+     * of the dam per sample of the ground motion. Called before a dynamic analysis only. */
     virtual void check(const TimeGrid & /*grid*/, unsigned int /*steps_per_sample*/) const {}
   };
 
@@ -81,7 +88,7 @@ namespace Voussoir
       tied,   ///< unknowns, one node per monolith; tied joint pairs connect nodes at the same position
       coupled ///< unknowns, one node per monolith, without joint pairs; support() connects these nodes
     };
-    virtual Base base() const { return Base::fixed; } ///< returns the treatment, before the assembly
+    virtual Base base() const { return Base::fixed; } ///< returns the treatment; known before the assembly
 
     /** Returns true if displacements are relative to the ground and the ground motion acts as an inertia load
      * on the dam. Returns false if displacements are absolute. */
@@ -91,8 +98,8 @@ namespace Voussoir
      * are final and treated according to base(). */
     virtual void add_stiffness(const SolidModel & /*dam*/, Structure & /*structure*/) {}
 
-    /** Adds the rock mass of the base nodes to the structure [kg]. Must be called after the inertia loads of
-     * the dam were computed, which exclude the rock. */
+    /** Adds the rock mass of the base nodes to Structure::mass [kg]. Must be called after the inertia loads
+     * of the dam were computed, which exclude the rock. */
     virtual void add_mass(Structure & /*structure*/) const {}
 
     /** Returns auxiliary springs at the base nodes for the static solution, three values per node of the dam
@@ -101,9 +108,9 @@ namespace Voussoir
      * static_base(), or solve_static() iterates until they are free of force. */
     virtual Unknowns static_springs(const Structure & /*structure*/) const { return {}; }
 
-    /** Returns the base nodes and the static compliance of the foundation without static_springs(). Marks the
-     * base nodes as interface nodes of their bodies. Returns nullptr if the static solution does not
-     * eliminate the base nodes. */
+    /** Returns the dam nodes on the foundation and the compliance (S - springs)^-1 [m/N], with the static
+     * stiffness S of the foundation and the springs of static_springs(). Marks these nodes as interface nodes
+     * of their bodies. Returns nullptr if the static solution does not eliminate the base nodes. */
     virtual std::unique_ptr<BaseElimination::Nodes> static_base(Structure & /*structure*/) const
     {
       return nullptr;
@@ -112,28 +119,34 @@ namespace Voussoir
     /** Computes the static state of dam and foundation.
      *
      * @param solve computes the dam on the springs and stores its displacements in @p u
-     * @param springs auxiliary springs of static_springs() [N/m]
-     * @param u displacements of the dam, three values per node [m]
-     * @param load nodal loads of the dam [N]. Forces of the foundation are added.
+     * @param springs auxiliary springs of static_springs(), three values per node of the dam [N/m]
+     * @param u displacements of the dam, three values per node; each call of @p solve changes them [m]
+     * @param load nodal loads of the dam, three values per node [N]. Forces of the foundation are added.
      * @param log receives the progress
      *
-     * Throws ComputationError if dam and foundation do not converge. */
+     * Returns convergence and costs of the contact problems. They have not converged if
+     * ContactResult::converged is false. Throws ComputationError if dam and foundation do not converge. */
     virtual ContactResult solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
                                        Unknowns &load, Log &log);
 
-    /** Returns the strain energy of massless rock in the static state [J], otherwise zero. */
+    /** Returns the strain energy of massless rock in the static state [J], otherwise zero. It is zero before
+     * support(). */
     virtual double strain_at_start() const { return 0.; }
 
-    /** Returns the support of the base nodes, or nullptr. Marks the base nodes as interface nodes of their
-     * bodies. Must be called after Neighbour::start() and before the Newmark object of the dam is created. */
+    /** Returns the support of the base nodes, or nullptr if the dam is not coupled by a support. The
+     * foundation owns the support. Marks the base nodes as interface nodes of their bodies. Must be called
+     * after Neighbour::start() and before the Newmark object of the dam is created. */
     virtual Support *support(Structure & /*structure*/) { return nullptr; }
 
-    /** Returns the mean predicted velocity of the base nodes at the end of the time step [m/s]. Must be
-     * called after Neighbour::advance(). */
+    /** Returns the mean predicted velocity of the base nodes at the end of the time step: components x, y, z
+     * in the axes of the mesh [m/s]. It is the absolute velocity if displacements are absolute, and zero if
+     * they are relative to the ground (moves_base()). Newmark::advance() requires it for mass-proportional
+     * damping. Must be called after Neighbour::advance(). */
     virtual Vector3 base_velocity() const { return {}; }
 
     /** Returns a second support for the coarse-step comparison run (TimeErrorEstimate) with the time step dt
-     * [s], or nullptr. */
+     * [s], or nullptr if support() returns nullptr or cannot have a second time step. Must be called after
+     * add_stiffness(). The support must not outlive the foundation. */
     virtual std::unique_ptr<Support> support_of_companion(const Structure & /*structure*/,
                                                           double /*dt*/) const
     {
@@ -141,11 +154,11 @@ namespace Voussoir
     }
   };
 
-  /** Upper bounds of the motion of a Neighbour. */
+  /** Upper bounds of the motion of a Neighbour, and the reference of its energies. */
   struct NeighbourBounds
   {
-    double velocity = 0.;     ///< of a node in one component [m/s]
-    double displacement = 0.; ///< of a node in one component, from the static state [m]
+    double velocity = 0.;     ///< bound of a component at a node, absolute value [m/s]
+    double displacement = 0.; ///< bound of a component at a node from the static state, absolute value [m]
     double strain = 0.;       ///< strain energy of dam and foundation in the static state [J]
   };
 
@@ -181,15 +194,22 @@ namespace Voussoir
   public:
     virtual ~Neighbour() = default;
 
-    /** Prepares the time steps, from rest. The motion is that of a free ground
-     * surface without the dam; u is the static displacement of the dam, three values per node [m]. */
+    /** Prepares the time steps, from rest in the static state. Arguments:
+     *  - GroundMotion: motion of a free ground surface without the dam, absolute,
+     *  - TimeGrid: time steps of the dynamic analysis,
+     *  - Unknowns u: static displacement of the dam, three values per node [m].
+     *
+     * The neighbour copies the data that it requires: the arguments need not outlive the call. Must be called
+     * once, by all ranks. */
     virtual void start(const GroundMotion & /*motion*/, const TimeGrid & /*grid*/, const Unknowns & /*u*/) {}
 
-    /** Advances the neighbour by one time step of the dam. Adds its forces at the end of the step to the
-     * nodal loads of the dam, three values per node [N]. */
+    /** Advances the neighbour by one time step of the dam. Adds its forces on the dam at the end of the step
+     * to the nodal loads of the dam, three values per node [N]. Must be called by all ranks. A neighbour that
+     * exchanges its forces by Support adds none. */
     virtual void advance(Unknowns & /*load*/) {}
 
-    /** Stores the motion of the dam at the end of the time step. */
+    /** Stores the motion of the dam at the end of the time step. Its displacements include the static ones.
+     * Must be called by all ranks. */
     virtual void update_from_dam(const DynamicState & /*state*/) {}
 
     /** Returns the wall time of the neighbour in all time steps so far [s]. */
@@ -210,7 +230,8 @@ namespace Voussoir
     virtual void report_balance(Log & /*log*/) const {}
 
     /** Returns the arrays that determine the further time steps, always in the same order. A checkpoint
-     * contains their values, and a resumed run overwrites them. Empty before start(). */
+     * contains their values, and a resumed run overwrites them. The pointers are valid while the neighbour
+     * exists, and the sizes are constant. Empty before start(), and for massless rock before support(). */
     virtual std::vector<std::vector<double> *> state() { return {}; }
 
     /** Completes the arrays of state() on the first rank, which writes the checkpoint. Otherwise a rank has
@@ -230,7 +251,7 @@ namespace Voussoir
    *  2. before the run: delay(), check(), report(), about_steps(),
    *  3. static state: static_springs(), static_base(), and solve_static() for each load stage,
    *  4. start of the dynamic analysis: start(), support(), monitor(),
-   *  5. time step: advance(), base_velocity(), step of the dam by Newmark, update_from_dam(),
+   *  5. time step: advance(), base_velocity(), Newmark::advance(), update_from_dam(),
    *  6. after the time step: energies(), NeighbourMonitor. */
   class Foundation : public FoundationSetup, public BaseSupport, public Neighbour
   {

@@ -15,7 +15,7 @@ namespace Voussoir
   struct FoundationParameters
   {
     std::string  model = "rigid";                             ///< rigid, rock or massless
-    Material     rock{15e9, .25, 2700.};                      ///< of volumes without an entry in @p zones
+    Material     rock{15e9, .25, 2700.};                      ///< of rock without an entry in @p zones
     ZoneEntry    zones;                                       ///< materials of named rock volumes
     double       mass_damping = 0., stiffness_damping = 2e-5; ///< Rayleigh damping [1/s], [s]
     std::string  boundary = "mtf3", free_field = "sections";  ///< see boundary_table.h; sections or columns
@@ -36,10 +36,12 @@ namespace Voussoir
     /** Returns the materials of the zones by name. Throws the InputErrors of Voussoir::zone_materials(). */
     std::map<std::string, Material> zone_materials() const;
 
-    /** Returns the materials of the rock volumes in the mesh of volumes_by_material(), by volume id. */
+    /** Returns the materials of the rock volumes in the mesh of volumes_by_material(), by volume id. Throws
+     * the same errors. */
     std::map<int, Material> materials_by_volume() const;
 
-    /** Returns a copy of @p mesh with one rock volume per material. */
+    /** Returns a copy of @p mesh with one rock volume per material. Monoliths are unchanged. Throws the same
+     * errors. */
     HexMesh volumes_by_material(const HexMesh &mesh) const;
 
   private:

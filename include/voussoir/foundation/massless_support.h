@@ -32,20 +32,23 @@ namespace Voussoir
     Unknowns                         predict(unsigned int n, const Unknowns &at) override;
     void advance(unsigned int n, const Unknowns &force, const Unknowns &place, double work) override;
 
-    /** Sets the energies to those of the static state. @p u: displacements of the dam [m]. */
+    /** Sets the energies to those of the static state. Must be called before the first advance() if energies
+     * are required. @p u: static displacement of the dam, three values per node [m]. */
     void start_account(const Unknowns &u);
 
     /** Current strain energy, strain energy of the static state, damping, work of the dam, and largest of
      * these energies [J]. Stored in checkpoints. Empty before start_account(). */
     std::vector<double> account;
 
-    /** Returns the strain energy of the static state [J]. */
+    /** Returns the strain energy of the static state [J]; 0 before start_account(). */
     double strain_at_start() const;
 
-    /** Returns the energies [J] with their column names in energy.csv: Foundation::energies(). */
+    /** Returns the energies [J] with their column names in energy.csv: Foundation::energies(). Must be called
+     * after start_account(). */
     std::vector<std::pair<std::string, double>> energies() const;
 
-    /** Returns the error of the energy balance, relative to the largest energy so far [-]. */
+    /** Returns the current error of the energy balance, relative to the largest energy so far, or to 1e-6 of
+     * strain_at_start() if this is larger [-]. */
     double balance_error() const;
 
   private:

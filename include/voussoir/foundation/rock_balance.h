@@ -21,7 +21,8 @@ namespace Voussoir
      * SubcycledRock, which adds its works to the entries. */
     RockBalance(const ExplicitRegion &region, bool is_subcycled);
 
-    /** Returns the energies of the rock, half a rock time step before the time of the dam [J]. */
+    /** Returns the energies of the rock, half a rock time step before ExplicitRegion::time() [J]. With
+     * several ranks they are those of the last ExplicitRegion::gather_energy(). */
     RegionEnergy of_rock() const { return region.energy(); }
 
     /** Returns the work of the rock on the base nodes since the start [J]. */
@@ -33,13 +34,16 @@ namespace Voussoir
     /** Returns the energy error of the coupling since the start [J]. */
     double coupling_error() const { return work_on_rock() + work_on_dam(); }
 
-    /** Updates the largest energy and the largest error of the rock at the end of a time step. */
+    /** Updates the largest energy and the largest error of the rock. Must be called at the end of each time
+     * step, after ExplicitRegion::gather_energy(). */
     void update_largest();
 
-    /** Returns the largest error of the rock, relative to its largest energy [-]. */
+    /** Returns the largest error of the rock so far, relative to its largest energy so far [-]. */
     double error() const { return entries[largest_error] / std::max(entries[largest_energy], 1e-300); }
 
-    /** Returns the energies and works [J] with their column names in energy.csv. */
+    /** Returns the current energies and works [J] with their column names in energy.csv. Work of the base
+     * nodes on the rock, in the time integration of the rock: rock_feet. Error of the balance of the rock:
+     * rock_balance. coupling_error(): interface. */
     std::vector<std::pair<std::string, double>> columns() const;
 
     /** Index in the entries. on_dam: work_on_dam(). largest_energy, largest_error: largest absolute values

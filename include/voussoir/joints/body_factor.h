@@ -24,7 +24,8 @@ namespace Voussoir
   /** Operator A of a body, see StepOperator, and its Cholesky factor L by CHOLMOD. The interface is in natural
    * order: component c of node i of body.interface has the number 3 i + c.
    *
-   * Call analyse(), then factorise(), then one of the functions that return parts of the factor. */
+   * Order of the calls: analyse(), factorise(), then the functions that return parts of the factor, and
+   * take_leading_columns() last. analyse() begins a new order. */
   class BodyFactor
   {
   public:
@@ -35,7 +36,12 @@ namespace Voussoir
       interface_last ///< interface last; the trailing block of L is the factor of the condensed operator
     };
 
-    /** Assembles A. @p springs: springs to the ground, per component of the structure [N/m]; empty: none.
+    /** Assembles A of one body.
+     * @param structure masses and dashpots of all bodies
+     * @param body stiffness and interface of the body; must outlive the object
+     * @param step factors of the matrices
+     * @param springs springs to the ground, three values per node of the structure [N/m]; empty: none
+     *
      * Throws std::bad_alloc. */
     BodyFactor(const Structure &structure, const Body &body, const StepOperator &step,
                const Unknowns &springs = Unknowns());
@@ -54,20 +60,22 @@ namespace Voussoir
      * Order::interface_last, else of all columns. */
     double n_entries() const;
 
-    /** Returns the columns that n_entries() counts, in @p single or double precision. Only the permutation
-     * remains in this object. */
+    /** Moves the columns that n_entries() counts to the result, in @p single or double precision. Call it
+     * once, after the other functions: only permutation() remains valid. Requires factorise(). */
     PackedFactor take_leading_columns(bool single);
 
-    /** Returns the unknown of the body for each row of L. */
+    /** Returns the unknown of the body, 3 node + component, for each of the n() rows of L. Requires
+     * analyse(). */
     std::vector<unsigned int> permutation() const;
 
-    /** Returns the condensed operator S by column [N/m]. S is symmetric. Requires Order::interface_last. */
+    /** Returns the condensed operator S of the interface, n_interface() x n_interface(), symmetric, by column
+     * [N/m]. Requires factorise() with Order::interface_last. */
     std::vector<double> condensed_stiffness() const;
-    /** Returns S^-1 by column [m/N]. Requires Order::interface_last. */
+    /** Returns S^-1 in the same format [m/N]. Requires factorise() with Order::interface_last. */
     std::vector<double> flexibility() const;
 
     unsigned int n() const { return 3 * body.n_nodes(); } ///< number of unknowns of the body
-    /** Returns the number of unknowns of the interface. */
+    /** Returns the number of unknowns of the interface, three per entry of body.interface. */
     unsigned int n_interface() const { return 3 * body.interface.size(); }
 
   private:

@@ -16,7 +16,8 @@ namespace Voussoir
     double joints = 0.;        ///< joint problem
   };
 
-  /** Base nodes on a compliant support in one step, see BaseElimination. Three values per base node. */
+  /** Base nodes on a compliant support in one step, see BaseElimination. Three values x, y, z per base node,
+   * in the order of BaseElimination::Nodes. */
   struct BaseOfStep
   {
     Unknowns displacement; ///< displacement of the base nodes without forces on them [m]; empty: zero
@@ -32,13 +33,16 @@ namespace Voussoir
   class JointSystem
   {
   public:
+    // Values per node have the components x, y, z of free nodes, values per pair the components (n, a, b) of
+    // Pair::frame. All ranks call the constructor, solve() and solve_free(), with equal arguments.
+
     /** Factorises the bodies and builds the joint operator.
      * @param structure bodies and pairs; must outlive the object
      * @param laws joint laws of the pairs
      * @param parameters parameters of the contact solver
      * @param step operator A, and its definition of the joint forces
      * @param springs springs from the nodes to the ground, three values per node [N/m]; empty: none
-     * @param base base nodes and compliance of the support; nullptr: no support
+     * @param base base nodes and compliance of the support, which are copied; nullptr: no support
      * @param single_factors true: the factors of the bodies are in single precision (CondensedBody). The joint
      * operator is always in double precision.
      *
@@ -54,14 +58,15 @@ namespace Voussoir
      * @param offset gap for zero displacement, three values per pair [m]
      * @param start gap at the start of the step, three values per pair [m]
      * @param memory history variables before the step; receives the events of the step
-     * @param force initial guess; receives the joint forces, three values per pair [N]. In a static system,
-     * zeros mean that there is no guess.
+     * @param force initial guess; receives the joint forces on side 2, three values per pair [N]. In a static
+     * system, zeros mean that there is no guess.
      * @param gap receives the gaps, three values per pair [m]
      * @param u receives the displacements, three values per node [m]
      * @param base displacement of the base nodes without forces; receives the forces of the support. nullptr:
      * no support, or zero displacement
      *
-     * Returns convergence and costs. The history variables of the laws are not updated: call commit(). */
+     * Returns convergence and costs. If ContactResult::converged is false, the results are those of the best
+     * iterate. The history variables of the laws are not updated: call commit() if the step is accepted. */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &memory,
                         Unknowns &force, Unknowns &gap, Unknowns &u, BaseOfStep *base = nullptr);
 
@@ -74,7 +79,8 @@ namespace Voussoir
       return solve(load, offset, start, memory, force, gap, u);
     }
 
-    /** Returns the data of the pairs for their laws in a step. The result points into @p memory.
+    /** Returns the data of the pairs for their laws in a step, one entry per pair. The result points into
+     * @p memory.
      * @param start gap at the start of the step, three values per pair [m]
      * @param memory history variables of all pairs */
     std::vector<PairHistory> histories(const Unknowns &start, const Unknowns &memory) const
@@ -100,21 +106,22 @@ namespace Voussoir
       return laws.friction_correction(start, step.has_mean_forces(), force, gap, memory);
     }
 
-    /** Solves A u = load without joint forces.
+    /** Solves A u = load without forces of joints and support. The results of solve() are unchanged.
      * @param load nodal loads, three values per node [N]
      * @param u receives the displacements, three values per node [m] */
     void solve_free(const Unknowns &load, Unknowns &u);
 
-    /** Returns the contact states of the pairs in the last solution. */
+    /** Returns the contact states of the pairs in the last solution. Before the first one, all are open. */
     const std::vector<PairState> &states() const { return solver->states(); }
     /** Returns the active surfaces of the pairs in the last solution, see PairEquations::active. */
     const std::vector<unsigned char> &active_surfaces() const { return solver->active_surfaces(); }
-    /** Returns the memory consumption of factors and joint operator [bytes]. */
+    /** Returns the memory consumption of factors and joint operator on this rank [bytes]. */
     double memory() const;
-    /** Returns the operator W of the contact problem gap = W force + b. */
+    /** Returns the operator W of the contact problem gap = W force + b [m/N]. With a support, the base nodes
+     * are eliminated from W. */
     const InterfaceOperator &joint_operator() const { return W; }
 
-    SystemTimes times; ///< wall-clock times since the construction
+    SystemTimes times; ///< wall-clock times of solve() since the construction
 
   private:
     struct Side ///< node of a pair: body, and number among its interface nodes

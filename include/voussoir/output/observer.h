@@ -31,32 +31,37 @@ namespace Voussoir
     /** Reads the state after a step. All ranks. */
     virtual void follow() {}
 
-    /** Adds the results of the present time to the tables in memory. First rank; also at the start. */
+    /** Adds the results of the present time to the tables in memory. First rank; also at the start, if the
+     *  run is not resumed. Throws ComputationError if the results are unusable (StabilityObserver). */
     virtual void record() {}
 
-    /** Appends the rows that record() added to the files. First rank. */
+    /** Appends the rows that record() added since the last call to the files of open(). First rank. */
     virtual void flush() {}
 
     /** Sends the results of all ranks to the first rank. Called on all ranks before save(), write_tables()
-     *  and finish(). */
+     *  and finish(). After a ComputationError, write_tables() follows without this call. */
     virtual void gather_on_root() {}
 
-    /** Creates the files that grow during the run, with the rows so far. First rank. */
+    /** Creates the files that grow during the run in the existing output directory. Writes the rows so far,
+     *  those of load() in a resumed run. First rank. */
     virtual void open(const std::string & /*directory*/) {}
 
-    /** Writes the tables so far, also when the run is interrupted. First rank. */
+    /** Writes the tables so far to the output directory, also when the run is interrupted or fails. May be
+     *  called again. First rank. */
     virtual void write_tables(const std::string & /*directory*/) {}
 
-    /** Writes the results that exist only at the end of a run, and warnings about them. First rank. */
+    /** Writes the results that exist only at the end of a run to the output directory, and warnings about
+     *  them to the log. Called once, after the last write_tables(). First rank. */
     virtual void finish(const std::string & /*directory*/, Log & /*log*/) {}
 
-    /** Prints the main results. First rank. */
+    /** Writes the main results to the log, after finish() of all observers. First rank. */
     virtual void report(Log & /*log*/) const {}
 
-    /** Writes the state of the observer to a checkpoint. */
+    /** Writes the state of the observer to a checkpoint. First rank, after gather_on_root(). */
     virtual void save(boost::archive::binary_oarchive & /*archive*/) const {}
 
-    /** Restores the state of the observer from a checkpoint. */
+    /** Restores the state of the observer from a checkpoint, in the order of save(). All ranks, instead of
+     *  start(). */
     virtual void load(boost::archive::binary_iarchive & /*archive*/) {}
   };
 } // namespace Voussoir

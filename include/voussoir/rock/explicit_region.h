@@ -29,17 +29,20 @@ namespace Voussoir
    * w = (u(t + dt) - u(t)) / dt. A step needs one product with the stiffness matrix. All nodes are
    * explicit except
    * - nodes of the artificial boundary, which the boundary moves;
-   * - prescribed nodes (the base of the dam). The caller supplies their predicted motion and receives the
-   *   force of the rock elements on them. This is the element partition of Hughes and Liu.
+   * - prescribed nodes (the base of the dam). The caller supplies their predicted motion and receives their
+   *   force on the rock elements. This is the element partition of Hughes and Liu.
    *
-   * The region is created at rest. Set the boundary, the free field, and fixed and prescribed nodes before
-   * the first step. */
+   * Displacements are absolute, without static ones. Values per node have the components x, y, z in the axes
+   * of the mesh.
+   *
+   * The region is created at rest. Optional calls before the first step, in this order: set_boundary(),
+   * split_up(), set_free_field(); fix(), set_prescribed() and keep_energy() in any order; start(). */
   class ExplicitRegion
   {
   public:
     /** Creates a region at rest.
-     * @param stiffness stiffness operator of the region
-     * @param mass lumped mass of each node [kg]
+     * @param stiffness stiffness operator of the whole region
+     * @param mass lumped mass of each node, positive [kg]
      * @param damping Rayleigh damping
      * @param dt time step of the rock [s]
      *
@@ -54,22 +57,25 @@ namespace Voussoir
     /** Returns the artificial boundary, or nullptr if there is none. */
     const ArtificialBoundary *artificial_boundary() const { return boundary.get(); }
 
-    /** Sets the free field, which is the motion without the dam. Its points must be free_field_nodes()
-     * of the boundary. */
+    /** Sets the free field, which is the motion without the dam, at t = 0. Its points must be
+     * ArtificialBoundary::free_field_nodes() of the boundary. */
     void set_free_field(std::unique_ptr<IncidentField> field);
 
-    /** Fixes the given components, with the index 3 node + component. */
+    /** Fixes the given components, with the index 3 node + component: their displacement remains zero. */
     void fix(const std::vector<unsigned int> &components);
 
-    /** Declares nodes whose motion the caller prescribes. The region ignores their masses. Throws InputError
-     * if the nodes are too close to the artificial boundary. */
+    /** Declares nodes whose motion the caller prescribes, in all components. The region ignores their masses,
+     * except for mass-proportional damping. Call it once. Throws InputError if the nodes are too close to the
+     * artificial boundary. */
     void set_prescribed(const std::vector<unsigned int> &nodes);
 
-    /** External forces, three per node [N]. They act until they are changed. Empty: none. */
+    /** External forces, three per node [N]. They act in all steps until they are changed. Empty: none. */
     Unknowns force;
 
-    /** Restricts this MPI process to its part of the region. All processes call it before the first step.
-     * @p part: stiffness operator of this part, made with the same @p split. */
+    /** Restricts this MPI process to its part of the region. All processes call it before the first step,
+     * after set_boundary().
+     * @param split distribution of the nodes, equal on all processes
+     * @param part stiffness operator of the part of this process, made with the same @p split */
     void split_up(RockSplit split, RockOperator part);
     /** Returns true if several processes share the region. */
     bool is_split() const { return !split.is_trivial(); }
@@ -77,10 +83,12 @@ namespace Voussoir
     const RockSplit &parts() const { return split; }
 
     /** Returns true if a component of a node of this process exceeds @p velocity [m/s] or @p displacement [m]
-     * in absolute value. */
+     * in absolute value, or is not finite. */
     bool exceeds(double velocity, double displacement) const;
 
-    /** Gathers the energies of the whole region on all processes. */
+    // All processes call the functions gather_...(). With one process the functions do nothing.
+
+    /** Gathers the values of energy() of the whole region on all processes. */
     void gather_energy();
     /** Gathers displacement() and half_step_velocity() of all nodes on all processes. */
     void gather_motion();
@@ -90,38 +98,48 @@ namespace Voussoir
 
     /** Advances the region by one step to t + dt.
      * @param u predicted displacement of the prescribed nodes at t + dt, three values each in the order of
-     * set_prescribed() [m]
-     * @param v predicted velocity of the prescribed nodes at t + dt [m/s]
+     * set_prescribed() [m]; empty without prescribed nodes
+     * @param v predicted velocity of the prescribed nodes at t + dt, in the same format [m/s]
      *
-     * Returns the force K u + C v of the elements and of their damping on these nodes [N]. */
+     * Returns K u + C v at t + dt, the force of the prescribed nodes on the elements with their damping, in
+     * the same format [N]. The elements act on the nodes with the opposite force. The next step changes the
+     * values of the reference. */
     const Unknowns &advance(const Unknowns &u = {}, const Unknowns &v = {});
 
-    /** Begins the step of advance(). The caller must exchange the appended @p messages before end_step(). */
+    /** Begins the step of advance(), with its arguments. The caller must exchange the appended @p messages
+     * (Ranks::exchange()) before end_step(). */
     void begin_step(const Unknowns &u, const Unknowns &v, std::vector<Ranks::Message> &messages);
     /** Completes the step of begin_step(). @p v and the result are those of advance(). */
     const Unknowns &end_step(const Unknowns &v);
 
-    double          time() const { return clock[0] * dt; }         ///< current time t [s]
-    double          time_step() const { return dt; }               ///< time step dt [s]
-    unsigned int    n_nodes() const { return stiffness.n_rows(); } ///< number of nodes
-    const Unknowns &displacement() const { return u; } ///< displacement u at t, three values per node [m]
-    /** Returns w = (u(t + dt) - u(t)) / dt, three values per node [m/s]. */
+    double       time() const { return clock[0] * dt; }         ///< current time t [s]
+    double       time_step() const { return dt; }               ///< time step dt [s]
+    unsigned int n_nodes() const { return stiffness.n_rows(); } ///< number of nodes
+    /** Returns the displacement u at t, three values per node [m]. With several processes, the values of the
+     * nodes of other processes are those of the last gather_motion(). */
+    const Unknowns &displacement() const { return u; }
+    /** Returns w = (u(t + dt) - u(t)) / dt, three values per node [m/s]. As to several processes, see
+     * displacement(). */
     const Unknowns &half_step_velocity() const { return w; }
 
     /** Returns the largest stable time step of the region, with damping [s]. */
     double critical_time_step() const { return dt_critical; }
 
-    /** Enables the energy balance, which takes a tenth of the time of a step. Call it while the region
-     * is at rest. */
+    /** Enables the energy balance, which takes a tenth of the time of a step. Call it while the region is at
+     * rest, before start(). */
     void keep_energy() { K_u.assign(u.size(), 0.); }
-    /** Returns the energies. With several processes they are those of the last gather_energy(). */
+    /** Returns the energies. They are zero before the first step and without keep_energy(). With several
+     * processes they are those of the last gather_energy(). */
     RegionEnergy energy() const;
 
-    /** Returns all state variables of the region, its boundary and its free field, for checkpoints. */
+    /** Returns all state variables of the region, its boundary and its free field, for checkpoints. The
+     * pointers are valid while the region exists. With several processes, gather_on_root() must precede
+     * reading. */
     std::vector<std::vector<double> *> state();
 
     /** Sets an initial displacement at t = 0 [m] and an initial velocity half a step later [m/s], three
-     * values per node. Not for a region with a free field. */
+     * values per node. Fixed components remain zero. With keep_energy(), the initial energy counts as
+     * external work. Not for a region with a free field. */
     void start(const Unknowns &displacement, const Unknowns &velocity);
 
   private:
