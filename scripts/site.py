@@ -26,7 +26,7 @@ NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.
     "Reference": ("input_file", "parameters", "output", "mesh", "loads", "studies", "python", "glossary", "changes"),
     "Theory": ("method", "keys", "rock", "boundary"),
     "Evidence": ("verification", "accuracy", "contact", "performance", "paper", "rigid_base", "failures"),
-    "Develop": ("CONTRIBUTING", "tutorials/5_own_law"),
+    "Develop": ("CONTRIBUTING", "tutorials/5_own_law", "release"),
 }
 
 

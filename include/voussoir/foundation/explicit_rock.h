@@ -69,7 +69,11 @@ namespace Voussoir
     void                                        report_balance(Log &log) const override;
 
     /** Gathers the state of the rock on the first rank. Must be called after start(). */
-    void gather_on_root() override { region->gather_on_root(); }
+    void gather_on_root() override
+    {
+      if (region) // null until start(), which a static analysis does not call
+        region->gather_on_root();
+    }
 
     NeighbourMonitor *monitor() override { return rock_monitor.get(); }
 
