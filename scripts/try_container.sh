@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds container/Dockerfile with buildah (apt-get install buildah; docker and podman take the same file) and uses voussoir in it
-# (try_installed.sh). Nothing is asked of a registry where VOUSSOIR_BASE names a directory that debootstrap has made of Debian 12: it
-# then stands for the image debian:12.
+# (try_installed.sh). Nothing is asked of a registry where VOUSSOIR_BASE names a directory that debootstrap has made of Debian 13: it
+# then stands for the image debian:13.
 # Usage: scripts/try_container.sh [--package]       as root
-#   --package  the first stage takes the package of build-package/ instead of building it
+#   --package  the first stage takes the package of build-package/, built on Debian 13, instead of building it
 set -euo pipefail
 # shellcheck source=environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
@@ -14,13 +14,13 @@ if ! command -v buildah >/dev/null; then
   exit 2
 fi
 
-base_image() # the directory VOUSSOIR_BASE as the image debian:12
+base_image() # the directory VOUSSOIR_BASE as the image debian:13
 {
   local container
   container=$(buildah from scratch)
   buildah copy --quiet "$container" "$VOUSSOIR_BASE" /
   buildah config --cmd bash "$container"
-  buildah commit --quiet --rm "$container" docker.io/library/debian:12
+  buildah commit --quiet --rm "$container" docker.io/library/debian:13
 }
 
 use() # in a container of the image that is thrown away
@@ -44,7 +44,7 @@ if [[ "${1:-}" == --package ]]; then
     awk '/^FROM/ { ++stage } stage > 1' "$root/container/Dockerfile"; } >"$file"
 fi
 if [[ -n "${VOUSSOIR_BASE:-}" ]]; then
-  step 1/3 "The image debian:12 from $VOUSSOIR_BASE" base_image
+  step 1/3 "The image debian:13 from $VOUSSOIR_BASE" base_image
 fi
 step 2/3 "Build the image: container/Dockerfile" \
   buildah bud --isolation chroot --network host -t localhost/voussoir -f "$file" "$context"
