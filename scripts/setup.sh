@@ -5,8 +5,9 @@
 # Usage: scripts/setup.sh [--program]     --program: what building and running the program needs, nothing for its tests
 set -euo pipefail
 
+# mold: deal.II of Debian 13 links with it, and its package does not depend on it; elsewhere it is faster.
 required=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev libfclib-dev libhdf5-dev
-          ninja-build cmake g++ git python3-matplotlib)
+          ninja-build cmake g++ mold git python3-matplotlib)
 optional=("python3-meshio: meshes in the formats .inp and .med")
 if [[ "${1:-}" != --program ]]; then
   required+=(gmsh numdiff ccache shellcheck flake8 doxygen)
@@ -18,15 +19,6 @@ fi
 is_installed() # PACKAGE
 {
   [[ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null || true)" == installed ]]
-}
-
-# deal.II of Debian 13 links with -fuse-ld=mold, and its package does not depend on mold.
-needs_mold()
-{
-  local files
-  is_installed libdeal.ii-dev || return 1
-  mapfile -t files < <(dpkg-query -L libdeal.ii-dev | grep '\.cmake$')
-  grep -qs 'fuse-ld=mold' "${files[@]}"
 }
 
 if ! command -v apt-get >/dev/null; then
@@ -42,9 +34,6 @@ wanted=()
 for entry in "${optional[@]}"; do
   is_installed "${entry%%:*}" || wanted+=("$entry")
 done
-if needs_mold && ! is_installed mold; then
-  needed+=(mold)
-fi
 if ((${#needed[@]} + ${#wanted[@]} == 0)); then
   echo "setup: all packages are installed"
   exit 0
@@ -74,10 +63,6 @@ apt update || echo "setup: warning: apt-get update failed; the present package l
 if ((${#needed[@]})); then
   echo "setup: installing ${needed[*]}"
   apt install -y --no-install-recommends "${needed[@]}"
-fi
-if needs_mold && ! is_installed mold; then
-  echo "setup: deal.II links with mold: installing mold"
-  apt install -y --no-install-recommends mold
 fi
 
 # All candidates at once, which is faster; one by one if that fails.
