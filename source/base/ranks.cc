@@ -332,9 +332,8 @@ namespace Voussoir
   void Ranks::start(const unsigned int n)
   {
     if (n != 1)
-      throw InputError("The launcher started " + std::to_string(n) +
-                       " processes, but this program was built without MPI. Start one process, or build with "
-                       "VOUSSOIR_WITH_MPI=ON.");
+      throw InputError("This program was built without MPI, but the launcher started " + std::to_string(n) +
+                       " processes. Start one process, or build with VOUSSOIR_WITH_MPI=ON.");
   }
 
   int Ranks::finish(const int status, const std::string &)

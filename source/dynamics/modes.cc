@@ -40,7 +40,7 @@ namespace Voussoir
   std::vector<NaturalMode> natural_modes(const Structure &, unsigned int)
   {
     throw InputError(
-        "This program cannot compute natural frequencies, because its deal.II has no ARPACK. Build Voussoir with a "
+        "This program was built without ARPACK, so it computes no natural frequencies. Build Voussoir with a "
         "deal.II that has ARPACK.");
   }
 #else
