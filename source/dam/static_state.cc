@@ -116,11 +116,17 @@ namespace Voussoir
           if (!result.converged)
           {
             std::ostringstream message;
-            message << "The static state did not converge in step " << i + 1 << " of " << path.n_steps()
-                    << ": the residual is " << result.residual << " of the joint forces and "
+            const std::size_t  n = path.n_steps() / path.n_parts(); // steps of a stage
+            message << "The static state did not converge in ";
+            if (path.n_parts() > 1)
+              message << "stage \"" << path.part(i).name << "\", ";
+            message << "step " << i % n + 1 << " of " << n << "." << largest_error(dam.structure, result)
+                    << " The residual is " << result.residual << " of the joint forces and "
                     << result.residual_over_load
                     << " of the load (limit \"Contact/Tolerance\" = " << parameters.tolerance << "), after "
-                    << result.iterations << " Newton steps. Increase \"Statics/Water increments\".";
+                    << result.iterations
+                    << " Newton steps. Increase \"Statics/Water increments\" or \"Contact/Maximum "
+                       "iterations\".";
             throw ComputationError(message.str());
           }
         } while (water && water->spread(system->states(), pressure));
