@@ -267,11 +267,12 @@ namespace Voussoir
     if (keys.height == 0. || needed >= 90. || face <= std::tan(needed * degree))
       return "";
     std::ostringstream text;
-    text << "Joints/Friction " << face << " with flanks of " << keys.flank_angle
-         << " degrees and flank friction " << flank << " (Joints/Keys): above " << std::tan(needed * degree)
-         << " Coulomb's law has two solutions: a key stops at its flank, or slides up the flank. The "
-            "result of the run may be either of them. Set Joints/Keys/Friction = -1, the friction of the "
-            "faces, or reduce the flank angle.";
+    text
+        << "Joints/Friction is " << face << ", but must be at most " << std::tan(needed * degree)
+        << " with flanks of " << keys.flank_angle << " degrees and flank friction " << flank
+        << " (Joints/Keys). Above this value Coulomb's law has two solutions (doc/keys.md): a key stops at its "
+           "flank, or slides up the flank. The result of the run may be either of them. Set "
+           "Joints/Keys/Friction = -1, the friction of the faces, or reduce the flank angle.";
     return text.str();
   }
 

@@ -41,7 +41,7 @@ namespace Voussoir
       if (fs::exists(status) && !fs::is_regular_file(status))
         throw InputError("The ground motion file '" + file + "' is " +
                          (fs::is_directory(status) ? "a directory" : "a pipe or a device") +
-                         ". Give a regular file.");
+                         ". Give the path of a file in section Motion.");
       std::ifstream in(file, std::ios::binary);
       if (!in)
         throw InputError("The ground motion file '" + file +
