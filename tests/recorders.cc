@@ -27,7 +27,7 @@ namespace
       structure.pairs = find_pairs(model, 1);
       structure.n_joints = 1;
       structure.collect_interfaces();
-      geometry = std::make_unique<DamGeometry>(model, structure.pairs, 1);
+      geometry = std::make_unique<DamGeometry>(model, structure.pairs, 1, "wall");
     }
 
     SolidModel                   model;

@@ -3,6 +3,7 @@
 
 #include <voussoir/app/checkpoint.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/output/archive.h>
 
 #include <algorithm>
@@ -129,8 +130,10 @@ namespace Voussoir
     }
     catch (const boost::archive::archive_exception &)
     {
-      throw InputError("The checkpoint " + file +
-                       " was written by another build of the program. Run without --resume.");
+      throw InputError(
+          "The checkpoint " + file +
+          " was written by another build of the program. Start again with --overwrite instead of "
+          "--resume.");
     }
   }
 
@@ -145,24 +148,25 @@ namespace Voussoir
       throw InputError(
           "The checkpoint " + file +
           " has a longer motion. On rock the free field has the length of the motion, so a run can only be "
-          "resumed with a longer motion. Increase \"Motion/Duration\", or run without --resume.");
+          "resumed with a longer motion. Increase \"Motion/Duration\", or start again with --overwrite instead "
+          "of --resume.");
     constexpr unsigned int ahead = 1; // steps of the rock ahead of the dam
     if (run.motion.acceleration.size() > samples_then && run.step + ahead + 1 >= samples_then)
       throw InputError(
           "The checkpoint " + file +
           " lies in the last two steps of the motion. The rock has already received the end, so the motion "
-          "cannot be lengthened. Set the previous "
-          "\"Motion/Duration\", or run without --resume.");
+          "cannot be lengthened. Set the previous \"Motion/Duration\", or start again with --overwrite instead "
+          "of --resume.");
   }
 
   void Checkpoint::check_motion(const RunState &run, const double dt,
                                 const std::vector<double> &samples) const
   {
     if (dt != run.motion.dt || samples != beginning(run.motion, run.step + 1))
-      throw InputError(
-          "The motion differs from that of the checkpoint " + file +
-          " before the time of the checkpoint. An artificial motion depends on its duration from the "
-          "first sample. Set the previous \"Motion/Duration\", or run without --resume.");
+      throw InputError("The ground motion up to t = " + number_text(run.step * dt) +
+                       " s differs from that of the checkpoint " + file +
+                       ". An artificial motion depends on its duration from the first sample. Set the "
+                       "previous \"Motion/Duration\", or start again with --overwrite instead of --resume.");
   }
 
   void Checkpoint::load_neighbours(const RunState &run, const unsigned int n_steps_then,
@@ -195,9 +199,10 @@ namespace Voussoir
     std::vector<int>                pairs;
     archive >> then >> run.step >> pairs >> n_steps_then >> samples_then >> dt >> samples;
     if (run.step > run.n_steps)
-      throw InputError("The checkpoint " + file + " was written after step " + std::to_string(run.step) +
-                       ", but the motion now ends after " + std::to_string(run.n_steps) +
-                       ". Increase \"Motion/Duration\", or run without --resume.");
+      throw InputError("The checkpoint " + file + " was written at t = " + number_text(run.step * dt) +
+                       " s, but the motion now ends at " + number_text(run.n_steps * run.motion.dt) +
+                       " s. Set \"Motion/Duration\" to at least " + number_text(run.step * dt) +
+                       " s, or start again with --overwrite instead of --resume.");
     check_longer_motion(run, n_steps_then, samples_then);
     check_motion(run, dt, samples);
     archive >> counters.wall_before >> counters.cpu_before >> state >> first >> largest >> counters >>

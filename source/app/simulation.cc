@@ -67,9 +67,11 @@ namespace Voussoir
                        (options.validate ? " validate" : "") + (options.overwrite ? " overwrite" : "");
     for (const auto &[name, value] : checkpoint.provenance)
       text += name + value;
-    if (!Ranks::have_same(text))
-      throw InputError("The MPI processes of this run have different scenes or options. Start all processes "
-                       "with the same command, with access to the same program, scene and files.");
+    if (const unsigned int rank = Ranks::first_different(text); rank < Ranks::size())
+      throw InputError(
+          "The MPI processes of this run have different scenes or options: process " + std::to_string(rank) +
+          " differs from process 0. Start all processes with the same command, with access to the "
+          "same program, scene and files.");
   }
 
   void Simulation::claim_directory()

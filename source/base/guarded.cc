@@ -293,6 +293,7 @@ namespace Voussoir
       throw InputError(problem + ": " + message);
     }
     throw InputError(problem +
-                     ": the library returned an invalid result. The file is damaged; write it again.");
+                     ": its reader (gmsh or HDF5) ended without a complete result. The file is probably "
+                     "damaged: export it again. If another program can open it, report this error.");
   }
 } // namespace Voussoir

@@ -200,10 +200,11 @@ namespace Voussoir
     return bits;
   }
 
-  bool Ranks::have_same(const std::string &text)
+  unsigned int Ranks::first_different(const std::string &text)
   {
-    const auto digest = static_cast<unsigned int>(std::hash<std::string>()(text));
-    return any(any(digest) == digest ? 0 : 1) == 0; // two different hashes differ from their or
+    const std::vector<double> digest = of_all(static_cast<unsigned int>(std::hash<std::string>()(text)));
+    return std::find_if(digest.begin(), digest.end(), [&](const double d) { return d != digest[0]; }) -
+           digest.begin();
   }
 
   void Ranks::on_first(const std::function<void()> &action)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/contact/cohesive_law.h>
 #include <voussoir/contact/fja_law.h>
 #include <voussoir/contact/pair_conditions.h>
@@ -232,10 +233,10 @@ namespace Voussoir
                        "alart-curnier.");
     if (!(parameters.strength >= 0.))
       throw InputError("Entry \"Joints/Strength\" must be at least 0 Pa, but it is " +
-                       std::to_string(parameters.strength) + " Pa.");
+                       number_text(parameters.strength) + " Pa.");
     if (!(parameters.fracture_energy >= 0. && std::isfinite(parameters.fracture_energy)))
       throw InputError("Entry \"Joints/Fracture energy\" must be finite and at least 0 N/m, but it is " +
-                       std::to_string(parameters.fracture_energy) + " N/m.");
+                       number_text(parameters.fracture_energy) + " N/m.");
     return std::make_unique<Cohesive>(parameters);
   }
 

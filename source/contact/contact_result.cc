@@ -35,6 +35,7 @@ namespace Voussoir
     converged = converged && other.converged;
     residual = std::max(residual, other.residual);
     path = std::max(path, other.path);
+    worst_pair = other.worst_pair;
     return *this;
   }
 } // namespace Voussoir

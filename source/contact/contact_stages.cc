@@ -259,6 +259,9 @@ namespace Voussoir
     refresh_gap(x);
     evaluate(x);
     result.converged = residual(x, true) <= parameters.tolerance;
+    if (const auto worst = std::max_element(of_pair.begin(), of_pair.end());
+        worst != of_pair.end() && std::isfinite(*worst))
+      result.worst_pair = worst - of_pair.begin();
     for (std::size_t i = 0; i < law.size(); ++i)
     {
       state[i] = equations[i].state;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/contact/key_law.h>
 
 #include <algorithm>
@@ -235,18 +236,18 @@ namespace Voussoir
       throw InputError(
           "Entry \"Joints/Keys/Flank angle\" must be at least 0 and less than 90 degrees, but it "
           "is " +
-          std::to_string(keys.flank_angle) + " degrees.");
+          number_text(keys.flank_angle) + " degrees.");
     if (!(keys.height >= 0. && std::isfinite(keys.height)) ||
         !(keys.clearance >= 0. && std::isfinite(keys.clearance)))
-      throw InputError("Entries \"Joints/Keys/Height\" (" + std::to_string(keys.height) +
-                       " m) and \"Joints/Keys/Clearance\" (" + std::to_string(keys.clearance) +
+      throw InputError("Entries \"Joints/Keys/Height\" (" + number_text(keys.height) +
+                       " m) and \"Joints/Keys/Clearance\" (" + number_text(keys.clearance) +
                        " m) must be finite and at least 0 m.");
     if (!((keys.friction >= 0. && keys.friction <= 10.) ||
           keys.friction == -1.)) // larger values lock all flanks
       throw InputError(
           "Entry \"Joints/Keys/Friction\" must be at least 0 and at most 10, or -1 for the friction "
           "of the faces, but it is " +
-          std::to_string(keys.friction) + ".");
+          number_text(keys.friction) + ".");
     const double                flank_friction = keys.friction < 0. ? parameters.friction : keys.friction;
     std::vector<ContactSurface> surfaces(1,
                                          {{{1., 0., 0., 0., 1., 0., 0., 0., 1.}}, 0., parameters.friction});
@@ -266,11 +267,12 @@ namespace Voussoir
     if (keys.height == 0. || needed >= 90. || face <= std::tan(needed * degree))
       return "";
     std::ostringstream text;
-    text << "Joints/Friction " << face << " with flanks of " << keys.flank_angle
-         << " degrees and flank friction " << flank << " (Joints/Keys): above " << std::tan(needed * degree)
-         << " Coulomb's law has two solutions: a key stops at its flank, or slides up the flank. The "
-            "result of the run may be either of them. Set Joints/Keys/Friction = -1, the friction of the "
-            "faces, or reduce the flank angle.";
+    text
+        << "Joints/Friction is " << face << ", but must be at most " << std::tan(needed * degree)
+        << " with flanks of " << keys.flank_angle << " degrees and flank friction " << flank
+        << " (Joints/Keys). Above this value Coulomb's law has two solutions (doc/keys.md): a key stops at its "
+           "flank, or slides up the flank. The result of the run may be either of them. Set "
+           "Joints/Keys/Friction = -1, the friction of the faces, or reduce the flank angle.";
     return text.str();
   }
 

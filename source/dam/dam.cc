@@ -79,7 +79,7 @@ namespace Voussoir
       rock_zones =
           zones_of(mesh, true, scene.foundation.rock, scene.foundation.zone_materials(), "Foundation/Zones");
     mesh_warnings = Voussoir::mesh_warnings(opened, scene, concrete_zones);
-    assemble(opened);
+    assemble(opened, source);
     tie_base();
     add_loads();
     foundation->add_mass(structure);
@@ -129,13 +129,13 @@ namespace Voussoir
   }
 
   /** Creates the model and the structure with the foundation. */
-  void Dam::assemble(const HexMesh &opened)
+  void Dam::assemble(const HexMesh &opened, const std::string &source)
   {
     model = std::make_unique<SolidModel>(opened, scene.elements.degree);
     const bool        incompatible_modes = scene.elements.incompatible_modes;
     std::vector<Pair> pairs = find_pairs(*model, n_joints);
     structure = assemble_structure(*model, materials, incompatible_modes);
-    geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
+    geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints, source);
     initial_stress.assign(model->n_nodes(), Stress{});
     if (scene.statics.self_weight == "staged")
       stage_self_weight(); // on a rigid base; later displacements are relative to this state
@@ -148,7 +148,7 @@ namespace Voussoir
       pairs = find_pairs(*model, n_joints);
       if (foundation->base() == Foundation::Base::coupled)
         remove_base_pairs(pairs);
-      geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints);
+      geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints, source);
     }
     if (tied && n_joints > 0)
     {

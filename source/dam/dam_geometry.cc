@@ -13,7 +13,7 @@ namespace Voussoir
   using namespace dealii;
 
   DamGeometry::DamGeometry(const SolidModel &model, const std::vector<Pair> &pairs,
-                           const unsigned int n_joints)
+                           const unsigned int n_joints, const std::string &source)
       : joints(n_joints)
   {
     std::vector<unsigned int> nodes;
@@ -21,9 +21,9 @@ namespace Voussoir
       if (model.on_surface(i, PhysicalId::crest) && model.on_surface(i, PhysicalId::upstream))
         nodes.push_back(i);
     if (nodes.size() < 2)
-      throw InputError(
-          "The surfaces \"crest\" and \"upstream\" of the mesh do not meet, or are missing. Results are "
-          "reported along their common edge. Add both surfaces to the mesh.");
+      throw InputError("mesh " + source +
+                       ": the surfaces \"crest\" and \"upstream\" do not meet, or are missing. Results are "
+                       "reported along their common edge. Add both surfaces to the mesh.");
     std::sort(nodes.begin(), nodes.end(),
               [&](const unsigned int i, const unsigned int j)
               { return model.points[i][1] < model.points[j][1]; });

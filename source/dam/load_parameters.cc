@@ -2,6 +2,7 @@
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/nearest_name.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/dam/load_names.h>
 #include <voussoir/dam/load_parameters.h>
 
@@ -117,7 +118,7 @@ namespace Voussoir
     if (silt.coefficient < 0. && silt.coefficient != -1.)
       throw InputError(
           "Entry \"Loads/Silt/Coefficient\" must be at least 0, or -1 for Rankine's coefficient, but it is " +
-          std::to_string(silt.coefficient) + ".");
+          number_text(silt.coefficient) + ".");
     std::vector<std::string> names;
     for (const auto &entry : combinations)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/scene.h>
 #include <voussoir/dynamics/newmark.h>
@@ -40,8 +41,8 @@ namespace Voussoir
   void DampingParameters::check() const
   {
     if (!(frequency_2 > frequency_1))
-      throw InputError("Entry \"Damping/Frequency 2\" (" + std::to_string(frequency_2) +
-                       " Hz) must be larger than \"Damping/Frequency 1\" (" + std::to_string(frequency_1) +
+      throw InputError("Entry \"Damping/Frequency 2\" (" + number_text(frequency_2) +
+                       " Hz) must be larger than \"Damping/Frequency 1\" (" + number_text(frequency_1) +
                        " Hz). Exchange or correct the frequencies.");
   }
 

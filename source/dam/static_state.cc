@@ -116,11 +116,17 @@ namespace Voussoir
           if (!result.converged)
           {
             std::ostringstream message;
-            message << "The static state did not converge in step " << i + 1 << " of " << path.n_steps()
-                    << ": the residual is " << result.residual << " of the joint forces and "
+            const std::size_t  n = path.n_steps() / path.n_parts(); // steps of a stage
+            message << "The static state did not converge in ";
+            if (path.n_parts() > 1)
+              message << "stage \"" << path.part(i).name << "\", ";
+            message << "step " << i % n + 1 << " of " << n << "." << largest_error(dam.structure, result)
+                    << " The residual is " << result.residual << " of the joint forces and "
                     << result.residual_over_load
                     << " of the load (limit \"Contact/Tolerance\" = " << parameters.tolerance << "), after "
-                    << result.iterations << " Newton steps. Increase \"Statics/Water increments\".";
+                    << result.iterations
+                    << " Newton steps. Increase \"Statics/Water increments\" or \"Contact/Maximum "
+                       "iterations\".";
             throw ComputationError(message.str());
           }
         } while (water && water->spread(system->states(), pressure));
@@ -191,21 +197,24 @@ namespace Voussoir
       const double       crest = norm(crown), weight = norm(dam.self_weight_crown);
       std::ostringstream text;
       text.precision(4);
+      double limit = largest_share;
       if (!(crest <= largest_share * dam.size))
         text << "its crest has a displacement of " << crest << " m relative to the base";
       else if (!(weight <= largest_share * dam.size))
         text << "its crest has a displacement of " << weight << " m under its own weight";
-      else if (!(joint <= largest_joint_share * dam.size))
+      else if (limit = largest_joint_share; !(joint <= limit * dam.size))
         text << "a joint has a displacement of " << joint << " m at " << place(where);
       else
         return;
+      text << " (limit " << limit * dam.size << " m, " << 100. * limit << " % of the diagonal of the dam)";
       throw InputError(
           "The static state of the dam is impossible: " + text.str() +
           ", before any earthquake. Check \"Concrete/Young's modulus\" [Pa] and \"Concrete/Density\" "
-          "[kg/m3], \"Mesh/Length unit\", \"Reservoir/Water level\" [m] and \"Reservoir/Density\", "
-          "and \"Statics/Gravity\"" +
-          std::string(dam.foundation->uses_rock() ? ", and \"Foundation/Young's modulus\" [Pa]" : "") +
-          ". voussoir SCENE.prm --validate prints the properties of the dam.");
+          "[kg/m3], \"Mesh/Length unit\", \"Reservoir/Water level\" [m], \"Reservoir/Density\", "
+          "\"Statics/Gravity\"" +
+          std::string(dam.foundation->uses_rock() ? ", \"Foundation/Young's modulus\" [Pa]" : "") +
+          ", and section Loads (temperatures, expansion, concentrated and line loads). "
+          "voussoir SCENE.prm --validate prints the properties of the dam.");
     }
   } // namespace
 

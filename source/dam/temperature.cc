@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/dam/face_distance.h>
 #include <voussoir/dam/temperature.h>
 
@@ -45,8 +46,8 @@ namespace Voussoir
                            "\". Write three numbers: the day, and the temperatures of the upstream and the "
                            "downstream face in degC.");
         if (!rows.empty() && !(row[0] > rows.back()[0]))
-          throw InputError(place + ": the days must ascend, but this one follows " +
-                           std::to_string(rows.back()[0]) + ".");
+          throw InputError(place + ": the days must ascend, but day " + number_text(row[0]) +
+                           " follows day " + number_text(rows.back()[0]) + ". Sort the lines by day.");
         rows.push_back(row);
       }
       return rows;

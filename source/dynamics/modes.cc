@@ -5,6 +5,7 @@
 #include <deal.II/lac/vector.h>
 
 #include <voussoir/base/error.h>
+#include <voussoir/base/reason.h>
 #include <voussoir/dynamics/modes.h>
 #include <voussoir/joints/joint_system.h>
 
@@ -87,13 +88,13 @@ namespace Voussoir
     {
       arpack.solve(inverse_stiffness, mass, inverse_stiffness, eigenvalues, eigenvectors, n_modes);
     }
-    catch (const ExceptionBase &)
+    catch (const ExceptionBase &error)
     {
       throw ComputationError(
-          "The natural frequencies could not be computed (" + std::to_string(n_modes) + " modes, at most " +
-          std::to_string(control.max_steps()) +
-          " iterations). Put the base faces of the dam into the surface \"base\", or reduce "
-          "the number of modes (--count).");
+          "The " + std::to_string(n_modes) + " natural frequencies did not converge in " +
+          std::to_string(control.max_steps()) + " iterations (ARPACK: " + reason(error) +
+          "). Reduce the number of modes (--count), or check Young's moduli and densities of the zones; "
+          "voussoir SCENE.prm --validate prints them.");
     }
     std::vector<NaturalMode> modes;
     for (unsigned int k = 0; k < n_modes; ++k)

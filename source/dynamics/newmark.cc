@@ -4,6 +4,7 @@
 #include <voussoir/dynamics/newmark.h>
 
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +38,7 @@ namespace Voussoir
         where = " in monolith " +
                 std::to_string(structure.bodies[structure.body_of((value - state.u.begin()) / 3)].number);
       throw ComputationError(
-          "The displacements" + where + " or the loads are not finite at t = " + std::to_string(state.time) +
+          "The displacements" + where + " or the loads are not finite at t = " + number_text(state.time) +
           " s. Check the units of materials, loads and ground motion (\"Motion/Unit\"), or increase "
           "\"Dynamics/Steps per sample\".");
     }

@@ -49,8 +49,13 @@ namespace Voussoir
     if (size.halvings == most || (support && size.n_substeps == 1))
     {
       std::ostringstream message;
-      message << "The contact solver did not converge at t = " << now.time + dt
-              << " s, even with a time step of " << dt << " s. The residual is " << failed.residual
+      const double       full = levels[0]->dt;
+      message << "The contact solver did not converge at t = " << now.time + dt << " s (step "
+              << static_cast<unsigned int>(now.time / full + 1e-6) + 1 << "), with the time step " << full
+              << " s";
+      if (size.halvings > 0)
+        message << " reduced to " << dt << " s";
+      message << "." << largest_error(structure, failed) << " The residual is " << failed.residual
               << " of the joint forces and " << failed.residual_over_load
               << " of the load (limit \"Contact/Tolerance\" = " << parameters.tolerance << "), after "
               << failed.iterations << " Newton steps and " << failed.sweeps

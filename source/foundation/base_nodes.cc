@@ -48,7 +48,7 @@ namespace Voussoir
       else
         lost.push_back(base[i]);
     if (!lost.empty())
-      throw InputError(source + ": the dam's base and the rock must share their nodes, but " +
+      throw InputError("mesh " + source + ": the dam's base and the rock must share their nodes, but " +
                        std::to_string(lost.size()) + " nodes of the base are not in the rock, the first at " +
                        place(lost[0]) + ". Merge the nodes of dam and rock there (gmsh: Coherence).");
     std::vector<BaseNode> base_nodes;

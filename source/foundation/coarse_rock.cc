@@ -12,7 +12,7 @@ namespace Voussoir
   {
     struct Cholmod : CholmodObjects
     {
-      Cholmod()
+      explicit Cholmod(const unsigned int n) : n(n)
       {
         common.supernodal = CHOLMOD_SUPERNODAL; // L L^T, which an indefinite matrix does not have
       }
@@ -23,16 +23,17 @@ namespace Voussoir
           throw std::bad_alloc();
         if (common.status == CHOLMOD_TOO_LARGE)
           throw ComputationError(
-              "The coarse problem of the static solution of the rock is too large for CHOLMOD: "
-              "its factor has more than 2^31 entries. Build Voussoir with Trilinos, or use "
-              "larger elements in the rock.");
+              "The rock is too large for a build without Trilinos (static solution, " + std::to_string(n) +
+              " coarse unknowns). Use larger rock elements, or build with -DVOUSSOIR_WITH_TRILINOS=ON.");
       }
+
+      const unsigned int n; ///< number of unknowns
     };
 
     class DirectCoarseRock : public CoarseRock
     {
     public:
-      DirectCoarseRock(std::vector<CoarseBlock> &&stiffness, const unsigned int n)
+      DirectCoarseRock(std::vector<CoarseBlock> &&stiffness, const unsigned int n) : cholmod(n)
       {
         cholmod.A = lower_part(stiffness, n);
         std::vector<CoarseBlock>().swap(stiffness); // releases the memory

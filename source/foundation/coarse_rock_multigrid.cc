@@ -10,6 +10,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/reason.h>
 #include <voussoir/foundation/coarse_rock.h>
 
 #include <cmath>
@@ -190,13 +191,13 @@ namespace Voussoir
         {
           levels.initialize(matrix, level_parameters(modes));
         }
-        catch (const dealii::ExceptionBase &)
+        catch (const dealii::ExceptionBase &error)
         {
           throw ComputationError(
-              "The multigrid levels for the static solution of the rock, with " +
-              std::to_string(aggregates.n()) +
-              " groups of nodes, cannot be created. Improve distorted rock elements; `voussoir mesh` prints their "
-              "quality.");
+              "The static solution of the rock failed before its first iteration (multigrid of Trilinos: " +
+              reason(error) +
+              "). Look for distorted or unconnected rock elements with `voussoir mesh`. If there are none, report "
+              "the failure with scene.prm.");
         }
       }
 

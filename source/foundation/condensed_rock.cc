@@ -64,13 +64,19 @@ namespace Voussoir
         factor.factorise();
         return factor.condensed_stiffness();
       }
+      catch (const FactorTooLarge &)
+      {
+        throw ComputationError("mesh " + source + ": the rock has " + std::to_string(3 * ground.n_nodes()) +
+                               " unknowns, too many for \"Foundation/Model\" = massless. Use fewer rock "
+                               "elements, or \"Foundation/Model\" = rock.");
+      }
       catch (const ComputationError &)
       {
         throw ComputationError(
-            source + ": the stiffness matrix of the rock (" + std::to_string(3 * ground.n_nodes()) +
-            " unknowns) cannot be factorised. Connect all parts of the rock to the surface \"artificial "
-            "boundary\", improve distorted rock elements (`voussoir mesh` prints their quality), or use fewer "
-            "rock elements.");
+            "mesh " + source +
+            ": the stiffness matrix of the rock is not positive definite, or the rock is not in one piece. "
+            "Connect all parts of the rock to each other and to the surface \"artificial boundary\", and "
+            "improve distorted rock elements (`voussoir mesh` prints their quality).");
       }
     }
   } // namespace
@@ -81,7 +87,7 @@ namespace Voussoir
     const SolidModel                   rock(rock_only(mesh), dam.fe.degree);
     std::vector<std::array<double, 3>> points(rock.first_equation.back());
     if (points.size() == rock.n_nodes())
-      throw InputError(source + ": no face of the rock lies on the artificial boundary (surface " +
+      throw InputError("mesh " + source + ": no face of the rock lies on the artificial boundary (surface " +
                        std::to_string(PhysicalId::artificial) +
                        "). Massless rock is fixed there. Add the surface to the mesh.");
     for (unsigned int i = 0; i < rock.n_nodes(); ++i)
@@ -122,10 +128,9 @@ namespace Voussoir
     catch (const dealii::ExceptionBase &)
     {
       throw ComputationError(
-          "The compliance of the massless rock cannot be computed, because its stiffness matrix, condensed "
-          "to the " +
+          "The massless rock does not support the dam: its stiffness at the " +
           std::to_string(base_nodes.size()) +
-          " base nodes, is not positive definite. Improve distorted rock elements below the dam; `voussoir "
+          " base nodes is not positive definite. Improve distorted rock elements below the dam; `voussoir "
           "mesh` prints their quality.");
     }
     std::vector<double> C(std::size_t(n()) * n());

@@ -57,8 +57,7 @@ namespace Voussoir
                            ", but the mesh arch210 has fewer. Set \"Mesh/Arch210/Rock/Boundary "
                            "layers\" to " +
                            std::to_string(n) + (n > n_usual ? ", or " + other : "."));
-        throw InputError(error.what() + (" " + needs) +
-                         (n > n_usual ? ". Add layers to the mesh, or " + other : "."));
+        throw InputError(needs + ". Error in " + error.what() + (n > n_usual ? " Or " + other : ""));
       }
     }
   } // namespace

@@ -46,12 +46,13 @@ namespace Voussoir
       const bool  has_rock = std::any_of(cells.begin(), cells.end(),
                                          [](const HexMesh::Cell &cell) { return !is_monolith(cell.volume); });
       if (foundation.uses_rock() && !has_rock)
-        throw InputError("Foundation/Model is " + site.parameters.model +
-                         ", but the mesh has no rock (volumes from id 1000 on). Set "
+        throw InputError("Foundation/Model is " + site.parameters.model + ", but the mesh " + site.source +
+                         " has no rock (volumes from id 1000 on). Set "
                          "Mesh/Arch210/Rock/Enabled = true, or use a mesh with rock.");
       if (has_rock && !foundation.uses_rock() && site.source != "arch210")
         throw InputError(
-            "The mesh has rock (volumes from id 1000 on), but Foundation/Model is rigid. Set it to rock or "
+            "mesh " + site.source +
+            " has rock (volumes from id 1000 on), but Foundation/Model is rigid. Set it to rock or "
             "massless, or remove the rock from the mesh.");
     }
   } // namespace

@@ -57,7 +57,7 @@ namespace Voussoir
         }
         for (const BaseNode &base_node : rock.base_nodes)
           if (base_node.nodes.size() != 1)
-            throw InputError(source +
+            throw InputError("mesh " + source +
                              ": two nodes of one monolith have the same position on the dam's base, " +
                              dam.place_of(base_node.nodes[0]) + ". Merge these nodes in the mesh.");
         BlockSparseMatrix &K = structure.bodies[0].stiffness;

@@ -203,7 +203,8 @@ namespace Voussoir
       std::ostringstream message;
       message << "The static state of dam and rock did not converge: relative error " << error << " (limit "
               << enough << ") after " << round
-              << " iterations. Check the materials and the elements of the rock.";
+              << " iterations. Check \"Foundation/Young's modulus\", \"Foundation/Poisson's ratio\" and "
+                 "\"Foundation/Zones\", and the quality of the rock elements (`voussoir mesh`).";
       throw ComputationError(message.str());
     }
     for (std::size_t k = 0; k < r.size(); ++k)

@@ -122,10 +122,10 @@ namespace Voussoir
         break; // an invariant space
       if (!(size > 0.))
         throw ComputationError(
-            "The stiffness matrix of the rock (" + std::to_string(n_free) +
-            " unknowns) is not positive definite. Improve distorted rock elements; `voussoir mesh` prints "
-            "their quality. If there are no unknowns, all rock nodes are on the surface \"artificial "
-            "boundary\": refine the rock.");
+            n_free == 0 ? "All rock nodes are on the surface \"artificial boundary\". Refine the rock."
+                        : "The stiffness matrix of the rock (" + std::to_string(n_free) +
+                              " unknowns) is not positive definite. Improve distorted rock elements; "
+                              "`voussoir mesh` prints their quality.");
       everywhere(
           [&](const std::size_t k)
           {

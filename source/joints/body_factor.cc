@@ -3,7 +3,6 @@
 
 #include <voussoir/base/blas.h>
 #include <voussoir/base/cholmod_objects.h>
-#include <voussoir/base/error.h>
 #include <voussoir/joints/body_factor.h>
 
 #include <omp.h>
@@ -17,24 +16,13 @@ namespace Voussoir
 {
   namespace
   {
-    /** Error because a factor exceeds the integers of CHOLMOD. */
-    struct TooLarge : ComputationError
-    {
-      explicit TooLarge(const std::string &body = "A monolith")
-          : ComputationError(body +
-                             " is too large: its factors have more than 2^31 entries. Use fewer elements, "
-                             "or more joints.")
-      {
-      }
-    };
-
     /** Throws an exception if CHOLMOD reports a lack of memory. */
     void check_memory(const cholmod_common &common)
     {
       if (common.status == CHOLMOD_OUT_OF_MEMORY)
         throw std::bad_alloc();
       if (common.status == CHOLMOD_TOO_LARGE)
-        throw TooLarge();
+        throw FactorTooLarge();
     }
 
     /** Matrix of CHOLMOD with automatic release of its memory. */
@@ -207,9 +195,10 @@ namespace Voussoir
       cholmod->L = analysed(cholmod->A, n(), is_interface, cholmod->common);
       check_memory(cholmod->common);
     }
-    catch (const TooLarge &)
+    catch (const FactorTooLarge &)
     {
-      throw TooLarge("Monolith " + std::to_string(body.number));
+      throw FactorTooLarge("Monolith " + std::to_string(body.number) + " (" + std::to_string(n()) +
+                           " unknowns)");
     }
   }
 
@@ -222,9 +211,9 @@ namespace Voussoir
     if (cholmod->common.status != CHOLMOD_OK || L == nullptr || L->minor < L->n)
       throw ComputationError(
           "The stiffness of monolith " + std::to_string(body.number) +
-          " is not positive definite. Either the monolith has no nodes on the surface "
-          "\"base\": put its base faces there. Or its elements are distorted; `voussoir mesh` prints "
-          "their quality.");
+          " is not positive definite. Either its nodes on the surface \"base\" do not hold it: at least three "
+          "that are not on a line are needed. Or its elements are distorted; `voussoir mesh` prints their "
+          "quality.");
     if (order == Order::interface_last)
       check_interface_is_last();
   }
@@ -237,7 +226,8 @@ namespace Voussoir
       if (!std::binary_search(body.interface.begin(), body.interface.end(), unknown[i] / 3))
         throw ComputationError(
             "Monolith " + std::to_string(body.number) +
-            " is not in one piece. Connect its elements, or give its parts different numbers.");
+            " is not in one piece: its parts have no common node. Merge their coincident nodes in the mesh "
+            "(gmsh: Coherence), or give the parts different numbers.");
   }
 
   double BodyFactor::n_entries() const

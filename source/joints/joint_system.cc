@@ -7,6 +7,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/contact/fclib_io.h>
 #include <voussoir/joints/friction_problem.h>
+#include <voussoir/mesh/mesh.h>
 
 #include <algorithm>
 #include <chrono>
@@ -393,5 +394,14 @@ namespace Voussoir
     for (const auto &body : bodies)
       bytes += body ? body->memory() : 0.;
     return bytes;
+  }
+
+  std::string largest_error(const Structure &structure, const ContactResult &result)
+  {
+    if (result.worst_pair >= structure.pairs.size())
+      return "";
+    const Pair &pair = structure.pairs[result.worst_pair];
+    return " The largest error is in joint " + std::to_string(pair.joint + 1) + " at " + place(pair.place) +
+           ".";
   }
 } // namespace Voussoir

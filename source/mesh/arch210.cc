@@ -2,6 +2,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/mesh/arch210.h>
 
 #include <algorithm>
@@ -185,11 +186,11 @@ namespace Voussoir
     const auto   spoils = [&](const double height)
     { return !(height < H / 2) || end_of_crest(height) < half_crest_length() - monolith / 2; };
     if (!(end_wall_height > 0) || spoils(end_wall_height))
-      throw InputError(entry + "End wall height\" is " + std::to_string(end_wall_height) +
+      throw InputError(entry + "End wall height\" is " + number_text(end_wall_height) +
                        " m. Choose a height above 0 that leaves at least half of the end monoliths' crest.");
     if (!(smallest_height >= 0) || spoils(smallest_height))
       throw InputError(
-          entry + "Smallest height\" is " + std::to_string(smallest_height) +
+          entry + "Smallest height\" is " + number_text(smallest_height) +
           " m. Choose a height that the dam exceeds over at least half of the crest of the end monoliths.");
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/mesh/arch210_rock.h>
 
 namespace Voussoir
@@ -41,11 +42,10 @@ namespace Voussoir
     for (const auto &length : {std::make_pair("Upstream", upstream), std::make_pair("Downstream", downstream),
                                std::make_pair("Sides", sides), std::make_pair("Depth", depth)})
       if (!(length.second >= 50))
-        throw InputError(entry + length.first + "\" is " + std::to_string(length.second) +
+        throw InputError(entry + length.first + "\" is " + number_text(length.second) +
                          " m. Choose at least 50 m; one height of the dam is usual.");
     if (!(element_size >= 1))
-      throw InputError(entry + "Element size\" is " + std::to_string(element_size) +
-                       " m. Choose at least 1 m.");
+      throw InputError(entry + "Element size\" is " + number_text(element_size) + " m. Choose at least 1 m.");
     if (n_layers < 6)
       throw InputError(entry + "Boundary layers\" is " + std::to_string(n_layers) + ". Choose at least 6.");
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // write_gmsh() of gmsh_io.h
 
+#include <voussoir/base/number_text.h>
 #include <voussoir/base/output_file.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/gmsh_session.h>
@@ -100,8 +101,7 @@ namespace Voussoir
     if (file.size() < 5 || file.substr(file.size() - 4) != ".msh")
       throw InputError("mesh " + file + ": the name of a gmsh mesh file must end in '.msh'.");
     if (version != 4.1 && version != 2.2)
-      throw InputError("mesh " + file + ": the MSH format is 4.1 or 2.2, not " + std::to_string(version) +
-                       ".");
+      throw InputError("mesh " + file + ": the MSH format is 4.1 or 2.2, not " + number_text(version) + ".");
     // Gmsh does not report a full disk. It writes a temporary file, which is copied if it is complete.
     const std::string part = file.substr(0, file.size() - 4) + "." + std::to_string(getpid()) + ".msh";
     const Removed     removed{part};

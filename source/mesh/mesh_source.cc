@@ -33,7 +33,9 @@ namespace Voussoir
       axes[n] = {static_cast<unsigned int>(coordinate), word[0] == '-' ? -1. : 1.};
     }
     if (n != 3)
-      throw InputError("Entry \"Mesh/Axes\" is \"" + text + "\", but must name three axes, as in \"x y z\".");
+      throw InputError("Entry \"Mesh/Axes\" is \"" + text +
+                       "\", but must name three axes of the file: those that point downstream, to the left "
+                       "bank and up, as in \"y -x z\".");
     return axes;
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/motion/motion_files.h>
 #include <voussoir/motion/motion_record.h>
 #include <voussoir/motion/resample.h>
@@ -33,8 +34,8 @@ namespace Voussoir
                            ", or correct the headings.");
         const double start = sources.back().record.start, expected = sources.front().record.start;
         if (std::abs(start - expected) > 1e-6)
-          throw InputError("The ground motion file '" + name + "' starts at " + std::to_string(start) +
-                           " s, but the first component at " + std::to_string(expected) +
+          throw InputError("The ground motion file '" + path + "' starts at " + number_text(start) +
+                           " s, but the file '" + sources.front().path + "' at " + number_text(expected) +
                            " s. Cut the records to the same first time.");
       };
       if (!parameters.file.empty())

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/motion/motion_record.h>
 
 #include <algorithm>
@@ -40,7 +41,7 @@ namespace Voussoir
       if (fs::exists(status) && !fs::is_regular_file(status))
         throw InputError("The ground motion file '" + file + "' is " +
                          (fs::is_directory(status) ? "a directory" : "a pipe or a device") +
-                         ". Give a regular file.");
+                         ". Give the path of a file in section Motion.");
       std::ifstream in(file, std::ios::binary);
       if (!in)
         throw InputError("The ground motion file '" + file +
@@ -239,14 +240,14 @@ namespace Voussoir
       for (std::size_t k = 0; k < steps.size(); ++k)
         if (std::abs(steps[k] - usual) > 0.05 * usual)
           fail(file, lines[k + 1],
-               "the time step is " + std::to_string(steps[k]) + " s, elsewhere " + std::to_string(usual) +
+               "the time step is " + number_text(steps[k]) + " s, elsewhere " + number_text(usual) +
                    " s. Resample the record at equal steps.");
       const double step = (times.back() - times.front()) / steps.size();
       for (std::size_t k = 0; k < times.size(); ++k)
         if (std::abs(times[k] - times.front() - k * step) > 0.1 * step)
           fail(file, lines[k],
-               "the time is " + std::to_string(times[k]) + " s, but with equal steps between the first and " +
-                   "the last it would be " + std::to_string(times.front() + k * step) +
+               "the time is " + number_text(times[k]) + " s, but with equal steps between the first and " +
+                   "the last it would be " + number_text(times.front() + k * step) +
                    " s. Resample the record at equal steps.");
       return step;
     }

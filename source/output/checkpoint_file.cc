@@ -133,7 +133,8 @@ namespace Voussoir
     payload = unsealed(file + ".before", why_before);
     if (!why_before.empty())
       throw InputError("The checkpoint " + file + " cannot be used: " + why + ". The previous one, " + file +
-                       ".before, cannot be used either: " + why_before + ". Run without --resume.");
+                       ".before, cannot be used either: " + why_before +
+                       ". Start again with --overwrite instead of --resume.");
     warning =
         "the checkpoint " + file + " cannot be used: " + why + ". The run continues from the previous one";
     return payload;
@@ -207,7 +208,8 @@ namespace Voussoir
       if (const std::string a = value(then, entry.first), b = value(now, entry.first); a != b)
         differences += (differences.empty() ? "" : "; ") + entry.first + " was " + a + " and is " + b;
     if (!differences.empty())
-      throw InputError("The checkpoint " + checkpoint + " belongs to another scene: " + differences +
-                       ". Restore these values to continue, or run without --resume.");
+      throw InputError(
+          "The checkpoint " + checkpoint + " belongs to another scene: " + differences +
+          ". Restore these values to continue, or start again with --overwrite instead of --resume.");
   }
 } // namespace Voussoir

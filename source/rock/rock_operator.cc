@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rock_numbering.h"
 #include <voussoir/base/error.h>
+#include <voussoir/mesh/mesh.h>
 
 #include <algorithm>
 #include <map>
@@ -155,9 +156,10 @@ namespace Voussoir
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     if (4 * nodes.size() > 65536) // NodalPacks::corner has 16 bits; cells of a mesh share their nodes
       throw ComputationError(
-          "The rock elements share too few nodes for the fast kernel of nodal quadrature: " +
+          "The rock elements at " + Voussoir::place(points[nodes[0]]) + " do not share their nodes: " +
           std::to_string(nodes.size()) + " nodes of " + std::to_string(part.size()) +
-          " elements. Set the environment variable VOUSSOIR_KERNEL to matrix.");
+          " elements. Merge coincident nodes in the mesh (gmsh: Coherence). If the mesh is intended, set the "
+          "environment variable VOUSSOIR_KERNEL to matrix (slower).");
     std::stable_sort(nodes.begin(), nodes.end(),
                      [&](const unsigned int i, const unsigned int j) { return kind[i] < kind[j]; });
     const auto count = [&](const Numbering::Kind wanted) -> unsigned int

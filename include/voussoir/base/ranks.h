@@ -46,8 +46,9 @@ namespace Voussoir
     /** Returns the bitwise or of @p bits over all ranks. */
     unsigned int any(unsigned int bits);
 
-    /** Returns whether @p text is equal on all ranks (compared by a hash). */
-    bool have_same(const std::string &text);
+    /** Returns the first rank whose @p text differs from that of rank 0 (compared by a hash). Returns size()
+     * if there is none. */
+    unsigned int first_different(const std::string &text);
 
     /** Returns the number of messages (MPI calls) of this process so far. */
     std::size_t n_messages();

@@ -27,12 +27,13 @@ namespace Voussoir
     unsigned int sweeps = 0;              ///< number of Gauss-Seidel iterations
     ContactPath  path = ContactPath::newton;
     double force_over_load = 0.; ///< |force|/(|b|/w) [-]; a problem without a solution has very large values
+    unsigned int worst_pair = static_cast<unsigned int>(-1); ///< pair with the largest error; -1: none
 
     /** Adds the numbers of iterations and factorisations of another solution. */
     void add_work(const ContactResult &other);
 
-    /** Combines two solutions: sums of the numbers, the larger residual and the later stage. The result is
-     * converged if both solutions are. */
+    /** Combines two solutions: sums of the numbers, the larger residual and the later stage, and the worst
+     * pair of @p other. The result is converged if both solutions are. */
     ContactResult &operator+=(const ContactResult &other);
   };
 } // namespace Voussoir

@@ -85,7 +85,7 @@ namespace Voussoir
   private:
     HexMesh open_monoliths(const HexMesh &mesh, const std::string &source);
     void    choose_laws(bool tie_all);
-    void    assemble(const HexMesh &opened);
+    void    assemble(const HexMesh &opened, const std::string &source);
     void    tie_base();
     void    remove_base_pairs(std::vector<Pair> &pairs) const;
 

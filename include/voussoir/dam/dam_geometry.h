@@ -10,8 +10,10 @@ namespace Voussoir
   class DamGeometry
   {
   public:
-    /** Finds these points. Throws InputError if the surfaces "crest" and "upstream" have no common edge. */
-    DamGeometry(const SolidModel &model, const std::vector<Pair> &pairs, unsigned int n_joints);
+    /** Finds these points. @p source: name of the mesh in messages. Throws InputError if the surfaces "crest"
+     * and "upstream" have no common edge. */
+    DamGeometry(const SolidModel &model, const std::vector<Pair> &pairs, unsigned int n_joints,
+                const std::string &source);
 
     /** Returns the arc length along the upstream edge of the crest [m], for the point of the edge that is
      * nearest to

@@ -2,6 +2,7 @@
 #ifndef voussoir_body_factor_h
 #define voussoir_body_factor_h
 
+#include <voussoir/base/error.h>
 #include <voussoir/joints/packed_factor.h>
 #include <voussoir/solid/structure.h>
 
@@ -19,6 +20,16 @@ namespace Voussoir
     double share = 1.;     ///< 1: f are forces at the end of the step; 2: means over the step [-]
 
     bool has_mean_forces() const { return share != 1.; } ///< true if f are means over the step
+  };
+
+  /** Error because a factor exceeds the integers of CHOLMOD. */
+  struct FactorTooLarge : ComputationError
+  {
+    explicit FactorTooLarge(const std::string &body = "A monolith")
+        : ComputationError(body + " is too large for the solver: its factor has more than 2^31 entries. "
+                                  "Divide it by joints, or use fewer elements in it.")
+    {
+    }
   };
 
   /** Operator A of a body, see StepOperator, and its Cholesky factor L by CHOLMOD. The interface is in natural
@@ -48,8 +59,7 @@ namespace Voussoir
     ~BodyFactor();
     BodyFactor(const BodyFactor &) = delete;
 
-    /** Chooses the order and counts the entries of L. Discards an earlier factor. Throws ComputationError if
-     * the factor is too large. */
+    /** Chooses the order and counts the entries of L. Discards an earlier factor. Throws FactorTooLarge. */
     void analyse(Order order);
 
     /** Computes A = L L^T in the order of analyse(). Throws ComputationError if A is not positive definite

@@ -154,6 +154,10 @@ namespace Voussoir
     InterfaceValues                             interface; ///< work array
     unsigned int n_solved; ///< number of problems, including those before this object
   };
+
+  /** Returns a sentence with the joint and the position of the largest error of a solution, after a space.
+   * Returns an empty string if there is none. */
+  std::string largest_error(const Structure &structure, const ContactResult &result);
 } // namespace Voussoir
 
 #endif
