@@ -5,6 +5,7 @@
 #include <deal.II/lac/vector.h>
 
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/base/reason.h>
 #include <voussoir/dynamics/modes.h>
 #include <voussoir/joints/joint_system.h>
@@ -52,6 +53,29 @@ namespace Voussoir
       std::function<void(Vector<double> &, const Vector<double> &)> apply;
       void vmult(Vector<double> &y, const Vector<double> &x) const { apply(y, x); }
     };
+
+    /** Returns the residual of K^-1 M phi = lambda phi relative to lambda phi. Without its assertions deal.II
+     * does not report that ARPACK has not converged. */
+    double relative_residual(const Operator &inverse_stiffness, const Operator &mass, const double lambda,
+                             const Vector<double> &phi)
+    {
+      Vector<double> Mphi(phi.size()), result(phi.size());
+      mass.vmult(Mphi, phi);
+      inverse_stiffness.vmult(result, Mphi);
+      result.add(-lambda, phi);
+      return result.l2_norm() / (lambda * phi.l2_norm());
+    }
+
+    constexpr unsigned int max_iterations = 1000;
+
+    ComputationError not_converged(const unsigned int n_modes, const std::string &reason)
+    {
+      return ComputationError(
+          "The " + std::to_string(n_modes) + " natural frequencies did not converge in " +
+          std::to_string(max_iterations) + " iterations (ARPACK: " + reason +
+          "). Reduce the number of modes (--count), or check Young's moduli and densities of the zones; "
+          "voussoir SCENE.prm --validate prints them.");
+    }
   } // namespace
 
   std::vector<NaturalMode> natural_modes(const Structure &structure, const unsigned int n_modes)
@@ -79,7 +103,7 @@ namespace Voussoir
                                        std::copy(u.begin(), u.end(), y.begin());
                                      }};
 
-    SolverControl                     control(1000, 1e-10);
+    SolverControl                     control(max_iterations, 1e-10);
     ArpackSolver                      arpack(control,
                                              ArpackSolver::AdditionalData(2 * n_modes + 2, ArpackSolver::largest_magnitude, true));
     std::vector<std::complex<double>> eigenvalues(n_modes);
@@ -90,19 +114,20 @@ namespace Voussoir
     }
     catch (const ExceptionBase &error)
     {
-      throw ComputationError(
-          "The " + std::to_string(n_modes) + " natural frequencies did not converge in " +
-          std::to_string(control.max_steps()) + " iterations (ARPACK: " + reason(error) +
-          "). Reduce the number of modes (--count), or check Young's moduli and densities of the zones; "
-          "voussoir SCENE.prm --validate prints them.");
+      throw not_converged(n_modes, reason(error));
     }
     std::vector<NaturalMode> modes;
     for (unsigned int k = 0; k < n_modes; ++k)
     {
+      const double    lambda = eigenvalues[k].real();
       Vector<double> &phi = eigenvectors[k], Mphi(n);
       mass.vmult(Mphi, phi);
       phi /= std::sqrt(phi * Mphi);
-      modes.push_back({std::sqrt(eigenvalues[k].real()) / (2. * M_PI), Unknowns(phi.begin(), phi.end())});
+      if (const double residual = relative_residual(inverse_stiffness, mass, lambda, phi);
+          !(residual <= 1e-6))
+        throw not_converged(n_modes, "relative residual " + number_text(residual) + " of mode " +
+                                         std::to_string(k + 1));
+      modes.push_back({std::sqrt(lambda) / (2. * M_PI), Unknowns(phi.begin(), phi.end())});
     }
     std::sort(modes.begin(), modes.end(),
               [](const NaturalMode &a, const NaturalMode &b) { return a.frequency < b.frequency; });

@@ -114,7 +114,7 @@ namespace Voussoir
                        " history variables in all pairs, but the joint laws of this program have " +
                        std::to_string(n_memory) +
                        " (JointLaw::n_memory()). Use the laws of the program that wrote the checkpoint, or "
-                       "run without --resume.");
+                       "start again with --overwrite instead of --resume.");
     first = first_energy;
     largest = largest_so_far;
     reference = reference_jump;
