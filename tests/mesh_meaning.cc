@@ -211,7 +211,7 @@ namespace
   {
     const HexMesh     mesh = arch(8);
     const SolidModel  model(mesh, 1);
-    const DamGeometry geometry(model, {}, 0);
+    const DamGeometry geometry(model, {}, 0, "of the test");
     // The edge is a regular polygon: s is the number of sides from the middle times their length.
     const double side = 2. * 40. * std::sin(.5 * 1.8 / 8);
     const auto   corner = [](const double j)

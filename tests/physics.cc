@@ -316,7 +316,7 @@ namespace
       expect(std::abs(pair.frame[2][2] - 1.) < 1e-12, "the last axis points upwards");
     }
     expect_close(area, thick * tall, 1e-12, "area of the joint");
-    const DamGeometry geometry(model, pairs, 1);
+    const DamGeometry geometry(model, pairs, 1, "of the test");
     for (const double y : {0., 3., 10., 17., 20.})
       for (const double x : {0., 5.})
         expect(std::abs(geometry.arc_length(dealii::Point<3>(x, y, 11.)) - (y - 10.)) < 1e-12, "arc length");
@@ -363,12 +363,12 @@ namespace
       {
         const std::string what = ", seed " + std::to_string(seed) + (reversed ? ", numbered in reverse" : "");
         SolidModel        model(disturbed(open_joints(wall(2, 4, 3, 2)), reversed, seed), 1);
-        const DamGeometry joint(model, {}, 1);
+        const DamGeometry joint(model, {}, 1, "of the test");
         expect(model.body_numbers[model.body[joint.crown]] == 1,
                "the crown is on the right bank's side" + what);
         expect(model.body_numbers[model.body[joint.crown_left]] == 2, "the other side is its own" + what);
         SolidModel        odd(disturbed(wall(2, 5, 3, 5), reversed, seed), 1);
-        const DamGeometry between(odd, {}, 0);
+        const DamGeometry between(odd, {}, 0, "of the test");
         expect_close(odd.points[between.crown][1], 8., 1e-8, "of the nodes at 8 m and 12 m" + what);
         expect(between.crown_left == between.crown, "no joint ends at the crown" + what);
       }
