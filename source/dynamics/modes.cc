@@ -54,16 +54,16 @@ namespace Voussoir
       void vmult(Vector<double> &y, const Vector<double> &x) const { apply(y, x); }
     };
 
-    /** Returns the residual of K^-1 M phi = lambda phi relative to lambda phi. Without its assertions deal.II
-     * does not report that ARPACK has not converged. */
+    /** Returns the residual of lambda K^-1 M phi = phi relative to phi. Without its assertions deal.II does
+     * not report that ARPACK has not converged. */
     double relative_residual(const Operator &inverse_stiffness, const Operator &mass, const double lambda,
                              const Vector<double> &phi)
     {
       Vector<double> Mphi(phi.size()), result(phi.size());
       mass.vmult(Mphi, phi);
       inverse_stiffness.vmult(result, Mphi);
-      result.add(-lambda, phi);
-      return result.l2_norm() / (lambda * phi.l2_norm());
+      result.sadd(lambda, -1., phi);
+      return result.l2_norm() / phi.l2_norm();
     }
 
     constexpr unsigned int max_iterations = 1000;
