@@ -441,7 +441,8 @@ namespace
     const double w = 2. * pi, alpha = .5, beta = .01, zeta = .5 * (alpha / w + beta * w),
                  wd = w * std::sqrt(1. - zeta * zeta), dt = 1. / 400.;
     const Structure structure = oscillator(4. * w * w, alpha, beta);
-    Newmark         newmark(structure, JointLaws(), ContactParameters(), dt, ImpactRule::mean_force);
+    const JointLaws laws;
+    Newmark         newmark(structure, laws, ContactParameters(), dt, ImpactRule::mean_force);
     newmark.start({1., 0., 2.}, {0., 0., 0.}, {}, {0., 0., 0.}, {});
     for (unsigned int k = 1; k <= 800; ++k)
     {
@@ -478,7 +479,8 @@ namespace
   {
     const double    alpha = 2., dt = .01;
     const Structure structure = oscillator(1e-9, alpha, 0.);
-    Newmark         newmark(structure, JointLaws(), ContactParameters(), dt, ImpactRule::mean_force);
+    const JointLaws laws;
+    Newmark         newmark(structure, laws, ContactParameters(), dt, ImpactRule::mean_force);
     newmark.start({0., 0., 0.}, {0., 0., 0.}, {}, {0., 0., 0.}, {});
     for (unsigned int k = 1; k <= 200; ++k)
     {

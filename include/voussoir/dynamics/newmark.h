@@ -22,7 +22,7 @@ namespace Voussoir
 
     /** Condenses the bodies for time steps of length @p dt. start() or resume() must follow.
      * @param structure masses, stiffness matrices, damping and pairs
-     * @param laws joint laws of the pairs
+     * @param laws joint laws of the pairs; structure and laws must outlive this object
      * @param parameters parameters of the contact solver
      * @param dt time step [s]
      * @param rule velocity correction of closed pairs
