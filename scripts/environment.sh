@@ -12,6 +12,9 @@ export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}
 # Containers usually run as root, which Open MPI refuses unless told otherwise.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
+# For builds that test: a part that is missing is an error.
+all_parts=(-DVOUSSOIR_WITH_MPI=ON -DVOUSSOIR_WITH_TRILINOS=ON -DVOUSSOIR_WITH_ARPACK=ON -DVOUSSOIR_WITH_FCLIB=ON)
+
 # step NUMBER TEXT COMMAND...: one line with the time that it takes; the output goes to build/logs, and its end to
 # standard error if the command fails.
 step()

@@ -49,6 +49,9 @@ inline const int voussoir_mutant = voussoir_mutant_number(voussoir_mutant_names)
 """
 
 
+SKIPPED = "not tested: its tests are skipped here"
+
+
 class Misfit(Exception):
     """A mutant that does not fit the sources, or a line of the list that cannot be understood."""
 
@@ -265,30 +268,31 @@ def is_script(mutant):
 
 
 def run_tests(directory, pattern, mutant):
-    """Runs the tests of this pattern against a mutant; the number of tests that ran, and the one that failed."""
+    """Runs the tests of this pattern against a mutant; whether there are any, whether any ran, and the one that failed."""
     environment = {**os.environ, "VOUSSOIR_MUTANT": mutant, "PYTHONDONTWRITEBYTECODE": "1"}  # bytecode of a mutant may pass for that of the next
     if (scripts := directory.parent / "scripts").is_dir():
         environment["VOUSSOIR_SCRIPTS"] = str(scripts)
     result = subprocess.run(["ctest", "-R", pattern, "--stop-on-failure", "--no-tests=ignore", "--timeout", "300"],
                             cwd=directory, env=environment, capture_output=True, text=True)
-    ran = len(re.findall(r"^ *\d+/\d+ Test ", result.stdout, re.M))
+    tests = re.findall(r"^ *\d+/\d+ Test .*$", result.stdout, re.M)
+    ran = [line for line in tests if not re.search(r"\*\*\*(Skipped|Not Run)", line)]
     failed = re.search(r"Test +#\d+: (\S+) [ .]*\*\*\*(?!Skipped|Not Run)", result.stdout)
     if result.returncode != 0 and failed is None:
         sys.exit(f"mutants: ctest failed: {result.stdout[-2000:]}{result.stderr}")
-    return ran, failed[1] if result.returncode != 0 else None
+    return bool(tests), bool(ran), failed[1] if result.returncode != 0 else None
 
 
 def kill(directory, mutant, everything):
-    """The test that notices the mutant, or None."""
-    total = 0
+    """The test that notices the mutant, SKIPPED if none of its tests ran, or None."""
+    exist = ran = False
     for pattern in mutant["tests"] + (["."] if everything else []):
-        ran, failed = run_tests(directory, pattern, mutant["name"])
-        total += ran
+        found, some_ran, failed = run_tests(directory, pattern, mutant["name"])
+        exist, ran = exist or found, ran or some_ran
         if failed:
             return failed
-    if total == 0:
+    if not exist:
         raise Misfit(f"mutant {mutant['name']}: there are no tests {'|'.join(mutant['tests'])}")
-    return None
+    return None if ran else SKIPPED
 
 
 def check(compiled, scripts, scratch):
@@ -330,8 +334,10 @@ def judge(mutants, options, directory, overlay):
         begin, place = time.monotonic(), overlay / "build" if is_script(mutant) else directory
         with put_into(overlay, mutant):
             killer = kill(place, mutant, options.all)
-        if killer and (place, killer) not in sound:
-            sound[place, killer] = run_tests(place, f"^{re.escape(killer)}$", "")[1] is None
+        if killer == SKIPPED:
+            sound[place, killer] = True
+        elif killer and (place, killer) not in sound:
+            sound[place, killer] = run_tests(place, f"^{re.escape(killer)}$", "")[2] is None
         said = "**nothing**" if killer is None else killer if sound[place, killer] else f"**{killer} fails without any mutant**"
         lines.append(f"| {mutant['room']} | {mutant['name']} | {mutant['meaning']} | {said} |")
         print(lines[-1], flush=True)

@@ -18,7 +18,7 @@ check()
 {
   local status=0 entry file expected
   for entry in "CITATION.cff:version: $version" "python/pyproject.toml:version = \"$version\"" "README.md:The version is $version " "packaging/conda/meta.yaml:set version = \"$version\"" \
-    "packaging/debian/changelog:voussoir ($version-"; do
+    "packaging/debian/changelog:voussoir ($version-" "tests/user_project/CMakeLists.txt:Voussoir ${version%.*} "; do
     file=${entry%%:*} expected=${entry#*:}
     if ! grep -qF "$expected" "$file"; then
       echo "release: $file does not contain \"$expected\" (CMakeLists.txt has version $version)" >&2
@@ -37,7 +37,8 @@ case "${1:-}" in
   notes) notes ;;
   tag)
     check
-    if notes | head -n 1 | grep -q 'in work'; then
+    head=$(notes | sed -n 1p)
+    if [[ "$head" == *"in work"* ]]; then
       echo "release: doc/changes.md says that $version is in work: write the date of the release instead" >&2
       exit 1
     fi

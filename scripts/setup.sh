@@ -6,9 +6,10 @@
 set -euo pipefail
 
 # mold: deal.II of Debian 13 links with it, and its package does not depend on it; elsewhere it is faster.
-required=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev libfclib-dev libhdf5-dev
+required=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev
           ninja-build cmake g++ mold git python3-matplotlib)
-optional=("python3-meshio: meshes in the formats .inp and .med")
+optional=("libfclib-dev: voussoir contact, Contact/Write problems" "libhdf5-dev: with libfclib-dev"
+          "python3-meshio: meshes in the formats .inp and .med")
 if [[ "${1:-}" != --program ]]; then
   required+=(gmsh numdiff ccache shellcheck flake8 doxygen)
   optional+=("clang-format: format of the sources" "calculix-ccx: benchmarks/calculix.py" "python3-siconos: benchmarks/contact.py"

@@ -44,14 +44,15 @@ skipped() # DIRECTORY...
 
 "$root/scripts/setup.sh"
 form
-"$root/scripts/build.sh" --target doc -DCMAKE_COMPILE_WARNING_AS_ERROR=ON # a warning of Doxygen is an error
-"$root/scripts/build.sh" -DCMAKE_COMPILE_WARNING_AS_ERROR=ON
+"$root/scripts/build.sh" --target doc -DCMAKE_COMPILE_WARNING_AS_ERROR=ON "${all_parts[@]}" # a warning of Doxygen is an error
+"$root/scripts/build.sh" -DCMAKE_COMPILE_WARNING_AS_ERROR=ON "${all_parts[@]}"
 if (($#)); then
   run_tests "$root/build" "$@"
   skipped "$root/build"
   exit 0
 fi
 run_tests "$root/build"
-"$root/scripts/build.sh" --directory "$root/build-debug" --target quick -DCMAKE_BUILD_TYPE=Debug -DVOUSSOIR_DEBUG_INFO=OFF -DCMAKE_COMPILE_WARNING_AS_ERROR=ON
+"$root/scripts/build.sh" --directory "$root/build-debug" --target quick -DCMAKE_BUILD_TYPE=Debug -DVOUSSOIR_DEBUG_INFO=OFF -DCMAKE_COMPILE_WARNING_AS_ERROR=ON \
+  "${all_parts[@]}"
 run_tests "$root/build-debug" -L quick
 skipped "$root/build" "$root/build-debug"

@@ -6,7 +6,7 @@
 # Usage: scripts/try_release.sh [--compiler gcc|clang] RELEASE...     as root; bookworm, trixie, sid, noble, resolute; all without one
 # Environment: VOUSSOIR_RELEASES directory of the root file systems (build-releases), about 4 GB each; they are kept and used again
 #              VOUSSOIR_MIRROR   package mirror (deb.debian.org for Debian, archive.ubuntu.com for Ubuntu)
-# Exit status: 0 if all releases that could be reached passed.
+# Exit status: 0 if all releases passed, 77 if all that could be reached did.
 set -euo pipefail
 # shellcheck source=environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
@@ -86,7 +86,7 @@ commands_of() # COMPILER
     *) echo 'compiler=' ;;
   esac
   # shellcheck disable=SC2016
-  echo 'scripts/build.sh --directory build-try --target quick -DCMAKE_COMPILE_WARNING_AS_ERROR=ON $compiler' \
+  echo 'source scripts/environment.sh; scripts/build.sh --directory build-try --target quick -DCMAKE_COMPILE_WARNING_AS_ERROR=ON "${all_parts[@]}" $compiler' \
     '; echo built; cd build-try; ctest -j2 --output-on-failure --no-tests=error -L quick; echo tested; ctest -j2 --output-on-failure' \
     '--no-tests=error -R "^golden_coarse"; echo same'
 }
@@ -98,11 +98,12 @@ version_of() # SYSTEM PACKAGE: upstream version of an installed package
 
 table="| release | deal.II | compiler | builds without a warning | quick tests | tables of the coarse scene | run |
 |---|---|---|---|---|---|---|"
-failed=0
+failed=0 unreached=0
 for release in "$@"; do
   system=$directory/$release log=$directory/$release-$compiler.log
   if [[ ! -d "$system" ]] && ! curl -sfIm 20 "$(mirror_of "$release")/dists/$release/Release" >/dev/null; then
     table+=$'\n'"| $release | | | not tried: $(mirror_of "$release") does not answer | | | |"
+    unreached=77
     continue
   fi
   if [[ ! -d "$system" ]] && ! make_system "$release" "$system" >"$log" 2>&1; then
@@ -129,4 +130,4 @@ for release in "$@"; do
   table+=$'\n'"| $release | $(version_of "$system" libdeal.ii-dev) | $version | $built | $tested | $same | $(date -u '+%-d %B %Y') |"
 done
 echo "$table"
-exit "$failed"
+exit "$((failed ? failed : unreached))"

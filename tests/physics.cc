@@ -474,6 +474,35 @@ namespace
     }
   }
 
+  /** Masses of 1 kg in a row between two walls, with springs of 1 N/m along and across: K = tridiag(-1, 2, -1), each frequency
+   * three times. An iteration that is stopped too early is an error. */
+  void modes_of_chain()
+  {
+    constexpr unsigned int                 n = 40;
+    Structure                              structure;
+    Body                                   body;
+    std::vector<std::vector<unsigned int>> columns(n);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = i == 0 ? 0 : i - 1; j < std::min(n, i + 2); ++j)
+        columns[i].push_back(j);
+    body.stiffness = BlockSparseMatrix(columns);
+    for (unsigned int i = 0; i < n; ++i)
+      for (const unsigned int j : columns[i])
+      {
+        const double k = i == j ? 2. : -1.;
+        body.stiffness.add(i, j, {{k, 0., 0., 0., k, 0., 0., 0., k}});
+      }
+    structure.bodies.push_back(std::move(body));
+    structure.mass.assign(n, Matrix3{{1., 0., 0., 0., 1., 0., 0., 0., 1.}});
+    structure.added_mass.assign(n, Matrix3{});
+    const std::vector<NaturalMode> modes = natural_modes(structure, 6);
+    for (unsigned int k = 0; k < 6; ++k)
+      expect_close(modes[k].frequency, std::sqrt(2. - 2. * std::cos((k / 3 + 1) * pi / (n + 1))) / (2. * pi),
+                   1e-9, "frequency of the chain");
+    throws<ComputationError>("modes after one iteration", [&] { natural_modes(structure, 6, 1); },
+                             {"were not found"});
+  }
+
   /** Damped against a base that moves with the velocity t: v = t - (1 - exp(-alpha t))/alpha. */
   void moving_base()
   {
@@ -600,6 +629,7 @@ int main(int argc, char **argv)
   if (part == "newmark")
     return run({{"damped oscillator", damped_oscillator},
                 {"participation factors", participation},
+                {"modes of a chain", modes_of_chain},
                 {"moving base", moving_base},
                 {"sliding", sliding_energy}});
   if (part == "rock")

@@ -295,7 +295,7 @@ namespace Voussoir
   {
     throw InputError(
         "This program was built without FCLib, so `voussoir contact` and Contact/Write problems do not work. "
-        "Install libfclib and HDF5, then build again.");
+        "Install libfclib and HDF5, and build with -DVOUSSOIR_WITH_FCLIB=ON.");
   }
 
   FrictionProblem read_fclib(const std::string &)

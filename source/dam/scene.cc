@@ -2,6 +2,7 @@
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
+#include <voussoir/contact/fclib_io.h>
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/scene.h>
 #include <voussoir/dynamics/newmark.h>
@@ -299,6 +300,8 @@ namespace Voussoir
 
   void Scene::check() const
   {
+    if (contact.write_problems)
+      require_fclib();
     mesh.check();
     zone_materials(concrete_zones, "Concrete/Zones");
     foundation.zone_materials();

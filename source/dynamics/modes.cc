@@ -39,11 +39,11 @@ namespace Voussoir
   }
 
 #ifndef VOUSSOIR_WITH_ARPACK
-  std::vector<NaturalMode> natural_modes(const Structure &, unsigned int)
+  std::vector<NaturalMode> natural_modes(const Structure &, unsigned int, unsigned int)
   {
     throw InputError(
-        "This program was built without ARPACK, so it computes no natural frequencies. Build Voussoir with a "
-        "deal.II that has ARPACK.");
+        "This program was built without ARPACK, so it computes no natural frequencies. Build with a deal.II that "
+        "has ARPACK and -DVOUSSOIR_WITH_ARPACK=ON.");
   }
 #else
   namespace
@@ -66,19 +66,17 @@ namespace Voussoir
       return result.l2_norm() / phi.l2_norm();
     }
 
-    constexpr unsigned int max_iterations = 1000;
-
     ComputationError not_converged(const unsigned int n_modes, const std::string &reason)
     {
       return ComputationError(
-          "The " + std::to_string(n_modes) + " natural frequencies did not converge in " +
-          std::to_string(max_iterations) + " iterations (ARPACK: " + reason +
+          "The " + std::to_string(n_modes) + " natural frequencies were not found (ARPACK: " + reason +
           "). Reduce the number of modes (--count), or check Young's moduli and densities of the zones; "
           "voussoir SCENE.prm --validate prints them.");
     }
   } // namespace
 
-  std::vector<NaturalMode> natural_modes(const Structure &structure, const unsigned int n_modes)
+  std::vector<NaturalMode> natural_modes(const Structure &structure, const unsigned int n_modes,
+                                         const unsigned int max_iterations)
   {
     const unsigned int n = 3 * structure.n_nodes();
     if (2 * n_modes + 2 > n)

@@ -66,8 +66,6 @@ namespace Voussoir
         sides(structure.pairs.size()), W(pairs_per_joint(structure), shares_of_joints(structure)),
         n_solved(parameters.first_problem)
   {
-    if (parameters.write_problems)
-      require_fclib();
     for (const JointLaw *law : laws.of_pair)
       if (parameters.write_problems && law->flat_friction() < 0. && !law->surfaces_law())
         throw InputError("\"Contact/Write problems\" requires Coulomb friction in all joints. Set "

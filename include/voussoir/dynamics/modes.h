@@ -22,8 +22,10 @@ namespace Voussoir
 
   /** Returns the @p n_modes lowest modes of a structure without pairs, by ascending frequency. Solves
    * K phi = omega^2 M phi by inverse iteration with ARPACK, on one MPI process. Throws InputError if the
-   * structure has too few unknowns, and ComputationError if the iteration does not converge. */
-  std::vector<NaturalMode> natural_modes(const Structure &structure, unsigned int n_modes);
+   * structure has too few unknowns, and ComputationError if the iteration does not converge within
+   * @p max_iterations restarts. */
+  std::vector<NaturalMode> natural_modes(const Structure &structure, unsigned int n_modes,
+                                         unsigned int max_iterations = 1000);
 } // namespace Voussoir
 
 #endif

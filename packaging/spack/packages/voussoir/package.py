@@ -5,9 +5,9 @@ Without FCLib, which Spack does not have: `voussoir contact` and Contact/Write p
 from spack.package import *  # noqa: F403
 
 try:  # Spack 1.0 and later
-    from spack_repo.builtin.build_systems.cmake import CMakePackage
+    from spack_repo.builtin.build_systems.cmake import CMakePackage, generator
 except ImportError:
-    from spack.package import CMakePackage
+    from spack.package import CMakePackage, generator
 
 
 class Voussoir(CMakePackage):
@@ -23,19 +23,21 @@ class Voussoir(CMakePackage):
 
     depends_on("c", type="build")  # noqa: F405
     depends_on("cxx", type="build")  # noqa: F405
-    depends_on("cmake@3.16:", type="build")  # noqa: F405
-    depends_on("ninja", type="build")  # noqa: F405
+    depends_on("cmake@3.18:", type="build")  # noqa: F405
     depends_on("dealii@9.4:")  # noqa: F405
-    for feature in ("mpi", "trilinos", "arpack"):
-        depends_on(f"dealii+{feature}", when=f"+{feature}")  # noqa: F405
+    depends_on("dealii+mpi", when="+mpi")  # noqa: F405
+    depends_on("dealii+mpi+arpack", when="+arpack")  # noqa: F405
+    depends_on("dealii+mpi+trilinos", when="+trilinos")  # noqa: F405
     depends_on("trilinos@:16", when="+trilinos")  # noqa: F405
     depends_on("suite-sparse")  # noqa: F405
     depends_on("openblas")  # noqa: F405
     depends_on("gmsh")  # noqa: F405
-    depends_on("python@3.9:", type="run")  # noqa: F405
+    depends_on("python@3.9:", type=("build", "run"))  # noqa: F405
     depends_on("py-matplotlib", type="run")  # noqa: F405
+    requires("target=x86_64:", msg="The kernels of the dense products are for x86-64.")  # noqa: F405
 
-    generator("ninja")  # noqa: F405
+    generator("ninja")
+    build_targets = ["voussoir"]
 
     def cmake_args(self):
         features = [self.define_from_variant(f"VOUSSOIR_WITH_{name.upper()}", name) for name in ("mpi", "trilinos", "arpack")]
