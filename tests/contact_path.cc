@@ -196,7 +196,7 @@ namespace
       below("  slip - speed dt [m]", block.newmark->opening_and_slip(0)[1] - block.speed * block.dt, 1e-15);
       report("  state of the pair", static_cast<int>(block.newmark->pair_states()[0]), "open",
              block.newmark->pair_states()[0] == PairState::open);
-      const double whole = block.newmark->joint_system().memory(), all = block.newmark->memory();
+      const double whole = block.newmark->joint_system().memory_consumption(), all = block.newmark->memory();
       report("  factors and operators, over those of whole steps", all / whole, "1 for each size of step",
              whole > 0. && all == (1. + part.second) * whole);
     }

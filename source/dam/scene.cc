@@ -192,12 +192,19 @@ namespace Voussoir
     {
       const bool taken = probe.first == "crest" || probe.first == "crest_left" || probe.first == "base" ||
                          probe.first == "base_acceleration";
-      if (probe.first.empty() || taken || probe.first.find_first_of(",\"") != std::string::npos)
-        throw InputError("Entry \"Output/Probes\": \"" + probe.first +
-                         "\" cannot be the name of a probe, because it becomes a column of history.csv, " +
-                         std::string(taken ? "which has a column of this name"
-                                           : "where commas and quotes are not allowed") +
-                         ". Separate probes by semicolons, as in \"name: x y z; name: x y z\".");
+      const std::string entry = "Entry \"Output/Probes\": ";
+      const std::string example = " Separate probes by semicolons, as in \"name: x y z; name: x y z\".";
+      if (probe.first.empty())
+        throw InputError(entry + "the probe has no name." + example);
+      if (taken)
+        throw InputError(entry + "\"" + probe.first +
+                         "\" cannot be the name of a probe, because it names another column of history.csv. "
+                         "Choose another name.");
+      if (probe.first.find_first_of(",\"") != std::string::npos)
+        throw InputError(entry + "\"" + probe.first +
+                         "\" cannot be the name of a probe, because it becomes a column of history.csv, "
+                         "where commas and quotes are not allowed." +
+                         example);
       std::istringstream in(probe.second);
       std::string        more;
       Vector3           &p = places[probe.first];

@@ -65,7 +65,7 @@ namespace Voussoir
   {
     double bytes = 0.;
     for (const auto &level : levels)
-      bytes += level->system.memory();
+      bytes += level->system.memory_consumption();
     return bytes;
   }
 

@@ -60,8 +60,10 @@ namespace Voussoir
         cholmod_dense *x = cholmod_solve(CHOLMOD_A, cholmod.L, &b, &cholmod.common);
         cholmod.check_memory();
         if (!x)
-          throw ComputationError(
-              "CHOLMOD could not solve the coarse problem of the static state of the rock.");
+          throw ComputationError("The static solution of the rock failed (CHOLMOD, " +
+                                 std::to_string(cholmod.n) +
+                                 " coarse unknowns). Look for distorted or unconnected rock elements with "
+                                 "`voussoir mesh`. If there are none, report the failure with scene.prm.");
         const double *values = static_cast<double *>(x->x);
         motions.assign(values, values + forces.size());
         cholmod_free_dense(&x, &cholmod.common);

@@ -47,8 +47,11 @@ namespace Voussoir
                                          [](const HexMesh::Cell &cell) { return !is_monolith(cell.volume); });
       if (foundation.uses_rock() && !has_rock)
         throw InputError("Foundation/Model is " + site.parameters.model + ", but the mesh " + site.source +
-                         " has no rock (volumes from id 1000 on). Set "
-                         "Mesh/Arch210/Rock/Enabled = true, or use a mesh with rock.");
+                         " has no rock. " +
+                         (site.source == "arch210"
+                              ? "Set Mesh/Arch210/Rock/Enabled = true, or Foundation/Model to rigid."
+                              : "Add rock to the mesh (volumes from id 1000 on), or set Foundation/Model to "
+                                "rigid."));
       if (has_rock && !foundation.uses_rock() && site.source != "arch210")
         throw InputError(
             "mesh " + site.source +

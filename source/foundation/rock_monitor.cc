@@ -78,9 +78,11 @@ namespace Voussoir
     std::ostringstream text;
     std::size_t        i = find_excess(w, bounds.velocity);
     if (i < w.size())
-      text << "the velocity of the rock is " << w[i] << " m/s (limit " << bounds.velocity << " m/s)";
+      text << "the velocity of the rock exceeds the limit for this ground motion, " << bounds.velocity
+           << " m/s: it is " << w[i] << " m/s";
     else if (i = find_excess(u, bounds.displacement); i < u.size())
-      text << "the displacement of the rock is " << u[i] << " m (limit " << bounds.displacement << " m)";
+      text << "the displacement of the rock exceeds the limit for this ground motion, " << bounds.displacement
+           << " m: it is " << u[i] << " m";
     else
       return "";
     const auto &p = model.points[i / 3];
@@ -93,8 +95,7 @@ namespace Voussoir
       }
     text << " in "
          << "xyz"[i % 3] << " at the node " << place({{p[0], p[1], p[2]}}) << ", " << distance
-         << " m from the artificial boundary " << parameters.boundary
-         << ". This exceeds the limit for this ground motion.";
+         << " m from the artificial boundary " << parameters.boundary << ".";
     return text.str();
   }
 

@@ -124,8 +124,9 @@ namespace Voussoir
         throw ComputationError(
             n_free == 0 ? "All rock nodes are on the surface \"artificial boundary\". Refine the rock."
                         : "The stiffness matrix of the rock (" + std::to_string(n_free) +
-                              " unknowns) is not positive definite. Improve distorted rock elements; "
-                              "`voussoir mesh` prints their quality.");
+                              " unknowns) is not positive definite. Connect all parts of the rock to each "
+                              "other and to the surface \"artificial boundary\", and improve distorted "
+                              "elements; `voussoir mesh` prints their quality.");
       everywhere(
           [&](const std::size_t k)
           {

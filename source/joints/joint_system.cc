@@ -386,7 +386,7 @@ namespace Voussoir
     structure.gather(u);
   }
 
-  double JointSystem::memory() const
+  double JointSystem::memory_consumption() const
   {
     double bytes = W.memory();
     for (const auto &body : bodies)

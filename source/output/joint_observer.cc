@@ -37,9 +37,9 @@ namespace Voussoir
     const auto [missing, joint] = joints.points.height_without_waterstop();
     if (joints.points.has_waterstops() && missing > 0. &&
         (limits.waterstop_opening > 0. || limits.waterstop_slip > 0.))
-      log.line("warning: joint %u is thinner than Limits/Waterstop depth, %g m, over the highest %.1f m: "
+      log.line("warning: in the uppermost %.1f m joint %u is thinner than Limits/Waterstop depth (%g m): "
                "the limits of the waterstops are not evaluated there. Reduce the depth.",
-               joint, limits.waterstop_depth, missing);
+               missing, joint, limits.waterstop_depth);
   }
 
   void JointObserver::report(Log &log) const

@@ -109,7 +109,8 @@ namespace Voussoir
     std::ostringstream text;
     std::size_t        i = find_excess(state.v, velocity_dam);
     if (i < state.v.size())
-      text << "the velocity of the dam is " << state.v[i] << " m/s (limit " << velocity_dam << " m/s)";
+      text << "the velocity of the dam exceeds the limit for this ground motion, " << velocity_dam
+           << " m/s: it is " << state.v[i] << " m/s";
     else
     {
       Unknowns u = state.u;
@@ -118,11 +119,11 @@ namespace Voussoir
       i = find_excess(u, displacement_dam);
       if (i == u.size())
         return "";
-      text << "the displacement of the dam is " << u[i] << " m (limit " << displacement_dam << " m)";
+      text << "the displacement of the dam exceeds the limit for this ground motion, " << displacement_dam
+           << " m: it is " << u[i] << " m";
     }
     text << " in "
-         << "xyz"[i % 3] << " at the node " << dam.model->place_of(i / 3)
-         << ". This exceeds the limit for this ground motion.";
+         << "xyz"[i % 3] << " at the node " << dam.model->place_of(i / 3) << ".";
     return text.str();
   }
 

@@ -97,8 +97,8 @@ namespace Voussoir
     dt_critical = Voussoir::critical_time_step(largest_frequency(stiffness, mass), damping);
     if (!(dt <= dt_critical)) // or not a number
       throw InputError(beyond_critical_step(dt, dt_critical) +
-                       " Use a smaller time step, larger rock elements, or less stiffness-proportional "
-                       "damping.");
+                       " Increase \"Dynamics/Steps per sample\", enlarge the rock elements, or reduce "
+                       "\"Foundation/Stiffness damping\".");
     u.assign(3 * std::size_t(n_nodes()), 0.);
     w = K_x = u;
     x = u;

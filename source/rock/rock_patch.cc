@@ -25,8 +25,9 @@ namespace Voussoir
                   dealii::ExcInternalError()); // in a part of the model, is the row filled?
       if (on_boundary[node[i]])
         throw InputError("The base of the dam is fewer than " + std::to_string(n_steps) +
-                         " layers of rock elements from the artificial boundary, which is too near for this "
-                         "number of substeps. Make the rock larger, or reduce \"Foundation/Substeps\".");
+                         " layers of rock elements from the artificial boundary, which is too near for "
+                         "\"Foundation/Substeps\" = " +
+                         std::to_string(n_steps) + ". Enlarge the rock, or reduce \"Foundation/Substeps\".");
       inverse_mass.push_back(1. / model.mass[node[i]]);
     }
     std::vector<unsigned int> number(model.points.size(), no_node);

@@ -9,8 +9,8 @@ namespace Voussoir
   /** Contact state of a pair. */
   enum class PairState : unsigned char
   {
-    open,  ///< no surface carries force
-    stick, ///< closed without slip
+    open,  ///< no contact force; a cracked bond may still carry tension
+    stick, ///< closed or bonded, without slip
     slip   ///< closed, with slip at the friction limit
   };
 
@@ -39,7 +39,7 @@ namespace Voussoir
     bool    is_mean = false; ///< true: forces are means over the step; false: forces at its end
 
     /** JointLaw::n_memory() history variables of the pair: those at the start of the step, changed by the
-     * events of this step. Null if the law has none. */
+     * events of this step. Do not read it if n_memory() is 0. */
     const double *memory = nullptr;
   };
 
@@ -47,6 +47,8 @@ namespace Voussoir
 
   /** Conditions between the two faces of a joint at one pair, in the frame (n, a, b) of the pair.
    *
+   * - n: from side 1 to side 2, normal to the joint; b: upwards in the joint (along +y in a nearly horizontal
+   *   joint); a = b x n. See find_pairs() and Pair::frame.
    * - force: force of side 1 on side 2 [N]; force[0] > 0 is compression.
    * - gap: displacement of side 2 relative to side 1 since grouting [m]; gap[0] >= 0 is the opening.
    * - start: gap at the start of the step [m]. The slip of the step is the tangential part of gap - start.
@@ -61,8 +63,8 @@ namespace Voussoir
    * 2. utilisation() for each pair. If a value exceeds 1, apply_event() for the pairs with the largest
    *    values, and the step is solved again from 1;
    * 3. commit() once for each pair;
-   * 4. solve_impulse(), stop_normal() or solve_acceleration() for the velocity correction (Impact),
-   *    with the history variables of 1 and 2, before commit(). */
+   * 4. after commit(): solve_impulse(), stop_normal() or solve_acceleration() for the velocity correction
+   *    (Impact). They receive the history variables after 2, not those that commit() changed. */
   class JointLaw
   {
   public:
@@ -91,7 +93,8 @@ namespace Voussoir
     virtual Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairHistory &history) const = 0;
 
     /** Returns the impulse that the law allows in an impact [N s]. The velocity of side 2 relative to side 1
-     * after the impact is H impulse + v.
+     * after the impact is H impulse + v. Called for closed pairs. If is_tangentially_tied() is true, it is also
+     * called for open pairs, with @p active 0.
      * @param H inverse mass of the pair [1/kg]
      * @param v velocity of side 2 relative to side 1 without the impulse [m/s]
      * @param history data of the pair
@@ -153,7 +156,8 @@ namespace Voussoir
      * @param force force of the accepted solution [N]
      * @param gap gap of the accepted solution [m]
      * @param history data of the pair
-     * @param memory on entry the values of history.memory, on return those for the next step */
+     * @param memory history variables, changed in place. history.memory points to the same array: read the old
+     * values before you write. */
     virtual void commit(const Vector3 &force, const Vector3 &gap, const PairHistory &history,
                         double *memory) const;
 

@@ -133,9 +133,10 @@ namespace Voussoir
      * support(). */
     virtual double strain_at_start() const { return 0.; }
 
-    /** Returns the support of the base nodes, or nullptr if the dam is not coupled by a support. The
-     * foundation owns the support. Marks the base nodes as interface nodes of their bodies. Must be called
-     * after Neighbour::start() and before the Newmark object of the dam is created. */
+    /** Returns the support of the base nodes, or nullptr if the dam is not coupled by a support
+     * (Support: massless or subcycled rock). The foundation owns the support. Marks the base nodes as
+     * interface nodes of their bodies. Must be called after Neighbour::start() and before the Newmark object
+     * of the dam is created. */
     virtual Support *support(Structure & /*structure*/) { return nullptr; }
 
     /** Returns the mean predicted velocity of the base nodes at the end of the time step: components x, y, z
@@ -249,10 +250,12 @@ namespace Voussoir
    * Order of the calls:
    *  1. assembly of the dam: base(), add_stiffness(), add_mass(),
    *  2. before the run: delay(), check(), report(), about_steps(),
-   *  3. static state: static_springs(), static_base(), and solve_static() for each load stage,
+   *  3. static state: static_springs(), static_base(), and solve_static() for each static step, again
+   *     while water enters joints,
    *  4. start of the dynamic analysis: start(), support(), monitor(),
    *  5. time step: advance(), base_velocity(), Newmark::advance(), update_from_dam(),
-   *  6. after the time step: energies(), NeighbourMonitor. */
+   *  6. after the time step: energies(), NeighbourMonitor,
+   *  7. checkpoint: gather_on_root(), state(); end of the run: add_to_summary(), report_balance(). */
   class Foundation : public FoundationSetup, public BaseSupport, public Neighbour
   {
   };

@@ -20,7 +20,9 @@ namespace Voussoir
    * in the order of BaseElimination::Nodes. */
   struct BaseOfStep
   {
-    Unknowns displacement; ///< displacement of the base nodes without forces on them [m]; empty: zero
+    /** Displacement that the support alone would give the base nodes, with no force between dam and support
+     * [m]; empty: zero. */
+    Unknowns displacement;
 
     /** Forces of the support on the base nodes in the solution [N]. They are means over the step if the joint
      * forces are means (StepOperator::has_mean_forces()). */
@@ -28,8 +30,9 @@ namespace Voussoir
   };
 
   /** Bodies, condensed to their interfaces, and the joints between them, for the operator A of a step. G is
-   * the matrix of all jumps (Structure::jump()). The class solves A u = load + share G^T force (StepOperator)
-   * and gap = G u + offset, where the joint laws relate force and gap. */
+   * the matrix of all jumps (Structure::jump()). The class solves A u = load + share G^T force and
+   * gap = G u + offset, where the joint laws relate force and gap. The share is 1 for forces at the end of the
+   * step, and 2 for means over it (StepOperator). */
   class JointSystem
   {
   public:
@@ -59,11 +62,12 @@ namespace Voussoir
      * @param start gap at the start of the step, three values per pair [m]
      * @param memory history variables before the step; receives the events of the step
      * @param force initial guess; receives the joint forces on side 2, three values per pair [N]. In a static
-     * system, zeros mean that there is no guess.
+     * system with zeros, the solver computes a guess that keeps all gaps closed, except with the method
+     * "sweeps".
      * @param gap receives the gaps, three values per pair [m]
      * @param u receives the displacements, three values per node [m]
-     * @param base displacement of the base nodes without forces; receives the forces of the support. nullptr:
-     * no support, or zero displacement
+     * @param base displacement that the support alone would give the base nodes (BaseOfStep); receives the
+     * forces of the support. nullptr: no support, or zero displacement
      *
      * Returns convergence and costs. If ContactResult::converged is false, the results are those of the best
      * iterate. The history variables of the laws are not updated: call commit() if the step is accepted. */
@@ -99,7 +103,9 @@ namespace Voussoir
     }
 
     /** Returns the friction energy of a step plus the work of the joint forces along the joints [J], see
-     * PairLaws::friction_correction(). The arguments are those of commit(). Call it before commit(). */
+     * PairLaws::friction_correction(). It is zero for flat faces. With shear keys it is the part of the
+     * friction energy that the work of the pair force does not contain. The arguments are those of commit().
+     * Call it before commit(). */
     double friction_correction(const Unknowns &start, const Unknowns &force, const Unknowns &gap,
                                const Unknowns &memory) const
     {
@@ -116,9 +122,10 @@ namespace Voussoir
     /** Returns the active surfaces of the pairs in the last solution, see PairEquations::active. */
     const std::vector<unsigned char> &active_surfaces() const { return solver->active_surfaces(); }
     /** Returns the memory consumption of factors and joint operator on this rank [bytes]. */
-    double memory() const;
+    double memory_consumption() const;
     /** Returns the operator W of the contact problem gap = W force + b [m/N]. With a support, the base nodes
-     * are eliminated from W. */
+     * are eliminated from W. With several ranks it holds only the blocks in the rows and columns of the joints
+     * of this rank. */
     const InterfaceOperator &joint_operator() const { return W; }
 
     SystemTimes times; ///< wall-clock times of solve() since the construction
