@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a solution took (ContactResult): of the solver alone, of a joint system, and of time steps that are
-// halved.
+// Costs and results of contact problems (ContactResult): of the solver alone, of a joint system, and of reduced
+// time steps.
 
 #include "blocks.h"
 
@@ -74,7 +74,7 @@ namespace
     report("one of them not converged", a.converged, "0", !a.converged);
   }
 
-  /** Strongly coupled contacts: the sweeps say which way the solver went. */
+  /** Strongly coupled contacts: the number of Gauss-Seidel iterations shows which stages the solver used. */
   void test_solver()
   {
     const auto         law = make_joint_law("FJA", 3.);
@@ -217,9 +217,9 @@ namespace
                    "joint 1 at (0, 0, 0) m.") != std::string::npos);
   }
 
-  /** Pulled along the wall by a load that grows from 0: between the ends of a halved step the load is linear,
-   * so that its impulse is exact, A dt/2 per mass, and the path is the trapezoidal rule's for a(t) = A t/dt.
-   */
+  /** A load that grows from 0 pulls the block along the wall. The load is linear between the ends of a reduced
+   * time step. Its impulse is exact, A dt/2 per mass. The path is that of the trapezoidal rule for
+   * a(t) = A t/dt. */
   void test_load()
   {
     constexpr double A = 100.;
@@ -248,7 +248,7 @@ namespace
     }
   }
 
-  /** Feet that give way to every force, on a support that makes five steps in each of the block. */
+  /** A compliant support that makes five steps in each step of the block. */
   class Soft : public Support
   {
   public:
@@ -304,7 +304,7 @@ namespace
     }
   }
 
-  /** The block slides on the wall: states and impulses of a step that was halved are those of both halves. */
+  /** The block slides on the wall. States and impulses of a divided time step are those of both reduced steps. */
   void test_impulse()
   {
     const double push = 1e4;

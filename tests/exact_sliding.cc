@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Curved sliding against an exact solution: a block that a rotating force drives around a circle.
+// Sliding along a curve against an exact solution: a rotating force drives a block around a circle.
 //
-// On the circle r (cos wt, sin wt) = r e_r a block of mass m has the acceleration -w^2 r e_r, and the
-// friction -mu N e_t, e_t = (-sin wt, cos wt) being the direction of its slip. So the tangential force that
-// keeps it there is
-//     F = -m w^2 r e_r + mu N e_t,
-// with any normal force N(t) > 0; for constant N it is a force of constant size that rotates. Friction damps
-// what is added to the velocity, so that neighbouring paths come closer. Work of friction: mu r w times the
-// integral of N.
+// On the circle r (cos wt, sin wt) = r e_r a block of mass m has the acceleration -w^2 r e_r. The direction of
+// its slip is e_t = (-sin wt, cos wt), and the friction is -mu N e_t with any normal force N(t) > 0. The
+// tangential force that keeps the block on the circle is therefore
+//     F = -m w^2 r e_r + mu N e_t.
+// For constant N this force has a constant size and rotates. Friction damps other velocities, so neighbouring
+// paths approach each other. The work of friction is mu r w times the integral of N.
 
 #include "column.h"
 
@@ -17,6 +16,15 @@ using namespace Columns;
 
 namespace
 {
+  /** Returns a node of 1 kg with one contact pair, at a wall with the normal x. */
+  Column block_at_wall()
+  {
+    Column column = make_column({bar(0., 1., 1, 1e-9, 1.)}, nullptr, true);
+    column.structure.pairs.push_back(wall(column.node[0][0]));
+    column.structure.collect_interfaces();
+    return column;
+  }
+
   constexpr double mu = .5, w = 2. * pi * 2., duration = 1.; // two turns
 
   struct Circle
@@ -42,10 +50,7 @@ namespace
 
   Errors slide(const Circle &circle, const double dt, const ImpactRule rule)
   {
-    // One node of 1 kg at a wall with the normal x.
-    Column column = make_column({bar(0., 1., 1, 1e-9, 1.)}, nullptr, true);
-    column.structure.pairs.push_back(wall(column.node[0][0]));
-    column.structure.collect_interfaces();
+    const Column    column = block_at_wall();
     const JointLaws laws = make_laws(column.structure, "FJA", mu);
     Newmark         newmark(column.structure, laws, tight(), dt, rule);
     const double    r = circle.r, speed = w * r;
@@ -154,16 +159,14 @@ namespace
     const std::unique_ptr<JointLaw> faces[2] = {make_joint_law("FJA", fresh), make_joint_law("FJA", worn)};
   };
 
-  /** A law of one's own that needs the means of a step: the message does not name another law. */
+  /** The user's law requires mean forces. The message must not name another law. */
   void test_law_that_needs_means()
   {
     struct Needing : Wearing
     {
       bool needs_mean_force() const override { return true; }
     };
-    Column column = make_column({bar(0., 1., 1, 1e-9, 1.)}, nullptr, true);
-    column.structure.pairs.push_back(wall(column.node[0][0]));
-    column.structure.collect_interfaces();
+    const Column  column = block_at_wall();
     const Needing law;
     JointLaws     laws;
     laws.add(&law, 1.);
@@ -185,9 +188,7 @@ namespace
   /** A saved state must have the history variables of the laws. */
   void test_saved_history()
   {
-    Column column = make_column({bar(0., 1., 1, 1e-9, 1.)}, nullptr, true);
-    column.structure.pairs.push_back(wall(column.node[0][0]));
-    column.structure.collect_interfaces();
+    const Column  column = block_at_wall();
     const Wearing law;
     JointLaws     laws;
     laws.add(&law, 1.);
@@ -204,13 +205,12 @@ namespace
     throws("saved state without history variables", resume, {"has 0", "have 1"});
   }
 
-  /** A block of 1 kg is thrown at a wall with 1 m/s normal to it and 2 m/s along it, and loses the friction
-   *  times 1 m/s: that of its history before the step of the impact. */
+  /** A block of 1 kg hits a wall with a velocity of 1 m/s normal to the wall and 2 m/s along it. The velocity
+   * along the wall decreases by the coefficient of friction times 1 m/s. The coefficient is that of the
+   * history before the impact. */
   void test_history_at_impact()
   {
-    Column column = make_column({bar(0., 1., 1, 1e-9, 1.)}, nullptr, true);
-    column.structure.pairs.push_back(wall(column.node[0][0]));
-    column.structure.collect_interfaces();
+    const Column  column = block_at_wall();
     const Wearing law;
     JointLaws     laws;
     laws.add(&law, column.structure.pairs[0].area);

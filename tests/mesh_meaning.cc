@@ -15,9 +15,8 @@ using namespace MeshTesting;
 
 namespace
 {
-  /** An upright arch of @p n cells along, one through and one up, 10 m high: nodes on the circles of radius
-   * 40 m (upstream) and 30 m around the origin, from 135 to 225 degrees turned so that upstream looks along
-   * -x. */
+  /** Returns an upright arch, 10 m high, with @p n cells along, one through and one up. The nodes are on
+   * circles of radius 40 m (upstream) and 30 m around the origin. The upstream face looks along -x. */
   HexMesh arch(const unsigned int n)
   {
     HexMesh mesh;
@@ -49,7 +48,7 @@ namespace
     check_axes_and_units(mesh, parameters, "some.msh");
   }
 
-  /** As if read from a file whose coordinates are these functions of ours. */
+  /** Returns the arch as a file with other axes or units has it. @p to: coordinates in the file. */
   HexMesh moved(const std::function<std::array<double, 3>(const std::array<double, 3> &)> &to)
   {
     HexMesh mesh = arch(8);
@@ -183,7 +182,7 @@ namespace
     expect_error([] { named({"2 3 \"donwstream\""}, 1, 2, 3); },
                  {"'donwstream'", "Did you mean 'downstream'?"});
     expect_error([] { named({"3 3 \"monolth 7\""}, 1, 3, 3); }, {"Did you mean 'monolith 7'?"});
-    // An id counts for a group without a name, but not beside a group with the name that it stands for.
+    // An id counts for a group without a name, but not beside a group with the name of this id.
     expect_error([] { named({"3 5 \"monolith 1\""}, 5, 1, 1); }, {"'monolith 1'", "no name", "both"});
     HexMesh mesh = named({"3 5 \"Monolith_1\""}, 5, 2, 1);
     expect(mesh.cells[0].volume == 1 && mesh.cells[1].volume == 2 && mesh.faces[0].surface == 1,
@@ -234,7 +233,7 @@ namespace
           if (off == 0. || (t > .2 && t < .8))
             expect_at(corner(j) + t * along + off * normal, (j + t - 4.) * side, "side " + std::to_string(j));
       }
-    for (const double beyond : {.5, 3.}) // the end sides go on
+    for (const double beyond : {.5, 3.}) // the end sides continue
     {
       expect_at(corner(0) + beyond * (corner(0) - corner(1)), (-4. - beyond) * side, "beyond the right end");
       expect_at(corner(8) + beyond * (corner(8) - corner(7)), (4. + beyond) * side, "beyond the left end");

@@ -97,8 +97,8 @@ namespace
       expect_close(sum(inertia[d])[d], -total[4 * d], 1e-12, "inertia, water included");
   }
 
-  /** The added mass of a wall whose water line lies between nodes: its total and its moment, in masses of the
-   * nodes that are positive; at the nodes alone it is 7/8 rho sqrt(H h) by their areas. */
+  /** The water level of a wall lies between nodes. Total and moment of the added mass are exact, and the mass of
+   * each node is positive. With the formula at the nodes, the mass is 7/8 rho sqrt(H h) times the area. */
   void wet_mass()
   {
     for (const unsigned int degree : {1, 2})
@@ -169,7 +169,7 @@ namespace
                      "added mass by the local depth over that by the global one");
         ++n;
       }
-    expect(n == 30, "nodes under water"); // all but the crest's
+    expect(n == 30, "nodes under water"); // all except those of the crest
   }
 
   // Elements and stresses
@@ -280,8 +280,8 @@ namespace
     }
   }
 
-  /** A rectangular key pushed against its flank by 1, pulled out of it and along it: the flank's own friction
-   *  holds it, where the face is open. */
+  /** A rectangular key is pressed against its flank by 1 and pulled out of it and along it. The friction of the
+   * flank holds the key while the face is open. */
   void flanks()
   {
     KeyParameters keys;
@@ -354,8 +354,8 @@ namespace
     return mesh;
   }
 
-  /** Where a joint ends at the crown, the crown belongs to the monolith towards the right bank; of two nodes
-   * at equal distances from the middle it is the one towards the right bank. */
+  /** If a joint ends at the crown, the crown belongs to the monolith towards the right bank. Of two nodes at
+   * equal distances from the middle, the crown is the node towards the right bank. */
   void crown_without_round_off()
   {
     for (const bool reversed : {false, true})
@@ -474,8 +474,8 @@ namespace
     }
   }
 
-  /** Masses of 1 kg in a row between two walls. K = tridiag(-c, 2 c, -c), with another c [N/m] for each axis. An iteration that
-   * is stopped too early is an error. */
+  /** Masses of 1 kg in a row between two walls: K = tridiag(-c, 2 c, -c), with another c [N/m] for each axis.
+   * Too few iterations are an error. */
   void modes_of_chain()
   {
     constexpr unsigned int                 n = 40;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The checks of all C++ tests. Those of a value (below, above, between, throws) print it and go on; those of
-// a condition (expect...) end the test that they are in. Not a number fails all of them.
+// The checks of all C++ tests. Checks of a value (below, above, between, throws) print the value and continue.
+// Checks of a condition (expect...) end their test. A value that is not a number fails each check.
 
 #ifndef voussoir_tests_testing_h
 #define voussoir_tests_testing_h
@@ -22,7 +22,7 @@ namespace Testing
 {
   constexpr double pi = 3.14159265358979323846;
 
-  /** What was checked so far. */
+  /** Numbers of checks, failures and skipped tests so far. */
   struct Count
   {
     unsigned int checks = 0, failures = 0, skipped = 0; ///< skipped: tests of parts that are not built
@@ -67,7 +67,7 @@ namespace Testing
     report(what, value, "[" + text(low) + ", " + text(high) + "]", value >= low && value <= high);
   }
 
-  /** A value that is known to miss its limit: both are shown, and the run goes on. */
+  /** Prints a value that is known to miss its limit, and the limit. The test continues. */
   inline void missed(const std::string &what, const double value, const double limit)
   {
     report(what, value, "< " + text(limit) + (std::abs(value) < limit ? "" : " MISSED (known)"), true);
@@ -104,8 +104,8 @@ namespace Testing
     expect_within(value, expected, relative * std::abs(expected), what);
   }
 
-  /** What is wrong, if @p action does not throw an Error whose text holds all of @p words; else nothing. The
-   * text is left in @p message. */
+  /** Returns an empty string if @p action throws an Error whose text contains all of @p words, otherwise the
+   * reason of the failure. @p message receives the text of the Error. */
   template <class Error>
   std::string wrong_error(const std::function<void()> &action, const std::vector<std::string> &words,
                           std::string &message)
@@ -138,7 +138,7 @@ namespace Testing
     expect(wrong.empty(), wrong);
   }
 
-  /** The same; prints the message and goes on. */
+  /** The same; prints the message and continues. */
   template <class Error = Voussoir::InputError>
   void throws(const std::string &what, const std::function<void()> &action,
               const std::vector<std::string> &words)

@@ -21,9 +21,9 @@ namespace Voussoir
   Vector3 free_mass(const Structure &structure);
 
   /** Returns the @p n_modes lowest modes of a structure without pairs, by ascending frequency. Solves
-   * K phi = omega^2 M phi by inverse iteration with ARPACK, on one MPI process. Throws InputError if the
-   * structure has too few unknowns, and ComputationError if the iteration does not converge within
-   * @p max_iterations restarts. */
+   * K phi = omega^2 M phi by inverse iteration with ARPACK, on one MPI process. Of frequencies that are exactly
+   * equal, some may be missing. Throws InputError if the structure has too few unknowns, and ComputationError
+   * if the iteration does not converge within @p max_iterations restarts. */
   std::vector<NaturalMode> natural_modes(const Structure &structure, unsigned int n_modes,
                                          unsigned int max_iterations = 1000);
 } // namespace Voussoir
