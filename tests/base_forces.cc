@@ -154,7 +154,7 @@ namespace
     for (unsigned int k = 0; k <= n; ++k)
       motion.acceleration.push_back(
           {{2. * std::sin(17. * k * dt), std::cos(23. * k * dt), std::sin(29. * k * dt)}});
-    const TimeGrid grid{dt, scene.foundation.substeps, n};
+    const TimeGrid grid{dt, scene.foundation.n_substeps(), n};
     const Unknowns zero(3 * dam.structure.n_nodes(), 0.), none(3 * dam.structure.pairs.size(), 0.);
     Unknowns       steady = zero;
     for (const StaticLoad &load : dam.loads)

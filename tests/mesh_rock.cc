@@ -176,7 +176,7 @@ namespace
 
     // The layers upstream are the prism over the section's polygon.
     double     polygon = width * (top - box.first[2]);
-    const auto valley = arch210_valley(p.arch210);
+    const auto valley = arch_valley(arch210_shape(), p.arch210);
     for (std::size_t c = 1; c < valley.size(); ++c)
       polygon -= (top - 0.5 * (valley[c][1] + valley[c - 1][1])) * (valley[c][0] - valley[c - 1][0]);
     HexMesh layers = mesh;
@@ -405,7 +405,7 @@ namespace
 
   void test_bad_parameters()
   {
-    const auto bad = [](const std::function<void(Arch210RockParameters &)> &spoil, const std::string &part)
+    const auto bad = [](const std::function<void(ArchRockParameters &)> &spoil, const std::string &part)
     {
       MeshParameters p = parameters(5, 12, 4, 1);
       spoil(p.arch210_rock);

@@ -115,7 +115,7 @@ def on_rock():
     """Rock of finer elements, whose critical time step is smaller, is run with as many sub-steps as the program asks for."""
     write_scene()
     rock = [word for entry in ("Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
-                               "Dynamics/Steps per sample=4") for word in ("--set", entry)]
+                               "Dynamics/Steps per sample=4", "Foundation/Substeps=1") for word in ("--set", entry)]
     text = runs("accuracy", "scene.prm", *rock, "--seconds", "0.1", "--output", "out", "--for", "500%")
     runs_of = {p.parent.name: json.loads(p.read_text())["changes"] for p in Path("out/runs").glob("*/digest.json")}
     finer = [changes for changes in runs_of.values() if changes.get("Foundation/Substeps", 1) > 1]
@@ -138,6 +138,15 @@ def maths():
     for degree, subdivided, names in (("1", "false", "degree"), ("2", "false", "mesh"), ("2", "true", None)):  # of a mesh from a file
         found = [c.name for c in accuracy.choices_of({**entries, "Elements/Degree": degree, "Mesh/Subdivide": subdivided})]
         expect(found == ["time step", names][:1 + bool(names)], f"degree {degree}, Subdivide = {subdivided}: {found}")
+    Path("arcs.csv").write_text("# arcs\nelevation,upstream_x\n400,0\n300,1\n", encoding="utf-8")
+    arcs = {"Mesh/Source": "arcs", "Mesh/Arcs/Joints": "7", "Mesh/Arcs/Elements along": "17", "Mesh/Arcs/Elements up": "4",
+            "Mesh/Arcs/Elements through": "1", "Mesh/Arcs/Rock/Element size": "0", "Mesh/Arcs/Table": "arcs.csv",
+            "Foundation/Model": "massless", "Dynamics/Steps per sample": "1"}
+    found = {c.name: c.levels for c in accuracy.choices_of(arcs)}
+    expect([level["Mesh/Arcs/Elements along"] for level in found["along"]] == [24, 40, 48], f"{found}")
+    expect(abs(found["rock size"][0]["Mesh/Arcs/Rock/Element size"] - 100 * 22 / 210) < 1e-9, f"{found}")
+    found = [c.name for c in accuracy.choices_of({**arcs, "Mesh/Arcs/Rows": "0.5", "Mesh/Arcs/Joint chainages": "10, 20", "Foundation/Model": "rigid"})]
+    expect(found == ["time step", "along", "through"], f"{found}")
     for values, bound in (((0., 1., 3.), 1.), ((0., 100., 101.), 4.)):  # beyond the bounds: no fit
         choice = accuracy.Choice("x", [{}] * 3, [1, 1 / 2, 1 / 4], 0)
         choice.fit([np.array([value]) for value in values])

@@ -176,63 +176,6 @@ def films():
         expect(result.returncode == 0 and result.stdout.startswith(f"{pictures} pictures, {seconds:.1f} s -> film.gif"), f"{options}: {result}")
 
 
-def arcs():
-    """The mesher's functions: slopes by Fritsch and Butland, volumes and Jacobians of cubes, graded lengths."""
-    import numpy as np
-    from voussoir.arch_from_table import monotone, n_columns, smallest_jacobian, volume_of
-    from voussoir.arch_rock import graded
-    # Slopes 1 and 1/2 on steps 1 and 2: (3 + 6) / (5 / 1 + 4 / (1/2)) at the middle; at the ends by three points 7/6 and 1/6.
-    curve = monotone(np.array([0., 1., 3.]), np.array([0., 1., 2.]))
-    for at, slope in ((0., 7. / 6.), (1., 9. / 13.), (3., 1. / 6.)):
-        step = 1e-6
-        inward = step if at < 3. else -step
-        found = (float(curve(at + inward)) - float(curve(at))) / inward
-        expect(abs(found - slope) < 1e-5, f"slope {found} at {at}, not {slope}")
-    for at, value in ((0., 0.), (1., 1.), (3., 2.)):
-        expect(abs(float(curve(at)) - value) < 1e-12, f"{curve(at)} at {at}")
-    flat = monotone(np.array([0., 1., 2.]), np.array([0., 1., 0.]))  # a peak at a point of the table
-    expect(max(float(flat(at)) for at in np.linspace(0., 2., 101)) <= 1. + 1e-12, "a curve above its points")
-    equal([n_columns(3, along) for along in (40, 41, 1)], [40, 44, 4], "columns of four monoliths")
-    cube = np.array([[x, y, z] for z in (0, 2) for x, y in ((0, 0), (3, 0), (3, 4), (0, 4))], dtype=float)
-    close(volume_of(cube, [(1, list(range(8)))]), 24., 1e-12, "volume of a box")
-    close(smallest_jacobian(cube, [(1, list(range(8)))]), 1., 1e-12, "Jacobian of a box")
-    sheared = cube + np.array([1., 0., 0.]) * (cube[:, 1:2] > 0.) * 3.  # edges (3, 0) and (3, 4): the sine of their angle is 4/5
-    close(smallest_jacobian(sheared, [(1, list(range(8)))]), .8, 1e-12, "Jacobian of a sheared box")
-    expect(smallest_jacobian(cube, [(1, [1, 0, *range(2, 8)])]) < 0., "a folded box")
-    places = graded(1., 15., 4)  # 1 + 2 + 4 + 8
-    expect(np.allclose(places, [0., 1., 3., 7., 15.]), f"{places}")
-    expect(np.allclose(graded(5., 12., 4), [0., 3., 6., 9., 12.]), "equal steps")
-    columns_and_rock(np)
-
-
-def columns_and_rock(np):
-    """Radii that shrink downwards: columns stay in vertical planes normal to the crest, abutments are where the table has them; the
-    artificial boundary of the rock is its outer box but for the top, the free surface is inside of it."""
-    from voussoir.arch_from_table import Dam, build, read_table
-    from voussoir.arch_rock import add_rock
-    Path("radii.csv").write_text("elevation,upstream_x,upstream_radius,thickness,downstream_radius,right_angle,left_angle\n"
-                                 "285,-2,74,22,50,22,20\n345,-8,112,15,95,43,40\n405,0,150,6,144,51,48\n")
-    dam = Dam(read_table("radii.csv"))
-    for crest in (-.8, -.3, .2, .7):
-        foot = dam.foot(crest, 5.)
-        for z in (foot, .5 * (foot + 405), 405):
-            x, y, _ = dam.place(crest, z, 0.)
-            expect(abs((x - 150.) * math.sin(crest) + y * math.cos(crest)) < 1e-9, f"the column {crest} leans at {z} m: {x} {y}")
-        bound = math.radians(float(dam.at["left_angle" if crest > 0 else "right_angle"](foot)))
-        expect(foot == 285. or abs(abs(dam.on_arc(crest, foot)) - bound) < 2e-9, f"the foot of {crest} at {foot} m")
-    nodes, cells, sides = add_rock(*build(dam, 1, 8, 2, 1, 5.), (-1, 3, 2), 120.)
-    low, high = nodes.min(axis=0), nodes.max(axis=0)
-    count = {5: 0, 6: 0}
-    for group, quad in sides:
-        if group in count:
-            corners = nodes[quad]
-            outer = np.ptp(corners[:, :2], axis=0).min() < 1e-6 and (abs(corners - low) < 1e-6).all(axis=0)[:2].any() or \
-                (abs(corners - high) < 1e-6).all(axis=0)[:2].any() or (abs(corners[:, 2] - low[2]) < 1e-6).all()
-            equal(outer, group == 6, f"a face of group {group} at {corners.mean(axis=0)} is on the outer box")
-            count[group] += 1
-    expect(min(count.values()) > 100 and len(cells) > 1000, f"{count}")
-
-
 def studies():
     """What a study says in units and lists."""
     from voussoir.errors import InputError
@@ -293,4 +236,4 @@ def zones():
 
 
 if __name__ == "__main__":
-    run_cases(numbers, tables, results, shapes, films, arcs, studies, zones)
+    run_cases(numbers, tables, results, shapes, films, studies, zones)

@@ -354,7 +354,10 @@ def meshes():
     with_rock = ["--set", "Mesh/Arch210/Rock/Enabled=true"]
     runs("mesh", "scene.prm", "--output", "with_rock.msh", *with_rock)
     refused(["scene.prm", "--validate", *from_file("with_rock.msh")], "rock", "Foundation/Model")
-    refused(["scene.prm", "--validate", "--set", "Foundation/Model=rock"], "Mesh/Arch210/Rock/Enabled")
+    runs("mesh", "scene.prm", "--output", "without_rock.msh")
+    refused(["scene.prm", "--validate", *from_file("without_rock.msh"), "--set", "Foundation/Model=rock"], "has no rock", "rigid")
+    implied = runs("scene.prm", "--validate", "--set", "Foundation/Model=massless", "--set", "Mesh/Arch210/Rock/Element size=60")
+    expect("rock 1000" in implied, f"rock without Rock/Enabled: {implied}")
 
 
 def motions():
@@ -551,7 +554,7 @@ def rock():
                 "--set", "Dynamics/Steps per sample=5", "--set", "Output/Checkpoint interval=60"]
     critical = float(re.search(r"critical time step of the rock (\S+) s", runs("scene.prm", "--validate", *settings))[1])
     expect(.002 < critical < .01, f"critical time step {critical} s")
-    refused(["scene.prm", "--output", "large", *settings, "--set", "Dynamics/Steps per sample=1"], "critical", "time step")
+    refused(["scene.prm", "--output", "large", *settings, "--set", "Dynamics/Steps per sample=1", "--set", "Foundation/Substeps=1"], "critical", "time step")
     runs("scene.prm", "--output", "built_in", *settings)
     result = summary("built_in")
     expect(result["energy_balance_error"] < 1e-7, f"energy balance {result['energy_balance_error']}")
@@ -648,8 +651,6 @@ def foundations():
     """Other foundations than the default rock: massless, without shaking, sub-steps, boundaries by name."""
     write_scene()
     rock = ["--set", "Mesh/Arch210/Rock/Enabled=true", "--set", "Mesh/Arch210/Rock/Element size=60"]
-    refused(["scene.prm", "--output", "none", "--set", "Foundation/Model=massless"], "no rock",
-            "Mesh/Arch210/Rock/Enabled")
 
     def first_mode(*settings):
         result = voussoir("modes", "scene.prm", "--count", "1", *rock, *settings)  # warns of rock that stiff
@@ -693,7 +694,15 @@ def foundations():
     print("    crest, largest less smallest [mm]:", {k: round(1e3 * v, 1) for k, v in amplitude.items()})
     for name, x in amplitude.items():
         expect(abs(x / amplitude["fine"] - 1) < (.5 if name == "fixed" else .1), f"amplitude with {name}: {amplitude}")
-    refused(["scene.prm", "--output", "none", *shaking], "critical", "Foundation/Substeps")
+    refused(["scene.prm", "--output", "none", *shaking, "--set", "Foundation/Substeps=1"], "critical", "Foundation/Substeps")
+    refused(["scene.prm", "--output", "none", *shaking, "--set", "Dynamics/Impact=none"], "critical", "Foundation/Substeps")
+    # Without the entry, the rock has as many steps as its critical time step requires.
+    runs("scene.prm", "--output", "automatic", *shaking)
+    steps = int(re.search(r"(\d+) rock steps in each step of the dam", Path("automatic/log.txt").read_text())[1])
+    expect(steps > 1, f"{steps} rock steps")
+    runs("scene.prm", "--output", "given", *shaking, "--set", f"Foundation/Substeps={steps}")
+    same("automatic", "given", 0., ("history", "energy"))
+    refused(["scene.prm", "--output", "none", *shaking, "--set", f"Foundation/Substeps={steps - 1}"], "critical")
     refused(["modes", "scene.prm", *rock, "--set", "Foundation/Model=rock"], "massless")
     refused(["scene.prm", "--validate", *shaking, "--set", "Foundation/Substeps=4", "--set", "Foundation/Coupling=partition"],
             "removed", "mean traction")

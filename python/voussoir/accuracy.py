@@ -39,10 +39,9 @@ from .study_file import is_file_entry
 from .tables import read_table
 from .zone_tension import zone_means
 
-ALONG, UP, THROUGH = (f"Mesh/Arch210/Elements {way}" for way in ("along", "up", "through"))
 STEPS, SUBSTEPS, DEGREE = "Dynamics/Steps per sample", "Foundation/Substeps", "Elements/Degree"
 SUBDIVIDE = "Mesh/Subdivide"
-ROCK_SIZE = "Mesh/Arch210/Rock/Element size"
+ROCK_SHARE = 22 / 210  # default size of rock elements in a dam of arcs, as a share of the height
 TAPER = 0.2  # of the motion's beginning [s]
 RUNS = b"2"  # what this script reads of a run: those of another kind are made again
 FIRST, LAST = "base", "wish"  # names of the runs of the scene as it is, and of what is proposed
@@ -83,23 +82,41 @@ def solve_order(quotient, coarse, fine):
     return low
 
 
-def choices_of(entries):
-    """Choices that can be refined in a scene, with the present level."""
+def n_monoliths(entries, section):
+    """Number of monoliths of a generated dam."""
+    chainages = entries.get(section + "Joint chainages", "")
+    return 1 + (len(chainages.split(",")) if chainages else int(entries[section + "Joints"]))
+
+
+def height_of(table):
+    """Height of the dam of a table of arcs [m]."""
+    with open(table, encoding="utf-8-sig") as file:
+        rows = list(csv.DictReader(line for line in file if line.strip() and not line.startswith("#")))
+    levels = [float(row["elevation"]) for row in rows]
+    return max(levels) - min(levels)
+
+
+def choices_of(entries, directory=Path(".")):
+    """Choices that can be refined in a scene, with the present level. directory: that of the scene."""
     result = []
     steps = int(entries[STEPS])
     on_rock = entries["Foundation/Model"] == "rock"
     counts = ([steps // 2] if steps % 2 == 0 and not on_rock else []) + [steps, 2 * steps] + ([] if on_rock else [4 * steps])
     result.append(Choice("time step", [{STEPS: n} for n in counts], [1 / n for n in counts], counts.index(steps)))
-    if entries["Mesh/Source"] == "arch210":
-        monoliths = int(entries["Mesh/Arch210/Joints"]) + 1
-        per_monolith = max(1, math.ceil(int(entries[ALONG]) / monoliths))
-        for name, entry, now, unit in (("along", ALONG, per_monolith, monoliths), ("up", UP, int(entries[UP]), 1),
-                                       ("through", THROUGH, int(entries[THROUGH]), 1)):
+    section = {"arch210": "Mesh/Arch210/", "arcs": "Mesh/Arcs/"}.get(entries["Mesh/Source"])
+    if section:
+        monoliths = n_monoliths(entries, section)
+        per_monolith = max(1, math.ceil(int(entries[section + "Elements along"]) / monoliths))
+        for name, now, unit in (("along", per_monolith, monoliths), ("up", int(entries[section + "Elements up"]), 1),
+                                ("through", int(entries[section + "Elements through"]), 1)):
+            if name == "up" and entries.get(section + "Rows"):
+                continue  # the rows are the user's
             numbers = [now, math.ceil(1.5 * now), max(2 * now, math.ceil(1.5 * now) + 1)]
-            result.append(Choice(name, [{entry: unit * n} for n in numbers], [1 / n for n in numbers], 0))
+            result.append(Choice(name, [{f"{section}Elements {name}": unit * n} for n in numbers], [1 / n for n in numbers], 0))
         if entries["Foundation/Model"] != "rigid":
-            size = float(entries[ROCK_SIZE])
-            result.append(Choice("rock size", [{ROCK_SIZE: s} for s in (size, round(size / 1.4, 3))], [1.4, 1], 0))
+            entry = section + "Rock/Element size"
+            size = float(entries[entry]) or ROCK_SHARE * height_of(directory / entries["Mesh/Arcs/Table"])
+            result.append(Choice("rock size", [{entry: s} for s in (size, round(size / 1.4, 3))], [1.4, 1], 0))
     elif int(entries[DEGREE]) == 1:
         result.append(Choice("degree", [{DEGREE: 1}, {DEGREE: 2}], [1, 0.5], 0, 3.0))
     elif entries[SUBDIVIDE] == "false":
@@ -285,7 +302,7 @@ def prepare(options, wish):
     common.update({"Motion/Source": "file", "Motion/File": motion, "Motion/File x": "", "Motion/File y": "", "Motion/File z": "",
                    "Motion/Unit": "m/s^2", "Motion/Duration": -1, "Motion/Factor": 1, "Motion/Scale x": 1, "Motion/Scale y": 1,
                    "Motion/Scale z": 1, "Output/Figures": "false", "Output/Solution interval": 0})
-    choices = choices_of(entries)
+    choices = choices_of(entries, Path(options.scene).parent)
     n_runs = 2 + sum(len(choice.levels) - 1 for choice in choices)
     print(f"{options.scene}: the strongest {part[-1, 0]:.4g} s, from {start:.4g} s on; {n_runs} runs; wish: {percent(wish)}")
     return choices, Ladder(Path(options.scene).resolve(), common, directory, n_runs), entries

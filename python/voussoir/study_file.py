@@ -214,8 +214,8 @@ def path_of(value, study):
 
 
 def is_file_entry(entry):
-    """Mesh/File, Motion/File, Motion/File x..., and the table of temperatures."""
-    return entry.split("/")[-1].split(" ")[0] == "File" or entry == "Loads/Temperature/Table"
+    """Mesh/File, Motion/File, Motion/File x..., and the tables of arcs and of temperatures."""
+    return entry.split("/")[-1].split(" ")[0] == "File" or entry in ("Mesh/Arcs/Table", "Loads/Temperature/Table")
 
 
 def read_study(path, overrides=()):

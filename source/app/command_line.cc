@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/config.h>
 
+#include <voussoir/app/arcs_command.h>
 #include <voussoir/app/command_line.h>
 #include <voussoir/app/command_options.h>
 #include <voussoir/app/contact_command.h>
@@ -93,7 +94,7 @@ namespace Voussoir
       const std::string format = arguments.value("--format", "4.1");
       if (format != "4.1" && format != "2.2")
         throw InputError("--format must be 4.1 or 2.2, not \"" + format + "\".");
-      const HexMesh mesh = make_mesh(scene.mesh, scene.directory);
+      const HexMesh mesh = scene.hex_mesh();
       check_axes_and_units(mesh, scene.mesh, scene.mesh.file);
       write_gmsh(mesh, arguments.value("--output"), format == "2.2" ? 2.2 : 4.1);
       print_mesh(mesh);
@@ -205,6 +206,8 @@ namespace Voussoir
                                                                          : help_about(arguments.command));
     else if (arguments.command == "parameters")
       print_parameters(arguments.words);
+    else if (arguments.command == "arcs")
+      write_scene_of_arcs(arguments);
     else if (arguments.command == "contact")
     {
       ContactOptions options;

@@ -323,7 +323,7 @@ namespace Voussoir
     try
     {
       return "There is not enough memory: this scene needs " +
-             in_words(memory_need(scene, make_mesh(scene.mesh, scene.directory))) +
+             in_words(memory_need(scene, scene.hex_mesh())) +
              ". Use fewer elements, or a computer with more memory.";
     }
     catch (const std::bad_alloc &)

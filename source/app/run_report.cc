@@ -53,9 +53,11 @@ namespace Voussoir
         if (const std::string warning = size_warning(report); !warning.empty())
           log.line("warning: %s", warning.c_str());
       }
-      if (scene.mesh.source == "arch210" && scene.mesh.arch210_rock.enabled && !dam.foundation->uses_rock())
-        log.line("warning: the rock of Mesh/Arch210/Rock is ignored: Foundation/Model is rigid. Set "
-                 "Foundation/Model to rock or massless, or Mesh/Arch210/Rock/Enabled to false.");
+      const ArchRockParameters *rock = scene.mesh.generated_rock();
+      if (rock != nullptr && rock->enabled && !dam.foundation->uses_rock())
+        log.line("warning: the rock of %s/Rock is ignored: Foundation/Model is rigid. Set "
+                 "Foundation/Model to rock or massless, or %s/Rock/Enabled to false.",
+                 scene.mesh.section().c_str(), scene.mesh.section().c_str());
       if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0. && !dam.has_water)
         log.line(
             "warning: the water does not reach the dam: Reservoir/Water level is %g m, below the upstream "
@@ -135,7 +137,7 @@ namespace Voussoir
       log.line("Unknowns  %u of the monoliths, %zu of the joints", 3 * n_nodes,
                3 * dam.structure.pairs.size());
       log.line("Steps     %u of %g s%s", run.n_steps, run.motion.dt, dam.foundation->about_steps().c_str());
-      log.line("Memory    %s", in_words(memory_need(scene, make_mesh(scene.mesh, scene.directory))).c_str());
+      log.line("Memory    %s", in_words(memory_need(scene, scene.hex_mesh())).c_str());
     }
   }
 

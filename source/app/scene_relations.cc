@@ -77,12 +77,11 @@ namespace Voussoir
 
     std::string level_of_another_dam(const Scene &scene, const std::vector<WrittenEntry> &entries)
     {
-      if (scene.mesh.source != "file" || scene.reservoir.density == 0. ||
+      if (scene.mesh.source == "arch210" || scene.reservoir.density == 0. ||
           is_written(entries, "Reservoir/Water level"))
         return "";
       std::ostringstream text;
-      text << "the mesh is from a file, and there is no Reservoir/Water level: it is "
-           << scene.reservoir.level
+      text << "the dam is not arch210, and there is no Reservoir/Water level: it is " << scene.reservoir.level
            << " m, the default for the dam arch210. Set the level of this dam, or set Reservoir/Density "
               "to 0.";
       return text.str();

@@ -20,7 +20,12 @@ namespace Voussoir
     }
     bool is_generated_without_joints(const Scene &scene)
     {
-      return is_arch210(scene) && scene.mesh.arch210.n_joints == 0;
+      return is_arch210(scene) ? scene.mesh.arch210.n_joints == 0
+                               : scene.mesh.source == "arcs" && scene.mesh.arcs.complete_grid().n_joints == 0;
+    }
+    bool needs_rock(const Scene &scene)
+    {
+      return foundation_reads(scene.foundation.model, "Foundation/Young's modulus");
     }
     bool all_tied(const Scene &scene)
     {
@@ -39,14 +44,25 @@ namespace Voussoir
 
     /** Entries without effect because of other choices. */
     const std::vector<IdleEntries> relations = {
-        {"Mesh/Source is file", [](const Scene &s) { return !is_arch210(s); }, {"Mesh/Arch210/"}},
-        {"Mesh/Source is arch210",
-         is_arch210,
+        {"Mesh/Source is not arch210", [](const Scene &s) { return !is_arch210(s); }, {"Mesh/Arch210/"}},
+        {"Mesh/Source is not arcs", [](const Scene &s) { return s.mesh.source != "arcs"; }, {"Mesh/Arcs/"}},
+        {"Mesh/Source is not file",
+         [](const Scene &s) { return s.mesh.source != "file"; },
          {"Mesh/File", "Mesh/Axes", "Mesh/Length unit", "Mesh/Subdivide"}},
-        {"Mesh/Arch210/Rock/Enabled is false",
-         [](const Scene &s) { return !s.mesh.arch210_rock.enabled; },
+        {"Mesh/Arch210/Rock/Enabled is false and the foundation is rigid",
+         [](const Scene &s) { return !s.mesh.arch210_rock.enabled && !needs_rock(s); },
          {"Mesh/Arch210/Rock/"},
          {"Mesh/Arch210/Rock/Enabled"}},
+        {"Mesh/Arcs/Rock/Enabled is false and the foundation is rigid",
+         [](const Scene &s) { return !s.mesh.arcs_rock.enabled && !needs_rock(s); },
+         {"Mesh/Arcs/Rock/"},
+         {"Mesh/Arcs/Rock/Enabled"}},
+        {"Mesh/Arcs/Joint chainages sets the joints",
+         [](const Scene &s) { return !s.mesh.arcs.grid.joint_places.empty(); },
+         {"Mesh/Arcs/Joints"}},
+        {"Mesh/Arcs/Rows sets the rows of elements",
+         [](const Scene &s) { return !s.mesh.arcs.grid.rows.empty(); },
+         {"Mesh/Arcs/Elements up"}},
         {"Elements/Degree is 2",
          [](const Scene &s) { return s.elements.degree == 2; },
          {"Elements/Incompatible modes"}},
@@ -56,7 +72,7 @@ namespace Voussoir
         {"Output/Block forces is false",
          [](const Scene &s) { return !s.output.block_forces; },
          {"Limits/Base friction", "Limits/Base cohesion"}},
-        {"the dam has no joints (Mesh/Arch210/Joints)",
+        {"the dam has no joints (Mesh/Arch210/Joints or Mesh/Arcs/Joints)",
          is_generated_without_joints,
          {"Joints/", "Loads/Uplift/Joints", "Contact/", "Dynamics/Impact"}},
         {"all joints are tied (Joints/Model, Joints/Overrides)",

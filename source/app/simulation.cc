@@ -82,6 +82,22 @@ namespace Voussoir
     Ranks::on_first([&] { run_directory.claim(options.resume, options.overwrite, inputs); });
   }
 
+  /** Creates the dam. If the input file leaves the number of rock steps open, and the critical time step of the rock
+   * requires several, the dam is created again with their number. */
+  void Simulation::make_dam()
+  {
+    state.dam = std::make_unique<Dam>(scene);
+    FoundationParameters &foundation = scene.foundation;
+    if (foundation.substeps > 0 || foundation.coupling != "auto" || scene.impact_rule != "mean-force" ||
+        state.n_steps == 0)
+      return;
+    foundation.substeps = state.dam->foundation->needed_substeps(state.motion.dt);
+    if (foundation.substeps == 1)
+      return;
+    state.dam.reset();
+    state.dam = std::make_unique<Dam>(scene);
+  }
+
   /** Reads the files of the scene and creates the dam. Throws InputError for invalid input. */
   void Simulation::read_input()
   {
@@ -90,7 +106,7 @@ namespace Voussoir
     unsigned int &n_steps = state.n_steps;
     motion = make_motion(scene.motion, scene.directory).refined(scene.steps_per_sample).scaled(factor);
     n_steps = scene.motion.source == "none" || factor == 0. ? 0 : motion.acceleration.size() - 1;
-    state.dam = std::make_unique<Dam>(scene);
+    make_dam();
     const Dam &dam = *state.dam;
     if (!scene.statics.stages.empty())
       StaticPath{*state.dam};                                // throws InputError for an invalid stage

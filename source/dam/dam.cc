@@ -60,8 +60,8 @@ namespace Voussoir
 
   Dam::Dam(const Scene &scene, const bool tie_all) : scene(scene)
   {
-    const HexMesh     mesh = make_mesh(scene.mesh, scene.directory);
-    const std::string source = scene.mesh.source == "file" ? scene.mesh.file : "arch210";
+    const HexMesh     mesh = scene.hex_mesh();
+    const std::string source = scene.mesh.name();
     check_axes_and_units(mesh, scene.mesh, source);
     groups = group_table(mesh);
     ungrouped = faces_without_group(mesh);
@@ -70,7 +70,8 @@ namespace Voussoir
     if (!tied || scene.statics.self_weight == "staged")
       check_base(opened, source);
     foundation = make_foundation({scene.foundation, mesh, source, scene.elements.degree,
-                                  scene.elements.incompatible_modes, is_one_body(scene, tied)});
+                                  scene.elements.incompatible_modes, is_one_body(scene, tied),
+                                  scene.mesh.source == "file" ? "" : scene.mesh.section()});
     neighbours = {foundation.get()};
     const auto listed = zone_materials(scene.concrete_zones, "Concrete/Zones");
     materials = materials_of(mesh.zones, scene.concrete, listed);

@@ -6,6 +6,7 @@
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/scene.h>
 #include <voussoir/dynamics/newmark.h>
+#include <voussoir/foundation/foundation_names.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -268,6 +269,14 @@ namespace Voussoir
     output.add_parameters(prm);
   }
 
+  HexMesh Scene::hex_mesh() const
+  {
+    MeshParameters parameters = mesh;
+    if (foundation_reads(foundation.model, "Foundation/Young's modulus"))
+      parameters.arch210_rock.enabled = parameters.arcs_rock.enabled = true;
+    return make_mesh(parameters, directory);
+  }
+
   std::vector<std::pair<std::string, std::string>> Scene::input_files() const
   {
     std::vector<std::pair<std::string, std::string>> files;
@@ -278,6 +287,8 @@ namespace Voussoir
     };
     if (mesh.source == "file")
       add("Mesh/File", mesh.file);
+    if (mesh.source == "arcs")
+      add("Mesh/Arcs/Table", mesh.arcs.table);
     add("Loads/Temperature/Table", loads.temperature.table);
     if (motion.source == "file")
     {

@@ -36,7 +36,7 @@ namespace Voussoir
 
   ExplicitRock::ExplicitRock(const FoundationSite &site)
       : parameters(site.parameters), mesh(site.parameters.volumes_by_material(site.mesh)),
-        source(site.source), incompatible_modes(site.incompatible_modes)
+        source(site.source), generated_in(site.generated_in), incompatible_modes(site.incompatible_modes)
   {
     if (site.degree != 1)
       throw InputError("Foundation/Model = rock requires Elements/Degree = 1, not " +
@@ -47,7 +47,7 @@ namespace Voussoir
 
   void ExplicitRock::add_stiffness(const SolidModel &dam, Structure &)
   {
-    check_boundary_layers(parameters, mesh, source);
+    check_boundary_layers(parameters, mesh, source, generated_in);
     unsigned int count = 0;
     for (unsigned int i = 0; i < dam.n_nodes(); ++i)
       if (dam.on_surface(i, PhysicalId::base))
@@ -65,7 +65,7 @@ namespace Voussoir
     };
     RockParameters rock = region_parameters(parameters, centre, 0.).rock;
     rock.incompatible_modes = incompatible_modes;
-    model = make_rock_part(mesh, rock, find, parameters.substeps);
+    model = make_rock_part(mesh, rock, find, parameters.n_substeps());
     static_state = std::make_unique<RockStaticState>(model, at_base);
     mesh = HexMesh(); // no longer needed
     release_free_memory();
@@ -148,6 +148,11 @@ namespace Voussoir
     balance->update_largest();
   }
 
+  unsigned int ExplicitRock::needed_substeps(const double dt) const
+  {
+    return std::clamp(std::ceil(dt / dt_critical), 1., 100.);
+  }
+
   void ExplicitRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
   {
     check_rock_step(steps, steps_per_sample, dt_critical);
@@ -158,6 +163,9 @@ namespace Voussoir
   void ExplicitRock::report(Log &log, const TimeGrid &steps) const
   {
     report_rock(parameters, model, steps, delay(), log);
+    if (steps.substeps > 1)
+      log.line("          %u rock steps in each step of the dam; the critical time step of the rock is %.4g s",
+               steps.substeps, dt_critical);
   }
 
   void ExplicitRock::add_to_summary(Json &summary, const TimeGrid &steps) const

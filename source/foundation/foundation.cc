@@ -38,8 +38,12 @@ namespace Voussoir
         "points, and incompatible modes with \"Elements/Incompatible modes\" [-]. Elements in \"Nodal "
         "layers\" are excluded. Default 3, because nodal quadrature is too stiff there.",
         Integer(0, 1000));
-    prm.add_parameter("Substeps", substeps,
-                      "Number of explicit rock time steps per time step of the dam [-].", Integer(1, 100));
+    prm.add_parameter(
+        "Substeps", substeps,
+        "Number of explicit rock time steps per time step of the dam [-]. 0: as many as the critical "
+        "time step of the rock requires, if \"Coupling\" is auto and \"Dynamics/Impact\" is "
+        "mean-force; otherwise 1.",
+        Integer(0, 100));
     prm.add_parameter(
         "Coupling", coupling,
         "Time coupling of dam and rock. mean traction: the forces are constant during a time step of the "

@@ -35,7 +35,8 @@ namespace Voussoir
 
     const std::string without_sections = " Or set \"Foundation/Free field\" to columns.";
 
-    void check_layers(const std::string &boundary, const HexMesh &mesh, const std::string &source)
+    void check_layers(const std::string &boundary, const HexMesh &mesh, const std::string &source,
+                      const std::string &generated_in)
     {
       const unsigned int n = make_boundary(boundary)->n_layers();
       if (n == 0)
@@ -52,24 +53,23 @@ namespace Voussoir
         const unsigned int n_usual = make_boundary(usual)->n_layers();
         const std::string  other =
             "set \"Foundation/Boundary\" to " + usual + ", which requires " + std::to_string(n_usual) + ".";
-        if (source == "arch210")
-          throw InputError(needs +
-                           ", but the mesh arch210 has fewer. Set \"Mesh/Arch210/Rock/Boundary "
-                           "layers\" to " +
-                           std::to_string(n) + (n > n_usual ? ", or " + other : "."));
+        if (!generated_in.empty())
+          throw InputError(needs + ", but the mesh has fewer. Set \"" + generated_in +
+                           "/Rock/Boundary layers\" to " + std::to_string(n) +
+                           (n > n_usual ? ", or " + other : "."));
         throw InputError(needs + ". Error in " + error.what() + (n > n_usual ? " Or " + other : ""));
       }
     }
   } // namespace
 
   void check_boundary_layers(const FoundationParameters &parameters, const HexMesh &mesh,
-                             const std::string &source)
+                             const std::string &source, const std::string &generated_in)
   {
-    check_layers(parameters.boundary, mesh, source);
+    check_layers(parameters.boundary, mesh, source, generated_in);
     if (has_other_sections(parameters))
       try
       {
-        check_layers(boundary_of_sections(parameters), mesh, source);
+        check_layers(boundary_of_sections(parameters), mesh, source, generated_in);
       }
       catch (const InputError &error)
       {

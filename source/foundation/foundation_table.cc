@@ -47,12 +47,9 @@ namespace Voussoir
                                          [](const HexMesh::Cell &cell) { return !is_monolith(cell.volume); });
       if (foundation.uses_rock() && !has_rock)
         throw InputError("Foundation/Model is " + site.parameters.model + ", but the mesh " + site.source +
-                         " has no rock. " +
-                         (site.source == "arch210"
-                              ? "Set Mesh/Arch210/Rock/Enabled = true, or Foundation/Model to rigid."
-                              : "Add rock to the mesh (volumes from id 1000 on), or set Foundation/Model to "
-                                "rigid."));
-      if (has_rock && !foundation.uses_rock() && site.source != "arch210")
+                         " has no rock. Add rock to the mesh (volumes from id 1000 on), or set "
+                         "Foundation/Model to rigid.");
+      if (has_rock && !foundation.uses_rock() && site.generated_in.empty())
         throw InputError(
             "mesh " + site.source +
             " has rock (volumes from id 1000 on), but Foundation/Model is rigid. Set it to rock or "

@@ -17,7 +17,8 @@ namespace Voussoir
   {
     std::ostringstream text;
     text.precision(4);
-    text << ", " << parameters.substeps << (parameters.substeps == 1 ? " rock step each" : " rock steps each")
+    text << ", " << parameters.n_substeps()
+         << (parameters.n_substeps() == 1 ? " rock step each" : " rock steps each")
          << "; critical time step of the rock " << dt_critical << " s";
     return text.str();
   }

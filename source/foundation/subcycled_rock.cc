@@ -24,7 +24,7 @@ namespace Voussoir
   {
     std::ostringstream text;
     text.precision(4);
-    text << ", " << parameters.substeps << (parameters.substeps == 1 ? " rock step" : " rock steps")
+    text << ", " << parameters.n_substeps() << (parameters.n_substeps() == 1 ? " rock step" : " rock steps")
          << " each, coupled by mean tractions; critical time step "
          << "of the rock " << dt_critical << " s";
     return text.str();

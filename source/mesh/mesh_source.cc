@@ -46,13 +46,22 @@ namespace Voussoir
     return units.at(unit);
   }
 
+  MeshParameters::MeshParameters()
+  {
+    arch210_rock.upstream = arch210_rock.downstream = arch210_rock.sides = arch210_rock.depth =
+        arch210_height;
+    arch210_rock.element_size = 22;
+  }
+
   void MeshParameters::add_parameters(Entries &prm)
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Mesh");
-    prm.add_parameter("Source", source,
-                      "Source of the mesh. arch210: built-in dam. file: the mesh file of the entry \"File\".",
-                      Selection("arch210|file"));
+    prm.add_parameter(
+        "Source", source,
+        "Source of the mesh. arch210: built-in dam. arcs: dam from a table of arcs, \"Arcs/Table\". "
+        "file: the mesh file of the entry \"File\".",
+        Selection("arch210|arcs|file"));
     prm.add_parameter(
         "File", file,
         "Mesh file with hexahedra, relative to the directory of the input file. Formats: gmsh (MSH 4.1 or "
@@ -75,7 +84,17 @@ namespace Voussoir
                       Selection("m|cm|mm|km|ft|in"));
     prm.leave_subsection();
     arch210.add_parameters(prm);
-    arch210_rock.add_parameters(prm);
+    arcs.add_parameters(prm);
+    const auto add_rock = [&](const std::string &dam, ArchRockParameters &rock)
+    {
+      prm.enter_subsection("Mesh");
+      prm.enter_subsection(dam);
+      rock.add_parameters(prm, dam == "Arcs");
+      prm.leave_subsection();
+      prm.leave_subsection();
+    };
+    add_rock("Arch210", arch210_rock);
+    add_rock("Arcs", arcs_rock);
   }
 
   void MeshParameters::check() const
@@ -84,25 +103,52 @@ namespace Voussoir
     if (source == "arch210")
     {
       arch210.check();
-      arch210_rock.check();
+      arch210_rock.check("Mesh/Arch210", arch210_height);
     }
+    else if (source == "arcs")
+      arcs.check();
     else if (file.empty())
       throw InputError(
           "Entry \"Mesh/Source\" is file, but the entry \"Mesh/File\" is empty. Give the path of a gmsh "
           "mesh, relative to the directory of the input file.");
   }
 
+  std::string MeshParameters::name() const
+  {
+    return source == "file" ? file : source == "arcs" ? arcs.table : source;
+  }
+
+  const ArchRockParameters *MeshParameters::generated_rock() const
+  {
+    return source == "arch210" ? &arch210_rock : source == "arcs" ? &arcs_rock : nullptr;
+  }
+
+  namespace
+  {
+    HexMesh generate(const MeshParameters &parameters, const std::string &scene_directory)
+    {
+      const bool                       is_arch210 = parameters.source == "arch210";
+      const std::unique_ptr<ArchShape> table = is_arch210 ? nullptr : parameters.arcs.shape(scene_directory);
+      const ArchShape                 &shape = is_arch210 ? arch210_shape() : *table;
+      const ArchGrid                   grid =
+          is_arch210 ? static_cast<const ArchGrid &>(parameters.arch210) : parameters.arcs.complete_grid();
+      const double             height = shape.top() - shape.bottom();
+      const ArchRockParameters rock = parameters.generated_rock()->complete(height);
+      check_grid(shape, grid, parameters.section());
+      rock.check(parameters.section(), height);
+      HexMesh mesh = make_arch(shape, grid);
+      if (rock.enabled)
+        add_arch_rock(shape, grid, rock, mesh);
+      check_mesh(mesh, parameters.name());
+      return mesh;
+    }
+  } // namespace
+
   HexMesh make_mesh(const MeshParameters &parameters, const std::string &scene_directory)
   {
     parameters.check();
-    if (parameters.source == "arch210")
-    {
-      HexMesh mesh = make_arch210(parameters.arch210);
-      if (parameters.arch210_rock.enabled)
-        add_arch210_rock(parameters.arch210, parameters.arch210_rock, mesh);
-      check_mesh(mesh, "arch210");
-      return mesh;
-    }
+    if (parameters.source != "file")
+      return generate(parameters, scene_directory);
 
     // The operator / of a path does not change absolute paths.
     const std::string file = (std::filesystem::path(scene_directory) / parameters.file).string();

@@ -33,6 +33,7 @@ namespace Voussoir
   private:
     void          check_ranks() const;
     void          claim_directory();
+    void          make_dam();
     void          read_input();
     void          validate();
     void          start();
@@ -53,7 +54,7 @@ namespace Voussoir
     void              stop_if_asked() const;
     void              keep_and_stop(const char *signal);
 
-    const Scene                   scene;
+    Scene                         scene;
     const RunOptions              options;
     RunDirectory                  run_directory;
     const std::string             directory; ///< path of run_directory

@@ -133,6 +133,10 @@ namespace Voussoir
     /** Declares all entries. */
     void add_parameters(Entries &prm);
 
+    /** Generates or reads the mesh. A generated mesh has rock if the foundation needs it. Throws InputError like
+     * make_mesh(). */
+    HexMesh hex_mesh() const;
+
     /** Checks all entries. Throws InputError for invalid values or combinations of values. */
     void check() const;
 

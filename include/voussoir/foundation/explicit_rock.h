@@ -49,6 +49,9 @@ namespace Voussoir
     /** Returns the critical time step of the rock, with its damping [s]; 0 before add_stiffness(). */
     double critical_time_step() const { return dt_critical; }
 
+    /** Returns the number of steps within the critical time step, at most 100 (check() refuses larger steps). */
+    unsigned int needed_substeps(double dt) const override;
+
     // Static state by RockStaticState. Must be called after add_stiffness() and before start().
     Unknowns      static_springs(const Structure &structure) const override;
     ContactResult solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
@@ -101,6 +104,7 @@ namespace Voussoir
     const FoundationParameters parameters;         ///< of the input file
     HexMesh                    mesh;               ///< of dam and rock; empty after add_stiffness()
     const std::string          source;             ///< name of the mesh in messages
+    const std::string          generated_in;       ///< FoundationSite::generated_in
     const bool                 incompatible_modes; ///< of the dam's elements
 
     // From add_stiffness() on.

@@ -19,15 +19,18 @@ namespace Voussoir
   /** Input of the constructors of foundations. */
   struct FoundationSite
   {
-    const FoundationParameters &parameters;                ///< of the input file
-    const HexMesh              &mesh;                      ///< mesh of dam and rock
-    std::string                 source;                    ///< name of the mesh: arch210 or the file name
-    unsigned int                degree = 1;                ///< polynomial degree of the elements
+    const FoundationParameters &parameters; ///< of the input file
+    const HexMesh              &mesh;       ///< mesh of dam and rock
+    std::string                 source;     ///< name of the mesh: arch210, or the table or mesh file
+    unsigned int                degree = 1; ///< polynomial degree of the elements
     bool                        incompatible_modes = true; ///< the elements of the dam have these modes
 
     /** true: massless rock forms one body with the dam. This is required if all joints are tied, if the
      * impact rule is not ImpactRule::mean_force, or if contact problems are written. */
     bool one_body = false;
+
+    std::string generated_in =
+        ""; ///< section of the entries of a generated mesh: Mesh/Arch210; empty: mesh from a file
   };
 
   // Nodes of the dam are its free nodes, numbered by SolidModel::equation. Components are in the axes of the
@@ -58,6 +61,9 @@ namespace Voussoir
      * the same for all components, and 0 if the motion is prescribed. An automatic duration of the run is
      * longer by this time. Must be called after BaseSupport::add_stiffness(). */
     virtual double delay() const { return 0.; }
+
+    /** Returns the number of rock steps that a time step of the dam needs [-]. The argument is the time step [s]. */
+    virtual unsigned int needed_substeps(double /*dt*/) const { return 1; }
 
     /** Returns the text after "Steps N of DT s" in the log, with the punctuation before it. Examples:
      *  - "; the scheme is implicit: there is no critical time step" (the default),

@@ -11,9 +11,9 @@ namespace Voussoir
   // Checks of explicit rock before the run: see doc/boundary.md.
 
   /** Throws InputError if the mesh has fewer layers of equal, straight elements than the artificial boundary
-   * requires. @p source: name of the mesh in messages. */
+   * requires. @p source: name of the mesh in messages; @p generated_in: FoundationSite. */
   void check_boundary_layers(const FoundationParameters &parameters, const HexMesh &mesh,
-                             const std::string &source);
+                             const std::string &source, const std::string &generated_in);
 
   /** Throws InputError if the time step of the rock exceeds the critical one.
    *

@@ -2,6 +2,7 @@
 #ifndef voussoir_foundation_parameters_h
 #define voussoir_foundation_parameters_h
 
+#include <algorithm>
 #include <voussoir/mesh/mesh.h>
 #include <voussoir/solid/zones.h>
 
@@ -22,10 +23,13 @@ namespace Voussoir
     bool         nodal_everywhere = true;                     ///< nodal quadrature, except at the dam
     unsigned int nodal_layers = 6;  ///< element layers of nodal quadrature at the artificial boundary
     unsigned int layers_at_dam = 3; ///< element layers with the dam's quadrature at the base
-    unsigned int substeps = 1;      ///< rock time steps per time step of the dam
+    unsigned int substeps = 0; ///< rock time steps per time step of the dam; 0: from the critical time step
     std::string  coupling = "auto"; ///< auto, mean traction or partition
 
     static constexpr double largest_poisson = .45; ///< upper limit of Poisson's ratio of rock [-]
+
+    /** Returns the number of rock time steps per time step of the dam; 1 before Simulation has set it. */
+    unsigned int n_substeps() const { return std::max(1u, substeps); }
 
     /** Returns true if the rock is subcycled with a constant force per time step of the dam (SubcycledRock). */
     bool is_subcycled() const { return coupling == "mean traction" || (coupling == "auto" && substeps > 1); }

@@ -2,7 +2,9 @@
 #ifndef voussoir_mesh_source_h
 #define voussoir_mesh_source_h
 
-#include <voussoir/mesh/arch210_rock.h>
+#include <voussoir/mesh/arch210.h>
+#include <voussoir/mesh/arch_rock.h>
+#include <voussoir/mesh/arcs.h>
 #include <voussoir/mesh/mesh.h>
 
 #include <string>
@@ -14,19 +16,31 @@ namespace Voussoir
   /** Source of the mesh: subsection "Mesh" of the input file. */
   struct MeshParameters
   {
-    std::string           source = "arch210"; ///< "arch210" or "file"
-    std::string           file = "";          ///< mesh file, relative to the directory of the input file
-    std::string           axes = "x y z"; ///< axes of the file that point downstream, to the left bank and up
-    std::string           length_unit = "m"; ///< of the coordinates in the file: see metres()
-    bool                  subdivide = false; ///< divide every cell of the file: subdivide()
-    Arch210Parameters     arch210;
-    Arch210RockParameters arch210_rock;
+    std::string        source = "arch210"; ///< "arch210", "arcs" or "file"
+    std::string        file = "";          ///< mesh file, relative to the directory of the input file
+    std::string        axes = "x y z";    ///< axes of the file that point downstream, to the left bank and up
+    std::string        length_unit = "m"; ///< of the coordinates in the file: see metres()
+    bool               subdivide = false; ///< divide every cell of the file: subdivide()
+    Arch210Parameters  arch210;
+    ArcsParameters     arcs;
+    ArchRockParameters arch210_rock, arcs_rock;
+
+    MeshParameters();
 
     void add_parameters(Entries &prm);
 
-    /** Throws InputError if source is "file" and file is empty, if axes is not three different axes, or if
-     * the parameters of arch210 are wrong. */
+    /** Throws InputError if the file or the table of the source is not named, if axes is not three different axes, or
+     * if the parameters of arch210 are wrong. */
     void check() const;
+
+    /** Returns the name of the mesh for messages: arch210, or the path of the file or table. */
+    std::string name() const;
+
+    /** Returns the rock of a generated mesh; a null pointer for a file. */
+    const ArchRockParameters *generated_rock() const;
+
+    /** Returns the subsection of a generated mesh, "Mesh/Arch210" or "Mesh/Arcs". */
+    std::string section() const { return source == "arcs" ? "Mesh/Arcs" : "Mesh/Arch210"; }
   };
 
   /** Axis of the file that corresponds to an axis of the program: coordinate and sign. */

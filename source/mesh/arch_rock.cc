@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/mesh/arch210_rock.h>
+#include <voussoir/mesh/arch_rock.h>
 #include <voussoir/mesh/grading.h>
 
 #include <algorithm>
@@ -17,9 +17,9 @@ namespace Voussoir
     class Builder
     {
     public:
-      Builder(const Arch210Parameters &dam, const Arch210RockParameters &rock, HexMesh &mesh)
-          : dam(dam), rock(rock), mesh(mesh), valley(arch210_valley(dam)), n_columns(valley.size() - 1),
-            n_dam_layers(dam.elements_through), n(rock.n_layers)
+      Builder(const ArchShape &shape, const ArchGrid &dam, const ArchRockParameters &rock, HexMesh &mesh)
+          : dam(dam), rock(rock), mesh(mesh), bottom(shape.bottom()), valley(arch_valley(shape, dam)),
+            n_columns(valley.size() - 1), n_dam_layers(dam.elements_through), n(rock.n_layers)
       {
       }
 
@@ -27,8 +27,8 @@ namespace Voussoir
       {
         measure();
         make_dam_columns();
-        make_sides(-1);
-        make_sides(1);
+        make_side(0);
+        make_side(1);
         smooth();
         number_nodes();
         make_cells();
@@ -54,18 +54,24 @@ namespace Voussoir
         return (dx * dx + dy * dy) / dx;
       }
 
+      /** Returns the distance of the layers at the side face from the end of the dam [m]. */
+      double side_length(const unsigned int bank) const { return y_side[bank] - n * h_side - y_end[bank]; }
+
       double layer_size(const double extent) const { return std::min(rock.element_size, extent / (n + 6)); }
 
       /** Computes the faces of the block, the element sizes at the faces and the numbers of elements. */
       void measure()
       {
-        double x_min = base_node(0, 0)[0], x_max = x_min, y_max = 0;
+        double x_min = base_node(0, 0)[0], x_max = x_min;
+        y_side = {0, 0};
         for (unsigned int c = 0; c <= n_columns; ++c)
           for (unsigned int l = 0; l <= n_dam_layers; ++l)
           {
             x_min = std::min(x_min, base_node(c, l)[0]);
             x_max = std::max(x_max, base_node(c, l)[0]);
-            y_max = std::max(y_max, std::abs(base_node(c, l)[1]));
+            const double y = base_node(c, l)[1];
+            y_side[0] = std::max(y_side[0], -y);
+            y_side[1] = std::max(y_side[1], y);
           }
         h_upstream = layer_size(rock.upstream);
         h_downstream = layer_size(rock.downstream);
@@ -73,11 +79,10 @@ namespace Voussoir
         h_bottom = layer_size(rock.depth);
         x_upstream = x_min - rock.upstream;
         x_downstream = x_max + rock.downstream;
-        y_side = y_max + rock.sides;
-        z_bottom = -rock.depth;
+        z_bottom = bottom - rock.depth;
         plateau = valley.back()[1];
         valley.front()[1] = plateau;
-        y_end = valley.back()[0];
+        y_end = {-valley.front()[0], valley.back()[0]};
         surface_size = 0.6 * rock.element_size;
         const double largest = largest_size * rock.element_size;
 
@@ -98,14 +103,13 @@ namespace Voussoir
         };
         n_upstream = count_lines(true);
         n_downstream = count_lines(false);
-        column_size = y_end - valley[n_columns - 1][0];
-        n_side = n_graded(y_side - n * h_side - y_end, column_size, h_side, rock.element_size);
+        measure_sides();
         // The dispersion of waves from below increases with the square of the cell height and with the path.
         // Rock deeper than the valley therefore has lower cells.
-        const double below_valley = -z_bottom - n * h_bottom;
-        const double tallest = largest * std::sqrt(std::min(1., 2. * plateau / (plateau + rock.depth)));
+        const double below_valley = bottom - z_bottom - n * h_bottom, above = plateau - bottom;
+        const double tallest = largest * std::sqrt(std::min(1., 2. * above / (above + rock.depth)));
         n_down = std::clamp<unsigned int>(std::ceil(below_valley / smallest), 2,
-                                          n_graded(plateau + below_valley, surface_size, h_bottom, tallest));
+                                          n_graded(above + below_valley, surface_size, h_bottom, tallest));
 
         first_column = n + n_side;
         first_layer = n + n_upstream;
@@ -113,6 +117,19 @@ namespace Voussoir
         n_j = first_layer + n_dam_layers + n_downstream + n;
         n_k = n_down + n;
         surface.assign((n_i + 1) * (n_j + 1), Vector{});
+      }
+
+      /** Computes the sizes and the number of elements beside the dam. */
+      void measure_sides()
+      {
+        column_size = {valley[1][0] + y_end[0], y_end[1] - valley[n_columns - 1][0]};
+        n_side = 0;
+        for (const unsigned int bank : {0, 1})
+        {
+          y_side[bank] += rock.sides;
+          n_side =
+              std::max(n_side, n_graded(side_length(bank), column_size[bank], h_side, rock.element_size));
+        }
       }
 
       Vector &ground(const unsigned int i, const unsigned int j) { return surface[i * (n_j + 1) + j]; }
@@ -149,14 +166,13 @@ namespace Voussoir
         }
       }
 
-      /** Returns x of the layers on the side faces [m]. */
-      std::vector<double> straight_layers(const double bend)
+      /** Returns x of the layers on the side face [m]. @p end: column of the dam at this bank. */
+      std::vector<double> straight_layers(const unsigned int end, const double bend)
       {
         const double upper = x_upstream + n * h_upstream, lower = x_downstream - n * h_downstream;
-        const double h = std::max(base_size(n_columns, true),
-                                  std::min(surface_size, 0.1 * (lower - upper) / n_dam_layers));
-        const double middle =
-            0.5 * (base_node(n_columns, 0)[0] + base_node(n_columns, n_dam_layers)[0]) + bend;
+        const double h =
+            std::max(base_size(end, true), std::min(surface_size, 0.1 * (lower - upper) / n_dam_layers));
+        const double        middle = 0.5 * (base_node(end, 0)[0] + base_node(end, n_dam_layers)[0]) + bend;
         const double        first = middle - 0.5 * n_dam_layers * h, last = middle + 0.5 * n_dam_layers * h;
         std::vector<double> x(n_j + 1);
         for (unsigned int t = 0; t <= n; ++t)
@@ -175,20 +191,21 @@ namespace Voussoir
         return x;
       }
 
-      /** Computes the ground beyond the end of the dam on the left (@p bank = 1) or the right bank (-1). The
+      /** Computes the ground beyond the end of the dam on the right (@p side = 0) or the left bank (1). The
        * layers continue in the direction of the dam and bend to the direction of y. */
-      void make_sides(const int bank)
+      void make_side(const unsigned int side)
       {
-        const unsigned int end = bank > 0 ? first_column + n_columns : first_column;
-        const double       length = y_side - n * h_side - y_end;
-        const auto         d = graded(n_side, length, column_size, h_side);
+        const int          bank = side == 1 ? 1 : -1;
+        const unsigned int end = side == 1 ? first_column + n_columns : first_column;
+        const double       length = side_length(side);
+        const auto         d = graded(n_side, length, column_size[side], h_side);
         const auto         slope = [&](const unsigned int j)
         {
           const Vector &inside = ground(end - bank, j);
           return (ground(end, j)[0] - inside[0]) / std::abs(ground(end, j)[1] - inside[1]);
         };
         const double dam_slope = 0.5 * (slope(first_layer) + slope(first_layer + n_dam_layers));
-        const auto   x = straight_layers(0.2 * length * dam_slope);
+        const auto   x = straight_layers(end - first_column, 0.2 * length * dam_slope);
         for (unsigned int j = 0; j <= n_j; ++j)
         {
           const bool   is_straight = j <= n || j + n >= n_j;
@@ -197,13 +214,14 @@ namespace Voussoir
           for (unsigned int t = 1; t < n_side; ++t)
           {
             const double eta = d[t] / length, f = fade(eta);
-            ground(end + bank * t, j) = {
-                is_straight ? x[j]
-                            : f * from[0] + (1 - f) * x[j] + leaving * length * eta * (1 - eta) * (1 - eta),
-                bank * (y_end + d[t]) + f * (from[1] - bank * y_end), plateau + f * (from[2] - plateau)};
+            ground(end + bank * t, j) = {is_straight ? x[j]
+                                                     : f * from[0] + (1 - f) * x[j] +
+                                                           leaving * length * eta * (1 - eta) * (1 - eta),
+                                         bank * (y_end[side] + d[t]) + f * (from[1] - bank * y_end[side]),
+                                         plateau + f * (from[2] - plateau)};
           }
           for (unsigned int t = 0; t <= n; ++t)
-            ground(end + bank * (n_side + n - t), j) = {x[j], bank * (y_side - t * h_side), plateau};
+            ground(end + bank * (n_side + n - t), j) = {x[j], bank * (y_side[side] - t * h_side), plateau};
         }
       }
 
@@ -236,7 +254,7 @@ namespace Voussoir
           const Vector *at = &unsmoothed[i * (n_j + 1) + j];
           return at[1][0] - at[0][0];
         };
-        const double       column = 2 * y_end / n_columns;
+        const double       column = (y_end[0] + y_end[1]) / n_columns;
         const unsigned int n_sweeps = std::min(1000., std::ceil(std::pow(100 / column, 2)));
         for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
           for (unsigned int j = n + 1; j + n < n_j; ++j)
@@ -328,25 +346,28 @@ namespace Voussoir
         mesh.faces.erase(std::remove_if(mesh.faces.begin(), mesh.faces.end(), is_end_wall), mesh.faces.end());
       }
 
-      const Arch210Parameters           &dam;
-      const Arch210RockParameters       &rock;
+      const ArchGrid                    &dam;
+      const ArchRockParameters          &rock;
       HexMesh                           &mesh;
+      const double                       bottom; ///< z of the lowest arc [m]
       std::vector<std::array<double, 2>> valley; // (y, z) of each column of the dam
       const unsigned int                 n_columns, n_dam_layers, n;
-      double              h_upstream, h_downstream, h_side, h_bottom; // sizes in the boundary layers [m]
-      double              x_upstream, x_downstream, y_side, y_end, z_bottom, plateau; // [m]
-      double              surface_size, column_size; // sizes below the ground, at the ends of the dam [m]
-      unsigned int        n_upstream, n_downstream, n_side, n_down; // elements between dam and layers
-      unsigned int        first_column, first_layer;                // first ones of the dam
-      unsigned int        n_i, n_j, n_k;                            // elements across, along the stream, down
-      std::vector<Vector> surface;                                  // ground and base, by i and j
-      std::vector<unsigned int> number;                             // number of the node i, j, k
+      double                h_upstream, h_downstream, h_side, h_bottom;  // sizes in the boundary layers [m]
+      double                x_upstream, x_downstream, z_bottom, plateau; // [m]
+      std::array<double, 2> y_side, y_end; // |y| of the side faces and of the ends of the dam, by bank [m]
+      double                surface_size;  // of the elements below the ground [m]
+      std::array<double, 2> column_size;   // of the elements at the ends of the dam, by bank [m]
+      unsigned int          n_upstream, n_downstream, n_side, n_down; // elements between dam and layers
+      unsigned int          first_column, first_layer;                // first ones of the dam
+      unsigned int          n_i, n_j, n_k; // elements across, along the stream, down
+      std::vector<Vector>   surface;       // ground and base, by i and j
+      std::vector<unsigned int> number;    // number of the node i, j, k
     };
   } // namespace
 
-  void add_arch210_rock(const Arch210Parameters &dam, const Arch210RockParameters &rock, HexMesh &mesh)
+  void add_arch_rock(const ArchShape &shape, const ArchGrid &grid, const ArchRockParameters &rock,
+                     HexMesh &mesh)
   {
-    rock.check();
-    Builder(dam, rock, mesh).build();
+    Builder(shape, grid, rock, mesh).build();
   }
 } // namespace Voussoir

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_arch_grid_h
+#define voussoir_arch_grid_h
+
+#include <voussoir/mesh/arch_shape.h>
+#include <voussoir/mesh/mesh.h>
+
+#include <string>
+#include <vector>
+
+namespace Voussoir
+{
+  class Entries;
+
+  /** Mesh of an arch dam: joints, numbers of elements, and the dam's lowest parts. */
+  struct ArchGrid
+  {
+    unsigned int        n_joints = 28; ///< contraction joints; the dam has n_joints + 1 monoliths
+    std::vector<double> joint_places;  ///< chainages [m], see make_arch(); empty: equal distances
+    unsigned int elements_along = 58;  ///< in total along the crest; each monolith has at least its share
+    unsigned int elements_up = 20;     ///< from the base to the crest
+    unsigned int elements_through = 2; ///< from the upstream to the downstream face
+    std::vector<double> rows;          ///< ends of the rows of elements, see make_arch(); empty: equal
+    double              end_wall_height = 0; ///< depth of the abutment below the two ends of the crest [m]
+    double smallest_height = 5; ///< [m]; where the abutment is higher, the dam is embedded in the bank
+
+    /** Declares the entries of the current subsection that all dams have. */
+    void add_parameters(Entries &prm);
+
+    /** Returns the number of monoliths. */
+    unsigned int n_monoliths() const { return n_joints + 1; }
+  };
+
+  /** Throws InputError if the numbers do not fit the dam. @p section: the subsection of the entries, for
+   * messages, as "Mesh/Arch210". */
+  void check_grid(const ArchShape &shape, const ArchGrid &grid, const std::string &section);
+
+  /** Returns a conforming mesh of an arch dam.
+   *
+   * Axes: x downstream, y to the left bank, z up. The monoliths 1 to n_joints + 1 are numbered from the right
+   * bank to the left. The surface 'base' includes the two end walls. The other surfaces are 'upstream',
+   * 'downstream' and 'crest'.
+   *
+   * The joints are vertical planes normal to the centre line of the crest. They divide the crest into equal
+   * parts, or lie at the chainages grid.joint_places: lengths of the centre line from the right end of the crest.
+   * The other columns of nodes lie in such planes too. The rows of nodes have equal spacing from base to crest, or
+   * the ends grid.rows: shares of the height between 0 and 1.
+   * The node in column i along, row k up and layer l through the dam has the number
+   *
+   *     (i (elements_up + 1) + k) (elements_through + 1) + l.
+   *
+   * Throws InputError if the valley does not open upwards, or if the faces of an arc meet. */
+  HexMesh make_arch(const ArchShape &shape, const ArchGrid &grid);
+
+  /** Returns the cross section of the valley: (y, z) of the lowest point of the dam's centre surface at each
+   * column of nodes [m], from the right bank to the left. */
+  std::vector<std::array<double, 2>> arch_valley(const ArchShape &shape, const ArchGrid &grid);
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/entries.h>
+#include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
+#include <voussoir/mesh/arch_grid.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Voussoir
+{
+  namespace
+  {
+    using Point = std::array<double, 3>;
+
+    /** Column of nodes in one half of the dam. It lies in the vertical plane normal to the centre line of the
+     * crest at the parameter @p u. Its height is at least smallest_height [m]. */
+    class Column
+    {
+    public:
+      Column(const ArchShape &shape, const Bank bank, const double u, const double smallest_height)
+          : shape(shape), bank(bank), crest(shape.point(bank, u, shape.top(), 0)),
+            slope(shape.slope(bank, u)), highest_base(shape.top() - smallest_height)
+      {
+      }
+
+      /** Returns the distance of @p p from the plane times sqrt(1 + slope^2) [m]. It increases with y. */
+      double distance(const Point &p) const { return slope * (p[0] - crest[0]) + p[1] - crest[1]; }
+
+      /** Returns the height z of the base [m]: that of the abutment, the bottom at the floor of the valley, or
+       * less than the abutment where the dam would be lower than the smallest height. */
+      double base(const double w) const { return std::min(abutment(w), highest_base); }
+
+      /** Returns the node at height @p z, which is at or above the base. */
+      Point node(const double z, const double w) const
+      {
+        const auto place = [&](const double u) { return distance(shape.point(bank, u, z, w)); };
+        double     last = shape.end(bank, z);
+        if (z < abutment(w) || place(last) < -1e-6)
+          last = shape.reach(bank, z);
+        if (place(last) < -1e-6)
+          throw InputError("The arc at z = " + number_text(z) +
+                           " m cannot be continued into the bank. Reduce \"Smallest height\", or correct the "
+                           "arcs near the crest.");
+        return shape.point(bank, bisect(place, 0, last), z, w);
+      }
+
+      /** Throws InputError if the plane of the column leaves the valley and enters it again further down.
+       * @p is_end: the column is at the end of the crest, and must not be in the valley anywhere. */
+      void check_valley(const bool is_end) const
+      {
+        constexpr unsigned int n = 100;
+        for (const double w : {-1., 1.})
+        {
+          const double foot = is_end ? shape.top() : abutment(w);
+          const double allowed = 1e-6 + (is_end ? inside(foot, w) : 0.);
+          for (unsigned int i = 0; i < n; ++i)
+            if (const double z = shape.bottom() + (foot - shape.bottom()) * i / n;
+                z < foot - 0.01 && inside(z, w) > allowed)
+              throw InputError("The valley is wider at z = " + number_text(z) + " m than at z = " +
+                               number_text(foot) + " m, on the " + (bank == Bank::left ? "left" : "right") +
+                               " bank. The valley must open upwards. Correct the ends of the arcs there.");
+        }
+      }
+
+    private:
+      /** Returns the distance of the abutment beyond the plane, as distance(). At the crest it is not negative: an
+       * abutment that is not normal to the crest is shifted for the columns that it cuts. */
+      double inside(const double z, const double w) const
+      {
+        const auto at = [&](const double height)
+        { return distance(shape.point(bank, shape.end(bank, height), height, w)); };
+        return at(z) - std::min(0., at(shape.top()));
+      }
+      double abutment(const double w) const
+      {
+        const double bottom = shape.bottom();
+        return inside(bottom, w) > -1e-6
+                   ? bottom
+                   : bisect([&](const double z) { return inside(z, w); }, bottom, shape.top());
+      }
+
+      const ArchShape &shape;
+      const Bank       bank;
+      const Point      crest;
+      const double     slope, highest_base;
+    };
+
+    /** Crest of a dam. s is the length of its centre line from the crown, negative on the right bank [m]. */
+    class Crest
+    {
+    public:
+      explicit Crest(const ArchShape &shape) : shape(shape) {}
+
+      double end(const Bank bank) const { return shape.crest_length(bank, shape.end(bank, shape.top())); }
+      double length() const { return end(Bank::right) + end(Bank::left); }
+
+      /** Returns the length |s| at which the abutment is @p wall below the crest [m]. */
+      double end(const Bank bank, const double wall) const
+      {
+        if (wall == 0)
+          return end(bank);
+        const double z = shape.top() - wall, last = shape.end(bank, shape.top());
+        const Point  foot = shape.point(bank, shape.end(bank, z), z, 0);
+        const auto   before = [&](const double u) { return -Column(shape, bank, u, 0).distance(foot); };
+        return shape.crest_length(bank, bisect(before, 0, last));
+      }
+
+      Column column(const double s, const double smallest_height) const
+      {
+        const Bank bank = s < 0 ? Bank::right : Bank::left;
+        const auto before = [&](const double u) { return shape.crest_length(bank, u) - std::abs(s); };
+        return Column(shape, bank, bisect(before, 0, shape.end(bank, shape.top())), smallest_height);
+      }
+
+      /** Throws InputError if the valley is wider somewhere than at the crest. */
+      void check_valley() const
+      {
+        for (const Bank bank : {Bank::right, Bank::left})
+          Column(shape, bank, shape.end(bank, shape.top()), 0).check_valley(true);
+      }
+
+      /** Returns s of the ends of the monoliths. */
+      std::vector<double> joints(const ArchGrid &grid) const
+      {
+        const unsigned int  n = grid.n_monoliths();
+        const double        L = length(), right = end(Bank::right);
+        std::vector<double> s = {-end(Bank::right, grid.end_wall_height)};
+        for (unsigned int j = 1; j < n; ++j)
+          s.push_back(-right + (grid.joint_places.empty() ? j * L / n : grid.joint_places[j - 1]));
+        s.push_back(end(Bank::left, grid.end_wall_height));
+        return s;
+      }
+
+    private:
+      const ArchShape &shape;
+    };
+
+    struct Columns
+    {
+      std::vector<double> s;        ///< from the right bank to the left [m]
+      std::vector<int>    monolith; ///< of the elements between two columns
+    };
+
+    Columns columns(const ArchShape &shape, const ArchGrid &grid)
+    {
+      const Crest               crest(shape);
+      const std::vector<double> joint = crest.joints(grid);
+      const unsigned int        n_monoliths = grid.n_monoliths();
+      Columns                   result{{joint[0]}, {}};
+      for (unsigned int m = 0; m < n_monoliths; ++m)
+      {
+        const double       width = joint[m + 1] - joint[m], element = crest.length() / grid.elements_along;
+        const unsigned int n = grid.joint_places.empty()
+                                   ? (grid.elements_along + n_monoliths - 1) / n_monoliths
+                                   : std::max(1., std::ceil(width / element - 1e-6));
+        for (unsigned int i = 1; i <= n; ++i)
+        {
+          result.s.push_back(joint[m] + width * i / n);
+          result.monolith.push_back(m + 1);
+        }
+      }
+      return result;
+    }
+
+    void add_nodes(const ArchShape &shape, const ArchGrid &grid, const std::vector<double> &s, HexMesh &mesh)
+    {
+      const unsigned int n_up = grid.elements_up, n_through = grid.elements_through;
+      const double       top = shape.top();
+      for (const double place : s)
+      {
+        const double bank = place < 0 ? -1 : 1;
+        const Column column = Crest(shape).column(place, grid.smallest_height);
+        column.check_valley(false);
+        std::vector<double> base;
+        for (unsigned int l = 0; l <= n_through; ++l)
+          base.push_back(column.base(2. * l / n_through - 1));
+        for (unsigned int k = 0; k <= n_up; ++k)
+          for (unsigned int l = 0; l <= n_through; ++l)
+          {
+            const bool   is_end = k == 0 || k == n_up || grid.rows.empty();
+            const double z =
+                is_end ? base[l] + (top - base[l]) * k / n_up : base[l] + (top - base[l]) * grid.rows[k - 1];
+            auto node = column.node(z, 2. * l / n_through - 1);
+            node[1] *= bank;
+            mesh.nodes.push_back(node);
+          }
+      }
+    }
+  } // namespace
+
+  void ArchGrid::add_parameters(Entries &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.add_parameter(
+        "Elements along", elements_along,
+        "Total number of elements along the crest [-]. Rounded up to a multiple of the number of "
+        "monoliths.",
+        Integer(1, 10000));
+    prm.add_parameter("Elements up", elements_up, "Number of elements from the base to the crest [-].",
+                      Integer(1, 1000));
+    prm.add_parameter("Elements through", elements_through,
+                      "Number of elements from the upstream to the downstream face [-].", Integer(1, 100));
+    prm.add_parameter(
+        "Smallest height", smallest_height,
+        "Smallest height of the dam [m]. Near the banks, where the abutment is nearer to the crest, the dam "
+        "is embedded in the bank. All rows of elements share this height. With 0, the elements at the ends "
+        "would be as flat as \"End wall height\" divided by \"Elements up\".",
+        Double(0, 20));
+  }
+
+  void check_grid(const ArchShape &shape, const ArchGrid &grid, const std::string &section)
+  {
+    const std::string entry = "Entry \"" + section + "/";
+    if (grid.elements_along == 0 || grid.elements_up == 0 || grid.elements_through == 0)
+      throw InputError(entry +
+                       (grid.elements_along == 0 ? "Elements along"
+                        : grid.elements_up == 0  ? "Elements up"
+                                                 : "Elements through") +
+                       "\" is 0. Choose at least 1.");
+    const Crest  crest(shape);
+    const double length = crest.length();
+    double       before = 0;
+    for (const double place : grid.joint_places)
+    {
+      if (!(place > before && place < length))
+        throw InputError(entry + "Joint chainages\" has " + number_text(place) + " m after " +
+                         number_text(before) +
+                         " m. Give increasing lengths between 0 and the length of the " + "crest, " +
+                         number_text(length) + " m, measured from its right end.");
+      before = place;
+    }
+    const auto spoils = [&](const double height)
+    {
+      if (!(height < (shape.top() - shape.bottom()) / 2))
+        return true;
+      const double right =
+          grid.joint_places.empty() ? length / grid.n_monoliths() : grid.joint_places.front();
+      const double left =
+          grid.joint_places.empty() ? length / grid.n_monoliths() : length - grid.joint_places.back();
+      return crest.end(Bank::right, height) < crest.end(Bank::right) - right / 2 ||
+             crest.end(Bank::left, height) < crest.end(Bank::left) - left / 2;
+    };
+    if (!(grid.end_wall_height >= 0) || (grid.end_wall_height > 0 && spoils(grid.end_wall_height)))
+      throw InputError(entry + "End wall height\" is " + number_text(grid.end_wall_height) +
+                       " m. Choose a height above 0 that leaves at least half of the end monoliths' crest.");
+    if (!(grid.smallest_height >= 0) || (grid.smallest_height > 0 && spoils(grid.smallest_height)))
+      throw InputError(
+          entry + "Smallest height\" is " + number_text(grid.smallest_height) +
+          " m. Choose a height that the dam exceeds over at least half of the crest of the end monoliths.");
+    if (grid.end_wall_height == 0 && grid.smallest_height == 0)
+      throw InputError(entry +
+                       "Smallest height\" is 0, but the dam has no end walls: its last elements would "
+                       "be flat. Choose a height above 0, such as 5 m.");
+  }
+
+  HexMesh make_arch(const ArchShape &shape, const ArchGrid &grid)
+  {
+    const auto [s, monolith] = columns(shape, grid);
+    const unsigned int n_along = monolith.size(), n_up = grid.elements_up, n_through = grid.elements_through;
+    HexMesh            mesh;
+    Crest(shape).check_valley();
+    add_nodes(shape, grid, s, mesh);
+
+    const auto node = [&](const unsigned int i, const unsigned int k, const unsigned int l)
+    { return (i * (n_up + 1) + k) * (n_through + 1) + l; };
+    for (unsigned int i = 0; i < n_along; ++i)
+      for (unsigned int k = 0; k < n_up; ++k)
+        for (unsigned int l = 0; l < n_through; ++l)
+        {
+          const HexMesh::Cell cell{{node(i, k, l), node(i, k, l + 1), node(i + 1, k, l + 1),
+                                    node(i + 1, k, l), node(i, k + 1, l), node(i, k + 1, l + 1),
+                                    node(i + 1, k + 1, l + 1), node(i + 1, k + 1, l)},
+                                   monolith[i]};
+          mesh.cells.push_back(cell);
+
+          // In the order of hex_faces: base, crest, right bank, downstream, left bank, upstream.
+          const bool outside[6] = {k == 0,           k + 1 == n_up, i == 0, l + 1 == n_through,
+                                   i + 1 == n_along, l == 0};
+          const int  surface[6] = {PhysicalId::base,       PhysicalId::crest, PhysicalId::base,
+                                   PhysicalId::downstream, PhysicalId::base,  PhysicalId::upstream};
+          for (unsigned int f = 0; f < 6; ++f)
+            if (outside[f])
+            {
+              HexMesh::Face face{{}, surface[f]};
+              for (unsigned int v = 0; v < 4; ++v)
+                face.nodes[v] = cell.nodes[hex_faces[f][v]];
+              mesh.faces.push_back(face);
+            }
+        }
+
+    for (const auto &cell : mesh.cells)
+      mesh.names[{3, cell.volume}] = physical_name(3, cell.volume);
+    for (const auto &face : mesh.faces)
+      mesh.names[{2, face.surface}] = physical_name(2, face.surface);
+    return mesh;
+  }
+
+  std::vector<std::array<double, 2>> arch_valley(const ArchShape &shape, const ArchGrid &grid)
+  {
+    std::vector<std::array<double, 2>> valley;
+    for (const double s : columns(shape, grid).s)
+    {
+      const Column column = Crest(shape).column(s, grid.smallest_height);
+      const auto   base = column.node(column.base(0), 0);
+      valley.push_back({s < 0 ? -base[1] : base[1], base[2]});
+    }
+    return valley;
+  }
+} // namespace Voussoir
