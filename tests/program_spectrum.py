@@ -15,10 +15,18 @@ import meshes  # noqa: E402
 from compare import read_vtu, scene  # noqa: E402
 from program_blocks import blocks, force  # noqa: E402
 from program_physics import close, settings  # noqa: E402
-from run_program import MESH, expect, refused, run_cases, runs, summary, table, voussoir, write  # noqa: E402
+from run_program import expect, refused, run_cases, runs, summary, table, voussoir, write  # noqa: E402
 
 G = 9.80665
-ARTIFICIAL = MESH + """
+ARTIFICIAL = """
+subsection Mesh
+  subsection Arch210
+    set Joints = 2
+    set Elements along = 18
+    set Elements up = 6
+    set Elements through = 1
+  end
+end
 subsection Motion
   set Source = artificial
   set Spectrum = NB35047-2015
@@ -134,12 +142,24 @@ def stiff():
     expect(worst < 1e-3 * 2500 * 3 * 60 and across < 1e-3 * 2500 * 3 * 60, "stress of a stiff wall")
     foot = printed(text)["cantilever (across it in the face)"]
     expect(max(abs(s - 1e-6 * 2500 * 3 * 50) for s in foot) < 6e-4, f"cantilever stress away from the base {foot}")
+    # Westergaard's pressure 7/8 rho sqrt(H h) a on the upstream face.
+    wet = settings("Motion/Scale y=0", "Motion/Scale z=0", "Reservoir/Density=1000", "Reservoir/Added mass=Westergaard")
+    runs("modes", file, "--count", "4", "--spectrum", "spectrum.csv", "--output", "wet", *wet)
+    fields = read_vtu("wet/response_spectrum.vtu")
+    face = [(p[2], s) for p, s in zip(fields["points"], fields["stress_xx"]) if p[0] == 0 and 10 < p[2] < 50]
+    expect(len(face) > 20, "the upstream face")
+    for z, pressure in sorted(set(face)):
+        close(pressure, 7 / 8 * 1000 * math.sqrt(60 * (60 - z)) * 3, .01, f"hydrodynamic pressure at {z} m")
 
 
 def history():
-    """Mean of the maxima of three artificial motions that match the spectrum, tied joints, by step-by-step integration."""
+    """Mean of the maxima of three artificial motions that match the spectrum, tied joints, by step-by-step integration.
+
+    The maxima scatter by 13 % (base force x, 12 seeds), so their mean has a standard error of up to 7.5 %. In the base force the CQC
+    neglects that stiff modes and the residual mass move together: it is 4 to 17 % below the mean of 12 seeds, the crown 2 to 6 %.
+    """
     write("scene.prm", ARTIFICIAL)
-    first = runs("modes", "scene.prm", "--count", "30", *DRY, "--output", "modes")
+    runs("modes", "scene.prm", "--count", "30", *DRY, "--output", "modes")
     modes = rows_of("modes/modes.csv")
     f1 = modes[0]["frequency"]
     # Rayleigh's damping ratio is .0485 to .05 between these frequencies, which have the largest part in the response.
@@ -150,7 +170,6 @@ def history():
     for seed in (1, 2, 3):
         runs("scene.prm", "--output", f"run{seed}", *tied, *settings(f"Motion/Seed={seed}", "Output/Envelope interval=0"))
         peaks.append(maxima(f"run{seed}", modes))
-    expect(len(first) > 0, first)
     print("    peaks of the seeds:", peaks)
     for k, (name, part) in enumerate((n, i) for n in ("displacement of the crown [mm]", "base force [MN]") for i in range(3)):
         mean, of_spectrum = sum(p[k] for p in peaks) / 3, found[name][part]
