@@ -7,12 +7,14 @@
 #include <voussoir/dam/reservoir.h>
 #include <voussoir/dynamics/modes.h>
 #include <voussoir/dynamics/newmark.h>
+#include <voussoir/dynamics/spectrum_response.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/mesh/mesh_source.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
+#include <voussoir/motion/spectrum_file.h>
 #include <voussoir/rock/explicit_region.h>
 #include <voussoir/rock/free_field.h>
 #include <voussoir/rock/rock_model.h>
@@ -474,12 +476,10 @@ namespace
     }
   }
 
-  /** Masses of 1 kg in a row between two walls: K = tridiag(-c, 2 c, -c), with another c [N/m] for each axis.
-   * Too few iterations are an error. */
-  void modes_of_chain()
+  /** Returns @p n masses of 1 kg in a row between two walls: K = tridiag(-c, 2 c, -c), with another c [N/m] for
+   * each axis. @p coupled false: every mass has its own springs to the ground, K = 2 c. */
+  Structure chain(const unsigned int n, const Vector3 &c, const bool coupled = true)
   {
-    constexpr unsigned int                 n = 40;
-    const double                           c[] = {1., 1.7, 2.9};
     std::vector<std::vector<unsigned int>> columns(n);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = i == 0 ? 0 : i - 1; j < std::min(n, i + 2); ++j)
@@ -490,13 +490,22 @@ namespace
     for (unsigned int i = 0; i < n; ++i)
       for (const unsigned int j : columns[i])
       {
-        const double k = i == j ? 2. : -1.;
+        const double k = i == j ? 2. : coupled ? -1. : 0.;
         body.stiffness.add(i, j, {{k * c[0], 0., 0., 0., k * c[1], 0., 0., 0., k * c[2]}});
       }
     structure.bodies.push_back(std::move(body));
     structure.mass.assign(n, Matrix3{{1., 0., 0., 0., 1., 0., 0., 0., 1.}});
     structure.added_mass.assign(n, Matrix3{});
-    std::vector<double> exact;
+    return structure;
+  }
+
+  /** Natural frequencies of the chain. Too few iterations are an error. */
+  void modes_of_chain()
+  {
+    constexpr unsigned int n = 40;
+    const Vector3          c = {{1., 1.7, 2.9}};
+    const Structure        structure = chain(n, c);
+    std::vector<double>    exact;
     for (unsigned int k = 1; k <= 6; ++k)
       for (const double stiffness : c)
         exact.push_back(std::sqrt(stiffness * (2. - 2. * std::cos(k * pi / (n + 1)))) / (2. * pi));
@@ -506,6 +515,147 @@ namespace
       expect_close(modes[k].frequency, exact[k], 1e-9, "frequency of the chain");
     throws<ComputationError>("modes after one iteration", [&] { natural_modes(structure, 6, 1); },
                              {"were not found"});
+  }
+
+  /** Coefficients of the CQC: the example of Wilson, Der Kiureghian and Bayo (1981), a building with the damping
+   * ratio 0.05, three printed digits; equal and distant frequencies. */
+  void cqc_coefficients()
+  {
+    const double omega[] = {13.87, 13.93, 43.99, 44.19, 54.42};
+    const double printed[5][5] = {{1., .998, .006, .006, .004},
+                                  {.998, 1., .006, .006, .004},
+                                  {.006, .006, 1., .998, .180},
+                                  {.006, .006, .998, 1., .186},
+                                  {.004, .004, .180, .186, 1.}};
+    for (unsigned int i = 0; i < 5; ++i)
+      for (unsigned int j = 0; j < 5; ++j)
+        expect_within(cqc_coefficient(omega[i], .05, omega[j], .05), printed[i][j], 7e-4,
+                      "correlation of two modes");
+    expect_within(cqc_coefficient(2., 0., 2., 0.), 1., 0., "correlation of a mode with itself");
+    expect_close(cqc_coefficient(2., .02, 2., .08), 8. * .04 * .1 / (4. * .0016 * 2. + 4. * .0068), 1e-12,
+                 "equal frequencies, other damping");
+    expect_close(cqc_coefficient(2., .02, 3., .08), cqc_coefficient(3., .08, 2., .02), 1e-12, "symmetry");
+    expect(cqc_coefficient(1., .05, 100., .05) < 1e-4, "distant frequencies");
+  }
+
+  /** Two equal oscillators move together, u = S_a/omega^2, whatever modes a solver returns for their common
+   * frequency. A square root of the sum of squares would give less. */
+  void spectrum_of_equal_frequencies()
+  {
+    const Structure structure = chain(2, {{18., 18., 18.}}, false);
+    const double    frequency = 6. / (2. * pi), S_a = 1.8;
+    for (const double angle : {0., .3, 1., 2.5})
+    {
+      const double                        c = std::cos(angle), s = std::sin(angle);
+      std::vector<SpectrumResponse::Mode> modes = {
+          {{frequency, {c, 0., 0., s, 0., 0.}}, .05, {{S_a, 0., 0.}}},
+          {{frequency, {-s, 0., 0., c, 0., 0.}}, .05, {{S_a, 0., 0.}}}};
+      const SpectrumResponse response(structure, modes, {{1., 0., 0.}});
+      std::vector<double>    u, force;
+      for (const SpectrumResponse::Part &part : response.parts())
+      {
+        u.push_back(part.displacement[0]);
+        force.push_back(support_force(structure, part)[0]);
+      }
+      expect_close(response.combine(u), S_a / 36., 1e-12, "displacement of equal oscillators");
+      expect_close(response.combine(force), 2. * S_a, 1e-12, "force on the supports of equal oscillators");
+    }
+  }
+
+  /** The chain under a spectrum, with m modes in x and y: closed forms of modes and static response. Without
+   * modes it follows the ground: displacements of the static load, force = mass times peak acceleration. */
+  void spectrum_of_chain()
+  {
+    constexpr unsigned int n = 40;
+    const Vector3          c = {{1., 1.7, 2.9}}, peak = {{.2, .5, 0.}};
+    const Structure        structure = chain(n, c);
+    const double           damping = .07;
+    const auto             S_a = [](const unsigned int d, const double f) {
+      return d == 0 ? .2 + f : d == 1 ? .5 + 2. * f : 0.;
+    };
+    for (const unsigned int m : {0, 1, 3, 4})
+    {
+      std::vector<SpectrumResponse::Mode> modes;
+      std::array<double, 2>               u{}, force{}; // squares, at mass 12 and on the supports
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        std::vector<double> w, at, sum, S;
+        double              rest_u = 12. * (n + 1 - 12.) / (2. * c[d]), rest_force = n;
+        for (unsigned int k = 1; k <= m; ++k)
+        {
+          Unknowns shape(3 * n, 0.);
+          for (unsigned int i = 1; i <= n; ++i)
+            shape[3 * (i - 1) + d] = std::sqrt(2. / (n + 1)) * std::sin(k * pi * i / (n + 1));
+          w.push_back(std::sqrt(c[d] * (2. - 2. * std::cos(k * pi / (n + 1)))));
+          S.push_back(S_a(d, w.back() / (2. * pi)));
+          at.push_back(std::sqrt(2. / (n + 1)) * std::sin(k * pi * 12. / (n + 1)));
+          sum.push_back(k % 2 == 0 ? 0. : std::sqrt(2. / (n + 1)) / std::tan(k * pi / (2. * (n + 1))));
+          rest_u -= at.back() * sum.back() / (w.back() * w.back());
+          rest_force -= sum.back() * sum.back();
+          modes.push_back({{w.back() / (2. * pi), shape},
+                           damping,
+                           {{S_a(0, w.back() / (2. * pi)), S_a(1, w.back() / (2. * pi)), 0.}}});
+        }
+        u[d] = std::pow(peak[d] * rest_u, 2);
+        force[d] = std::pow(peak[d] * rest_force, 2);
+        for (unsigned int i = 0; i < m; ++i)
+          for (unsigned int j = 0; j < m; ++j)
+          {
+            const double r = w[j] / w[i]; // the formula for equal damping ratios
+            const double rho = 8. * damping * damping * (1. + r) * std::pow(r, 1.5) /
+                               (std::pow(1. - r * r, 2) + 4. * damping * damping * r * std::pow(1. + r, 2));
+            u[d] += rho * at[i] * at[j] * sum[i] * sum[j] * S[i] * S[j] / std::pow(w[i] * w[j], 2);
+            force[d] += rho * std::pow(sum[i] * sum[j], 2) * S[i] * S[j];
+          }
+      }
+      const SpectrumResponse             response(structure, modes, peak);
+      std::array<std::vector<double>, 2> of_u, of_force;
+      std::vector<double>                of_both; // both axes in one result
+      for (const SpectrumResponse::Part &part : response.parts())
+      {
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          of_u[d].push_back(part.displacement[3 * 11 + d]);
+          of_force[d].push_back(support_force(structure, part)[d]);
+        }
+        of_both.push_back(of_u[0].back() - of_u[1].back());
+      }
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        expect_close(response.combine(of_u[d]), std::sqrt(u[d]), 1e-10, "displacement of the chain");
+        expect_close(response.combine(of_force[d]), std::sqrt(force[d]), 1e-10, "force of the chain");
+      }
+      expect_close(response.combine(of_both), std::sqrt(u[0] + u[1]), 1e-10,
+                   "two directions of ground motion");
+    }
+  }
+
+  /** Files of spectra: interpolation, and messages of invalid files. */
+  void spectrum_files()
+  {
+    const auto write = [](const std::string &text) { std::ofstream("spectrum.csv") << text; };
+    write("period [s]; a [m/s^2]\n\n# rock\n0.02, 2\n.1\t5 # plateau\r\n.2;5\n3 1\n");
+    const SpectrumTable table = read_spectrum("spectrum.csv");
+    for (const auto &[period, a] :
+         {std::make_pair(0., 2.), {.02, 2.}, {.06, 3.5}, {.15, 5.}, {1.6, 3.}, {3., 1.}})
+      expect_close(table.at(period), a, 1e-12, "spectrum of a file");
+    throws<InputError>("long period", [&] { table.at(3.1); }, {"spectrum.csv", "ends", "3 s", "3.1 s"});
+    const std::vector<std::pair<std::string, std::vector<std::string>>> wrong = {
+        {"0 1\n1 2 3\n", {"line 2", "two numbers"}},
+        {"0 1\n1 x\n", {"line 2", "two numbers"}},
+        {"0 1\n1 nan\n", {"line 2"}},
+        {"0 1\n1 -2\n", {"line 2", "negative"}},
+        {"0 1\n2 1\n2 1\n", {"line 3", "ascend"}},
+        {"0 1\n", {"fewer than two"}},
+        {"0.1 1\n1 1\n", {"begins", "0.1 s"}}};
+    for (const auto &[text, parts] : wrong)
+    {
+      write(text);
+      throws<InputError>(
+          "spectrum " + parts.back(), [] { read_spectrum("spectrum.csv"); }, parts);
+    }
+    throws<InputError>("no spectrum", [] { read_spectrum("nothing.csv"); },
+                       {"nothing.csv", "cannot be read"});
   }
 
   /** Damped against a base that moves with the velocity t: v = t - (1 - exp(-alpha t))/alpha. */
@@ -635,6 +785,10 @@ int main(int argc, char **argv)
     return run({{"damped oscillator", damped_oscillator},
                 {"participation factors", participation},
                 {"modes of a chain", modes_of_chain},
+                {"coefficients of the CQC", cqc_coefficients},
+                {"spectrum, equal frequencies", spectrum_of_equal_frequencies},
+                {"spectrum, chain", spectrum_of_chain},
+                {"spectra of files", spectrum_files},
                 {"moving base", moving_base},
                 {"sliding", sliding_energy}});
   if (part == "rock")

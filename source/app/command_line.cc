@@ -142,7 +142,8 @@ namespace Voussoir
       if (command == "scene")
         std::cout << text.str();
       else if (command == "modes")
-        print_modes(scene, arguments.value("--count", "10"), arguments.value("--output"));
+        print_modes(scene, arguments.value("--count", "10"), arguments.value("--output"),
+                    arguments.value("--spectrum"));
       else if (command == "mesh")
         write_mesh(scene, arguments);
       else

@@ -53,6 +53,9 @@ namespace Voussoir
          {{"--count", "N", "number of modes, by default 10"},
           {"--output", "DIR",
            "directory for mode shapes, participation factors, effective masses and a picture"},
+          {"--spectrum", "design|FILE.csv",
+           "also print the response to a spectrum (CQC): that of section Motion, or a table of period [s], "
+           "acceleration [m/s^2]"},
           set}},
         {"motion",
          "SCENE.prm",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/modes_command.h>
+#include <voussoir/app/spectrum_analysis.h>
 #include <voussoir/base/error.h>
 #include <voussoir/dam/dam.h>
 #include <voussoir/dynamics/modes.h>
@@ -11,6 +12,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 namespace Voussoir
 {
@@ -97,13 +99,17 @@ namespace Voussoir
     }
   } // namespace
 
-  void print_modes(const Scene &scene, const std::string &count_text, const std::string &directory)
+  void print_modes(const Scene &scene, const std::string &count_text, const std::string &directory,
+                   const std::string &spectrum_choice)
   {
     const unsigned int count = count_of(count_text);
     if (scene.foundation.model == "rock")
       throw InputError(
           "`voussoir modes` requires a rigid base or massless rock, because rock with mass "
           "radiates energy. Use --set Foundation/Model=massless or --set Foundation/Model=rigid.");
+    std::optional<ChosenSpectrum> spectrum;
+    if (!spectrum_choice.empty())
+      spectrum = choose_spectrum(scene, spectrum_choice);
     if (!directory.empty())
       make_directory(directory);
     const Dam dam(scene, true);
@@ -113,6 +119,8 @@ namespace Voussoir
     std::printf("mode  frequency [Hz]\n");
     for (std::size_t i = 0; i < modes.size(); ++i)
       std::printf("%4zu  %10.5f\n", i + 1, modes[i].frequency);
+    if (spectrum)
+      print_spectrum_analysis(dam, modes, *spectrum, directory);
     if (!directory.empty())
       write_modes(dam, modes, directory);
   }

@@ -12,9 +12,11 @@ namespace Voussoir
    * @param count number of modes
    * @param directory for modes.csv with participation factors and effective masses, mode-NN.vtu, and figures;
    * empty: none
+   * @param spectrum for a response spectrum analysis: "design" or a file, see choose_spectrum(); empty: none
    *
-   * Throws InputError for an invalid count, and for rock with mass. */
-  void print_modes(const Scene &scene, const std::string &count, const std::string &directory);
+   * Throws InputError for an invalid count, for rock with mass, and for a spectrum that cannot be used. */
+  void print_modes(const Scene &scene, const std::string &count, const std::string &directory,
+                   const std::string &spectrum = "");
 } // namespace Voussoir
 
 #endif
