@@ -123,7 +123,7 @@ def arcs():
     expect(abs(float(re.search(r"crest ([\d.]+) m", text)[1]) - math.radians(70) * 90) < .2, text)
     expect("../ring.csv" in Path("scenes/own.prm").read_text() and "5 joints" in text, "the scene")
     shown = {model: runs("scenes/own.prm", "--validate", "--set", f"Foundation/Model={model}", *more)
-             for model, more in (("rigid", []), ("massless", []), ("rock", ["--set", "Foundation/Substeps=8"]))}
+             for model, more in (("rigid", []), ("massless", []), ("rock", ["--set", "Dynamics/Steps per sample=4"]))}
     for model, text in shown.items():
         expect("6 monoliths" in text and ("rock 1000" in text) == (model != "rigid"), f"{model}: {text}")
     expect("exists" in write_scene_of("ring.csv", "--output", "scenes/own.prm", status=2), "no file is replaced")

@@ -226,8 +226,9 @@ namespace Voussoir
       if (!std::binary_search(body.interface.begin(), body.interface.end(), unknown[i] / 3))
         throw ComputationError(
             "Monolith " + std::to_string(body.number) +
-            " is not in one piece: its parts have no common node. Merge their coincident nodes in the mesh "
-            "(gmsh: Coherence), or give the parts different numbers.");
+            " is not in one piece, or only one element wide on rock with mass. If its parts have no common node, "
+            "merge their coincident nodes in the mesh (gmsh: Coherence), or give the parts different numbers. "
+            "Otherwise use at least two elements along each monolith.");
   }
 
   double BodyFactor::n_entries() const

@@ -107,7 +107,8 @@ namespace Voussoir
         // The dispersion of waves from below increases with the square of the cell height and with the path.
         // Rock deeper than the valley therefore has lower cells.
         const double below_valley = bottom - z_bottom - n * h_bottom, above = plateau - bottom;
-        const double tallest = largest * std::sqrt(std::min(1., 2. * above / (above + rock.depth)));
+        const double tallest =
+            std::max(smallest, largest * std::sqrt(std::min(1., 2. * above / (above + rock.depth))));
         n_down = std::clamp<unsigned int>(std::ceil(below_valley / smallest), 2,
                                           n_graded(above + below_valley, surface_size, h_bottom, tallest));
 

@@ -27,7 +27,9 @@ namespace Voussoir
         throw InputError("The base of the dam is fewer than " + std::to_string(n_steps) +
                          " layers of rock elements from the artificial boundary, which is too near for "
                          "\"Foundation/Substeps\" = " +
-                         std::to_string(n_steps) + ". Enlarge the rock, or reduce \"Foundation/Substeps\".");
+                         std::to_string(n_steps) +
+                         ". Enlarge the rock, or reduce \"Foundation/Substeps\" and "
+                         "increase \"Dynamics/Steps per sample\".");
       inverse_mass.push_back(1. / model.mass[node[i]]);
     }
     std::vector<unsigned int> number(model.points.size(), no_node);
