@@ -3,10 +3,12 @@
 
 #include <voussoir/app/command_line.h>
 #include <voussoir/app/command_options.h>
+#include <voussoir/app/completion.h>
 #include <voussoir/app/contact_command.h>
 #include <voussoir/app/declared_entries.h>
 #include <voussoir/app/memory_need.h>
 #include <voussoir/app/modes_command.h>
+#include <voussoir/app/new_command.h>
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
@@ -107,6 +109,9 @@ namespace Voussoir
       options.overwrite = arguments.has("--overwrite");
       options.validate = arguments.has("--validate");
       options.quiet = arguments.has("--quiet");
+      options.json = arguments.has("--json");
+      if (options.json && !options.validate)
+        throw InputError("--json requires --validate. A run writes summary.json into its directory.");
 #ifdef DEBUG
       std::cerr << "voussoir: warning: this is a Debug build, many times slower than Release.\n";
 #endif
@@ -141,7 +146,8 @@ namespace Voussoir
       if (command == "scene")
         std::cout << text.str();
       else if (command == "modes")
-        print_modes(scene, arguments.value("--count", "10"), arguments.value("--output"));
+        print_modes(scene, arguments.value("--count", "10"), arguments.value("--output"),
+                    arguments.has("--json"));
       else if (command == "mesh")
         write_mesh(scene, arguments);
       else
@@ -205,6 +211,10 @@ namespace Voussoir
                                                                          : help_about(arguments.command));
     else if (arguments.command == "parameters")
       print_parameters(arguments.words);
+    else if (arguments.command == "completion")
+      print_completion(arguments.words, std::cout);
+    else if (arguments.command == "new")
+      write_new_scene(arguments.words);
     else if (arguments.command == "contact")
     {
       ContactOptions options;

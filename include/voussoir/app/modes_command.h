@@ -12,9 +12,10 @@ namespace Voussoir
    * @param count number of modes
    * @param directory for modes.csv with participation factors and effective masses, mode-NN.vtu, and figures;
    * empty: none
+   * @param json print a JSON object instead of the tables
    *
    * Throws InputError for an invalid count, and for rock with mass. */
-  void print_modes(const Scene &scene, const std::string &count, const std::string &directory);
+  void print_modes(const Scene &scene, const std::string &count, const std::string &directory, bool json);
 } // namespace Voussoir
 
 #endif
