@@ -82,13 +82,25 @@ namespace Voussoir
         }
     }
 
-    /** Returns the first sentence of a help text, with its unit, as a comment. */
-    std::string comment_of(const DeclaredEntry &entry)
+    /** Returns the choices of an entry, or an empty text. */
+    std::string choices_of(const DeclaredEntry &entry)
     {
-      const std::string text = entry.documentation.substr(0, entry.documentation.find(". "));
-      return text + (text.back() == '.' ? "" : ".") +
-             (entry.pattern.rfind("[Selection", 0) == 0 ? " It is " + pattern_in_words(entry.pattern) + "."
-                                                        : "");
+      return entry.pattern.rfind("[Selection", 0) == 0 ? ", " + pattern_in_words(entry.pattern) : "";
+    }
+
+    /** Returns a comment on an entry: the first sentence of its help text, with the unit and the choices, and the
+     * sentence about the value -1. */
+    std::string comment_of(const DeclaredEntry &entry, const std::string &value)
+    {
+      const std::string &help = entry.documentation;
+      const auto         sentence = [&help](const std::size_t from)
+      {
+        const std::string text = help.substr(from, help.find(". ", from) - from);
+        return text.substr(0, text.find_last_not_of('.') + 1);
+      };
+      const auto automatic = value == "-1" ? help.find("-1: ") : std::string::npos;
+      return sentence(0) + choices_of(entry) + "." +
+             (automatic == std::string::npos ? "" : " " + sentence(automatic) + ".");
     }
 
     /** Returns the declaration of an entry, or null. */
@@ -121,7 +133,7 @@ namespace Voussoir
       until_valid(
           [&]
           {
-            std::cout << "   " << name << " [" << standard << "]: " << std::flush;
+            std::cout << "   " << name << choices_of(*find(name)) << " [" << standard << "]: " << std::flush;
             std::string answer;
             std::getline(std::cin, answer);
             answer.erase(0, answer.find_first_not_of(" \t\r"));
@@ -213,7 +225,10 @@ namespace Voussoir
       std::cout << "\n3. Joints\n";
       ask("Joints/Model");
       if (scene.joints.model == "cohesive")
+      {
         ask("Joints/Strength", "1 MPa");
+        ask("Joints/Fracture energy", "150 N/m");
+      }
       for (const DeclaredEntry &entry : known)
         if (entry.name().rfind("Joints/", 0) == 0 && entry.unit() != "" &&
             scene.joints.any_reads(entry.name()))
@@ -249,14 +264,13 @@ namespace Voussoir
         set(enabled, "true");
       if (scene.foundation.model != "rock")
         return;
-      std::cout << "   Critical time step of the rock: " << std::flush;
+      std::cout << "   The critical time step of the rock is computed." << std::endl;
       const Dam dam(scene);
       for (const unsigned int steps : {1, 2, 5, 10, 20, 50})
         try
         {
           dam.foundation->check({scene.motion.time_step / steps, scene.foundation.substeps, 1}, steps);
           set("Dynamics/Steps per sample", std::to_string(steps));
-          std::cout << steps << " time steps per sample of the motion suffice.\n";
           return;
         }
         catch (const InputError &)
@@ -290,7 +304,10 @@ namespace Voussoir
                 throw InputError(warning);
             });
       if (scene.motion.source == "none")
+      {
+        values.erase("Dynamics/Steps per sample");
         return;
+      }
       for (const char *entry : {"Motion/Duration", "Motion/Time step", "Damping/Ratio", "Damping/Frequency 1",
                                 "Damping/Frequency 2"})
         add(entry);
@@ -327,7 +344,7 @@ namespace Voussoir
           out << (section.empty() ? "\n" : "") << indent() << "subsection " << entry.path[i] << "\n";
           section.push_back(entry.path[i]);
         }
-        out << indent() << "# " << comment_of(entry) << "\n"
+        out << indent() << "# " << comment_of(entry, value->second) << "\n"
             << indent() << "set " << entry.path.back() << " = " << value->second << "\n";
       }
       close(0);
