@@ -26,6 +26,12 @@ install(FILES ${CMAKE_BINARY_DIR}/cmake/VoussoirConfig.cmake ${CMAKE_BINARY_DIR}
 # The program looks for its scripts in ../share/voussoir/scripts (source/base/python_script.cc).
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 install(TARGETS voussoir RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+# The program writes its completion for bash.
+install(CODE "execute_process(COMMAND \"$<TARGET_FILE:voussoir>\" completion bash OUTPUT_FILE \"${CMAKE_BINARY_DIR}/voussoir.bash\" RESULT_VARIABLE status)
+  if(status)
+    message(FATAL_ERROR \"voussoir completion bash: \${status}\")
+  endif()")
+install(FILES ${CMAKE_BINARY_DIR}/voussoir.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME voussoir)
 install(DIRECTORY scripts/ DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts USE_SOURCE_PERMISSIONS FILES_MATCHING PATTERN "*.py"
   PATTERN __pycache__ EXCLUDE PATTERN mutants.py EXCLUDE PATTERN coverage.py EXCLUDE PATTERN function_lengths.py EXCLUDE
   PATTERN check_imports.py EXCLUDE PATTERN site.py EXCLUDE)

@@ -31,7 +31,7 @@ def install():
     cmake, prefix = os.environ["CMAKE"], Path("prefix").absolute()
     does(cmake, "--install", os.environ["BUILD"], "--prefix", str(prefix))
     for file in ("bin/voussoir", "include/voussoir/contact/joint_law.h", "share/voussoir/scripts/figures.py", "share/voussoir/python/voussoir/report.css",
-                 "share/voussoir/prm/quickstart.prm", "share/voussoir/meshes/keys_law.msh"):
+                 "share/voussoir/prm/quickstart.prm", "share/voussoir/meshes/keys_law.msh", "share/bash-completion/completions/voussoir"):
         expect((prefix / file).is_file(), f"{file} is not installed")
 
     # Nothing of the installation may point to the sources or to where they were built.
@@ -56,6 +56,8 @@ def install():
     expect(len(list(Path("out/figures").glob("*.png"))) >= 3, "the installed program drew no figures")
     expect(summary("out")["steps"] > 0, "no steps")
     does(program, str(prefix / "share/voussoir/prm/keys_law.prm"), "--validate", environment=environment)
+    completion = (prefix / "share/bash-completion/completions/voussoir").read_text()
+    expect(completion == does(program, "completion", "bash"), "the installed completion is not that of the program")
 
 
 def packages():
@@ -79,7 +81,7 @@ def packages():
         print(f"    {name}: {re.search('Installed-Size: (.*)', fields[name])[1]} kB")
     files = {name: {line.split()[5] for line in does("dpkg-deb", "-c", path).splitlines()} for name, (path,) in found.items()}
     for name, parts in (("voussoir", ("bin/voussoir", "share/voussoir/scripts/report.py", "share/voussoir/python/voussoir/report.py",
-                                      "share/voussoir/prm/quickstart.prm", "share/man/man1/voussoir.1.gz",
+                                      "share/voussoir/prm/quickstart.prm", "share/man/man1/voussoir.1.gz", "share/bash-completion/completions/voussoir",
                                       "share/doc/voussoir/copyright", "share/doc/voussoir/changelog.gz", "share/doc/voussoir/doc/install.md")),
                         ("voussoir-dev", ("include/voussoir/contact/joint_law.h", "share/doc/voussoir-dev/copyright"))):
         for part in parts:

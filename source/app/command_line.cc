@@ -4,10 +4,12 @@
 #include <voussoir/app/arcs_command.h>
 #include <voussoir/app/command_line.h>
 #include <voussoir/app/command_options.h>
+#include <voussoir/app/completion.h>
 #include <voussoir/app/contact_command.h>
 #include <voussoir/app/declared_entries.h>
 #include <voussoir/app/memory_need.h>
 #include <voussoir/app/modes_command.h>
+#include <voussoir/app/new_command.h>
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
@@ -108,6 +110,9 @@ namespace Voussoir
       options.overwrite = arguments.has("--overwrite");
       options.validate = arguments.has("--validate");
       options.quiet = arguments.has("--quiet");
+      options.json = arguments.has("--json");
+      if (options.json && !options.validate)
+        throw InputError("--json requires --validate. A run writes summary.json into its directory.");
 #ifdef DEBUG
       std::cerr << "voussoir: warning: this is a Debug build, many times slower than Release.\n";
 #endif
@@ -143,7 +148,7 @@ namespace Voussoir
         std::cout << text.str();
       else if (command == "modes")
         print_modes(scene, arguments.value("--count", "10"), arguments.value("--output"),
-                    arguments.value("--spectrum"));
+                    arguments.value("--spectrum"), arguments.has("--json"));
       else if (command == "mesh")
         write_mesh(scene, arguments);
       else
@@ -209,6 +214,10 @@ namespace Voussoir
       print_parameters(arguments.words);
     else if (arguments.command == "arcs")
       write_scene_of_arcs(arguments);
+    else if (arguments.command == "completion")
+      print_completion(arguments.words, std::cout);
+    else if (arguments.command == "new")
+      write_new_scene(arguments.words);
     else if (arguments.command == "contact")
     {
       ContactOptions options;

@@ -9,21 +9,8 @@ namespace Voussoir
 {
   namespace
   {
-    struct Option
-    {
-      const char *name, *value, *meaning; ///< empty value: a flag
-      bool        needed = false;
-    };
-
-    struct Command
-    {
-      const char         *name, *words, *summary;
-      std::vector<Option> options;
-      const char         *script = ""; ///< Python script that executes it
-    };
-
-    const Option set = {"--set", "'Section/Entry=value'",
-                        "override an entry of the scene; may be given several times"};
+    const CommandOption set = {"--set", "'Section/Entry=value'",
+                               "override an entry of the scene; may be given several times"};
 
     const std::vector<Command> commands = {
         {"",
@@ -34,6 +21,7 @@ namespace Voussoir
           {"--resume", "", "continue from the last checkpoint in the directory"},
           {"--overwrite", "", "replace the results in the directory"},
           {"--validate", "", "check scene, mesh and motion, print a summary, and stop"},
+          {"--json", "", "with --validate: print the summary as a JSON object"},
           {"--quiet", "", "print only errors; with --validate also warnings"}}},
         {"scene", "SCENE.prm", "Prints the complete scene, with included files and all defaults.", {set}},
         {"arcs",
@@ -56,7 +44,12 @@ namespace Voussoir
           {"--spectrum", "design|FILE.csv",
            "also print the response to a spectrum (CQC): that of section Motion, or a table of period [s], "
            "acceleration [m/s^2]"},
+          {"--json", "", "print frequencies, participation factors and effective masses as a JSON object"},
           set}},
+        {"new",
+         "[FILE.prm]",
+         "Asks for dam, water, joints, foundation and motion. Writes a commented scene, by default dam.prm.",
+         {}},
         {"motion",
          "SCENE.prm",
          "Writes the ground motion of a scene, t, a_x, a_y, a_z [s, m/s^2], and prints a report.",
@@ -103,8 +96,11 @@ namespace Voussoir
         {"parameters",
          "[prm|json|markdown] [SECTION]",
          "Prints all entries of a scene file or of a section, with defaults and meaning.",
-         {}}};
+         {}},
+        {"completion", "bash", "Prints the completion of commands, options and entries for bash.", {}}};
 
+    constexpr const char *spelling =
+        "--output=DIR and -o DIR mean --output DIR; all options with a value accept \"=\".\n";
     constexpr const char *status = "Exit status: 0 done; 1 the computation failed; 2 bad input.\n";
 
     const Command *find_command(const std::string &name)
@@ -114,10 +110,10 @@ namespace Voussoir
       return found == commands.end() ? nullptr : &*found;
     }
 
-    const Option *find_option(const Command &command, const std::string &name)
+    const CommandOption *find_option(const Command &command, const std::string &name)
     {
       const auto found = std::find_if(command.options.begin(), command.options.end(),
-                                      [&](const Option &option) { return name == option.name; });
+                                      [&](const CommandOption &option) { return name == option.name; });
       return found == command.options.end() ? nullptr : &*found;
     }
 
@@ -131,7 +127,7 @@ namespace Voussoir
       std::string text = called(command);
       if (*command.name != '\0')
         text += " " + std::string(command.words);
-      for (const Option &option : command.options)
+      for (const CommandOption &option : command.options)
       {
         const std::string usage =
             option.name + (*option.value == '\0' ? "" : " " + std::string(option.value));
@@ -142,10 +138,10 @@ namespace Voussoir
     }
 
     /** Returns the option of any command. An option has a value in all commands or in none. */
-    const Option *find_anywhere(const std::string &name)
+    const CommandOption *find_anywhere(const std::string &name)
     {
       for (const Command &command : commands)
-        if (const Option *option = find_option(command, name))
+        if (const CommandOption *option = find_option(command, name))
           return option;
       return nullptr;
     }
@@ -153,7 +149,7 @@ namespace Voussoir
     [[noreturn]] void refuse_option(const Command &command, const std::string &word)
     {
       std::vector<std::string> names;
-      for (const Option &option : command.options)
+      for (const CommandOption &option : command.options)
         names.push_back(option.name);
       std::string owner;
       for (const Command &other : commands)
@@ -171,10 +167,39 @@ namespace Voussoir
     /** Word of the command line, with its value if it is an option of any command. */
     struct Word
     {
-      std::string   text, value;
-      const Option *option = nullptr;
-      bool          is_option = false;
+      std::string          text, value;
+      const CommandOption *option = nullptr;
+      bool                 is_option = false;
     };
+
+    /** Returns the name of the option in a word such as "--output=DIR" or "-o". */
+    std::string option_name(const std::string &word)
+    {
+      const std::string name = word.substr(0, word.find('='));
+      return name == "-o" ? "--output" : name;
+    }
+
+    /** Reads the value of the option in words[i], after "=" or in the next word. Moves @p i to the last word
+     * of the option. */
+    void read_value(const std::vector<std::string> &words, std::size_t &i, Word &word)
+    {
+      const std::string &given = words[i];
+      const auto         equals = given.find('=');
+      if (*word.option->value == '\0')
+      {
+        if (equals != std::string::npos)
+          throw InputError("The option " + word.text + " has no value. Remove \"" + given.substr(equals) +
+                           "\".");
+        return;
+      }
+      if (equals != std::string::npos)
+        word.value = given.substr(equals + 1);
+      else if (i + 1 < words.size() && find_anywhere(option_name(words[i + 1])) == nullptr)
+        word.value = words[++i];
+      if (word.value.empty())
+        throw InputError("The option " + word.text + " needs a value, " + word.option->value +
+                         ". `voussoir --help` shows the usage.");
+    }
 
     std::vector<Word> sort_out(const std::vector<std::string> &words)
     {
@@ -188,19 +213,28 @@ namespace Voussoir
           options_end = true;
           continue;
         }
-        word.option = word.is_option ? find_anywhere(words[i]) : nullptr;
-        if (word.option != nullptr && *word.option->value != '\0')
+        if (word.is_option)
         {
-          if (i + 1 == words.size() || words[i + 1].empty() || find_anywhere(words[i + 1]) != nullptr)
-            throw InputError("The option " + words[i] + " needs a value, " + word.option->value +
-                             ". `voussoir --help` shows the usage.");
-          word.value = words[++i];
+          word.text = option_name(words[i]);
+          word.option = find_anywhere(word.text);
         }
+        if (word.option != nullptr)
+          read_value(words, i, word);
         result.push_back(word);
       }
       return result;
     }
   } // namespace
+
+  const std::vector<Command> &command_table()
+  {
+    return commands;
+  }
+
+  bool sets_entry(const CommandOption &option)
+  {
+    return option.meaning == std::string(set.meaning);
+  }
 
   Arguments read_arguments(const std::vector<std::string> &words)
   {
@@ -245,14 +279,14 @@ namespace Voussoir
   {
     const Command &command = *find_command(name);
     std::string    text = synopsis(command);
-    for (const Option &option : command.options)
+    for (const CommandOption &option : command.options)
     {
       const std::string usage = "  " + std::string(option.name) + " " + option.value;
       text += usage + std::string(usage.size() < 30 ? 30 - usage.size() : 1, ' ') + option.meaning + "\n";
     }
     if (name == "parameters")
       text += "  SECTION is a path such as Joints/Keys, or a single entry such as Joints/Friction.\n";
-    return text + status;
+    return text + (command.options.empty() ? "" : spelling) + status;
   }
 
   std::string help_about_all()
@@ -261,7 +295,7 @@ namespace Voussoir
     for (const Command &command : commands)
       text += synopsis(command);
     return text + "voussoir --help, voussoir --version, voussoir COMMAND --help\n\n" +
-           "--set overrides an entry of the scene, and may be given several times.\n" + status;
+           "--set overrides an entry of the scene, and may be given several times.\n" + spelling + status;
   }
 
   std::string script_of(const std::string &command)

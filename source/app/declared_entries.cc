@@ -5,6 +5,7 @@
 #include <voussoir/app/declared_entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/nearest_name.h>
+#include <voussoir/base/units.h>
 
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
@@ -175,6 +176,31 @@ namespace Voussoir
     std::size_t       position = 0;
     const std::string separator = between(pattern, "separated by <", ">", position);
     return separator.empty() ? ',' : separator[0];
+  }
+
+  std::string set_entry(ParameterHandler &prm, const DeclaredEntry &declared, const std::string &value,
+                        const std::string &what)
+  {
+    const std::string &pattern = declared.pattern, unit = declared.unit();
+    const bool         is_number = pattern.rfind("[Double", 0) == 0 || pattern.rfind("[Integer", 0) == 0;
+    const std::string  converted = is_number ? in_declared_unit(value, unit, what) : value;
+    for (std::size_t i = 0; i + 1 < declared.path.size(); ++i)
+      prm.enter_subsection(declared.path[i]);
+    bool is_valid = true;
+    try
+    {
+      prm.set(declared.path.back(), converted);
+    }
+    catch (const ExceptionBase &)
+    {
+      is_valid = false;
+    }
+    for (std::size_t i = 0; i + 1 < declared.path.size(); ++i)
+      prm.leave_subsection();
+    if (!is_valid)
+      throw InputError(what + " cannot be \"" + value + "\". It must be " + pattern_in_words(pattern) +
+                       (is_number && !unit.empty() && unit != "-" ? ", in " + unit : "") + ".");
+    return converted;
   }
 
   void print_entries(const ParameterHandler &prm, const std::string &format, const std::string &section,

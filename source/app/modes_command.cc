@@ -78,9 +78,9 @@ namespace Voussoir
       FieldWriter(*dam.model).write_vtu(file, u, {});
     }
 
-    void write_modes(const Dam &dam, const std::vector<NaturalMode> &modes, const std::string &directory)
+    void write_modes(const Dam &dam, const std::vector<NaturalMode> &modes, const Table &table,
+                     const std::string &directory)
     {
-      const Table table = table_of(modes, dam.structure);
       table.write(directory + "/modes.csv");
       for (std::size_t k = 0; k < modes.size(); ++k)
       {
@@ -88,21 +88,44 @@ namespace Voussoir
         std::snprintf(name, sizeof(name), "/mode-%03zu.vtu", k + 1);
         write_shape(dam, modes[k], directory + name);
       }
+      const std::string error = draw_figures_of(directory, directory + "/figures.log");
+      if (!error.empty())
+        std::cerr << "voussoir: warning: the mode shapes could not be drawn: " << error << ".\n";
+    }
+
+    void print_masses(const Table &table)
+    {
       std::printf("\nEffective mass, of dam and water [%%]\nmode       x       y       z\n");
       for (const auto &row : table.rows)
         std::printf("%4.0f  %6.2f  %6.2f  %6.2f\n", row[0], 100. * row[8], 100. * row[9], 100. * row[10]);
       std::fflush(stdout);
-      const std::string error = draw_figures_of(directory, directory + "/figures.log");
-      if (!error.empty())
-        std::cerr << "voussoir: warning: the mode shapes could not be drawn: " << error << ".\n";
-      std::printf("Results   %s\n", directory.c_str());
+    }
+
+    /** Returns the rows of the table as objects, with the names of the columns as keys. */
+    Json json_of(const Dam &dam, const Table &table)
+    {
+      std::vector<Json> modes(table.rows.size());
+      for (std::size_t k = 0; k < modes.size(); ++k)
+        for (std::size_t i = 0; i < table.columns.size(); ++i)
+          modes[k].add(table.columns[i], table.rows[k][i]);
+      std::vector<std::string> warnings = dam.mesh_warnings;
+      warnings.insert(warnings.end(), dam.scene.warnings.begin(), dam.scene.warnings.end());
+      Json json;
+      json.add("scene", dam.scene.name)
+          .add_list("free_mass", free_mass(dam.structure))
+          .add("modes", modes)
+          .add_texts("warnings", warnings);
+      return json;
     }
   } // namespace
 
   void print_modes(const Scene &scene, const std::string &count_text, const std::string &directory,
-                   const std::string &spectrum_choice)
+                   const std::string &spectrum_choice, const bool json)
   {
     const unsigned int count = count_of(count_text);
+    if (json && !spectrum_choice.empty())
+      throw InputError("--json does not print the results of --spectrum. Leave out --json, and read "
+                       "response_spectrum.csv in the directory of --output.");
     if (scene.foundation.model == "rock")
       throw InputError(
           "`voussoir modes` requires a rigid base or massless rock, because rock with mass "
@@ -116,12 +139,22 @@ namespace Voussoir
     for (const std::string &warning : dam.mesh_warnings)
       std::cerr << "voussoir: warning: " << warning << "\n";
     const std::vector<NaturalMode> modes = natural_modes(dam.structure, count);
-    std::printf("mode  frequency [Hz]\n");
-    for (std::size_t i = 0; i < modes.size(); ++i)
-      std::printf("%4zu  %10.5f\n", i + 1, modes[i].frequency);
+    const Table                    table = table_of(modes, dam.structure);
+    if (json)
+      std::printf("%s\n", json_of(dam, table).text().c_str());
+    else
+    {
+      std::printf("mode  frequency [Hz]\n");
+      for (std::size_t i = 0; i < modes.size(); ++i)
+        std::printf("%4zu  %10.5f\n", i + 1, modes[i].frequency);
+      if (!directory.empty())
+        print_masses(table);
+    }
     if (spectrum)
       print_spectrum_analysis(dam, modes, *spectrum, directory);
     if (!directory.empty())
-      write_modes(dam, modes, directory);
+      write_modes(dam, modes, table, directory);
+    if (!directory.empty() && !json)
+      std::printf("Results   %s\n", directory.c_str());
   }
 } // namespace Voussoir

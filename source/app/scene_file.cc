@@ -4,7 +4,6 @@
 #include <voussoir/app/scene_warnings.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/nearest_name.h>
-#include <voussoir/base/units.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -147,28 +146,10 @@ namespace Voussoir
     /** Sets the entry in @p prm. Converts its value to the declared unit. */
     void apply(ParameterHandler &prm, const DeclaredEntry &declared, Entry &entry)
     {
-      const std::string what = entry.place + ": entry \"" + declared.name() + "\"",
-                        &pattern = declared.pattern;
-      const std::string as_written = entry.value;
-      const bool        is_number = pattern.rfind("[Double", 0) == 0 || pattern.rfind("[Integer", 0) == 0;
-      if (is_number)
-        entry.value = in_declared_unit(entry.value, declared.unit(), what);
-      if (pattern.rfind("[Map", 0) == 0)
-        expect_different_keys(entry.value, separator_of(pattern), what);
-      for (std::size_t i = 0; i + 1 < entry.path.size(); ++i)
-        prm.enter_subsection(entry.path[i]);
-      try
-      {
-        prm.set(entry.path.back(), entry.value);
-      }
-      catch (const ExceptionBase &)
-      {
-        const std::string unit = declared.unit();
-        throw InputError(what + " cannot be \"" + as_written + "\". It must be " + pattern_in_words(pattern) +
-                         (is_number && !unit.empty() && unit != "-" ? ", in " + unit : "") + ".");
-      }
-      for (std::size_t i = 0; i + 1 < entry.path.size(); ++i)
-        prm.leave_subsection();
+      const std::string what = entry.place + ": entry \"" + declared.name() + "\"";
+      if (declared.pattern.rfind("[Map", 0) == 0)
+        expect_different_keys(entry.value, separator_of(declared.pattern), what);
+      entry.value = set_entry(prm, declared, entry.value, what);
     }
   } // namespace
 

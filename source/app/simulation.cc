@@ -33,7 +33,7 @@ namespace Voussoir
       : scene(scene), options(options),
         run_directory(options.output.empty() ? "output/" + scene.name : options.output),
         directory(run_directory.path), scene_text(scene_text), checkpoint(this->scene, scene_text, directory),
-        log(options.quiet)
+        log(options.quiet || options.json)
   {
   }
 
@@ -52,7 +52,7 @@ namespace Voussoir
     if (options.resume)
       state.start_step = checkpoint.open(log);
     read_input();
-    report_setup(state, options.validate, log);
+    report_setup(state, options.validate && !options.json, log);
     if (options.validate)
       return validate();
     start();
@@ -120,12 +120,17 @@ namespace Voussoir
     counters.setup = counters.clock.seconds();
   }
 
-  /** Prints the warnings at the end of --validate, if --quiet has suppressed the log. */
+  /** Prints the warnings at the end of --validate, if --quiet or --json has suppressed the log, and the
+   * JSON object. */
   void Simulation::validate()
   {
-    if (options.quiet && Ranks::is_first())
+    if (!Ranks::is_first())
+      return;
+    if (options.quiet || options.json)
       for (const std::string &warning : log.warnings())
         std::cerr << "voussoir: warning: " << warning << '\n';
+    if (options.json)
+      std::cout << json_of_setup(state, log).text() << '\n';
   }
 
   /** Computes the static state, and restores the checkpoint of a resumed run. */

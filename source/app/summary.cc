@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/config.h>
 
+#include <voussoir/app/memory_need.h>
 #include <voussoir/app/run_report.h>
 #include <voussoir/base/output_file.h>
 #include <voussoir/base/ranks.h>
+#include <voussoir/motion/motion_report.h>
 #include <voussoir/output/assessment.h>
 
 #include <omp.h>
+
+#include <sstream>
 
 namespace Voussoir
 {
@@ -84,6 +88,104 @@ namespace Voussoir
               observers.blocks ? &observers.blocks->blocks : nullptr};
     }
   } // namespace
+
+  namespace
+  {
+    Json json_of_damping(const DampingParameters &damping)
+    {
+      Json json;
+      json.add("ratio", damping.ratio)
+          .add("frequency_1", damping.frequency_1)
+          .add("frequency_2", damping.frequency_2)
+          .add("mass_factor", damping.mass_factor())
+          .add("stiffness_factor", damping.stiffness_factor());
+      return json;
+    }
+
+    Json json_of_water(const Dam &dam)
+    {
+      const ReservoirParameters &reservoir = dam.scene.reservoir;
+      Json                       json;
+      json.add_flag("reaches_dam", dam.has_water)
+          .add("level", reservoir.level)
+          .add("added_mass", reservoir.added_mass)
+          .add("factor", reservoir.factor)
+          .add("added_mass_x", dam.added_mass);
+      return json;
+    }
+
+    /** Returns duration and largest absolute values of the ground motion. */
+    Json json_of_motion(const RunState &run)
+    {
+      MotionParameters measures_only;
+      measures_only.source = "file"; // without the errors of an artificial motion's spectrum
+      const auto components = report_motion(run.motion, measures_only).components;
+      Vector3    a, v, u;
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        a[d] = components[d].peak_acceleration;
+        v[d] = components[d].peak_velocity;
+        u[d] = components[d].peak_displacement;
+      }
+      Json json;
+      json.add("duration", run.motion.duration())
+          .add_list("peak_acceleration", a)
+          .add_list("peak_velocity", v)
+          .add_list("peak_displacement", u);
+      return json;
+    }
+
+    Json json_of_joints(const Scene &scene)
+    {
+      Json json, overrides;
+      for (const auto &[joint, model] : scene.joints.overrides)
+        overrides.add(std::to_string(joint), model);
+      json.add("model", scene.joints.model).add("overrides", overrides);
+      if (scene.joints.any_reads("Joints/Friction"))
+        json.add("friction", scene.joints.friction);
+      return json;
+    }
+
+    Json json_of_memory(const Scene &scene)
+    {
+      const MemoryNeed need = memory_need(scene, make_mesh(scene.mesh, scene.directory));
+      Json             json;
+      json.add("run", need.run).add("other_ranks", need.of_others).add("halved_step", need.halved_step);
+      return json;
+    }
+  } // namespace
+
+  Json json_of_setup(const RunState &run, const Log &log)
+  {
+    const Dam               &dam = *run.dam;
+    const Scene             &scene = run.scene();
+    std::vector<std::string> groups;
+    std::istringstream       rows(dam.groups);
+    for (std::string row; std::getline(rows, row);)
+      groups.push_back(row);
+    Json json, unknowns;
+    unknowns.add("monoliths", 3. * dam.structure.n_nodes()).add("joints", 3. * dam.structure.pairs.size());
+    json.add("scene", scene.name)
+        .add("law", dam.tied ? "tied" : scene.joints.model)
+        .add("foundation", scene.foundation.model)
+        .add("version", VOUSSOIR_VERSION)
+        .add("revision", VOUSSOIR_REVISION)
+        .add("ranks", double(Ranks::size()))
+        .add("mesh", json_of_mesh(dam))
+        .add_texts("groups", groups)
+        .add("zones", json_of_zones(dam))
+        .add("joints", json_of_joints(scene))
+        .add("unknowns", unknowns)
+        .add("damping", json_of_damping(scene.damping))
+        .add("water", json_of_water(dam))
+        .add("loads", json_of_loads(dam));
+    if (run.n_steps > 0)
+      json.add("motion", json_of_motion(run)).add_texts("motion_notes", run.motion.notes);
+    json.add("steps", run.n_steps).add("time_step", run.motion.dt);
+    dam.foundation->add_to_summary(json, run.grid());
+    json.add("memory_bytes", json_of_memory(scene)).add_texts("warnings", log.warnings());
+    return json;
+  }
 
   void write_summary(const std::string &directory, const RunState &run, const RunObservers &observers,
                      const RunCounters &counters, const RankCounters &ranks, Log &log)

@@ -133,6 +133,14 @@ namespace Voussoir
     return add_raw(key, object.text());
   }
 
+  Json &Json::add(const std::string &key, const std::vector<Json> &objects)
+  {
+    std::string list;
+    for (const Json &object : objects)
+      list += (list.empty() ? "" : ", ") + object.text();
+    return add_raw(key, "[" + list + "]");
+  }
+
   std::string Json::text() const
   {
     std::string result = "{";

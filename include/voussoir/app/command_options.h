@@ -9,6 +9,27 @@
 
 namespace Voussoir
 {
+  /** Option of a command. */
+  struct CommandOption
+  {
+    const char *name, *value, *meaning; ///< empty value: a flag
+    bool        needed = false;
+  };
+
+  /** Command of the program; the name of a run is empty. */
+  struct Command
+  {
+    const char                *name, *words, *summary;
+    std::vector<CommandOption> options;
+    const char                *script = ""; ///< Python script that executes it
+  };
+
+  /** Returns all commands. */
+  const std::vector<Command> &command_table();
+
+  /** Returns whether the value of @p option is an entry of an input file: --set, except for a study. */
+  bool sets_entry(const CommandOption &option);
+
   /** Words of a command line by meaning. */
   struct Arguments
   {
@@ -30,8 +51,9 @@ namespace Voussoir
     }
   };
 
-  /** Returns the words of a command line by meaning. "--" ends the options. Throws InputError for options
-   * that are unknown to the command, that lack their value, or that are given twice. */
+  /** Returns the words of a command line by meaning. "--output=DIR" and "-o DIR" are "--output DIR". "--" ends
+   * the options. Throws InputError for options that are unknown to the command, that lack their value, that
+   * have a value but are flags, or that are given twice. */
   Arguments read_arguments(const std::vector<std::string> &words);
 
   /** Returns the help text of a command. Empty: the run of a scene. */

@@ -39,6 +39,11 @@ namespace Voussoir
   /** Returns the separator of a map or a list with this pattern, or 0. */
   char separator_of(const std::string &pattern);
 
+  /** Sets an entry, with its value converted to the declared unit, and returns this value. Throws InputError for
+   * an invalid value; the message begins with @p what. */
+  std::string set_entry(dealii::ParameterHandler &prm, const DeclaredEntry &declared,
+                        const std::string &value, const std::string &what);
+
   /** Prints entries. Throws InputError for an unknown format or section.
    * @param prm all declarations
    * @param format "prm", "json" or "markdown"

@@ -13,10 +13,12 @@ namespace Voussoir
    * @param directory for modes.csv with participation factors and effective masses, mode-NN.vtu, and figures;
    * empty: none
    * @param spectrum for a response spectrum analysis: "design" or a file, see choose_spectrum(); empty: none
+   * @param json print a JSON object instead of the tables
    *
-   * Throws InputError for an invalid count, for rock with mass, and for a spectrum that cannot be used. */
+   * Throws InputError for an invalid count, for rock with mass, for a spectrum that cannot be used, and for a spectrum
+   * with @p json. */
   void print_modes(const Scene &scene, const std::string &count, const std::string &directory,
-                   const std::string &spectrum = "");
+                   const std::string &spectrum = "", bool json = false);
 } // namespace Voussoir
 
 #endif

@@ -11,6 +11,9 @@ namespace Voussoir
    * groups, unknowns, steps and memory. */
   void report_setup(const RunState &run, bool validate, Log &log);
 
+  /** Returns the model of a run as one object: the output of --validate --json. */
+  Json json_of_setup(const RunState &run, const Log &log);
+
   /** Prints the static loads. */
   void report_loads(const Dam &dam, Log &log);
 

@@ -18,6 +18,7 @@ namespace Voussoir
     bool        validate = false;  ///< setup and report only
     bool        overwrite = false; ///< replace a checkpoint; allow files of other programs
     bool        quiet = false;     ///< print errors only
+    bool        json = false;      ///< with validate: print a JSON object
   };
 
   /** Run of a scene: setup, static state, time loop and results. */

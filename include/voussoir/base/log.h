@@ -73,6 +73,7 @@ namespace Voussoir
       return add_raw(key, value ? "true" : "false");
     }
     Json &add(const std::string &key, const Json &object);
+    Json &add(const std::string &key, const std::vector<Json> &objects);            ///< adds a list
     Json &add_texts(const std::string &key, const std::vector<std::string> &texts); ///< adds a list
 
     /** Adds a list of numbers. */
