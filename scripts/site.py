@@ -104,7 +104,9 @@ def configuration(directory, pages):
 
 def has_theme():
     """True if MkDocs is installed and lists the theme. The theme readthedocs of Debian 12 lacks the files of its search."""
-    return shutil.which("mkdocs") is not None and "material" in subprocess.run(["mkdocs", "build", "--help"], capture_output=True, text=True, check=False).stdout
+    if shutil.which("mkdocs") is None:
+        return False
+    return "material" in subprocess.run(["mkdocs", "build", "--help"], capture_output=True, text=True, check=False).stdout
 
 
 def main():
