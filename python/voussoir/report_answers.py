@@ -51,15 +51,13 @@ def opening(found):
 
 
 def least_afterwards(run):
-    """Joint -> largest opening at the crest and the least opening after it [m], of both faces the one that stays wider."""
+    """Joint that opens by more than 0.1 mm at the crest -> least opening after the largest one [m], of both faces the wider; 0 if closed."""
     table, found = run.joint_history, {}
     for name, column in table.items():
-        if match := re.fullmatch(r"opening_(?:upstream|downstream)_(\d+)", name):
-            peak = int(column.argmax())
-            pair = float(column[peak]), float(column[peak:].min())
+        if (match := re.fullmatch(r"opening_(?:upstream|downstream)_(\d+)", name)) and column.max() > 1e-4:
+            least = float(column[column.argmax():].min())
             joint = int(match[1])
-            if joint not in found or pair[1] > found[joint][1]:
-                found[joint] = pair
+            found[joint] = max(found.get(joint, 0.), least if least > CLOSED * column.max() else 0.)
     return found
 
 
@@ -68,11 +66,10 @@ def closing(run, found):
     if not run.moves:
         return "The run is of the static state alone."
     try:
-        after = least_afterwards(run)
+        opened, end = least_afterwards(run), run.joint_history["time"][-1]
     except Skip as reason:
         return f"Unknown: {escape(str(reason))}."
-    opened = {joint: pair for joint, pair in after.items() if pair[0] > 1e-4}
-    open_ = {joint: pair[1] for joint, pair in opened.items() if pair[1] > CLOSED * pair[0]}
+    open_ = {joint: least for joint, least in opened.items() if least > 0.}
     if not opened:
         text = "No joint opens by more than 0.1 mm at the crest."
     elif not open_:
@@ -80,8 +77,8 @@ def closing(run, found):
         text = f"<b>Yes.</b> At the crest {which} closes again."
     else:
         listed = ", ".join(f"joint {joint} ({number(open_[joint], 'mm')} mm)" for joint in sorted(open_, key=lambda joint: -open_[joint])[:6])
-        text = (f"<b>Not all.</b> {len(open_)} of {len(opened)} joints that open stay open at the crest until the end of the run. "
-                f"Their least opening after the largest: {listed}.")
+        text = (f"<b>Not all.</b> {len(open_)} of {len(opened)} joints that open stay open at the crest from their largest opening to the end of "
+                f"the run at {end:.2f} s, at least by: {listed}.")
     if "residual_opening" in found:
         text += f" At the end of the run, when the dam may still move, the largest opening is {value_of(found['residual_opening'])}."
     return text
@@ -173,7 +170,7 @@ def accuracy_of(run):
         found = json.loads(file.read_text(encoding="utf-8"))
         return float(found["error"]["openings"]), float(found["error"]["tension"]), float(found["wish"])
     except (KeyError, OSError, RecursionError, TypeError, ValueError) as error:
-        raise Skip(f"{file} is not of `voussoir accuracy` ({type(error).__name__})") from error
+        raise Skip(f"{file} is not of voussoir accuracy ({type(error).__name__})") from error
 
 
 def accuracy_sentence(run):
@@ -191,7 +188,7 @@ def modes_of(run):
         if not len(table["mode"]) or not all(np.isfinite(table[name]).all() for name in ("frequency", "share_x", "share_y", "share_z")):
             raise ValueError("a value is not finite")
     except (InputError, KeyError, TypeError, ValueError) as error:
-        raise Skip(f"{file} is not of `voussoir modes` ({error})") from error
+        raise Skip(f"{file} is not of voussoir modes ({error})") from error
     return table, file.parent
 
 

@@ -159,9 +159,10 @@ def points_with_acceleration(run):
 def point_accelerations(run):
     """Absolute accelerations of crest and probes over time."""
     points = points_with_acceleration(run)
+    directions = [d for d in DIRECTIONS if any(f"{point}_acceleration_{d}" in run.history for point in points)]
 
     def draw(rows):
-        for axes, direction in zip(rows, "xyz"):
+        for axes, direction in zip(rows, directions):
             for number, point in enumerate(points):
                 if (column := run.history.get(f"{point}_acceleration_{direction}")) is not None:
                     axes.plot(run.history["time"], column, **line(number), linewidth=0.8, label=f"{point}: {np.abs(column).max():.2f} m/s²")
@@ -169,7 +170,7 @@ def point_accelerations(run):
             axes.margins(x=0)
             axes.legend(loc="upper right", ncol=2)
         rows[-1].set_xlabel("time [s]")
-    return both_widths(draw, 0.4 + 1.5 * 3, 3)
+    return both_widths(draw, 0.4 + 1.5 * len(directions), len(directions))
 
 
 def floor_spectra(run):
