@@ -77,8 +77,9 @@ def closing(run, found):
         text = f"<b>Yes.</b> At the crest {which} closes again."
     else:
         listed = ", ".join(f"joint {joint} ({number(open_[joint], 'mm')} mm)" for joint in sorted(open_, key=lambda joint: -open_[joint])[:6])
-        text = (f"<b>Not all.</b> {len(open_)} of {len(opened)} joints that open stay open at the crest from their largest opening to the end of "
-                f"the run at {end:.2f} s, at least by: {listed}.")
+        one = len(open_) == 1
+        text = (f"<b>Not all.</b> Of {len(opened)} joints that open at the crest, {len(open_)} {'stays' if one else 'stay'} open from "
+                f"{'its' if one else 'their'} largest opening to the end of the run at {end:.2f} s, at least by: {listed}.")
     if "residual_opening" in found:
         text += f" At the end of the run, when the dam may still move, the largest opening is {value_of(found['residual_opening'])}."
     return text

@@ -5,7 +5,7 @@ import re
 from html import escape
 
 from .runs import Skip
-from .units import readable, superscript, typeset
+from .units import decimal, readable, superscript, typeset
 
 AWAY, WITH_BASE = "away_from_base", "with the base"
 # Key of summary.json's extremes -> title, unit
@@ -40,7 +40,7 @@ def number(value, unit, digits=3):
 
 def with_unit(value, unit):
     """Text of a limit as in the scene, without zeros at the end."""
-    return f"{value * SCALES[unit]:.4g}{' ' + unit if unit else ''}"
+    return decimal(float(f"{value * SCALES[unit]:.4g}")) + (f" {unit}" if unit else "")
 
 
 WORDS = {"demand_capacity": "demand-capacity ratio", "overstressed_share": "share of a face above the tensile strength",
