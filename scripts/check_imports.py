@@ -13,9 +13,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "python" / "voussoir"
-LAYERS = (("errors",), ("prm", "tables", "vtu", "chromium"), ("results",), ("program",), ("__init__", "command", "runs", "zone_tension"),
-          ("drawing", "picture", "report_tables", "study_file", "study_scene"),
-          ("mode_shapes", "report_figures", "study_figures", "study_results"),
+LAYERS = (("errors",), ("palette", "prm", "tables", "units", "vtu", "chromium"), ("results",), ("program",), ("__init__", "command", "runs", "zone_tension"),
+          ("drawing", "frames", "picture", "report_tables", "study_file", "study_scene"),
+          ("mode_shapes", "report_answers", "report_figures", "study_figures", "study_results"),
+          ("report_view3d",),
           ("accuracy", "figures", "film", "report", "study", "view"))
 FLOOR = {name: floor for floor, names in enumerate(LAYERS) for name in names}
 

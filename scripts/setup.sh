@@ -14,7 +14,7 @@ if [[ "${1:-}" != --program ]]; then
   required+=(gmsh numdiff ccache shellcheck flake8 doxygen)
   optional+=("clang-format: format of the sources" "calculix-ccx: benchmarks/calculix.py" "python3-siconos: benchmarks/contact.py"
              "python3-h5py: benchmarks/contact.py" "chromium: voussoir report --pdf and the test of its page"
-             "snakemake: voussoir study" "mkdocs: scripts/site.py" "python3-jsonschema: test of the JSON schema of the scene")
+             "snakemake: voussoir study" "mkdocs-material: scripts/site.py" "python3-jsonschema: test of the JSON schema of the scene")
 fi
 
 is_installed() # PACKAGE

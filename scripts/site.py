@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds the site: README, tutorials, all pages of doc/, the reference of all entries, with search (MkDocs, Debian: mkdocs).
+"""Builds the site: README, tutorials, all pages of doc/, the reference of all entries, with search (MkDocs with the
+theme Material, Debian: mkdocs-material).
 
     scripts/site.py [--output build/site] [--voussoir build/voussoir]
 
 A link to a page or figure that is not there is an error, and so is a page without a place in NAVIGATION.
-`python3 -m http.server -d build/site` shows the site.
+`python3 -m http.server -d build/site` shows the site. The search needs a server.
 """
 
 import argparse
@@ -90,13 +91,22 @@ def configuration(directory, pages):
     """mkdocs.yml with the pages of NAVIGATION."""
     check_navigation(pages)
     nav = [{part: [{"Voussoir" if name == "index" else title_of(pages / f"{name}.md"): f"{name}.md"} for name in names]} for part, names in NAVIGATION.items()]
-    text = {"site_name": "Voussoir", "docs_dir": str(pages), "nav": nav, "theme": {"name": "readthedocs", "highlightjs": False}, "use_directory_urls": False,
-            "plugins": ["search"], "extra_css": ["tables.css"]}
-    (pages / "tables.css").write_text("th, td { padding: 3px 8px; vertical-align: top; } table{ margin-bottom: 24px; } thead:has(th:empty) {display: none; }\n",
+    text = {"site_name": "Voussoir", "docs_dir": str(pages), "nav": nav, "use_directory_urls": False,
+            "theme": {"name": "material", "font": False, "features": ["navigation.sections"]},  # no fonts from the network
+            "plugins": [{"search": {"separator": r"[\s\-/]+"}}],  # the words of Section/Entry
+            "extra_css": ["tables.css"]}
+    (pages / "tables.css").write_text("thead:has(th:empty) { display: none; }\n",
                                       encoding="utf-8")
     path = directory / "mkdocs.yml"
     path.write_text(json.dumps(text, indent=1), encoding="utf-8")  # JSON is YAML
     return path
+
+
+def has_theme():
+    """True if MkDocs is installed and lists the theme. The theme readthedocs of Debian 12 lacks the files of its search."""
+    if shutil.which("mkdocs") is None:
+        return False
+    return "material" in subprocess.run(["mkdocs", "build", "--help"], capture_output=True, text=True, check=False).stdout
 
 
 def main():
@@ -104,8 +114,8 @@ def main():
     parser.add_argument("--output", default=ROOT / "build" / "site", type=Path)
     parser.add_argument("--voussoir", default=ROOT / "build" / "voussoir", help="the program")
     options = parser.parse_args()
-    if shutil.which("mkdocs") is None:
-        sys.exit("site: MkDocs is not there (on Debian: apt-get install mkdocs).")
+    if not has_theme():
+        sys.exit("site: MkDocs or its theme Material is not there (on Debian: apt-get install mkdocs-material).")
     with tempfile.TemporaryDirectory() as temporary:
         directory = Path(temporary)
         stage(directory / "pages")

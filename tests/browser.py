@@ -13,11 +13,13 @@ from voussoir.chromium import Chromium, find_browser  # noqa: E402  pylint: disa
 class Browser(Chromium):
     """with Browser() as browser: browser.open(path, width=390) ..."""
 
-    def open(self, path, width, height=844):
-        """Loads a file in a window of this width, in CSS pixels."""
+    hosts = Chromium.hosts + ", EXCLUDE 127.0.0.1"  # a server of the test
+
+    def open(self, page, width, height=844):
+        """Loads a file, or an address, in a window of this width, in CSS pixels."""
         self.events = []
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600)
-        self.call("Page.navigate", url=path.resolve().as_uri())
+        self.call("Page.navigate", url=page if isinstance(page, str) else page.resolve().as_uri())
         self.wait_for_load()
 
     def value(self, expression):

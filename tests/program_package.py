@@ -13,8 +13,12 @@ import re
 import shutil
 import subprocess
 import sys
+import threading
+import time
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
+from browser import Browser, find_browser
 from run_program import VOUSSOIR, expect, refused, run_cases, runs, summary, write, write_scene
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -319,20 +323,83 @@ def editor():
 
 
 def site():
-    """Every page of doc/ is in the site, no link is broken (MkDocs is strict), and the search knows the entries."""
-    if shutil.which("mkdocs") is None:
-        print("MkDocs is not installed")
-        sys.exit(77)
+    """Every page of doc/ is in the site, no link is broken (MkDocs is strict), every list is a list, and the search finds words."""
     words = [sys.executable, str(ROOT / "scripts" / "site.py"), "--output", "site", "--voussoir", VOUSSOIR]
     result = subprocess.run(words, capture_output=True, text=True)
+    if "theme Material is not there" in result.stderr:
+        print("MkDocs or its theme Material is not installed")
+        sys.exit(77)
     expect(result.returncode == 0, f"{result.stdout}{result.stderr}")
     for page in (ROOT / "doc").rglob("*.md"):
         name = page.relative_to(ROOT / "doc").with_suffix(".html")
-        expect(name.name == "mainpage.html" or Path("site", name).is_file(), f"{name} is missing")
+        if name.name == "mainpage.html":
+            continue
+        name = "pages.html" if str(name) == "index.html" else name
+        expect(Path("site", name).is_file(), f"{name} is missing")
+        text = re.sub(r"^( *)```.*?^\1```", "", page.read_text(), flags=re.S | re.M)
+        listed = len(re.findall(r"^ *(?:-|\d+\.) ", text, re.M))
+        article = Path("site", name).read_text().partition("<article")[2].partition("</article>")[0]
+        expect(article.count("<li>") == listed, f"{name}: {article.count('<li>')} entries of lists, {page} has {listed}")
     found = json.loads(Path("site/search/search_index.json").read_text())["docs"]
     expect(any("Joints/Friction" in page["text"] for page in found), "the search does not know Joints/Friction")
     outside = re.findall(r'<(?:script|link)[^>]*(?:src|href)="(https?:[^"]*\.(?:js|css)[^"]*)"', Path("site/index.html").read_text())
     expect(not outside, f"the site needs {outside}")
+    site_search()
+
+
+class SiteHandler(SimpleHTTPRequestHandler):
+    """The files of site/; what is not there."""
+
+    missing = []
+
+    def __init__(self, *arguments):
+        super().__init__(*arguments, directory="site")
+
+    def send_error(self, code, *arguments):
+        self.missing.append((int(code), self.path))
+        super().send_error(code, *arguments)
+
+    def log_message(self, *_):
+        pass
+
+
+def within_30_s(get):
+    """The first result that is true, or the last one after 30 s."""
+    deadline = time.monotonic() + 30.
+    while not (result := get()) and time.monotonic() < deadline:
+        time.sleep(.1)
+    return result
+
+
+def found_all(browser, word):
+    """The pages that the search lists, if each of them has the word."""
+    listed = browser.value("[...document.querySelectorAll('.md-search-result__item > a')].map(a => new URL(a.href).pathname.slice(1))")
+    return {name for name in listed if all(word in Path("site", name).read_text().lower() for name in listed)}
+
+
+def site_search():
+    """In a browser: a typed word has results that hold it, on a desk and on a telephone; every file of a page is there."""
+    if find_browser() is None:
+        print("SKIPPED: no Chromium, so the search is not tried (on Debian: apt-get install chromium)")
+        sys.exit(77)
+    with ThreadingHTTPServer(("127.0.0.1", 0), SiteHandler) as server, Browser() as browser:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        here = f"http://127.0.0.1:{server.server_port}/"
+        for width in (1280, 390):
+            browser.open(f"{here}mesh.html", width)
+            within_30_s(lambda: "Type to start" in browser.value("document.querySelector('.md-search-result__meta').textContent"))
+            scroll = browser.value("document.documentElement.scrollWidth")
+            expect(scroll <= width, f"mesh.html scrolls sideways at {width}: {scroll}")
+            browser.value("document.querySelector('input[name=query]').focus()")
+            for letter in "waterstop":
+                browser.call("Input.dispatchKeyEvent", type="keyDown", text=letter, key=letter)
+                browser.call("Input.dispatchKeyEvent", type="keyUp", key=letter)
+            found = within_30_s(lambda: found_all(browser, "waterstop"))  # it searches after each letter
+            expect("report.html" in found, f"the search for waterstop finds {found}")
+            print(f"    at {width} px: {sorted(found)}")
+            complaints = [text for text in browser.complaints() if not text.startswith(f"asks for {here}")]
+            expect(not complaints and not SiteHandler.missing, f"{complaints}, {SiteHandler.missing}")
+        server.shutdown()
 
 
 if __name__ == "__main__":

@@ -129,23 +129,226 @@ def browser():
         print("SKIPPED: no Chromium, so the page is not looked at (on Debian: apt-get install chromium)")
         sys.exit(77)
     two_runs()
-    runs("report", "limited", "plain", "--output", "both.html")
+    runs("limited.prm", "--output", "limited", "--overwrite", "--set", "Dynamics/Error estimate=true", "--set", "Output/Solution interval=10")
+    runs("modes", "limited.prm", "--output", "limited/modes")
+    runs("report", "limited", "plain", "tied", "--output", "both.html")
     runs("report", "limited", "--pdf")
     expect(Path("limited/report.pdf").read_bytes()[:5] == b"%PDF-", "no PDF")
     with Browser() as chromium:
         for path in ("both.html", "limited/report.html"):
-            for width in (390, 794, 1280):  # a telephone, A4, a desk
+            for width in (360, 390, 680, 794, 1280):  # telephones, A4 within its margins, A4, a desk
+                chromium.call("Emulation.setEmulatedMedia", media="print" if width == 680 else "")
                 chromium.open(Path(path), width)
                 sizes = chromium.value("[...document.images].map(i => [i.complete, i.naturalWidth, i.naturalHeight, i.width])")
                 expect(len(sizes) >= 12 and all(all(size) for size in sizes), f"{path} at {width}: images {sizes}")
                 expect(max(size[3] for size in sizes) <= width, f"{path} at {width}: an image is wider than the page")
                 scroll = chromium.value("document.documentElement.scrollWidth")
                 expect(scroll <= width, f"{path} scrolls sideways at {width}: {scroll}")
+                beyond = chromium.value("[...document.querySelectorAll('body *')].filter(e => e.getBoundingClientRect().right > innerWidth + .5 || "
+                                        "e.className === 'table' && e.scrollWidth > e.clientWidth).map(e => e.outerHTML.slice(0, 100))")
+                expect(not beyond, f"{path} at {width}: beyond the screen: {beyond}")
                 expect(not chromium.complaints(), f"{path} at {width}: {chromium.complaints()}")
                 small = chromium.value("Math.min(...[...document.querySelectorAll('p,td,th,figcaption,li,pre,code')]"
                                        ".map(e => parseFloat(getComputedStyle(e).fontSize)))")
-                expect(small >= 11, f"{path} at {width}: letters of {small} px")
+                expect(small >= (28 / 3 if width == 680 else 11),  # 7 pt on paper
+                       f"{path} at {width}: letters of {small} px")
                 print(f"    {path} at {width} px: {len(sizes)} images, smallest letters {small:.1f} px")
+
+
+def linear(colour):
+    """Linear RGB of a colour "#rrggbb" of sRGB."""
+    return [c / 12.92 if (c := int(colour[k:k + 2], 16) / 255.) <= .04045 else ((c + .055) / 1.055) ** 2.4 for k in (1, 3, 5)]
+
+
+def lab(rgb):
+    """CIE L*a*b* of linear RGB of sRGB, white D65."""
+    rows = ((.4124564, .3575761, .1804375), (.2126729, .7151522, .0721750), (.0193339, .1191920, .9503041))
+    f = [x ** (1 / 3) if (x := sum(m * min(max(c, 0.), 1.) for m, c in zip(row, rgb)) / white) > 216 / 24389 else (24389 / 27 * x + 16.) / 116.
+         for row, white in zip(rows, (.95047, 1., 1.08883))]
+    return 116. * f[1] - 16., 500. * (f[0] - f[1]), 200. * (f[1] - f[2])
+
+
+def colours():
+    """Any two colours of the figures, and those of satisfied and exceeded limits, differ clearly for all readers: by 15 in CIE L*a*b*, of which
+    about 2 are visible. Protanopia and deuteranopia by the matrices of Machado, Oliveira, Fernandes (2009), IEEE TVCG 15(6), severity 1."""
+    vision = {"normal": ((1., 0., 0.), (0., 1., 0.), (0., 0., 1.)),
+              "protanopia": ((.152286, 1.052583, -.204868), (.114503, .786281, .099216), (-.003882, -.048116, 1.051998)),
+              "deuteranopia": ((.367322, .860646, -.227968), (.280085, .672501, .047413), (-.011820, .042940, .968881))}
+    from voussoir.drawing import DOWNSTREAM, UPSTREAM
+    from voussoir.palette import COLOURS, line
+    style = (Path(__file__).resolve().parent.parent / "python" / "voussoir" / "report.css").read_text()
+    states = [style.partition(f"--{name}: ")[2][:7] for name in ("bad", "good")]
+
+    def least(listed, matrix):
+        seen = [lab([sum(m * c for m, c in zip(row, linear(colour))) for row in matrix]) for colour in listed]
+        return min(math.dist(a, b) for i, a in enumerate(seen) for b in seen[:i])
+    close(math.dist(lab([1., 1., 1.]), lab([0., 0., 0.])), 100., 1e-3, "lightness of white")
+    for name, matrix in vision.items():
+        found = [least(COLOURS + ["#000000"], matrix), least(states, matrix), least([UPSTREAM, DOWNSTREAM], matrix)]
+        print(f"    {name}: colours {found[0]:.1f}, states {found[1]:.1f}, faces {found[2]:.1f}")
+        expect(found[0] > 15. and min(found[1:]) > 60., f"{name}: {found}")
+    former = ["#0b5394", "#cc4125", "#38761d", "#b45f06", "#674ea7", "#45818e", "#7f6000"]
+    expect(least(former, vision["protanopia"]) < 5., "the measure does not see colours that look alike")
+    expect(len({str(line(k)) for k in range(4 * len(COLOURS))}) == 4 * len(COLOURS), "two lines with the same style")
+
+
+def units():
+    """Units of entries by scene.prm are those of the program's help, and the page writes entries and lines of the log with them."""
+    from voussoir.units import readable, typeset, units_of, with_prefix
+    for value, unit, text in ((27e9, "Pa", "27 GPa"), (2.5e6, "Pa", "2.5 MPa"), (1e6, "Pa", "1 MPa"), (999e3, "Pa", "999 kPa"), (-3e6, "N", "−3 MN"),
+                              (7500., "N", "7.5 kN"), (.02, "m", "20 mm"), (210., "m", "210 m"), (2400., "kg/m^3", "2400 kg/m³"), (.8, "-", "0.8"),
+                              (-10., "degC", "−10 °C"), (1e-11, "m/Pa", "1 × 10⁻¹¹ m/Pa"), (9.81, "m/s^2", "9.81 m/s²")):
+        expect(with_prefix(value, unit) == text, f"{value} {unit}: {with_prefix(value, unit)}")
+    for value, unit, text in (("27000000000", "Pa", "27 GPa"), ("-1", "s", "-1"), ("-1", "degC", "−1 °C"), ("FJA", None, "FJA"), ("1 2", "m", "1 2"), ("0", "Pa", "0")):
+        expect(readable(value, unit) == text, f"{value}: {readable(value, unit)}")
+    expect(typeset("volume 3.199e+06 m3, 1e-10 s^2, 2e3") == "volume 3.199 × 10⁶ m³, 1 × 10⁻¹⁰ s², 2 × 10³", typeset("volume 3.199e+06 m3, 1e-10 s^2, 2e3"))
+    write_scene("scene.prm", LIMITS)
+    runs("scene.prm", "--output", "run", *settings("Concrete/Young's modulus=27 GPa", "Motion/Duration=0.1"))
+    found, known = units_of(Path("run/scene.prm").read_text()), {}
+
+    def walk(tree, path):
+        for name, child in tree.items():
+            if "pattern_description" not in child:
+                walk(child, [*path, name])
+            elif child["documentation"].count("[") == 1 and " " not in (unit := child["documentation"].partition("[")[2].partition("]")[0]):
+                known["/".join([*path, name])] = unit
+    walk(json.loads(runs("parameters", "json")), [])
+    expect(found == known and len(found) > 100, f"{set(found.items()) ^ set(known.items())}")
+    runs("report", "run")
+    text = Path("run/report.html").read_text(encoding="utf-8")
+    row = text[text.index("<td>Concrete/Young"):].partition("</tr>")[0]
+    expect(">27 GPa<" in row and ">21 GPa<" in row, row)
+    tables_only = text[:text.index("How to repeat it")]
+    cells = [cell.partition("</td>")[0] for cell in tables_only.split("<td")[1:]]
+    bare = [cell for cell in cells if any(len(word.strip(".,;()")) > 7 and word.strip(".,;()").isdigit() for word in cell.replace(">", " ").split())]
+    expect(len(cells) > 100 and not bare, f"numbers of more than seven digits: {bare}")
+    head = text[text.index("Monoliths on their bases"):].partition("</thead>")[0]
+    expect("compression at most [MN]" in head and "uplift [MN]" in head, head)
+
+
+def answered(*arguments):
+    """The answers of the first page of a run: {question: text}."""
+    runs("report", *arguments)
+    text = Path(arguments[0], "report.html").read_text(encoding="utf-8")
+    answers = text[text.index('<dl class="answers">'):].partition("</dl>")[0]
+    return {part.partition("</dt>")[0]: part.partition("<dd>")[2].partition("</dd>")[0] for part in answers.split("<dt>")[1:]}
+
+
+def answers():
+    """The first page answers with the numbers of the run's files; title, owner, author and date are those of the command line."""
+    write_scene("scene.prm", LIMITS)
+    runs("scene.prm", "--output", "run", *settings("Joints/Friction=0.3"))
+    found, history = summary("run"), table("run/joint_history.csv")
+    said = answered("run", "--title", "Dam <1>", "--owner", "A & B", "--author", "C", "--date", "1 May 2030")
+    read = Reader("run/report.html")
+    for words in ("Dam <1>", "A & B", "Author", "1 May 2030", "--title 'Dam <1>' --owner 'A & B'"):
+        expect(words in read.text, f"'{words}' is not on the page")
+    expect(f"{1e3 * found['extremes']['max_opening']['value']:.3g} mm" in said["How far do the joints open?"], f"{said}")
+    expect(f"{1e-6 * found['extremes']['max_tension_upstream_away_from_base']['value']:.3g}"[:4] in said["How large are the stresses?"], f"{said}")
+    names, stay, opened = [name for name in history[0] if name.startswith("opening_")], {}, set()
+    for name in names:
+        values = [float(row[name]) for row in history]
+        after = min(values[values.index(max(values)):])
+        opened |= {name.rsplit("_", 1)[1]} if max(values) > 1e-4 else set()
+        if max(values) > 1e-4 and after > .01 * max(values):
+            stay[name.rsplit("_", 1)[1]] = after
+    print(f"    {stay} of {opened} stay open [m]: {said['Do they close again?']}")
+    expect(opened and (f"Of {len(opened)} joints that open at the crest, {len(stay)} stay" if stay else "<b>Yes.</b>") in said["Do they close again?"], f"{stay}, {said}")
+    for shift in (0., .005):  # one joint stays open by 5 mm after its largest opening, or is closed from the start to the end
+        rows = [{name: (float(value) * (name == "time") + (.01 * (k == 3) + shift * (k > 3)) * (name == names[0])) for name, value in row.items()}
+                for k, row in enumerate(history)]
+        with open("run/joint_history.csv", "w", newline="") as file:
+            writer = csv.DictWriter(file, list(history[0]))
+            writer.writeheader()
+            writer.writerows(rows)
+        text = answered("run")["Do they close again?"]
+        expect("the joint that opens closes again" in text if shift == 0. else "Of 1 joints that open at the crest, 1 stays open" in text and "joint 1 (5.00 mm)" in text and f"{float(history[-1]['time']):.2f} s" in text, text)
+    found["warnings"] = []
+    cracking("run", found)
+    said = answered("run")["Are the results valid?"]
+    expect("passes its checks" in said and "not estimated" in said, said)
+    for key, value, words in (("energy_balance_error", 2e-4, "energy balance 2.0 × 10⁻⁴"), ("contact_residual", 3e-9, "contact residual 3.0 × 10⁻⁹"),
+                              ("warnings", ["look"], "warnings of the program: 1")):
+        Path("run/summary.json").write_text(json.dumps({**found, key: value}))
+        said = answered("run")["Are the results valid?"]
+        expect(f"Not all checks are satisfied:</b> {words}" in said, said)
+
+
+def cracking(directory, found):
+    """Whether the concrete would crack: the tension against the strength of the scene, or a usual one."""
+    tension = max(found["extremes"][f"max_tension_{face}_away_from_base"]["value"] for face in ("upstream", "downstream"))
+    scene = Path(directory, "scene.prm").read_text()
+    line = next(line for line in scene[scene.index("subsection Limits"):].splitlines() if "set Tensile strength" in line)
+    for strength, usual in ((tension / 2., False), (tension * 1.01, False), (0., True)):
+        Path(directory, "scene.prm").write_text(scene.replace(line, f"  set Tensile strength = {strength}"))
+        for factor in (1., 10.) if usual else (1.,):
+            changed = json.loads(json.dumps(found))
+            for face in ("upstream", "downstream"):
+                changed["extremes"][f"max_tension_{face}_away_from_base"]["value"] *= factor
+            Path(directory, "summary.json").write_text(json.dumps(changed))
+            said = answered(directory)
+            over = tension * factor / (3e6 if usual else strength)
+            print(f"    tension over strength {over:.3g}: {said['How large are the stresses?'][-150:]}")
+            expect((over > 1.) == ("The concrete would crack" in said["How large are the stresses?"]) == ("beyond their validity" in said["Are the results valid?"]),
+                   f"{over}: {said}")
+            expect(over <= 1. or f"{over:.2g} times" in said["How large are the stresses?"], f"{over}: {said}")
+    Path(directory, "scene.prm").write_text(scene)
+    Path(directory, "summary.json").write_text(json.dumps(found))
+
+
+def content():
+    """What other commands and later files add: modes, error of mesh and time step, open dam, quality of the mesh, accelerations, arch stresses."""
+    write_scene("scene.prm")
+    runs("scene.prm", "--output", "run", *settings("Output/Solution interval=10", "Joints/Friction=0.3"))
+    runs("report", "run")
+    bare = Reader("run/report.html")
+    for words in ("voussoir modes scene.prm --output run/modes", "voussoir accuracy scene.prm --output run/accuracy"):
+        expect(words in bare.text, f"'{words}' is not on the page")
+    expect("at its widest opening" in bare.text and "Not shown" not in bare.text, bare.text[-1500:])
+    mesh = runs("mesh", "scene.prm", "--output", "mesh.msh")
+    edges = mesh.partition("edges ")[2].split()[0], mesh.partition("edges ")[2].split()[2]
+    text = Path("run/report.html").read_text(encoding="utf-8")
+    jacobian = text[text.index("smallest scaled Jacobian"):].partition('">')[2].partition("</td>")[0]
+    print(f"    {mesh.splitlines()[-1]}; on the page {jacobian}")
+    expect(f"{edges[0]} m, {edges[1]} m" in text and abs(float(jacobian) - float(mesh.partition("Jacobian ")[2].partition(",")[0])) < .0051, f"{mesh}")
+    runs("modes", "scene.prm", "--output", "run/modes", "--count", "4")
+    Path("scene-accuracy").mkdir()
+    Path("scene-accuracy/accuracy.json").write_text(json.dumps({"error": {"openings": .0123, "tension": .034}, "wish": .02}))
+    added_columns("run")
+    runs("report", "run")
+    full = Reader("run/report.html")
+    frequency = [float(row["frequency"]) for row in table("run/modes/modes.csv")]
+    expect("Natural modes" in full.text and all(f"{k + 1}: {f:.3g} Hz" in full.text for k, f in enumerate(frequency)), "the modes are not on the page")
+    expect("1.2 % for the openings and 3.4 % for the zone means of tension, above its target of 2.0 %" in full.text, full.text[:3000])
+    for words in ("Absolute accelerations", "Floor spectra", "Largest arch stress", "Largest cantilever stress"):
+        expect(words in full.text and words not in bare.text, f"'{words}'")
+    expect(len(full.images) == len(bare.images) + 4 + 2 + 4, f"{len(full.images)} images, {len(bare.images)} without")
+    expect("Further content" not in full.text and "Not shown" not in full.text, full.text[-1500:])
+    for name, said in (("run/modes/modes.csv", "is not of voussoir modes"), ("scene-accuracy/accuracy.json", "is not of voussoir accuracy")):
+        Path(name).write_text("mode,frequency\n1,x\n")
+        runs("report", "run")
+        expect(said in Reader("run/report.html").text, f"damaged {name}")
+
+
+def added_columns(directory):
+    """Writes accelerations of the crest and arch stresses [Pa] into a run: 1e6 times x of the point, and y."""
+    from voussoir.report_figures import directed, points_with_acceleration
+    from voussoir.runs import Run
+    from voussoir.vtu import read_vtu as arrays, write_vtu
+    history = [line + f",{c}" for line, c in zip(Path(directory, "history.csv").read_text().splitlines(), ["crest_acceleration_x", *"12345" * 99])]
+    Path(directory, "history.csv").write_text("\n".join(history) + "\n")
+    Path(directory, "floor_spectra.csv").write_text("period,damping,crest_x\n0.1,0.05,2\n0.2,0.05,3\n0.4,0.05,1\n")
+    data = arrays(Path(directory, "envelope.vtu"))
+    points = [data["Points"][3 * k:3 * k + 3] for k in range(len(data["Points"]) // 3)]
+    cells = [data["connectivity"][8 * k:8 * k + 8] for k in range(len(data["connectivity"]) // 8)]
+    write_vtu(Path(directory, "envelope.vtu"), points, cells, 12, {"monolith": data["monolith"], "arch_stress_max": [1e6 * p[0] for p in points],
+                                                                   "cantilever_stress_max": [1e6 * p[1] + 1e9 * m for p, m in zip(points, data["monolith"])]})
+    run = Run(directory)
+    expect(points_with_acceleration(run) == ["crest"] and directed([run]) == [run], "the columns are not found")
+    for face in run.faces.values():
+        for column, c in (("arch_stress_max", "x"), ("cantilever_stress_max", "y")):
+            expected = 1e6 * face[c] + 1e9 * face["monolith"] * (c == "y")
+            expect(abs(face[column] - expected).max() < 1e-5 * 1e9, f"{column} is not that of the node")
 
 
 def refusals():
@@ -472,4 +675,4 @@ def area(corners):
 
 
 if __name__ == "__main__":
-    run_cases(page, beside_static, browser, refusals, numbers, unjudged, earlier, keys, ended, spectrum)
+    run_cases(page, beside_static, browser, colours, units, answers, content, refusals, numbers, unjudged, earlier, keys, ended, spectrum)

@@ -40,7 +40,7 @@ def numbers():
                               (3e7, "MN", "30.0"), (float("nan"), "", "none"), (0., "mm", "0")):
         equal(number(value, unit), text, f"{value} in {unit or 'no unit'}")
     equal(number(.0123456, "mm", 2), "12", "two digits")
-    for value, unit, text in ((.06, "mm", "60 mm"), (.2, "%", "20 %"), (1.3, "", "1.3"), (1e6, "MPa", "1 MPa"), (.4, "s", "0.4 s")):
+    for value, unit, text in ((.06, "mm", "60 mm"), (.2, "%", "20 %"), (1.3, "", "1.3"), (1e6, "MPa", "1 MPa"), (.4, "s", "0.4 s"), (10., "mm", "10000 mm")):
         equal(with_unit(value, unit), text, "a limit")
     for name, unit in (("max_opening", "mm"), ("max_gap", "mm"), ("max_tension", "MPa"), ("max_pressure", "MPa"), ("max_ratio", "")):
         equal(unit_of(name), unit, f"unit of {name}")

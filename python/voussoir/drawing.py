@@ -12,11 +12,11 @@ import matplotlib.pyplot as plt  # after the choice of the backend
 from matplotlib.collections import LineCollection
 from matplotlib.ticker import MaxNLocator, NullFormatter
 
+from .palette import COLOURS, line
 from .runs import Skip
 
-UPSTREAM, DOWNSTREAM = "#0b5394", "#cc4125"
+UPSTREAM, DOWNSTREAM = COLOURS[:2]
 FACES = {"upstream": UPSTREAM, "downstream": DOWNSTREAM}
-COLOURS = ["#0b5394", "#cc4125", "#38761d", "#b45f06", "#674ea7", "#45818e", "#7f6000"]
 DIRECTIONS = {"x": "stream", "y": "cross", "z": "vertical"}
 LIMIT = {"color": "#111111", "linewidth": 1., "linestyle": (0, (5, 2))}
 ENERGIES = ("input", "strain", "kinetic", "added_mass", "damping", "friction", "impact", "joint_stored", "joint_fracture", "bond", "transmitted")
@@ -99,7 +99,7 @@ def draw_face(axes, run, name, column, levels, strength=0.):
     outline, joints = edges(np.stack([s, z], axis=1), np.stack([face["x"], face["y"], z], axis=1), cells)
     axes.add_collection(LineCollection(joints, colors="k", linewidths=0.5))
     axes.add_collection(LineCollection(outline, colors="k", linewidths=1.1, capstyle="round"))
-    label_face(axes, face, stress, column == "max_principal")
+    label_face(axes, face, stress, column != "min_principal")
     return contours
 
 
@@ -124,9 +124,9 @@ def label_face(axes, face, stress, tension):
     axes.grid(False)
 
 
-def stress_bar(figure, contours, axes, levels, **place):
+def stress_bar(figure, contours, axes, levels, name="principal stress", **place):
     bar = figure.colorbar(contours, ax=axes, orientation="horizontal", ticks=levels, **place)
-    bar.set_label("principal stress, tension positive [MPa]")
+    bar.set_label(f"{name}, tension positive [MPa]")
     return bar
 
 
@@ -192,9 +192,9 @@ def draw_joint_history(axes, run, joint, quantity="opening"):
 
 def draw_crest(axes, runs):
     """Displacement of the crown's crest over time, of all runs; the extremes of a single one."""
-    for run, colour in zip(runs, COLOURS * len(runs)):
+    for number, run in enumerate(runs):
         time, crest = run.history["time"], 1e3 * run.history["crest_x"]
-        axes.plot(time, crest, color=colour, linewidth=0.9, label=run.name)
+        axes.plot(time, crest, **line(number), linewidth=0.9, label=run.name)
         for peak, place in ((crest.argmax(), "bottom"), (crest.argmin(), "top")) if len(runs) == 1 else ():
             axes.plot(time[peak], crest[peak], "o", color="k", markersize=3.5)
             axes.annotate(minus(f"{crest[peak]:.1f} mm at {time[peak]:.2f} s"), (time[peak], crest[peak]), ha="center", va=place,
@@ -218,7 +218,7 @@ def draw_spectrum(axes, table, direction):
     """Response spectrum of a component of the motion, with what it was to match."""
     period = table["period"]
     if f"target_{direction}" in table:
-        axes.loglog(period, table[f"target_{direction}"], color="k", linewidth=1.3, linestyle=(0, (4, 2)), label="design")
+        axes.loglog(period, table[f"target_{direction}"], color="k", linewidth=1.3, linestyle=(0, (4, 2)), label="target")
     axes.loglog(period, table[f"spectrum_{direction}"], color=UPSTREAM, linewidth=1.1, label=DIRECTIONS[direction])
     axes.set(xlabel="period [s]", xlim=(period[0], period[-1]))
     axes.set_xticks([0.05, 0.1, 0.2, 0.5, 1, 2], ["0.05", "0.1", "0.2", "0.5", "1", "2"])
@@ -238,11 +238,11 @@ def energy_unit(largest):
 def draw_energy(axes, run, largest):
     """Energies over time; on rock also what has gone through the artificial boundary."""
     unit, scale = energy_unit(largest)
-    for name, colour in zip(energy_parts(run)[0], ["k", *COLOURS, "0.5"]):
+    for number, name in enumerate(energy_parts(run)[0]):
         if np.any(run.energy[name]):
             label = "radiated" if name == "transmitted" else name.replace("_", " ")
-            axes.plot(run.energy["time"], run.energy[name] / scale, color=colour, label=label,
-                      linewidth=1.6 if name == "input" else 1., linestyle="--" if name == "transmitted" else "-")
+            style = {"color": "k", "linewidth": 1.6} if name == "input" else {**line(number - 1), "linewidth": 1.}
+            axes.plot(run.energy["time"], run.energy[name] / scale, label=label, **style)
     axes.set_ylabel(f"energy [{unit}]")
     axes.margins(x=0)
 

@@ -229,6 +229,39 @@ def view_of(points, azimuth=-12., elevation=34.):
     return View(azimuth, elevation, .5 * (points.max(axis=0) + points.min(axis=0)), 3.2 * max(np.ptp(points, axis=0)))
 
 
+def draw_open(figure, axes, path, magnify=250., azimuth=-10., elevation=38., largest=60000):
+    """Draws the displaced dam of a solution-*.vtu with a bar of colours; returns time, scale and widest opening as text. Throws Skip for a
+    dam with more than @p largest outer faces of elements; dams with more than a third are painted coarsely."""
+    time = next((time for time, file in times_of(path.parent) if file.name == path.name), None)
+    data = read_solution(path, displacement=3, max_principal=1, opening=1)
+    points, moved, cells = data["Points"].astype(float), data["displacement"].astype(float), data["connectivity"]
+    stress = 1e-6 * data["max_principal"]
+    faces = outer_faces(points, moved, cells)
+    if len(faces) > largest:
+        raise Skip(f"its {len(faces)} outer faces of elements take too long to paint")
+    fine = FINE if len(faces) <= largest // 3 else 1
+    x = points + magnify * moved
+    quads = parts(bilinear(x[faces], fine))
+    values = parts(bilinear(stress[faces], fine))
+    view = View(azimuth, elevation, .5 * (points.max(axis=0) + points.min(axis=0)), 3.2 * max(np.ptp(points, axis=0)))
+    top = float(np.ceil(np.quantile(values, .998)))
+    limits = (-.4 * top, top)
+    paint(axes, view, quads, values, creases(faces, x[faces]), limits)
+    axes.set_aspect("equal")
+    axes.autoscale_view()
+    axes.axis("off")
+    bar = figure.colorbar(plt.cm.ScalarMappable(plt.Normalize(*limits), COLOURS), ax=axes, orientation="horizontal",
+                          shrink=.32, aspect=32, pad=.01, ticks=range(int(np.ceil(limits[0])), int(top) + 1, 2))
+    bar.set_label("largest principal stress [MPa]", fontsize=9, color=".25")
+    bar.ax.tick_params(labelsize=9, colors=".25")
+    bar.outline.set_visible(False)
+    text = [f"t = {time:.2f} s"] if time is not None else []
+    text += [f"displacements × {magnify:g}"]
+    if np.isfinite(data["opening"]).any():
+        text += [f"widest opening {1e3 * np.nanmax(data['opening']):.0f} mm"]
+    return ", ".join(text)
+
+
 def main():
     parser = Parser(description=__doc__)
     parser.add_argument("solution", type=Path)
@@ -242,34 +275,9 @@ def main():
         options.solution = widest(options.solution)
     if not options.solution.is_file():
         raise InputError(f"There is no {options.solution}: give a solution-*.vtu, or the output directory of a run.")
-    time = next((time for time, file in times_of(options.solution.parent) if file.name == options.solution.name), None)
-    data = read_solution(options.solution, displacement=3, max_principal=1, opening=1)
-    points, moved, cells = data["Points"].astype(float), data["displacement"].astype(float), data["connectivity"]
-    stress = 1e-6 * data["max_principal"]
-    faces = outer_faces(points, moved, cells)
-    x = points + options.magnify * moved
-    quads = parts(bilinear(x[faces], FINE))
-    values = parts(bilinear(stress[faces], FINE))
-    size = np.ptp(points, axis=0)
-    view = View(options.azimuth, options.elevation, .5 * (points.max(axis=0) + points.min(axis=0)), 3.2 * max(size))
-
     figure, axes = plt.subplots(figsize=(11, 6))
-    top = float(np.ceil(np.quantile(values, .998)))
-    limits = (-.4 * top, top)
-    paint(axes, view, quads, values, creases(faces, x[faces]), limits)
-    axes.set_aspect("equal")
-    axes.autoscale_view()
-    axes.axis("off")
-    bar = figure.colorbar(plt.cm.ScalarMappable(plt.Normalize(*limits), COLOURS), ax=axes, orientation="horizontal",
-                          shrink=.32, aspect=32, pad=.01, ticks=range(int(np.ceil(limits[0])), int(top) + 1, 2))
-    bar.set_label("largest principal stress [MPa]", fontsize=9, color=".25")
-    bar.ax.tick_params(labelsize=9, colors=".25")
-    bar.outline.set_visible(False)
-    text = [f"t = {time:.2f} s"] if time is not None else []
-    text += [f"displacements × {options.magnify:g}"]
-    if np.isfinite(data["opening"]).any():
-        text += [f"widest opening {1e3 * np.nanmax(data['opening']):.0f} mm"]
-    axes.set_title(options.title or ", ".join(text), fontsize=11, color=".25")
+    text = draw_open(figure, axes, options.solution, options.magnify, options.azimuth, options.elevation)
+    axes.set_title(options.title or text, fontsize=11, color=".25")
     try:
         options.picture.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(options.picture, dpi=120, bbox_inches="tight", facecolor="white")

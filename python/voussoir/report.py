@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes a self-contained page about a run of voussoir, or about several runs side by side.
 
-    voussoir report DIR... [--output FILE.html] [--pdf]
+    voussoir report DIR... [--output FILE.html] [--pdf] [--title TEXT] [--owner TEXT] [--author TEXT] [--date TEXT]
 
 DIR are output directories of finished runs. The page contains its figures and its style, and loads nothing from the network.
 The files of the directories may come from other persons. Therefore all texts are escaped, and the Content-Security-Policy of the page forbids
 scripts and other files. --pdf prints the page to FILE.pdf with an installed Chromium (on Debian: apt-get install chromium), under the same limits.
 """
 
+import shlex
 import sys
 from base64 import b64encode
 from datetime import datetime
@@ -20,15 +21,19 @@ from .chromium import find_browser, print_page
 from .command import Parser
 from .errors import ComputationError, InputError
 from .prm import prm_text
-from .report_tables import blocks, blocks_of, differences, extremes, facts, number, tiles, verdict
-from .runs import Run, Skip, name_apart
+from .report_answers import accuracy_sentence, answers, mesh_quality, modes, modes_of
+from .report_tables import blocks, blocks_of, differences, extremes, facts, html_table, number, table, tiles, verdict
+from .runs import NotComputed, Run, Skip, name_apart
+
+
+STUDY = ("title", "owner", "author", "date")  # options with the texts of the title page
 
 
 class Page:
     """Text of the page, and what could not be shown."""
 
     def __init__(self):
-        self.parts, self.missing, self.figures = [], [], 0
+        self.parts, self.missing, self.further, self.figures = [], [], [], 0
 
     def add(self, text):
         self.parts.append(text)
@@ -46,6 +51,11 @@ class Page:
             self.add(f'<figure><picture><source media="(max-width: 640px)" srcset="{pair[1]}">'
                      f'<img src="{pair[0]}" alt="{escape(alt)}"></picture>{self.caption(caption)}</figure>')
 
+    def whole(self, caption, alt, make):
+        """One image as wide as the page; its caption is a function of the words that come with the image."""
+        if (made := self.made(alt, make)) is not None:
+            self.add(f'<figure><img src="{made[0]}" alt="{escape(alt)}">{self.caption(caption(made[1]))}</figure>')
+
     def row(self, caption, panels):
         """Panels side by side, each with its name: (name, alternative text, how to make it)."""
         cells = []
@@ -60,6 +70,8 @@ class Page:
         """Result of `make`. If data are missing: None, and a remark at the end of the page."""
         try:
             return make()
+        except NotComputed as command:
+            self.further.append(f"{what}: {command}")
         except Skip as reason:
             self.missing.append(f"{what}: {reason}")
         except (ArithmeticError, LookupError, ValueError) as error:
@@ -81,27 +93,38 @@ def moving_of(page, runs, what):
 
 # ---------------------------------------------------------------- sections
 
-def head(page, runs):
+def head(page, runs, study):
+    """Title page. study: title, owner, author and date of the command line, None if not given."""
     run, several = runs[0], len(runs) > 1
     title = " and ".join(run.scene for run in runs[:2]) if several and len({r.scene for r in runs}) > 1 else run.scene
     if len({r.scene for r in runs}) > 2:
         title = ""
-    page.add(f'<header><h1>Earthquake analysis of {f"the arch dam “{escape(title)}”" if title else f"an arch dam: {len(runs)} runs"}</h1>')
-    page.add(f'<p class="sub">{"Runs " + escape(", ".join(r.name for r in runs)) if several else escape(run.facts.get("Joints", run.law))}'
-             f'</p><p class="sub">Computed {finished(run)} with Voussoir {escape(str(run.summary.get("version", "")))}</p></header>')
+    title = study.get("title") or f"Earthquake analysis of {f'the arch dam “{title}”' if title else f'an arch dam: {len(runs)} runs'}"
+    page.add(f"<header><h1>{escape(title)}</h1>")
+    rows = [("Owner", study.get("owner")), ("Author", study.get("author")), ("Date", study.get("date") or date_of(datetime.now())),
+            ("Runs" if several else "Model", ", ".join(r.name for r in runs) if several else run.facts.get("Joints", run.law)),
+            ("Computed", f"{date_of(datetime.fromtimestamp((run.directory / 'summary.json').stat().st_mtime))} with Voussoir {run.summary.get('version', '')}")]
+    page.add("<dl>" + "".join(f"<dt>{name}</dt><dd>{escape(text)}</dd>" for name, text in rows if text) + "</dl></header>")
 
 
-def finished(run):
-    return datetime.fromtimestamp((run.directory / "summary.json").stat().st_mtime).strftime("%-d %B %Y")
+def date_of(day):
+    return day.strftime("%-d %B %Y")
+
+
+def summary(page, runs):
+    page.section("Summary")
+    for run in runs:
+        page.add(f'<div class="verdict {verdict(run)[0]}">{f"<h3>{escape(run.name)}</h3>" if len(runs) > 1 else ""}{answers(run)}</div>')
+    if len(runs) == 1:
+        page.add(tiles(runs[0]))
+    for run in runs:
+        if run.moves and not run.tied:
+            page.whole(lambda words, run=run: f"The dam {'of ' + escape(run.name) + ' ' if len(runs) > 1 else ''}at its widest opening, seen from downstream: "
+                       f"{escape(words)}.", f"open dam of {run.name}", lambda run=run: figures.open_dam(run))
 
 
 def results(page, runs):
     page.section("Results")
-    for run in runs:
-        state, sentence = verdict(run)
-        page.add(f'<p class="verdict {state}">{"<b>" + escape(run.name) + ".</b> " if len(runs) > 1 else ""}{escape(sentence)}</p>')
-    if len(runs) == 1:
-        page.add(tiles(runs[0]))
     page.add(extremes(runs))
     page.add('<p class="sub">Opening and slip are counted from the grouted state, with the dam under its own weight. Tension is '
              'positive. Places are x (downstream), y (to the left bank), z (up) in metres.</p>')
@@ -117,8 +140,25 @@ def dam_and_scene(page, runs):
     page.row("The mesh, seen from downstream, the right bank at the left; heavy lines are contraction joints.",
              [(named(shown, run), f"mesh of {run.name}", lambda run=run: figures.dam(run)) for run in shown])
     page.add(facts(runs))
+    for run in shown:
+        if (rows := page.made(f"quality of the mesh of {run.name}", lambda run=run: mesh_quality(run))) is not None:
+            page.add(table([named(shown, run, "mesh"), ""], [(row, False) for row in rows]))
+    natural_modes(page, runs)
     page.add("<h3>What differs from the defaults</h3>")
     page.add(differences(runs))
+
+
+def natural_modes(page, runs):
+    """Frequencies and shapes, of each scene once."""
+    for run in {run.scene: run for run in reversed(runs)}.values():
+        if (found := page.made(f"natural modes of {run.name}", lambda run=run: modes_of(run))) is None:
+            continue
+        page.add(f"<h3>Natural modes{' of ' + escape(run.scene) if len(runs) > 1 else ''}, joints closed</h3>")
+        page.add(modes(run))
+        shapes, directory = found
+        page.row("Shapes of the first modes, coloured by the displacement downstream; dashed: the dam at rest.",
+                 [(f"{k + 1}: {shapes['frequency'][k]:.3g} Hz", f"mode {k + 1} of {run.name}", lambda k=k: figures.mode(directory, k))
+                  for k in range(min(6, len(shapes["mode"])))])
 
 
 def motion(page, runs):
@@ -143,8 +183,14 @@ def motion(page, runs):
         if images:
             damping = 100. * run.table("spectrum.csv")["damping"][0]
             page.row(f"Response spectra of the motion{' of ' + escape(run.name) if len(moving) > 1 else ''}, damping {damping:g} %"
-                     f"{'; dashed: the design spectrum' if run.entries.get('Motion/Source', ('artificial',))[0] == 'artificial' else ''}.",
+                     f"{target_words(page, run)}.",
                      [("", f"response spectrum, {figures.DIRECTIONS[d]}", lambda source=source: source) for d, source in images.items()])
+
+
+def target_words(page, run):
+    """What the dashed lines of the spectra are, and how well the motion matches them."""
+    ratios = page.made("deviation of the spectra", lambda: figures.deviation(run.table("spectrum.csv")))
+    return f"; dashed: the target spectrum; between 0.1 and 2 s the motion has {ratios[0]:.2f} to {ratios[1]:.2f} of it" if ratios else ""
 
 
 def response(page, runs):
@@ -153,6 +199,13 @@ def response(page, runs):
     if moving:
         page.wide("Displacement of the crest at the crown against the base, downstream positive. It begins with the static state.",
                   "displacement of the crest", lambda: figures.crest(moving))
+    for run in moving:
+        of = f" of {escape(run.name)}" if len(runs) > 1 else ""
+        if page.made(f"accelerations of {run.name}", lambda run=run: figures.points_with_acceleration(run)):
+            page.wide(f"Absolute accelerations of points of the dam{of}.", f"accelerations of points of {run.name}",
+                      lambda run=run: figures.point_accelerations(run))
+        if (run.directory / "floor_spectra.csv").exists():
+            page.wide(f"Floor spectra{of}.", f"floor spectra of {run.name}", lambda run=run: figures.floor_spectra(run))
     open_ = [run for run in runs if not run.tied]
     if open_:
         page.row("Largest openings and slips at the crest, joint by joint.",
@@ -179,6 +232,12 @@ def stresses(page, runs):
                  [(named(runs, run, f"{name} face"), f"{kind.lower()}, {name} face of {run.name}",
                    lambda run=run, name=name, column=column: figures.face(run, name, column, runs))
                   for run in runs for name in ("upstream", "downstream")])
+    directed = page.made("arch and cantilever stresses", lambda: figures.directed(runs)) or []
+    for column, kind in (("arch_stress_max", "arch"), ("cantilever_stress_max", "cantilever")):
+        page.row(f"Largest {kind} stress of every point over time, on the developed faces.",
+                 [(named(runs, run, f"{name} face"), f"{kind} stress, {name} face of {run.name}",
+                   lambda run=run, name=name, column=column: figures.directed_face(run, name, column, directed))
+                  for run in directed for name in ("upstream", "downstream")])
     if strength:
         page.row("Cumulative duration for which the stress at any one point of a face is above a multiple of the tensile strength "
                  "(USACE EM 1110-2-6053).",
@@ -194,8 +253,7 @@ def bases(page, runs):
         if len(runs) > 1:
             page.add(f"<h3>{escape(run.name)}</h3>")
         page.add(blocks(run))
-    page.add('<p class="sub">Force of the foundation on the base of each monolith: normal to its mean plane, and in it. Forces in MN, times [s] in '
-             'brackets; safety is that against sliding.</p>')
+    page.add('<p class="sub">Force of the foundation on the base of each monolith: normal to its mean plane, and in it. In brackets: the time.</p>')
     safe = [run for run in shown if any("min_sliding_safety" in block for block in blocks_of(run).values())]
     if safe:
         page.row("Safety against sliding on the base over time, of the monoliths that have the least.",
@@ -212,7 +270,7 @@ def checks(page, runs):
             ("Newton steps per time step, mean and largest", lambda s: f"{s['newton_iterations']['mean']:.2f}, {s['newton_iterations']['max']:.0f}"),
             ("Time steps", lambda s: f"{s['steps']} of {s['time_step']:g} s" if s["steps"] else "the static state"),
             ("Estimated error of the time step, largest openings at the crest", lambda s: f"{100 * s['error_estimate']['openings']:.2g} %")]
-    body = ""
+    body = []
     for title, value in rows:
         cells = []
         for run in runs:
@@ -221,16 +279,18 @@ def checks(page, runs):
             except (KeyError, TypeError, ValueError):
                 cells.append("")
         if any(cells):
-            body += f"<tr><td>{title}</td>" + "".join(f'<td class="n">{escape(cell)}</td>' for cell in cells) + "</tr>"
-    names = "".join(f'<th class="n">{escape(run.name)}</th>' for run in runs)
-    page.add(f'<div class="table"><table><thead><tr><th>check</th>{names}</tr></thead><tbody>{body}</tbody></table></div>')
+            body.append(("", [title, *map(escape, cells)]))
+    page.add(html_table([("check", ""), *((escape(run.name), "n") for run in runs)], body))
+    for run in runs:
+        if sentence := page.made(f"error of mesh and time step of {run.name}", lambda run=run: accuracy_sentence(run)):
+            page.add(f"<p>{f'<b>{escape(run.name)}.</b> ' if len(runs) > 1 else ''}{sentence}</p>")
     page.add("<h3>Warnings</h3>")
     texts = [(run, text) for run in runs for text in run.summary.get("warnings", [])]
-    listed = "".join(f'<li class="warning">{escape(named(runs, run))}{": " if len(runs) > 1 else ""}{escape(text)}</li>' for run, text in texts)
-    page.add(f"<ul>{listed}</ul>" if texts else "<p>None.</p>")
+    rows = "".join(f'<li class="warning">{escape(named(runs, run))}{": " if len(runs) > 1 else ""}{escape(text)}</li>' for run, text in texts)
+    page.add(f"<ul>{rows}</ul>" if texts else "<p>None.</p>")
 
 
-def repeat(page, runs):
+def repeat(page, runs, study):
     page.section("How to repeat it")
     page.add("<p>Write the scene below to a file, beside the meshes and records that it names, and run:</p>")
     for run in runs:
@@ -242,17 +302,25 @@ def repeat(page, runs):
                  f"deal.II {escape(str(summary.get('dealii', '?')))}; it took {summary.get('seconds', {}).get('wall', 0.):.0f} s and "
                  f"{summary.get('memory_bytes', 0.) / 2**30:.2g} GiB.</p>"
                  f'<details{" open" if len(runs) == 1 else ""}><summary>{escape(scene)}</summary><pre>{escape(prm_text(own))}</pre></details>')
-    page.add(f"<p>This page: <code>voussoir report {escape(' '.join(run.directory.resolve().name for run in runs))}</code></p>")
+    words = [run.directory.resolve().name for run in runs] + [word for name, text in study.items() if text for word in (f"--{name}", text)]
+    page.add(f"<p>This page: <code>voussoir report {escape(shlex.join(words))}</code></p>")
 
 
-def page_of(runs):
+def listed(texts):
+    return "<ul>" + "".join(f"<li>{escape(text)}</li>" for text in dict.fromkeys(texts)) + "</ul>"
+
+
+def page_of(runs, study):
     page = Page()
-    head(page, runs)
-    for section in (results, dam_and_scene, motion, response, stresses, bases, checks, repeat):
+    head(page, runs, study)
+    for section in (summary, results, dam_and_scene, motion, response, stresses, bases, checks):
         section(page, runs)
+    repeat(page, runs, study)
     if page.missing:
-        page.add('<h3>Not shown</h3><ul>' + "".join(f"<li>{escape(text)}</li>" for text in dict.fromkeys(page.missing)) + "</ul>")
-    page.add("<footer>Made by Voussoir’s <code>report</code>. Units are SI; stresses in MPa, openings and slips in mm.</footer>")
+        page.add(f"<h3>Not shown</h3>{listed(page.missing)}")
+    if page.further:
+        page.add(f"<h3>Further content, and the command that adds it</h3>{listed(page.further)}")
+    page.add("<footer>Made by Voussoir’s <code>report</code>. Units are SI; openings and slips in mm, stresses in MPa, forces in MN.</footer>")
     style = (Path(__file__).resolve().parent / "report.css").read_text()
     title = escape(", ".join(run.heading for run in runs))
     policy = f"default-src 'none'; img-src data:; style-src 'sha256-{b64encode(sha256(style.encode()).digest()).decode()}'; base-uri 'none'; form-action 'none'"
@@ -282,6 +350,8 @@ def main():
     parser.add_argument("directories", nargs="*", metavar="DIR")
     parser.add_argument("--output", type=Path)
     parser.add_argument("--pdf", action="store_true")
+    for name in STUDY:
+        parser.add_argument(f"--{name}")
     options = parser.parse_args()
     if not options.directories:
         raise InputError("`voussoir report` needs the output directory of a run, or of several: voussoir report output/quickstart")
@@ -291,7 +361,7 @@ def main():
     if output.suffix not in (".html", ".htm"):
         raise InputError(f"The report is a page: give --output a name that ends in .html, instead of {output}.")
     try:
-        text = page_of(runs)
+        text = page_of(runs, {name: getattr(options, name) for name in STUDY})
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise InputError(f"summary.json of {', '.join(options.directories)} is not what this version writes ({type(error).__name__}: {error}). "
                          "Repeat the run.") from error

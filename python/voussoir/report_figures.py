@@ -3,15 +3,18 @@
 
 import base64
 import io
+import re
 
 import numpy as np
 
 from . import picture
 from .errors import InputError
-from .drawing import (COLOURS, DIRECTIONS, DOWNSTREAM, LIMIT, UPSTREAM, aspect, common_levels, common_top, draw_base,
+from .drawing import (DIRECTIONS, DOWNSTREAM, LIMIT, UPSTREAM, aspect, common_levels, common_top, draw_base,
                       draw_crest, draw_crest_bars, draw_energy, draw_face, draw_joint_history, draw_spectrum, energy_parts, energy_unit,
                       plt, stress_bar, worst_joints)
-from .runs import Skip
+from .mode_shapes import draw_shape
+from .palette import line
+from .runs import NotComputed, Skip
 
 NARROW, WIDE = 4.3, 9.0  # inches: a telephone or half a page, and a whole page
 SMALL = {"font.size": 8.5, "axes.titlesize": 9, "axes.labelsize": 8.5, "legend.fontsize": 8, "xtick.labelsize": 8,
@@ -69,6 +72,32 @@ def dam(run):
         return image(figure, "png")
 
 
+def open_dam(run):
+    """The displaced dam at its widest opening: image, and time, scale and opening in words."""
+    if not any(run.directory.glob("solution-*.vtu")):
+        raise NotComputed("a run with --set 'Output/Solution interval=4'")
+    try:
+        file = picture.widest(run.directory)
+        with plt.rc_context(SMALL):
+            figure, axes = plt.subplots(figsize=(WIDE, 4.8))
+            text = picture.draw_open(figure, axes, file)
+            return image(figure, "png"), text
+    except InputError as error:
+        raise Skip(error) from error
+
+
+def mode(directory, k):
+    """The shape of mode k + 1 of `voussoir modes --output`."""
+    try:
+        data = picture.read_solution(directory / f"mode-{k + 1:03d}.vtu", displacement=3)
+    except (InputError, OSError) as error:
+        raise Skip(error) from error
+    with plt.rc_context(SMALL):
+        figure, axes = plt.subplots(figsize=(NARROW, 2.4))
+        draw_shape(axes, data)
+        return image(figure, "png")
+
+
 # ---------------------------------------------------------------- the motion
 
 def accelerations(run):
@@ -100,6 +129,14 @@ def spectra(run, top):
     return images
 
 
+def deviation(table):
+    """Smallest and largest ratio of the motion's spectra to their targets between 0.1 and 2 s, or None."""
+    near = (table["period"] >= 0.1) & (table["period"] <= 2.)
+    ratios = [table[f"spectrum_{d}"][near] / table[f"target_{d}"][near] for d in DIRECTIONS
+              if f"target_{d}" in table and near.any() and (table[f"target_{d}"][near] > 0.).all()]
+    return (min(r.min() for r in ratios), max(r.max() for r in ratios)) if ratios else None
+
+
 def highest_spectrum(runs):
     tables = [run.table("spectrum.csv") for run in runs]
     return max(table[name].max() for table in tables for name in table if name.startswith(("spectrum", "target")))
@@ -112,6 +149,44 @@ def crest(runs):
         draw_crest(rows[0], runs)
         rows[0].set(xlabel="time [s]", ylabel="downstream [mm]")
     return both_widths(draw, 2.5, 1)
+
+
+def points_with_acceleration(run):
+    """Points of history.csv with absolute accelerations, in its columns NAME_acceleration_x, y, z; not the base."""
+    return sorted({match[1] for name in run.history if (match := re.fullmatch(r"(.+)_acceleration_[xyz]", name)) and match[1] != "base"})
+
+
+def point_accelerations(run):
+    """Absolute accelerations of crest and probes over time."""
+    points = points_with_acceleration(run)
+    directions = [d for d in DIRECTIONS if any(f"{point}_acceleration_{d}" in run.history for point in points)]
+
+    def draw(rows):
+        for axes, direction in zip(rows, directions):
+            for number, point in enumerate(points):
+                if (column := run.history.get(f"{point}_acceleration_{direction}")) is not None:
+                    axes.plot(run.history["time"], column, **line(number), linewidth=0.8, label=f"{point}: {np.abs(column).max():.2f} m/s²")
+            axes.set_ylabel(f"{DIRECTIONS[direction]}\n[m/s²]")
+            axes.margins(x=0)
+            axes.legend(loc="upper right", ncol=2)
+        rows[-1].set_xlabel("time [s]")
+    return both_widths(draw, 0.4 + 1.5 * len(directions), len(directions))
+
+
+def floor_spectra(run):
+    """Every column of floor_spectra.csv over its first column, period or frequency."""
+    table = run.table("floor_spectra.csv")
+    over = next((name for name in ("period", "frequency") if name in table), None)
+    columns = [name for name in table if name not in ("period", "frequency", "damping")]
+    if over is None or not columns:
+        raise Skip("floor_spectra.csv has no column period or frequency, or no spectrum")
+
+    def draw(rows):
+        for number, name in enumerate(columns):
+            rows[0].loglog(table[over], table[name], **line(number), label=name.replace("_", " "))
+        rows[0].set(xlabel=f"{over} [{'s' if over == 'period' else 'Hz'}]", ylabel="pseudo-acceleration [m/s²]")
+        rows[0].legend(loc="lower left", ncol=2)
+    return both_widths(draw, 3., 1)
 
 
 def crest_bars(run, quantity, runs):
@@ -154,10 +229,10 @@ def over_height(run, quantity, top):
 
     @panel(2.9)
     def made(_, axes):
-        for joint, colour in zip(sorted(shown), COLOURS):
+        for number, joint in enumerate(sorted(shown)):
             z = table["z"][edge & (table["joint"] == joint)]
             order = np.argsort(z)
-            axes[0].plot(values[joint][order], z[order], color=colour, marker="o", markersize=2.2, label=f"joint {joint}")
+            axes[0].plot(values[joint][order], z[order], **line(number), marker="osv^D*"[number], markersize=2.6, label=f"joint {joint}")
         axes[0].set(xlabel=f"maximum {quantity} at the upstream face [mm]", ylabel="elevation z [m]", xlim=(0, 1.08 * top or 1.))
         axes[0].legend(loc="lower right", borderaxespad=0.2)
     return made
@@ -176,6 +251,47 @@ def face(run, name, column, runs):
     def made(figure, axes):
         contours = draw_face(axes[0], run, name, column, levels, 1e-6 * run.limit("Tensile strength"))
         stress_bar(figure, contours, axes[0], levels, aspect=42, fraction=0.06, pad=0.02)
+    return made
+
+
+DIRECTED = {"arch_stress_max": "arch stress", "cantilever_stress_max": "cantilever stress"}  # fields of envelope.vtu
+
+
+def directed(runs):
+    """Runs whose envelope.vtu has the largest arch and cantilever stresses; their faces get these columns."""
+    found = []
+    for run in runs:
+        file = run.directory / "envelope.vtu"
+        if not file.exists():
+            continue
+        try:
+            data = picture.read_solution(file, monolith=1)
+            for face in run.faces.values():
+                at = nearest(np.stack([face[c] for c in "xyz"], axis=1), face["monolith"], data["Points"], data["monolith"])
+                face.update({name: data[name].astype(float)[at] for name in DIRECTED})
+            found.append(run)
+        except (InputError, KeyError, Skip, ValueError):  # without the fields, as in runs of earlier versions
+            pass
+    return found
+
+
+def nearest(places, monoliths, points, of_points):
+    """For each place the number of the nearest point of its monolith."""
+    result = np.zeros(len(places), dtype=int)
+    for monolith in np.unique(monoliths):
+        here, there = np.flatnonzero(monoliths == monolith), np.flatnonzero(of_points == monolith)
+        for part in np.array_split(here, 1 + len(here) // 500):
+            result[part] = there[np.linalg.norm(places[part][:, None] - points[there][None], axis=2).argmin(axis=1)]
+    return result
+
+
+def directed_face(run, name, column, runs):
+    levels = common_levels(runs, column)
+
+    @panel(1.15 + 0.98 * NARROW * aspect(run), "png")
+    def made(figure, axes):
+        contours = draw_face(axes[0], run, name, column, levels)
+        stress_bar(figure, contours, axes[0], levels, DIRECTED[column], aspect=42, fraction=0.06, pad=0.02)
     return made
 
 
@@ -212,8 +328,8 @@ def sliding(run, runs):
     @panel(2.5)
     def made(_, axes):
         axes = axes[0]
-        for name, colour in zip(sorted(least(run), key=least(run).get)[:3], COLOURS):
-            axes.plot(run.blocks["time"], run.blocks[name], color=colour, linewidth=0.9, label=f"monolith {name[7:]}")
+        for number, name in enumerate(sorted(least(run), key=least(run).get)[:3]):
+            axes.plot(run.blocks["time"], run.blocks[name], **line(number), linewidth=0.9, label=f"monolith {name[7:]}")
         if limit > 0.:
             axes.axhline(limit, **LIMIT, label="asked for")
         axes.set(xlabel="time [s]", ylabel="safety against sliding [-]", ylim=(0, top))

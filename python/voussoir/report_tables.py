@@ -5,6 +5,7 @@ import re
 from html import escape
 
 from .runs import Skip
+from .units import decimal, readable, superscript, typeset
 
 AWAY, WITH_BASE = "away_from_base", "with the base"
 # Key of summary.json's extremes -> title, unit
@@ -19,7 +20,7 @@ EXTREMES = {
     "max_compression": ("Compression, with the base", "MPa")}
 ERRORS = {"max_opening": "largest_opening", "max_tension_upstream_away_from_base": "tension_upstream",
           "max_tension_downstream_away_from_base": "tension_downstream"}
-SCALES = {"mm": 1e3, "MPa": 1e-6, "%": 100., "s": 1., "": 1., "MN": 1e-6}
+SCALES = {"mm": 1e3, "MPa": 1e-6, "%": 100., "s": 1., "": 1., "MN": 1e-6, "kN": 1e-3}
 MINUS = "\N{MINUS SIGN}"
 
 
@@ -37,13 +38,9 @@ def number(value, unit, digits=3):
     return f"{value:.{decimals}f}".replace("-", MINUS)
 
 
-def superscript(exponent):
-    return str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-
-
 def with_unit(value, unit):
     """Text of a limit as in the scene, without zeros at the end."""
-    return f"{value * SCALES[unit]:.4g}{' ' + unit if unit else ''}"
+    return decimal(float(f"{value * SCALES[unit]:.4g}")) + (f" {unit}" if unit else "")
 
 
 WORDS = {"demand_capacity": "demand-capacity ratio", "overstressed_share": "share of a face above the tensile strength",
@@ -71,6 +68,20 @@ class Item:
         """Place and time in words."""
         place = f"({', '.join(f'{x + 0.:.0f}'.replace('-0', '0').replace('-', MINUS) for x in self.place)})" if self.place else ""
         return place, f"{self.time:.2f}" if self.time is not None else ""
+
+
+def html_table(heads, rows):
+    """A table of cells that are HTML. heads: (escaped title, class of its cells); rows: (class of the row, cells), a cell is HTML or (HTML, class).
+    On a telephone each row is a card: first cell, then the others behind their titles."""
+    def cell(content, head, first):
+        text, kind = content if isinstance(content, tuple) else (content, "")
+        kinds = " ".join(filter(None, (head[1], kind, "" if text else "empty")))
+        return "<td" + (f' class="{kinds}"' if kinds else "") + ("" if first else f' data-label="{head[0]}"') + f">{text}</td>"
+
+    titles = "".join(f'<th{f" class={kind}" if kind else ""}>{title}</th>' for title, kind in heads)
+    body = "".join(f'<tr{f" class={kind}" if kind else ""}>' + "".join(cell(content, head, k == 0) for k, (content, head) in enumerate(zip(cells, heads))) +
+                   "</tr>" for kind, cells in rows)
+    return f'<div class="table"><table><thead><tr>{titles}</tr></thead><tbody>{body}</tbody></table></div>'
 
 
 def limits_of(run):
@@ -132,18 +143,20 @@ def blocks_of(run):
 def blocks(run):
     """The extremes of the forces on the bases, monolith by monolith."""
     found = blocks_of(run)
-    columns = [("max_compression", "compression at most", "MN"), ("min_compression", "at least", "MN"), ("max_shear", "shear at most", "MN")]
-    if any("min_sliding_safety" in block for block in found.values()):
-        columns.append(("min_sliding_safety", "safety at least", ""))
-    head = "<th>monolith</th>" + "".join(f'<th class="n">{title}</th>' for title in ["area [m²]", "uplift", *(title for _, title, _ in columns)])
-    rows = ""
+    columns = [("max_compression", "compression at most"), ("min_compression", "compression at least"), ("max_shear", "shear at most")]
+    forces = [block[key]["value"] for block in found.values() for key, _ in columns if is_number(block[key]["value"])]
+    unit = "MN" if max(map(abs, forces), default=0.) >= 1e6 else "kN"
+    safe = any("min_sliding_safety" in block for block in found.values())
+    heads = [("", ""), ("area [m²]", "n"), (f"uplift [{unit}]", "n"), *((f"{title} [{unit}]", "n") for _, title in columns)]
+    heads += [("sliding safety at least", "n")] if safe else []
+    rows = []
     for name, block in found.items():
-        cells = [name.removeprefix("monolith "), number(block["area"], ""), number(block["uplift"], "MN")]
-        for key, _, unit in columns:
+        cells = [escape(name), number(block["area"], ""), number(block["uplift"], unit)]
+        for key, of in [(key, unit) for key, _ in columns] + ([("min_sliding_safety", "")] if safe else []):
             value, time = block[key]["value"], block[key]["time"]
-            cells.append(f"{number(value, unit)} ({time:.2f})" if is_number(value) else "–")  # of no shear at all
-        rows += f"<tr><td>{escape(cells[0])}</td>" + "".join(f'<td class="n">{cell}</td>' for cell in cells[1:]) + "</tr>"
-    return f'<div class="table"><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
+            cells.append(f"{number(value, of)} ({time:.2f} s)" if is_number(value) else "–")  # of no shear at all
+        rows.append(("", cells))
+    return html_table(heads, rows)
 
 
 def demands(run, limits):
@@ -229,34 +242,28 @@ def extremes(runs):
         item = next(of_run[key] for of_run in found if key in of_run)
         titles = {of_run[key].title for of_run in found if key in of_run}
         title = item.title if len(titles) == 1 else f"{item.title.partition(',')[0]}, where each run has its worst"
-        cells = [f'<td>{escape(title)} <span class="unit">{"[" + item.unit + "]" if item.unit else ""}</span></td>']
+        cells = [f'{escape(title)} <span class="unit">{"[" + item.unit + "]" if item.unit else ""}</span>']
         for of_run in found:
             one = of_run.get(key)
             error = f' <span class="unit">± {number(one.error, one.unit, 2)}</span>' if one and isinstance(one.error, (int, float)) else ""
-            cells.append(f'<td class="n {one.state}">{number(one.value, one.unit)}{error}</td>' if one else '<td class="n">–</td>')
+            cells.append((f"{number(one.value, one.unit)}{error}", one.state) if one else "–")
         if limited:
             given = dict.fromkeys(with_unit(of_run[key].limit["limit"], item.unit).removesuffix(item.unit).strip()
                                   for of_run in found if key in of_run and of_run[key].limit)  # runs may have their own
-            cells.append(f'<td class="n">{", ".join(given)}</td>')
+            cells.append(", ".join(given))
         if single:
             if limited:
-                words = "not reached" if item.state == "exceeded" and item.limit.get("is_least") else item.state
-                cells.append(f'<td class="{item.state}">{words}</td>')
-            cells += [f'<td class="n">{text}</td>' for text in item.where()]
-        rows.append(f'<tr>{"".join(cells)}</tr>')
-    names = ["largest"] if single else [escape(run.name) for run in runs]
-    names += (["limit"] if limited else [])
-    head = "<th>quantity</th>" + "".join(f'<th class="n">{name}</th>' for name in names)
-    head += ("<th></th>" if limited and single else "") + ('<th class="n">place [m]</th><th class="n">time [s]</th>' if single else "")
-    return f'<div class="table"><table><thead><tr>{head}</tr></thead><tbody>{"".join(rows)}</tbody></table></div>'
+                cells.append(("not reached" if item.state == "exceeded" and item.limit.get("is_least") else item.state, item.state))
+            cells += item.where()
+        rows.append(("", cells))
+    heads = [("quantity", ""), *((escape(name), "n") for name in (["largest"] if single else [run.name for run in runs]))]
+    heads += ([("limit", "n")] if limited else []) + ([("", "")] if limited and single else [])
+    return html_table(heads + ([("place [m]", "n"), ("time [s]", "n")] if single else []), rows)
 
 
 def table(head, rows):
     """Rows of texts; a row may be marked as one in which runs differ."""
-    body = "".join(f'<tr{" class=differs" if differs else ""}>' + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>"
-                   for cells, differs in rows)
-    titles = "".join(f"<th>{escape(title)}</th>" for title in head)
-    return f'<div class="table"><table><thead><tr>{titles}</tr></thead><tbody>{body}</tbody></table></div>'
+    return html_table([(escape(title), "") for title in head], [("differs" if differs else "", [escape(cell) for cell in cells]) for cells, differs in rows])
 
 
 def facts(runs):
@@ -267,6 +274,7 @@ def facts(runs):
         texts = [run.facts.get(title, "–") for run in runs]
         if len(runs) > 1:  # runs of one dam have the same mesh and static state, whatever they are called and however long they took
             texts = [re.sub(r" \([\d.]+ s\)$", "", text.removeprefix(f"{run.scene}: ")) for run, text in zip(runs, texts)]
+        texts = [typeset(text) for text in texts]
         rows.append(((title, *(texts if len(set(texts)) > 1 else texts[:1] + [""] * (len(runs) - 1))), len(set(texts)) > 1))
     if len(runs) == 1:
         return table(["", "as the program understood it"], rows)
@@ -283,8 +291,8 @@ def differences(runs):
         return "<p>Nothing: every entry has its default.</p>"
     rows = []
     for name in names:
-        values = [run.entries.get(name, ("–", None))[0] or "(empty)" for run in runs]
-        default = next(run.entries[name][1] for run in runs if run.entries.get(name, ("", None))[1] is not None)
-        rows.append(((name, *values, default or "(empty)"), len(set(values)) > 1))
+        values = [readable(run.entries[name][0], run.units.get(name)) if name in run.entries else "–" for run in runs]
+        default = next(readable(run.entries[name][1], run.units.get(name)) for run in runs if run.entries.get(name, ("", None))[1] is not None)
+        rows.append(((name, *(value or "(empty)" for value in values), default or "(empty)"), len(set(values)) > 1))
     marked = '<p class="sub">Shaded: the runs differ.</p>' if any(differs for _, differs in rows) and len(runs) > 1 else ""
     return table(["entry", *([run.name for run in runs] if len(runs) > 1 else ["value"]), "default"], rows) + marked

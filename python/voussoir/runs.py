@@ -11,10 +11,15 @@ from . import tables
 from .errors import InputError
 from .prm import read_entries
 from .results import read_summary
+from .units import units_of
 
 
 class Skip(Exception):
     """A figure or a result whose data are missing."""
+
+
+class NotComputed(Skip):
+    """Content that another command, or another entry of the scene, would add to a report."""
 
 
 def read_table(path, text_columns=()):
@@ -122,16 +127,29 @@ class Run:
         return found
 
     @cached_property
-    def entries(self):
+    def scene_text(self):
         file = self.directory / "scene.prm"
-        return read_entries(file.read_text(errors="replace")) if file.is_file() else {}
+        return file.read_text(errors="replace") if file.is_file() else ""
+
+    @cached_property
+    def entries(self):
+        return read_entries(self.scene_text)
+
+    @cached_property
+    def units(self):
+        """Units of the entries, "Section/Entry" -> unit."""
+        return units_of(self.scene_text)
+
+    def value(self, entry):
+        """Number of an entry of the scene in its unit, 0 if there is none."""
+        try:
+            return float(self.entries[entry][0])
+        except (KeyError, ValueError):
+            return 0.
 
     def limit(self, name):
         """Entry "Limits/NAME" of the scene in its unit, 0 if there is none."""
-        try:
-            return float(self.entries[f"Limits/{name}"][0])
-        except (KeyError, ValueError):
-            return 0.
+        return self.value(f"Limits/{name}")
 
     @cached_property
     def facts(self):

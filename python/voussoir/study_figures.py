@@ -11,7 +11,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # after the choice of the backend
 import numpy as np
 
-COLOURS = ["#0b5394", "#cc4125", "#38761d", "#b45f06", "#674ea7", "#45818e", "#7f6000"]
+from .palette import COLOURS
+
 MEASURES = {"Opening": ("opening", 1e3, "largest opening [mm]", "mm"), "Slip": ("slip", 1e3, "largest slip [mm]", "mm"),
             "Tension": ("tension", 1e-6, "largest tension [MPa]", "MPa"),
             "Damage": ("damage_share", 100., "faces above {strength:g} MPa [%]", "%")}

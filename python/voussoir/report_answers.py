@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The first page of a report in words: how far the joints open, whether they close again, stresses, limits, validity. And what other
+commands computed for the same scene: natural modes and the error of mesh and time step."""
+
+import json
+import re
+from html import escape
+
+import numpy as np
+
+from . import tables
+from .errors import InputError
+from .picture import read_solution
+from .report_tables import MINUS, html_table, items, number, verdict, with_unit
+from .runs import NotComputed, Skip
+
+# Dynamic tensile strength of dam concrete if the scene gives none [Pa]: a tenth of the dynamic compressive strength (DL 5073-2000), which
+# is 1.3 times the static one; 23 MPa give 3 MPa.
+USUAL_STRENGTH = 3e6
+CLOSED = 0.01  # of its largest opening: a joint below is closed
+
+
+def strength_of(run):
+    """Dynamic tensile strength [Pa], and where it is from."""
+    for entry in ("Limits/Tensile strength", "Output/Tensile strength"):
+        if (value := run.value(entry)) > 0.:
+            return value, entry
+    return USUAL_STRENGTH, ""
+
+
+def place_and_time(item):
+    """Text of the place and the time of an extreme, or nothing."""
+    place, time = item.where()
+    words = [f"at {place} m" if place else "", f"at {time} s" if time and item.time > 0. else ""]
+    return f" ({', '.join(filter(None, words))})" if any(words) else ""
+
+
+def value_of(item):
+    return f"{number(item.magnitude, item.unit)} {item.unit}"
+
+
+def opening(found):
+    if "max_opening" not in found:
+        return "There are no joints that can open."
+    item = found["max_opening"]
+    error = f", with an estimated error of {number(item.error, item.unit, 2)} mm of the time step" if isinstance(item.error, (int, float)) else ""
+    text = f"By at most <b>{value_of(item)}</b>{place_and_time(item)}{error}."
+    if "max_slip" in found:
+        text += f" Their faces slip by at most {value_of(found['max_slip'])}{place_and_time(found['max_slip'])}."
+    return text
+
+
+def least_afterwards(run):
+    """Joint that opens by more than 0.1 mm at the crest -> least opening after the largest one [m], of both faces the wider; 0 if closed."""
+    table, found = run.joint_history, {}
+    for name, column in table.items():
+        if (match := re.fullmatch(r"opening_(?:upstream|downstream)_(\d+)", name)) and column.max() > 1e-4:
+            least = float(column[column.argmax():].min())
+            joint = int(match[1])
+            found[joint] = max(found.get(joint, 0.), least if least > CLOSED * column.max() else 0.)
+    return found
+
+
+def closing(run, found):
+    """Whether the joints close again after their largest opening."""
+    if not run.moves:
+        return "The run is of the static state alone."
+    try:
+        opened, end = least_afterwards(run), run.joint_history["time"][-1]
+    except Skip as reason:
+        return f"Unknown: {escape(str(reason))}."
+    open_ = {joint: least for joint, least in opened.items() if least > 0.}
+    if not opened:
+        text = "No joint opens by more than 0.1 mm at the crest."
+    elif not open_:
+        which = f"each of the {len(opened)} joints that open" if len(opened) > 1 else "the joint that opens"
+        text = f"<b>Yes.</b> At the crest {which} closes again."
+    else:
+        listed = ", ".join(f"joint {joint} ({number(open_[joint], 'mm')} mm)" for joint in sorted(open_, key=lambda joint: -open_[joint])[:6])
+        one = len(open_) == 1
+        text = (f"<b>Not all.</b> Of {len(opened)} joints that open at the crest, {len(open_)} {'stays' if one else 'stay'} open from "
+                f"{'its' if one else 'their'} largest opening to the end of the run at {end:.2f} s, at least by: {listed}.")
+    if "residual_opening" in found:
+        text += f" At the end of the run, when the dam may still move, the largest opening is {value_of(found['residual_opening'])}."
+    return text
+
+
+def tensions(found):
+    """The largest tension of each face away from the base, or with the base in runs of earlier versions: {face: Item}."""
+    keys = {face: [key for key in (f"max_tension_{face}_away_from_base", f"max_tension_{face}") if key in found][:1] for face in ("upstream", "downstream")}
+    return {face: found[names[0]] for face, names in keys.items() if names and found[names[0]].value == found[names[0]].value}
+
+
+def stresses(run, found):
+    largest = tensions(found)
+    if not largest:
+        return "They were not recorded (Output/Envelope interval)."
+    away = any(key.endswith("_away_from_base") for key in found)
+    text = "Tension at most " + ", ".join(f"<b>{value_of(item)}</b> {face}{place_and_time(item)}" for face, item in largest.items())
+    for key in ("max_compression_away_from_base", "max_compression"):
+        if key in found:
+            text += f"; compression at most {value_of(found[key])}"
+            break
+    text += ", away from the base. " if away else ". "
+    strength, entry = strength_of(run)
+    worst = max(item.value for item in largest.values())
+    source = f"the tensile strength of the scene ({entry})" if entry else "a usual dynamic tensile strength"
+    if worst <= strength:
+        return text + f"The tension is below {source}, {with_unit(strength, 'MPa')}."
+    return text + (f'<b class="exceeded">The concrete would crack:</b> the tension is {worst / strength:.2g} times {source}, {with_unit(strength, "MPa")}'
+                   f"{'' if entry else ' (a tenth of the dynamic compressive strength, DL 5073-2000)'}.")
+
+
+def cracks(run, found):
+    """True if the tension exceeds the strength."""
+    return max((item.value for item in tensions(found).values()), default=0.) > strength_of(run)[0]
+
+
+def validity(run, found):
+    """Which numerical checks are satisfied, and what the model does not cover."""
+    bad, good, summary = [], [], run.summary
+    for key, limit, name in (("energy_balance_error", 1e-4, "energy balance"),
+                             ("contact_residual", max(1e-10, run.value("Contact/Tolerance")), "contact residual")):
+        if isinstance(value := summary.get(key), (int, float)):
+            (good if value <= limit else bad).append(f"{name} {number(value, '')} (limit {number(limit, '')})")
+    warnings = summary.get("warnings", [])
+    (bad if warnings else good).append(f"warnings of the program: {len(warnings) or 'none'}")
+    text = ("<b class=\"exceeded\">Not all checks are satisfied:</b> " if bad else "The computation passes its checks: ") + "; ".join(bad + good) + ". "
+    try:
+        text += accuracy_sentence(run)
+    except NotComputed:
+        text += "The error of mesh and time step is not estimated (<code>voussoir accuracy</code>). "
+    except Skip as reason:
+        text += f"The error of mesh and time step is unknown: {escape(str(reason))}. "
+    if cracks(run, found):
+        text += ('<b class="exceeded">The linear monoliths are beyond their validity</b> where the tension exceeds the strength: the model does not '
+                 "redistribute stresses after cracking, so openings, slips and stresses after the first crack are indications only.")
+    else:
+        text += "The monoliths are linear elastic, and the tension stays below the strength."
+    return text
+
+
+def answers(run):
+    """A list of questions and answers, as HTML."""
+    found = items(run)
+    questions = [("How far do the joints open?", opening(found)),
+                 *([("Do they close again?", closing(run, found))] if "max_opening" in found else []),
+                 ("How large are the stresses?", stresses(run, found)),
+                 ("Which limits are exceeded?", escape(verdict(run)[1])),
+                 ("Are the results valid?", validity(run, found))]
+    return '<dl class="answers">' + "".join(f"<dt>{question}</dt><dd>{text}</dd>" for question, text in questions) + "</dl>"
+
+
+# ---------------------------------------------------------------- other commands
+
+def beside(run, command, file):
+    """The file of `voussoir COMMAND --output` for the same scene: in RUN/COMMAND, or in SCENE-COMMAND beside RUN. Throws NotComputed."""
+    for directory in (run.directory / command, run.directory.resolve().parent / f"{run.scene.replace('/', '-')}-{command}"):
+        try:
+            if (directory / file).is_file():
+                return directory / file
+        except (OSError, ValueError):  # a name that no file can have
+            pass
+    raise NotComputed(f"voussoir {command} {run.scene}.prm --output {run.directory.name}/{command}")
+
+
+def accuracy_of(run):
+    """accuracy.json: errors of openings and tension [-], and the target. Throws Skip."""
+    file = beside(run, "accuracy", "accuracy.json")
+    try:
+        found = json.loads(file.read_text(encoding="utf-8"))
+        return float(found["error"]["openings"]), float(found["error"]["tension"]), float(found["wish"])
+    except (KeyError, OSError, RecursionError, TypeError, ValueError) as error:
+        raise Skip(f"{file} is not of voussoir accuracy ({type(error).__name__})") from error
+
+
+def accuracy_sentence(run):
+    openings, tension, target = accuracy_of(run)
+    state = "within" if max(openings, tension) <= target else "above"
+    return (f"<code>voussoir accuracy</code> of the scene estimates an error of mesh and time step of {number(openings, '%', 2)} % for the openings and "
+            f"{number(tension, '%', 2)} % for the zone means of tension, {state} its target of {number(target, '%', 2)} %. ")
+
+
+def modes_of(run):
+    """modes.csv, and its directory. Throws Skip."""
+    file = beside(run, "modes", "modes.csv")
+    try:
+        table = tables.read_table(file)
+        if not len(table["mode"]) or not all(np.isfinite(table[name]).all() for name in ("frequency", "share_x", "share_y", "share_z")):
+            raise ValueError("a value is not finite")
+    except (InputError, KeyError, TypeError, ValueError) as error:
+        raise Skip(f"{file} is not of voussoir modes ({error})") from error
+    return table, file.parent
+
+
+def modes(run):
+    """Table of frequencies and effective masses."""
+    table, _ = modes_of(run)
+    rows = [("", [f"mode {table['mode'][k]:.0f}", f"{table['frequency'][k]:.3g}", *(f"{100. * table[f'share_{d}'][k]:.0f}" for d in "xyz")])
+            for k in range(len(table["mode"]))]
+    return html_table([("", ""), ("frequency [Hz]", "n"), *((f"effective mass {way} [%]", "n") for way in ("downstream", "across", "vertical"))], rows)
+
+
+def mesh_quality(run):
+    """Rows about the elements: numbers, edges [m], smallest scaled Jacobian (1: right angles, 0: flat), as `voussoir mesh` computes them."""
+    mesh, file = run.summary.get("mesh", {}), run.directory / "envelope.vtu"
+    if not file.exists():
+        raise Skip("no envelope.vtu: Output/Envelope interval is 0")
+    try:
+        data = read_solution(file)
+    except InputError as error:
+        raise Skip(error) from error
+    if len(data["connectivity"]) != mesh.get("cells"):
+        raise Skip("envelope.vtu has other cells than the mesh (Elements/Degree = 2)")
+    shortest, longest, jacobian = quality(data["Points"].astype(float)[data["connectivity"]])
+    return [("elements of the dam; nodes; monoliths", f"{mesh['cells']}; {mesh['nodes']}; {mesh['monoliths']}"),
+            ("edges, shortest and longest", f"{shortest:.3g} m, {longest:.3g} m"),
+            ("smallest scaled Jacobian (1: right angles, 0: flat element)", f"{jacobian:.3f}".replace("-", MINUS))]
+
+
+def quality(corners):
+    """Shortest and longest edge [m] and smallest scaled Jacobian [-] of hexahedra of VTK, (cell, 8, 3)."""
+    neighbours = np.array([[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]])
+    edges = corners[:, neighbours] - corners[:, :, None]  # cell, corner, edge, coordinate
+    lengths = np.linalg.norm(edges, axis=3)
+    volumes = np.einsum("kvi,kvi->kv", np.cross(edges[:, :, 0], edges[:, :, 1]), edges[:, :, 2])
+    return lengths.min(), lengths.max(), (volumes / lengths.prod(axis=2)).min()
