@@ -14,8 +14,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "python" / "voussoir"
 LAYERS = (("errors",), ("prm", "tables", "vtu", "chromium"), ("results",), ("program",), ("__init__", "command", "runs", "zone_tension"),
-          ("drawing", "picture", "arch_rock", "report_tables", "study_file", "study_scene"),
+          ("drawing", "frames", "picture", "arch_rock", "report_tables", "study_file", "study_scene"),
           ("mode_shapes", "report_figures", "study_figures", "study_results"),
+          ("report_view3d",),
           ("accuracy", "arch_from_table", "figures", "film", "report", "study", "view"))
 FLOOR = {name: floor for floor, names in enumerate(LAYERS) for name in names}
 

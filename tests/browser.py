@@ -13,6 +13,8 @@ from voussoir.chromium import Chromium, find_browser  # noqa: E402  pylint: disa
 class Browser(Chromium):
     """with Browser() as browser: browser.open(path, width=390) ..."""
 
+    options = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")  # WebGL without a graphics card
+
     def open(self, path, width, height=844):
         """Loads a file in a window of this width, in CSS pixels."""
         self.events = []
@@ -32,7 +34,7 @@ class Browser(Chromium):
         found = []
         for event in self.events:
             method, what = event.get("method"), event.get("params", {})
-            if method == "Log.entryAdded" and what["entry"]["level"] in ("error", "warning"):
+            if method == "Log.entryAdded" and what["entry"]["level"] in ("error", "warning") and "GL Driver Message (OpenGL, Performance" not in what["entry"]["text"]:
                 found.append(what["entry"]["text"])
             elif method == "Runtime.exceptionThrown" or method == "Runtime.consoleAPICalled" and what["type"] in ("error", "warning"):
                 found.append(json.dumps(what)[:300])

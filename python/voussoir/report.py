@@ -16,6 +16,7 @@ from html import escape
 from pathlib import Path
 
 from . import report_figures as figures
+from . import report_view3d as view3d
 from .chromium import find_browser, print_page
 from .command import Parser
 from .errors import ComputationError, InputError
@@ -29,6 +30,7 @@ class Page:
 
     def __init__(self):
         self.parts, self.missing, self.figures = [], [], 0
+        self.styles, self.scripts = [], []  # of the page, in this order
 
     def add(self, text):
         self.parts.append(text)
@@ -245,21 +247,29 @@ def repeat(page, runs):
     page.add(f"<p>This page: <code>voussoir report {escape(' '.join(run.directory.resolve().name for run in runs))}</code></p>")
 
 
+def allowed(directive, texts):
+    """Directive of the Content-Security-Policy that allows these inline texts by their hashes; none for no texts."""
+    hashes = " ".join(f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'" for text in texts)
+    return f"{directive} {hashes}; " if texts else ""
+
+
 def page_of(runs):
     page = Page()
     head(page, runs)
-    for section in (results, dam_and_scene, motion, response, stresses, bases, checks, repeat):
+    for section in (results, view3d.section, dam_and_scene, motion, response, stresses, bases, checks, repeat):
         section(page, runs)
     if page.missing:
         page.add('<h3>Not shown</h3><ul>' + "".join(f"<li>{escape(text)}</li>" for text in dict.fromkeys(page.missing)) + "</ul>")
     page.add("<footer>Made by Voussoir’s <code>report</code>. Units are SI; stresses in MPa, openings and slips in mm.</footer>")
-    style = (Path(__file__).resolve().parent / "report.css").read_text()
+    styles = [(Path(__file__).resolve().parent / "report.css").read_text(), *page.styles]
     title = escape(", ".join(run.heading for run in runs))
-    policy = f"default-src 'none'; img-src data:; style-src 'sha256-{b64encode(sha256(style.encode()).digest()).decode()}'; base-uri 'none'; form-action 'none'"
+    policy = ("default-src 'none'; img-src data:; " + allowed("style-src", styles) + allowed("script-src", page.scripts)
+              + "base-uri 'none'; form-action 'none'")
     text = (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="{policy}">'
             '<meta name="viewport" content="width=device-width, initial-scale=1">'
-            f'<title>{title}</title><link rel="icon" href="data:,"><style>{style}</style></head><body>\n' + "\n".join(page.parts) +
-            "\n</body></html>\n")
+            f'<title>{title}</title><link rel="icon" href="data:,">' + "".join(f"<style>{style}</style>" for style in styles)
+            + "</head><body>\n" + "\n".join(page.parts) + "".join(f"\n<script>{script}</script>" for script in page.scripts)
+            + "\n</body></html>\n")
     return text.encode("utf-8", "backslashreplace").decode()  # JSON may hold halves of characters
 
 
