@@ -34,8 +34,9 @@ class Browser(Chromium):
         found = []
         for event in self.events:
             method, what = event.get("method"), event.get("params", {})
-            if method == "Log.entryAdded" and what["entry"]["level"] in ("error", "warning") and "GL Driver Message (OpenGL, Performance" not in what["entry"]["text"]:
-                found.append(what["entry"]["text"])
+            if method == "Log.entryAdded" and what["entry"]["level"] in ("error", "warning"):
+                if "GL Driver Message (OpenGL, Performance" not in what["entry"]["text"]:  # of screenshots
+                    found.append(what["entry"]["text"])
             elif method == "Runtime.exceptionThrown" or method == "Runtime.consoleAPICalled" and what["type"] in ("error", "warning"):
                 found.append(json.dumps(what)[:300])
             elif method == "Network.requestWillBeSent" and not what["request"]["url"].startswith(("file:", "data:", "about:")):

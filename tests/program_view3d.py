@@ -13,6 +13,7 @@ import json
 import re
 import sys
 import time
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +25,8 @@ from run_program import expect, run_cases, runs, summary, write_scene
 from voussoir.frames import Frames, joint_of
 from voussoir.picture import read_solution
 from voussoir.report_view3d import LIBRARIES, SCRIPTS, figure_of, magnification
-from voussoir.runs import Run, read_table
+from voussoir.runs import Run
+from voussoir.tables import read_table
 
 MOVING = settings("Joints/Friction=0.3")
 
@@ -114,14 +116,21 @@ def chosen():
     for height, most, factor in ((120., .1, 100.), (120., .099, 100.), (120., .051, 100.), (120., .05, 200.), (120., .0199, 500.), (120., 50., 1.)):
         points, moved = np.array([[0., 0., 0.], [0., 0., height]]), np.array([[[0., 0., 0.], [0., -most, 0.]]])
         expect(abs(magnification(points, moved) - factor) < 1e-9, f"{most} m of {height} m: {magnification(points, moved)}, not {factor}")
-    _, text, _ = figure_of(Run("run"), found, found.strongest(17), True)
+    _, whole, _ = figure_of(Run("run"), found, True, 10**9)
+    _, text, words = figure_of(Run("run"), found, True, len(whole) * 2 // 3)
     data = json.loads(text)
-    moved = data["unit"] * np.frombuffer(base64.b64decode(data["moved"]), "<i2").reshape(17, -1, 3)
-    expect(np.abs(moved - found.values("displacement", found.strongest(17))).max() <= .51 * data["unit"] + 1e-9, "displacements of the page")
+    n = len(data["times"])
+    some = found.strongest(n)
+    expect(len(text) <= len(whole) * 2 // 3 and 5 < n < len(found.times), f"{n} of {len(found.times)} frames, {len(text)} of {len(whole)} characters")
+    expect(np.allclose(data["times"], found.times[some]) and f"t = {found.times[1 + opening[1:].argmax()]:.2f} s" in words, words)
+    unpack = lambda text, kind: np.frombuffer(zlib.decompress(base64.b64decode(text)), kind)
+    low, high = unpack(data["moved"], "u1").reshape(2, n, -1).astype(int)
+    moved = np.cumsum(np.cumsum(low + 256 * high, axis=0), axis=0).astype(np.int16).reshape(n, -1, 3)
+    expect(np.abs(data["unit"] * moved - found.values("displacement", some)).max() <= .51 * data["unit"] + 1e-9, "displacements of the page")
     history, table = data["history"], read_table("run/joint_history.csv")
     for joint, columns in history["joints"].items():
         for name, column in columns.items():
-            values = column["unit"] * np.frombuffer(base64.b64decode(column["numbers"]), "<i2")
+            values = column["unit"] * unpack(column["numbers"], "<i2")
             expect(np.abs(values - 1e3 * table[f"{name}_{joint}"]).max() <= .51 * column["unit"], f"{name} of joint {joint}")
 
 
@@ -209,6 +218,9 @@ def view():
         for width in (1280, 390):
             chromium.call("Emulation.setTouchEmulationEnabled", enabled=width < 600)
             chromium.open(Path("run/report.html"), width)
+            deadline = time.monotonic() + 30.
+            while not chromium.value(f"!!{VIEW}") and time.monotonic() < deadline:
+                settled(chromium)
             turn(chromium, swipe if width < 600 else drag)
             slide(chromium)
             joints(chromium)

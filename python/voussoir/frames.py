@@ -38,7 +38,7 @@ class Frames:
                     and np.isfinite(frames["units"]).all() and np.isfinite(frames["time"]).all()):
                 raise ValueError("its numbers are not possible")
         except (ValueError, LookupError, TypeError, OverflowError, RecursionError) as error:
-            raise InputError(f"{path} is damaged: {error}. Repeat the run.") from error
+            raise InputError(f"{path} is damaged: it cannot be decoded ({error}). Repeat the run.") from error
         self.times, self.units, self.numbers = frames["time"], frames["units"].astype(float), frames
 
     def values(self, what, chosen):

@@ -5,7 +5,8 @@
 
 DIR are output directories of finished runs. The page contains its figures and its style, and loads nothing from the network.
 The files of the directories may come from other persons. Therefore all texts are escaped, and the Content-Security-Policy of the page forbids
-scripts and other files. --pdf prints the page to FILE.pdf with an installed Chromium (on Debian: apt-get install chromium), under the same limits.
+other files, and scripts except those of the view of the moving dam. --pdf prints the page to FILE.pdf with an installed Chromium (on Debian:
+apt-get install chromium), without scripts.
 """
 
 import sys

@@ -10,9 +10,26 @@
   const STRESS = [[0x05, 0x30, 0x61], [0x43, 0x93, 0xc3], [0xd1, 0xe5, 0xf0], [0xf7, 0xf7, 0xf7], [0xfd, 0xdb, 0xc7], [0xd6, 0x60, 0x4d], [0x67, 0, 0x1f]];
   const OPENING = [CONCRETE, [0xf0, 0xc2, 0x7b], [0xdd, 0x7a, 0x3b], [0xa9, 0x2b, 0x1f], [0x5a, 0x0d, 0x12]];
 
-  const numbers = (text, type) => {
-    const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-    return new TYPES[type](bytes.buffer);
+  // All texts of the data are compressed bytes in base64.
+  const unpacked = async (data) => {
+    if (typeof data === "string") {
+      const bytes = new Blob([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))]);
+      return new Uint8Array(await new Response(bytes.stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer());
+    }
+    if (data === null || typeof data !== "object" || Array.isArray(data)) return data;
+    return Object.fromEntries(await Promise.all(Object.entries(data).map(async ([name, value]) => [name, await unpacked(value)])));
+  };
+
+  const numbers = (bytes, type) => new TYPES[type](bytes.buffer);
+
+  // Integers over time, from their second differences: n of each time, low bytes before high bytes.
+  const overTime = (bytes, type, n) => {
+    const size = TYPES[type].BYTES_PER_ELEMENT, count = bytes.length / size, result = new TYPES[type](count), steps = new TYPES[type](n);
+    for (let i = 0; i < count; ++i) {
+      steps[i % n] += size === 2 ? bytes[i] + 256 * bytes[count + i] : bytes[i];
+      result[i] = (i < n ? 0 : result[i - n]) + steps[i % n];
+    }
+    return result;
   };
 
   // A column of numbers of 16 bits in its unit.
@@ -46,15 +63,15 @@
     constructor(stage, data) {
       this.data = data;
       this.points = numbers(data.points, "f4");
-      this.moved = numbers(data.moved, "i2");
+      this.n = this.points.length / 3;
+      this.moved = overTime(data.moved, "i2", 3 * this.n);
       this.edges = numbers(data.edges, "u4");
       this.edgeJoints = numbers(data.edgeJoints, "u2");
-      this.stress = data.stress && numbers(data.stress, "u1");
+      this.stress = data.stress && overTime(data.stress, "u1", this.n);
       this.envelope = data.envelope && numbers(data.envelope, "u1");
       this.jointNodes = numbers(data.jointNodes, "u4");
       this.nodeJoints = numbers(data.nodeJoints, "u2");
-      this.opening = numbers(data.opening, "u1");
-      this.n = this.points.length / 3;
+      this.opening = overTime(data.opening, "u1", this.jointNodes.length);
       this.at = 0;
       this.factor = data.factor;
       this.mode = this.stress ? "stress" : "opening";
@@ -484,12 +501,12 @@
   }
 
   const hasWebGL = () => ["webgl2", "webgl"].some((kind) => document.createElement("canvas").getContext(kind));
-  if (window.THREE && window.Dygraph && hasWebGL()) { // otherwise the picture stays
+  if (window.THREE && window.Dygraph && window.DecompressionStream && hasWebGL()) { // otherwise the picture stays
     // The legend of dygraphs writes style attributes, which the policy of the page forbids; the headings have the values.
     Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
     document.querySelectorAll("figure.view3d").forEach((figure) => {
       const data = figure.querySelector('script[type="application/json"]');
-      if (data) new View(figure, JSON.parse(data.textContent));
+      if (data) unpacked(JSON.parse(data.textContent)).then((numbers) => new View(figure, numbers));
     });
   }
 })();

@@ -6,9 +6,11 @@ and their data. Without the packages the page has the picture only."""
 
 import json
 import os
+import re
 from base64 import b64encode
 from html import escape
 from pathlib import Path
+from zlib import compress
 
 import numpy as np
 
@@ -22,8 +24,9 @@ from .drawing import plt
 LIBRARIES = Path("/usr/share/javascript")  # of Debian; the environment variable VOUSSOIR_JAVASCRIPT names another directory, of npm
 SCRIPTS = ("three/build/three.min.js", "three/examples/js/controls/OrbitControls.js", "dygraphs/dist/dygraph.min.js")
 STYLE = "dygraphs/dist/dygraph.min.css"
-BYTES = 3_600_000     # of the frames of all runs, before base64: below 8 MB for a page with its figures
-NUMBERS = 500_000     # in the histories of a run
+LENGTH = 4_600_000  # of the data of all runs: scripts of 1 MB, figures of 2 MB, and these data are less than 8 MB
+NUMBERS = 500_000  # in the histories of a run
+COLUMNS = ("opening_upstream", "opening_downstream", "slip_upstream", "slip_downstream")
 LIVE_WORDS = "The dam in its strongest seconds, with magnified displacements from the grouted state. A click on a joint shows its history. Tension is positive."
 LICENCE = """/*! three.js, Copyright 2010 three.js authors. dygraphs, Copyright 2006 Dan Vanderkam, Copyright 2009 other contributors.
 Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated documentation files (the
@@ -49,41 +52,34 @@ def section(page, runs):
         return
     page.section("The moving dam")
     scripts, style = libraries()
-    own = Path(__file__).resolve()
-    page.styles.append(own.with_suffix(".css").read_text(encoding="utf-8") + style)
+    page.styles.append(Path(__file__).with_suffix(".css").read_text(encoding="utf-8") + style)
     if scripts:
-        page.scripts += [LICENCE + script for script in scripts[:1]] + scripts[1:]
+        page.scripts += scripts
     for run, frames in views:
-        part = bytes_per_frame(frames)
-        chosen = frames.strongest(min(len(frames.times), max(2, int(BYTES / len(views) / part))))
-        if (found := page.made("the moving dam", lambda run=run, frames=frames, chosen=chosen: figure_of(run, frames, chosen, scripts))) is None:
+        found = page.made("the moving dam", lambda run=run, frames=frames: figure_of(run, frames, bool(scripts), LENGTH // len(views)))
+        if found is None:
             continue
-        picture_, data, words = found
+        still, data, words = found
         title = f'<p class="name">{escape(run.name)}</p>' if len(runs) > 1 else ""
         live = f'<div class="view3d-live"></div><script type="application/json">{data}</script>' if scripts else ""
         caption = page.caption(f'<span class="view3d-still">{escape(words)}</span>' + (f'<span class="view3d-live">{LIVE_WORDS}</span>' if scripts else ""))
-        page.add(f'<figure class="view3d">{title}{live}<img class="view3d-still" src="{picture_}" alt="{escape(words)}">{caption}</figure>')
-    if scripts:
-        page.scripts.append(own.with_suffix(".js").read_text(encoding="utf-8"))
-    else:
+        page.add(f'<figure class="view3d">{title}{live}<img class="view3d-still" src="{still}" alt="{escape(words)}">{caption}</figure>')
+    if not scripts:
         page.add('<p class="sub view3d-note">With the Debian packages libjs-three and libjs-dygraphs, <code>voussoir report</code> writes a view '
                  'that the reader turns.</p>')
 
 
 def libraries():
-    """Texts of the scripts, and their style. Without the libraries: no scripts."""
+    """Texts of the scripts of the page, and the style of dygraphs. Without the libraries: no scripts."""
     directory = Path(os.environ.get("VOUSSOIR_JAVASCRIPT") or LIBRARIES)
     try:
         texts = [(directory / name).read_text(encoding="utf-8") for name in (*SCRIPTS, STYLE)]
     except OSError:
         return [], ""
     texts = ["\n".join(line for line in text.splitlines() if "# sourceMappingURL=" not in line) for text in texts]
-    return [text.replace("</script", "<\\/script").replace("<!--", "\\x3c!--") for text in texts[:-1]], texts[-1].replace("</style", "")
-
-
-def bytes_per_frame(frames):
-    """Displacements of 16 bits, stress of 8 bits; opening of 8 bits at the joints."""
-    return len(frames.points) * (7 if frames.has_stress else 6) + len(joint_nodes(frames)[0])
+    scripts = [text.replace("</script", "<\\/script").replace("<!--", "\\x3c!--") for text in texts[:-1]]
+    own = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
+    return [LICENCE + scripts[0], *scripts[1:], own], texts[-1].replace("</style", "")
 
 
 def joint_nodes(frames):
@@ -96,39 +92,67 @@ def joint_nodes(frames):
     return np.array(nodes, dtype=np.uint32), np.array([joints[node] for node in nodes], dtype=np.uint16)
 
 
-def figure_of(run, frames, chosen, scripts):
-    """Picture, data of the scripts as JSON, and caption."""
-    moved = frames.values("displacement", chosen)
-    opening = 1e3 * frames.values("opening", chosen)
-    factor = magnification(frames.points, moved)
-    widest = int(np.argmax(opening.max(axis=1) if opening.max() > 0. else (moved**2).sum(axis=(1, 2))))
-    stress = 1e-6 * frames.values("stress", chosen) if frames.has_stress else None
-    envelope = envelope_of(run, frames) if frames.has_stress else None
-    top = 1. if stress is None else max(.1, float(np.quantile(np.abs(stress if envelope is None else envelope), .995)))
-    top = float(f"{top:.1g}") if top < 1. else float(np.ceil(top))
-    colours = "; colours: maximum principal stress, tension positive" if stress is not None else ""
-    words = (f"The dam at t = {frames.times[chosen[widest]]:.2f} s" + (f", largest opening {opening[widest].max():.1f} mm" if opening.max() > 0. else "")
-             + f"; displacements from the grouted state × {factor:g}{colours}.")
-    still = draw_still(frames, moved[widest], factor, None if stress is None else stress[widest], top)
-    if not scripts:
-        return still, "", words
-    nodes, joints = joint_nodes(frames)
-    edges, of_edges = edges_of(frames)
-    unit = float(np.abs(moved).max()) / 32767. or 1.
-    to_byte = lambda values, low, high: np.clip(np.rint(255. * (values - low) / (high - low)), 0, 255).astype(np.uint8)
-    data = {"points": packed(frames.points, "<f4"), "quads": packed(frames.quads, "<u4"), "edges": packed(edges, "<u4"),
-            "edgeJoints": packed(of_edges, "<u2"), "times": [round(float(t), 6) for t in frames.times[chosen]], "unit": unit,
-            "moved": packed(np.rint(moved / unit), "<i2"), "factor": factor, "start": widest,
-            "stress": None if stress is None else packed(to_byte(stress, -top, top), "u1"), "stressTop": top,
-            "envelope": None if envelope is None else packed(to_byte(envelope, -top, top), "u1"),
-            "jointNodes": packed(nodes, "<u4"), "nodeJoints": packed(joints, "<u2"),
-            "opening": packed(to_byte(opening[:, nodes], 0., max(float(opening.max()), 1e-9)), "u1"), "openingTop": float(opening.max()),
-            "history": history_of(run)}
-    return still, json.dumps(data, allow_nan=False).replace("<", "\\u003c"), words
+def figure_of(run, frames, has_scripts, length):
+    """Picture, data of the scripts as JSON of at most `length` characters, and caption."""
+    count = len(frames.times)
+    while True:
+        shown = Shown(run, frames, frames.strongest(count))
+        text = json.dumps(shown.data(), allow_nan=False).replace("<", "\\u003c") if has_scripts else ""
+        if len(text) <= length or count <= 2:
+            return draw_still(frames, shown), text, shown.words()
+        count = max(2, min(count - 1, int(.98 * count * length / len(text))))
+
+
+class Shown:
+    """The chosen frames: displacements [m], openings [mm], stresses [MPa] or None, and the largest stress of the colours."""
+
+    def __init__(self, run, frames, chosen):
+        self.run, self.frames, self.times = run, frames, frames.times[chosen]
+        self.moved = frames.values("displacement", chosen)
+        self.opening = 1e3 * frames.values("opening", chosen)
+        self.factor = magnification(frames.points, self.moved)
+        self.widest = int(np.argmax(self.opening.max(axis=1) if self.opening.max() > 0. else (self.moved**2).sum(axis=(1, 2))))
+        self.stress = 1e-6 * frames.values("stress", chosen) if frames.has_stress else None
+        self.envelope = envelope_of(run, frames) if frames.has_stress else None
+        top = 0. if self.stress is None else float(np.quantile(np.abs(self.stress if self.envelope is None else self.envelope), .995))
+        self.top = float(np.ceil(top)) if top > 1. else float(f"{max(.1, top):.1g}")
+
+    def words(self):
+        opening = self.opening[self.widest].max()
+        return (f"The dam at t = {self.times[self.widest]:.2f} s" + (f", largest opening {opening:.1f} mm" if opening > 0. else "")
+                + f"; displacements from the grouted state × {self.factor:g}"
+                + ("; colours: maximum principal stress, tension positive." if self.stress is not None else "."))
+
+    def data(self):
+        """Numbers for report_view3d.js. Every text is an array of packed()."""
+        nodes, joints = joint_nodes(self.frames)
+        edges, of_edges = edges_of(self.frames)
+        unit, widest = float(np.abs(self.moved).max()) / 32767. or 1., float(self.opening.max())
+        to_byte = lambda values, low, high: np.clip(np.rint(255. * (values - low) / (high - low)), 0, 255).astype(np.uint8)
+        stresses = lambda values: None if values is None else to_byte(values, -self.top, self.top)
+        return {"points": packed(self.frames.points, "<f4"), "quads": packed(self.frames.quads, "<u4"), "edges": packed(edges, "<u4"),
+                "edgeJoints": packed(of_edges, "<u2"), "times": [round(float(t), 6) for t in self.times], "unit": unit,
+                "moved": packed_over_time(np.rint(self.moved / unit).astype(np.int16)), "factor": self.factor, "start": self.widest,
+                "stress": self.stress is not None and packed_over_time(stresses(self.stress)), "stressTop": self.top,
+                "envelope": self.envelope is not None and packed(stresses(self.envelope), "u1"),
+                "jointNodes": packed(nodes, "<u4"), "nodeJoints": packed(joints, "<u2"),
+                "opening": packed_over_time(to_byte(self.opening[:, nodes], 0., max(widest, 1e-9))), "openingTop": widest,
+                "history": history_of(self.run)}
 
 
 def packed(values, kind):
-    return b64encode(np.ascontiguousarray(values).astype(kind).tobytes()).decode()
+    """Numbers of this type as text: compressed, in base64."""
+    return b64encode(compress(np.ascontiguousarray(values).astype(kind).tobytes())).decode()
+
+
+def packed_over_time(values):
+    """The same for integers of 8 or 16 bits over time, as second differences, and low bytes before high bytes: half as long."""
+    differences = values.copy()
+    differences[1:] -= values[:-1]
+    second = differences.copy()
+    second[1:] -= differences[:-1]
+    data = second.astype(f"<{values.dtype.kind}{values.dtype.itemsize}").tobytes()
+    return packed(np.frombuffer(data, np.uint8).reshape(-1, values.dtype.itemsize).T, "u1")
 
 
 def magnification(points, moved):
@@ -168,38 +192,30 @@ def thinned(columns, most):
 
 def history_of(run):
     """Crest displacement, and opening and slip of the joints [mm], as numbers of 16 bits."""
-    result = {"joints": {}, "crest": None}
-
     def numbers(values):
         unit = float(np.abs(values).max()) / 32767. or 1.
         return {"unit": unit, "numbers": packed(np.rint(values / unit), "<i2")}
 
-    for name, table in (("crest", run.directory / "history.csv"), ("joints", run.directory / "joint_history.csv")):
-        try:
-            columns = read_table(table)
-        except Skip:
-            continue
-        wanted = {"time": columns["time"]}
-        if name == "crest":
-            wanted["crest"] = 1e3 * columns["crest_x"]
-        else:
-            wanted.update({key: 1e3 * values for key, values in columns.items() if key.rsplit("_", 1)[0] in
-                           [f"{quantity}_{face}" for quantity in ("opening", "slip") for face in ("upstream", "downstream")]})
-        columns = thinned(wanted, max(200, min(8192, NUMBERS // len(wanted))))
-        time = packed(columns.pop("time"), "<f4")
-        if name == "crest":
-            result["crest"] = {"time": time, **numbers(columns["crest"])}
-            continue
-        result["time"] = time
-        for key, values in columns.items():
-            what, number = key.rsplit("_", 1)
-            result["joints"].setdefault(number, {})[what] = numbers(values)
+    result = {"joints": {}, "crest": None}
+    try:
+        table = read_table(run.directory / "history.csv")
+        columns = thinned({"time": table["time"], "crest": 1e3 * table["crest_x"]}, 8192)
+        result["crest"] = {"time": packed(columns["time"], "<f4"), **numbers(columns["crest"])}
+        table = read_table(run.directory / "joint_history.csv")
+    except Skip:
+        return result
+    joints = [name[17:] for name in table if re.fullmatch(r"opening_upstream_\d+", name)]
+    columns = thinned({"time": table["time"]} | {f"{name}_{joint}": 1e3 * table[f"{name}_{joint}"] for joint in joints for name in COLUMNS},
+                      min(8192, NUMBERS // (4 * len(joints) + 1)))
+    result["time"] = packed(columns["time"], "<f4")
+    result["joints"] = {joint: {name: numbers(columns[f"{name}_{joint}"]) for name in COLUMNS} for joint in joints}
     return result
 
 
-def draw_still(frames, moved, factor, stress, top):
-    """The displaced dam as an image."""
-    x = frames.points + factor * moved
+def draw_still(frames, shown):
+    """The displaced dam at the time of the largest opening, as an image."""
+    stress, top = None if shown.stress is None else shown.stress[shown.widest], shown.top
+    x = frames.points + shown.factor * shown.moved[shown.widest]
     corners, points = x[frames.quads].astype(float), frames.points.astype(float)
     values = np.zeros(corners.shape[:2]) if stress is None else stress[frames.quads]
     view = picture.view_of(points)
