@@ -52,7 +52,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # The figures and most commands need matplotlib; the rest is for one command each, and named by it where it is missing.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3, python3-matplotlib")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-meshio, snakemake")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libjs-dygraphs, libjs-three, python3-meshio, snakemake")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "chromium, gmsh, openmpi-bin, paraview, voussoir-dev")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/cmake/debian/postinst ${CMAKE_SOURCE_DIR}/cmake/debian/prerm)
 

@@ -9,7 +9,8 @@ set -euo pipefail
 required=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev
           ninja-build cmake g++ mold git python3-matplotlib)
 optional=("libfclib-dev: voussoir contact, Contact/Write problems" "libhdf5-dev: with libfclib-dev"
-          "python3-meshio: meshes in the formats .inp and .med")
+          "python3-meshio: meshes in the formats .inp and .med"
+          "libjs-three: view of the moving dam in voussoir report" "libjs-dygraphs: histories beside this view")
 if [[ "${1:-}" != --program ]]; then
   required+=(gmsh numdiff ccache shellcheck flake8 doxygen)
   optional+=("clang-format: format of the sources" "calculix-ccx: benchmarks/calculix.py" "python3-siconos: benchmarks/contact.py"

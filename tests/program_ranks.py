@@ -55,9 +55,9 @@ def same_bits(a, b):
     def bits(file):
         return [line for line in Path(file).read_bytes().splitlines() if not line.startswith(b"#")]  # VTK's date
 
-    names = sorted(path.name for path in Path(a).glob("*.*") if path.suffix in (".csv", ".vtu", ".pvd"))
+    names = sorted(path.name for path in Path(a).glob("*.*") if path.suffix in (".bin", ".csv", ".vtu", ".pvd"))
     expect("history.csv" in names and "energy.csv" in names, f"files of {a}: {names}")
-    expect(names == sorted(path.name for path in Path(b).glob("*.*") if path.suffix in (".csv", ".vtu", ".pvd")),
+    expect(names == sorted(path.name for path in Path(b).glob("*.*") if path.suffix in (".bin", ".csv", ".vtu", ".pvd")),
            f"files of {a} and {b}")
     for name in names:
         expect(bits(f"{a}/{name}") == bits(f"{b}/{name}"), f"{name} of {a} and {b} differ")

@@ -50,7 +50,7 @@ class Reader(HTMLParser):
 
     def __init__(self, path):
         super().__init__()
-        self.images, self.addresses, self.open, self.text, self.tags = [], [], [], "", set()
+        self.images, self.addresses, self.open, self.text, self.tags, self.scripts = [], [], [], "", set(), []
         self.feed(Path(path).read_text(encoding="utf-8"))
         expect(not self.open, f"{path}: not closed: {self.open}")
 
@@ -58,6 +58,8 @@ class Reader(HTMLParser):
         attributes = dict(attributes)
         self.tags |= {tag, *attributes}
         self.addresses += [attributes[name] for name in ("src", "href", "srcset") if name in attributes]
+        if tag == "script":
+            self.scripts.append((attributes.get("type"), ""))
         if tag == "img":
             expect(attributes.get("alt"), "an image without an alternative text")
             self.images.append(attributes["src"])
@@ -68,7 +70,9 @@ class Reader(HTMLParser):
         expect(self.open and self.open.pop() == tag, f"</{tag}> closes something else")
 
     def handle_data(self, data):
-        if "style" not in self.open:
+        if "script" in self.open:
+            self.scripts[-1] = (self.scripts[-1][0], self.scripts[-1][1] + data)
+        elif "style" not in self.open:
             self.text += data
 
 
@@ -139,7 +143,7 @@ def browser():
             for width in (360, 390, 680, 794, 1280):  # telephones, A4 within its margins, A4, a desk
                 chromium.call("Emulation.setEmulatedMedia", media="print" if width == 680 else "")
                 chromium.open(Path(path), width)
-                sizes = chromium.value("[...document.images].map(i => [i.complete, i.naturalWidth, i.naturalHeight, i.width])")
+                sizes = chromium.value("[...document.images].filter(i => i.getClientRects().length).map(i => [i.complete, i.naturalWidth, i.naturalHeight, i.width])")
                 expect(len(sizes) >= 12 and all(all(size) for size in sizes), f"{path} at {width}: images {sizes}")
                 expect(max(size[3] for size in sizes) <= width, f"{path} at {width}: an image is wider than the page")
                 scroll = chromium.value("document.documentElement.scrollWidth")
@@ -602,7 +606,7 @@ def ended():
         late, whole = summary("late"), summary("whole")
         for entry in ("overstress", "waterstop", "residual", "keys", "limits", "extremes", "steps"):
             expect(late[entry] == whole[entry], f"{entry} after {in_the_way}: {late[entry]}, of the whole run {whole[entry]}")
-        for name in ("joint_points.csv", "faces.csv", "history.csv", "energy.csv", "solution.pvd"):
+        for name in ("joint_points.csv", "faces.csv", "history.csv", "energy.csv", "frames.bin", "solution.pvd"):
             expect(Path("late", name).read_bytes() == Path("whole", name).read_bytes(), f"{name} after {in_the_way} is not that of the whole run")
         for name in ("solution-00025.vtu", "solution-00050.vtu", "envelope.vtu"):  # which have the time at which they were written
             expect(read_vtu(f"late/{name}") == read_vtu(f"whole/{name}"), f"{name} after {in_the_way} is not that of the whole run")

@@ -510,6 +510,7 @@ def resume_with(law, factors):
                              "--set", "Output/Progress interval=10"), "--resume")
     same_to_the_bit("whole", "killed")
     expect(Path("killed/solution.pvd").read_text() == Path("whole/solution.pvd").read_text(), "solution.pvd")
+    expect(Path("killed/frames.bin").read_bytes() == Path("whole/frames.bin").read_bytes(), "frames.bin")
     killed, whole = (json.loads(Path(f"{d}/summary.json").read_text()) for d in ("killed", "whole"))
     expect(killed["steps"] == whole["steps"] == 300, "steps of the resumed run")
     expect(killed["energy_balance_error"] < (1e-9 if factors == "double" else 3e-8), "energy balance of the resumed run")

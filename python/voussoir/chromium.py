@@ -24,6 +24,7 @@ class Chromium:
     """One empty page: with Chromium() as chromium: chromium.call("Page.navigate", url=...). Throws OSError where it does not start."""
 
     hosts = "MAP * ~NOTFOUND"  # no network
+    options = ()  # more of the command line
 
     def __enter__(self):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
@@ -36,7 +37,7 @@ class Chromium:
             os.dup2(write, 4)
 
         words = [find_browser(), "--headless", "--disable-gpu", "--no-first-run", "--disable-extensions", "--disable-background-networking",
-                 f"--host-resolver-rules={self.hosts}", f"--user-data-dir={self.profile.name}", "--remote-debugging-pipe", "about:blank"]
+                 f"--host-resolver-rules={self.hosts}", f"--user-data-dir={self.profile.name}", "--remote-debugging-pipe", *self.options, "about:blank"]
         if os.geteuid() == 0:
             words.insert(1, "--no-sandbox")  # Chromium has no sandbox for root
         self.process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,

@@ -5,7 +5,8 @@
 
 DIR are output directories of finished runs. The page contains its figures and its style, and loads nothing from the network.
 The files of the directories may come from other persons. Therefore all texts are escaped, and the Content-Security-Policy of the page forbids
-scripts and other files. --pdf prints the page to FILE.pdf with an installed Chromium (on Debian: apt-get install chromium), under the same limits.
+other files, and scripts except those of the view of the moving dam. --pdf prints the page to FILE.pdf with an installed Chromium (on Debian:
+apt-get install chromium), without scripts.
 """
 
 import shlex
@@ -17,6 +18,7 @@ from html import escape
 from pathlib import Path
 
 from . import report_figures as figures
+from . import report_view3d as view3d
 from .chromium import find_browser, print_page
 from .command import Parser
 from .errors import ComputationError, InputError
@@ -34,6 +36,7 @@ class Page:
 
     def __init__(self):
         self.parts, self.missing, self.further, self.figures = [], [], [], 0
+        self.styles, self.scripts = [], []  # of the page, in this order
 
     def add(self, text):
         self.parts.append(text)
@@ -310,10 +313,16 @@ def listed(texts):
     return "<ul>" + "".join(f"<li>{escape(text)}</li>" for text in dict.fromkeys(texts)) + "</ul>"
 
 
+def allowed(directive, texts):
+    """Directive of the Content-Security-Policy that allows these inline texts by their hashes; none for no texts."""
+    hashes = " ".join(f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'" for text in texts)
+    return f"{directive} {hashes}; " if texts else ""
+
+
 def page_of(runs, study):
     page = Page()
     head(page, runs, study)
-    for section in (summary, results, dam_and_scene, motion, response, stresses, bases, checks):
+    for section in (summary, results, view3d.section, dam_and_scene, motion, response, stresses, bases, checks):
         section(page, runs)
     repeat(page, runs, study)
     if page.missing:
@@ -321,13 +330,15 @@ def page_of(runs, study):
     if page.further:
         page.add(f"<h3>Further content, and the command that adds it</h3>{listed(page.further)}")
     page.add("<footer>Made by Voussoir’s <code>report</code>. Units are SI; openings and slips in mm, stresses in MPa, forces in MN.</footer>")
-    style = (Path(__file__).resolve().parent / "report.css").read_text()
+    styles = [(Path(__file__).resolve().parent / "report.css").read_text(), *page.styles]
     title = escape(", ".join(run.heading for run in runs))
-    policy = f"default-src 'none'; img-src data:; style-src 'sha256-{b64encode(sha256(style.encode()).digest()).decode()}'; base-uri 'none'; form-action 'none'"
+    policy = ("default-src 'none'; img-src data:; " + allowed("style-src", styles) + allowed("script-src", page.scripts)
+              + "base-uri 'none'; form-action 'none'")
     text = (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="{policy}">'
             '<meta name="viewport" content="width=device-width, initial-scale=1">'
-            f'<title>{title}</title><link rel="icon" href="data:,"><style>{style}</style></head><body>\n' + "\n".join(page.parts) +
-            "\n</body></html>\n")
+            f'<title>{title}</title><link rel="icon" href="data:,">' + "".join(f"<style>{style}</style>" for style in styles)
+            + "</head><body>\n" + "\n".join(page.parts) + "".join(f"\n<script>{script}</script>" for script in page.scripts)
+            + "\n</body></html>\n")
     return text.encode("utf-8", "backslashreplace").decode()  # JSON may hold halves of characters
 
 

@@ -4,13 +4,13 @@
 namespace Voussoir
 {
   RunObservers::RunObservers(const RunState &run, Log &log)
-      : history(run), joints(run), stresses(run, joints.joints), stability(run),
-        fields(run, stresses), list{&stability, &joints, &history}
+      : history(run), joints(run), stresses(run, joints.joints), stability(run), fields(run, stresses),
+        frames(run, stresses), list{&stability, &joints, &history}
   {
     if (run.scene().output.block_forces)
       list.push_back(&blocks.emplace(run));
     if (run.scene().error_estimate)
       list.push_back(&time_error.emplace(run, joints.joints, stresses, log));
-    list.insert(list.end(), {&stresses, &fields});
+    list.insert(list.end(), {&stresses, &fields, &frames});
   }
 } // namespace Voussoir

@@ -160,6 +160,11 @@ namespace Voussoir
     prm.add_parameter("Solution interval", solution_interval,
                       "Number of steps between two ParaView files of the solution [-]. 0: none.",
                       Patterns::Integer(0));
+    prm.add_parameter(
+        "Frames", frames,
+        "Largest number of frames in frames.bin [-], from which the report makes its view of the "
+        "moving dam. They are at equal intervals in the strong part of the motion. 0: none.",
+        Patterns::Integer(0));
     prm.add_parameter("Checkpoint interval", checkpoint_interval,
                       "Number of steps between two checkpoints [-]. 0: none.", Patterns::Integer(0));
     prm.add_parameter("Progress interval", progress_interval,

@@ -187,7 +187,8 @@ namespace Voussoir
     for (auto entry = entries.begin(); entry != entries.end();)
       if (entry->first.compare(0, 8, "Contact/") == 0 || entry->first == "Motion/Duration" ||
           entry->first == "Output/Checkpoint interval" || entry->first == "Output/Progress interval" ||
-          entry->first == "Output/Solution interval" || entry->first == "Output/Figures")
+          entry->first == "Output/Solution interval" || entry->first == "Output/Frames" ||
+          entry->first == "Output/Figures")
         entry = entries.erase(entry);
       else
         ++entry;

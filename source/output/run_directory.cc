@@ -38,7 +38,7 @@ namespace Voussoir
           "scene\\.prm|log\\.txt|summary\\.json|(history|energy|stages|blocks|joints|joint_history|joint_"
           "points|joint_cells|joint_pressures|spectrum|faces|faces_cells)\\.csv|envelope\\.vtu|solution\\."
           "pvd|(solution|joints)-[0-9]{5,}\\.vtu|report\\.(html|pdf)|figures\\.log|checkpoint\\.txt|"
-          "checkpoint\\.bin(\\.before|\\.new)?|\\.voussoir");
+          "frames\\.bin|checkpoint\\.bin(\\.before|\\.new)?|\\.voussoir");
       return folder.empty() && std::regex_match(name, result);
     }
 

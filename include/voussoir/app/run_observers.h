@@ -2,7 +2,7 @@
 #ifndef voussoir_run_observers_h
 #define voussoir_run_observers_h
 
-#include <voussoir/output/observers.h>
+#include <voussoir/output/frame_observer.h>
 
 #include <optional>
 
@@ -27,6 +27,7 @@ namespace Voussoir
   private:
     StabilityObserver       stability;
     FieldObserver           fields;
+    FrameObserver           frames;
     std::vector<Observer *> list;
   };
 } // namespace Voussoir

@@ -78,6 +78,7 @@ namespace Voussoir
     std::map<std::string, std::string> probes;                        ///< positions "x y z" [m] by name
     unsigned int                       envelope_interval = 1;         ///< [steps], 0: none
     unsigned int                       solution_interval = 0;         ///< [steps], 0: none
+    unsigned int                       frames = 200;                  ///< largest number, 0: none
     unsigned int                       checkpoint_interval = 500;     ///< [steps], 0: none
     unsigned int                       progress_interval = 64;        ///< [steps]
     bool                               figures = true;                ///< draw figures

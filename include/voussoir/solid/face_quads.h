@@ -12,6 +12,7 @@ namespace Voussoir
   {
     std::array<unsigned int, 4> nodes; ///< in order around the quadrilateral
     unsigned int                monolith;
+    bool                        is_clockwise; ///< order of the nodes, seen from outside of the cell
   };
 
   /** Returns the quadrilaterals of a surface, cell after cell.

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads frames.bin of a run: displacements, stresses and openings at the surface of the dam over time."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from .errors import InputError
+from .runs import Skip
+
+FORMAT = "voussoir frames 1"
+UNITS = ("displacement", "stress", "opening")
+
+
+class Frames:
+    """`points` [m]; `surface`, `monolith` and `quads` (four indices into points, counter-clockwise from outside) of each quadrilateral;
+    `times` [s]; and numbers of frame k: displacement (n, 3), stress and opening (n), times `units[k]` [m, Pa, m]. Throws Skip for a
+    run without the file, and InputError for a damaged one. An incomplete last frame of an interrupted run is left out."""
+
+    def __init__(self, directory):
+        path = Path(directory) / "frames.bin"
+        if not path.is_file():
+            raise Skip("no frames.bin: Output/Frames is 0")
+        data = path.read_bytes()
+        try:
+            head, begin = json.loads(data[:data.index(b"\n")]), data.index(b"\n") + 1
+            if head["format"] != FORMAT:
+                raise ValueError(f"its format is {head['format']!r}, not {FORMAT!r}")
+            n, m, self.has_stress = int(head["nodes"]), int(head["quads"]), bool(head["stress"])
+            self.points = np.frombuffer(data, "<f4", 3 * n, begin).reshape(n, 3)
+            cells = np.frombuffer(data, "<i4", 6 * m, begin + 12 * n).reshape(m, 6)
+            kind = np.dtype([("time", "<f8"), ("units", "<f4", 3), ("displacement", "<i2", (n, 3)), ("stress", "<i2", n), ("opening", "<i2", n)])
+            begin += 12 * n + 24 * m
+            frames = np.frombuffer(data, kind, (len(data) - begin) // kind.itemsize, begin)
+            self.surface, self.monolith, self.quads = cells[:, 0], cells[:, 1], cells[:, 2:]
+            if not (n > 0 and m > 0 and len(frames) and self.quads.min() >= 0 and self.quads.max() < n and np.isfinite(self.points).all()
+                    and np.isfinite(frames["units"]).all() and np.isfinite(frames["time"]).all()):
+                raise ValueError("its numbers are not possible")
+        except (ValueError, LookupError, TypeError, OverflowError, RecursionError) as error:
+            raise InputError(f"{path} is damaged: it cannot be decoded ({error}). Repeat the run.") from error
+        self.times, self.units, self.numbers = frames["time"], frames["units"].astype(float), frames
+
+    def values(self, what, chosen):
+        """Displacement [m], stress [Pa] or opening [m] of these frames: (frame, node, ...)."""
+        numbers = self.numbers[what][chosen].astype(np.float32)
+        units = self.units[chosen, UNITS.index(what)].astype(np.float32)
+        return numbers * units.reshape(-1, *(1,) * (numbers.ndim - 1))
+
+    def strongest(self, count):
+        """The `count` consecutive frames that include the largest opening (without joints: displacement from the first frame) and have
+        the largest sum of squared displacements from the first frame. The first frame of all is the static state and no part of them."""
+        n = len(self.times)
+        if n <= max(2, count):
+            return np.arange(min(n, max(count, 1)))
+        moved = self.values("displacement", np.arange(n))
+        square = ((moved - moved[0])**2).sum(axis=(1, 2))
+        largest = self.values("opening", np.arange(n)).max(axis=1)
+        peak = 1 + int(np.argmax(largest[1:] if largest.any() else square[1:]))
+        sums = np.concatenate([[0.], np.cumsum(square)])
+        begins = np.arange(max(1, peak - count + 1), min(peak, n - count) + 1)
+        begin = begins[np.argmax(sums[begins + count] - sums[begins])]
+        return np.arange(begin, begin + count)
+
+
+def edges_of(frames):
+    """Edges between two surfaces, such as joints and the crest: pairs of nodes; and the joint of each (0: none)."""
+    found = {}
+    for surface, quad in zip(frames.surface.tolist(), frames.quads.tolist()):
+        for a, b in zip(quad, quad[1:] + quad[:1]):
+            found.setdefault((min(a, b), max(a, b)), []).append(surface)
+    outline = [(edge, surfaces) for edge, surfaces in found.items() if len(set(surfaces)) > 1 or len(surfaces) == 1]
+    joints = [max((joint_of(surface) for surface in surfaces), default=0) for _, surfaces in outline]
+    return np.array([edge for edge, _ in outline]), np.array(joints)
+
+
+def joint_of(surface):
+    """Joint of a surface 100 + j or 200 + j; 0 for other surfaces."""
+    return surface % 100 if 100 < surface < 300 and surface % 100 else 0
