@@ -143,7 +143,7 @@ def motion(page, runs):
         if images:
             damping = 100. * run.table("spectrum.csv")["damping"][0]
             page.row(f"Response spectra of the motion{' of ' + escape(run.name) if len(moving) > 1 else ''}, damping {damping:g} %"
-                     f"{'; dashed: the design spectrum' if run.entries.get('Motion/Source', ('artificial',))[0] == 'artificial' else ''}.",
+                     f"{'; dashed: the target spectrum' if 'target_x' in run.table('spectrum.csv') else ''}.",
                      [("", f"response spectrum, {figures.DIRECTIONS[d]}", lambda source=source: source) for d, source in images.items()])
 
 

@@ -93,7 +93,7 @@ namespace Voussoir
     GroundMotion              motion;
     motion.dt = parameters.time_step;
     motion.acceleration.resize(find_n_steps(parameters, sources, motion.notes) + 1, {{0., 0., 0.}});
-    const double unit = parameters.unit == "g" ? standard_gravity : parameters.unit == "cm/s^2" ? 0.01 : 1.;
+    const double unit = unit_of_acceleration(parameters.unit);
     for (const Source &source : sources)
     {
       const MotionRecord &record = source.record;
@@ -123,10 +123,11 @@ namespace Voussoir
     try
     {
       if (parameters.source == "file")
-        for (const Source &source : read_sources(parameters, scene_directory))
-          for (const auto &component : source.record.components)
-            for (const double a : component)
-              peak = std::max(peak, source.record.in_g || !source.record.unit.empty() ? weak : std::abs(a));
+        for (const MotionParameters &part : parameters.parts())
+          for (const Source &source : read_sources(part, scene_directory))
+            for (const auto &component : source.record.components)
+              for (const double a : component)
+                peak = std::max(peak, source.record.in_g || !source.record.unit.empty() ? weak : std::abs(a));
     }
     catch (const InputError &)
     {
