@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 namespace Voussoir
@@ -38,10 +39,10 @@ namespace Voussoir
         a[k] -= share * b[k];
     }
 
-    /** Returns the envelope of a record, relative to its largest value [-]. */
-    Vector envelope_of(const Vector &a, const double dt)
+    /** Returns the envelope of a record, relative to its largest value, but not below @p least [-]. */
+    Vector envelope_of(const Vector &a, const double dt, const double least)
     {
-      constexpr double  window = 1., least = .05; // [s], [-]
+      constexpr double  window = 1.; // [s]
       const std::size_t half = std::lround(.5 * window / dt);
       Vector            sum(a.size() + 1, 0.), envelope(a.size());
       for (std::size_t k = 0; k < a.size(); ++k)
@@ -64,9 +65,10 @@ namespace Voussoir
     {
       const Vector spectrum = pseudo_acceleration_spectrum(a, dt, target.periods, target.damping);
       double       sum = 0.;
-      for (std::size_t i = 0; i < spectrum.size(); ++i)
-        sum += std::log(target.pseudo_acceleration[i] / spectrum[i]);
-      return std::exp(sum / spectrum.size());
+      std::size_t  n = 0;
+      for (; n < spectrum.size() && target.periods[n] < MotionCriteria::last_period; ++n)
+        sum += std::log(target.pseudo_acceleration[n] / spectrum[n]);
+      return std::exp(sum / n);
     }
 
     /** Returns the measures of one component. @p a: samples [m/s^2]. @p parameters: damping, and target
@@ -135,8 +137,22 @@ namespace Voussoir
     Vector       scaled = a;
     for (double &value : scaled)
       value *= factor;
-    return match_spectrum(scaled, dt, envelope_of(scaled, dt), target, .5 * MotionCriteria::maximum_error,
-                          n_passes);
+    Vector best;
+    double least_error = std::numeric_limits<double>::max();
+    for (const double least : {.05, .02, .1})
+    {
+      Vector       result = match_spectrum(scaled, dt, envelope_of(scaled, dt, least), target,
+                                           .5 * MotionCriteria::maximum_error, n_passes);
+      const double error = spectral_error(result, dt, target).maximum;
+      if (error < least_error)
+      {
+        least_error = error;
+        best = std::move(result);
+      }
+      if (error < .75 * MotionCriteria::maximum_error) // margin for periods between those of the target
+        break;
+    }
+    return best;
   }
 
   namespace

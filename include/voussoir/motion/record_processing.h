@@ -22,11 +22,12 @@ namespace Voussoir
 
   /** Returns a record that matches a response spectrum.
    *
-   * The record is multiplied by the factor for which its spectrum has the mean logarithm of the target. Then
+   * The record is multiplied by the factor for which its spectrum up to 3 s has the mean logarithm of the target. Then
    * match_spectrum() adds time-reversed impulse responses (Lilhanand and Tseng 1988; compare Al Atik and
    * Abrahamson 2010), in proportion to the envelope of the record: the root of its mean square over one
-   * second, and at least a twentieth of the largest value. Phases and the times of strong motion therefore
-   * stay close to those of the record.
+   * second, and at least 5 % of the largest value. Phases and the times of strong motion therefore stay close to
+   * those of the record. If the error exceeds 7.5 %, the passes are repeated with 2 % and 10 %, and the record
+   * with the smallest error is returned.
    * @param a record [m/s^2]
    * @param dt sampling interval [s]
    * @param target spectrum and peak acceleration
