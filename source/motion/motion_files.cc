@@ -133,13 +133,18 @@ namespace Voussoir
     {
       return ""; // make_motion() reports the error
     }
-    if (peak == 0. || peak >= weak)
+    std::string what = peak > 0. && peak < weak ? "the largest value of the record" : "";
+    if (const double of_target = parameters.target_lacks_unit() ? parameters.target(0, 0.) : weak;
+        what.empty() && of_target < weak)
+      peak = of_target, what = "the peak acceleration of the target spectrum";
+    if (what.empty())
       return "";
     std::ostringstream text;
     text.precision(3);
-    text << "the largest value of the record is " << peak
-         << ". The unit m/s^2 is assumed, because the input file has no Motion/Unit. If the record is in g, "
-            "set Motion/Unit = g. Otherwise set Motion/Unit = m/s^2.";
+    text
+        << what << " is " << peak
+        << ". The unit m/s^2 is assumed, because the input file has no Motion/Unit. If the file is in g, set "
+           "Motion/Unit = g. Otherwise set Motion/Unit = m/s^2.";
     return text.str();
   }
 } // namespace Voussoir

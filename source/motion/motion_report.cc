@@ -60,6 +60,25 @@ namespace Voussoir
       result.significant_duration = time_of(0.95) - time_of(0.05);
       return result;
     }
+
+    /** Returns the largest errors of the parts of a motion. An oscillator of long period still vibrates after
+     * the rest, so that the spectrum of the whole motion differs from those of its parts. */
+    SpectralError largest_error(const GroundMotion &motion, const std::vector<double> &a,
+                                const SpectralTarget &target)
+    {
+      if (motion.parts.size() < 2)
+        return spectral_error(a, motion.dt, target);
+      SpectralError largest;
+      for (const MotionPart &part : motion.parts)
+      {
+        const auto begin = a.begin() + std::lround(part.begin / motion.dt),
+                   end = a.begin() + std::lround(part.end / motion.dt) + 1;
+        const SpectralError error = spectral_error({begin, end}, motion.dt, target);
+        largest.maximum = std::max(largest.maximum, error.maximum);
+        largest.mean = std::max(largest.mean, error.mean);
+      }
+      return largest;
+    }
   } // namespace
 
   MotionReport report_motion(const GroundMotion &motion, const MotionParameters &parameters)
@@ -83,7 +102,7 @@ namespace Voussoir
       target.periods = logarithmic_periods(MotionCriteria::first_period, MotionCriteria::last_period, 200);
       for (const double period : target.periods)
         target.pseudo_acceleration.push_back(factor * parameters.target(d, period));
-      const SpectralError error = spectral_error(accelerations[d], motion.dt, target);
+      const SpectralError error = largest_error(motion, accelerations[d], target);
       report.components[d].maximum_error = error.maximum;
       report.components[d].mean_error = error.mean;
     }

@@ -131,28 +131,15 @@ namespace Voussoir
   }
 
   std::vector<double> matched_record(const std::vector<double> &a, const double dt,
-                                     const SpectralTarget &target, const unsigned int n_passes)
+                                     const SpectralTarget &target, const double least_envelope,
+                                     const unsigned int n_passes)
   {
     const double factor = factor_to(target, a, dt);
     Vector       scaled = a;
     for (double &value : scaled)
       value *= factor;
-    Vector best;
-    double least_error = std::numeric_limits<double>::max();
-    for (const double least : {.05, .02, .1})
-    {
-      Vector       result = match_spectrum(scaled, dt, envelope_of(scaled, dt, least), target,
-                                           .5 * MotionCriteria::maximum_error, n_passes);
-      const double error = spectral_error(result, dt, target).maximum;
-      if (error < least_error)
-      {
-        least_error = error;
-        best = std::move(result);
-      }
-      if (error < .75 * MotionCriteria::maximum_error) // margin for periods between those of the target
-        break;
-    }
-    return best;
+    return match_spectrum(scaled, dt, envelope_of(scaled, dt, least_envelope), target,
+                          .5 * MotionCriteria::maximum_error, n_passes);
   }
 
   namespace
@@ -184,13 +171,26 @@ namespace Voussoir
       unscaled.factor = 1.;
       unscaled.scale = {{1., 1., 1.}};
       const SpectralTarget target = make_target(parameters, d);
-      const Vector         result = matched_record(a, motion.dt, target, parameters.matching_iterations);
       const double         first = factor_to(target, a, motion.dt);
       Vector               scaled = a;
       for (double &value : scaled)
         value *= first;
-      const auto before = measures(scaled, motion.dt, unscaled, d),
-                 after = measures(result, motion.dt, unscaled, d);
+      const auto before = measures(scaled, motion.dt, unscaled, d);
+      Vector     result;
+      auto       after = before;
+      for (const double least_envelope : {.05, .1, .2, .02})
+      {
+        const Vector next =
+            matched_record(a, motion.dt, target, least_envelope, parameters.matching_iterations);
+        const auto of_next = measures(next, motion.dt, unscaled, d);
+        if (result.empty() || of_next.maximum_error < after.maximum_error)
+        {
+          result = next;
+          after = of_next;
+        }
+        if (after.maximum_error <= MotionCriteria::maximum_error)
+          break;
+      }
       std::ostringstream note;
       note << std::setprecision(3) << "xyz"[d] << ": multiplied by " << first << ", then matched to '"
            << parameters.target_file << "' in the time domain; error of the spectrum "

@@ -14,7 +14,8 @@ namespace Voussoir
   {
     constexpr double first_limit = 0.02; ///< largest first period [s]: its value is the peak acceleration
 
-    [[noreturn]] void fail(const std::string &file, const std::size_t line, const std::string &message)
+    [[noreturn]] void fail_in_spectrum(const std::string &file, const std::size_t line,
+                                       const std::string &message)
     {
       throw InputError("Target spectrum '" + file + "', line " + std::to_string(line) + ": " + message);
     }
@@ -24,20 +25,21 @@ namespace Voussoir
       const std::vector<double> &row = table.rows[i];
       const std::size_t          line = table.lines[i];
       if (row.size() != table.rows[0].size() || (row.size() != 2 && row.size() != 4))
-        fail(
+        fail_in_spectrum(
             file, line,
             std::to_string(row.size()) + " columns. Expected two, period and pseudo-acceleration, or four, " +
                 "period and pseudo-acceleration in x, y, z, equal in all lines. One line of headings without " +
                 "numbers may come first; put # before other text.");
       if (row[0] < 0. || (i > 0 && row[0] <= table.rows[i - 1][0]))
-        fail(file, line,
-             "the period is " + number_text(row[0]) +
-                 " s. Periods must not be negative, and must increase from line to line.");
+        fail_in_spectrum(file, line,
+                         "the period is " + number_text(row[0]) +
+                             " s. Periods must not be negative, and must increase from line to line.");
       for (std::size_t c = 1; c < row.size(); ++c)
         if (!(row[c] > 0.))
-          fail(file, line,
-               "the acceleration is " + number_text(row[c]) +
-                   ". It must be positive. Set Motion/Scale x, y or z to 0 for a component at rest.");
+          fail_in_spectrum(
+              file, line,
+              "the acceleration is " + number_text(row[c]) +
+                  ". It must be positive. Set Motion/Scale x, y or z to 0 for a component at rest.");
     }
   } // namespace
 
@@ -75,6 +77,7 @@ namespace Voussoir
                                     number_text(table.rows.back()[0]) + " s. Add the missing lines."));
     const double   factor = unit_of_acceleration(unit);
     TargetSpectrum target;
+    target.states_unit = !table.unit.empty();
     for (const std::vector<double> &row : table.rows)
     {
       target.periods.push_back(row[0]);

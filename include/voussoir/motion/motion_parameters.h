@@ -89,6 +89,12 @@ namespace Voussoir
      * target(). */
     void read_target(const std::string &scene_directory);
 
+    /** Returns true if "Target spectrum" was read, and its headings state no unit. */
+    bool target_lacks_unit() const
+    {
+      return !target_spectrum.periods.empty() && !target_spectrum.states_unit;
+    }
+
     /** Returns true if there is a target spectrum: for artificial motions, and for records with "Target
      * spectrum". */
     bool has_target() const { return source == "artificial" || (source == "file" && !target_file.empty()); }

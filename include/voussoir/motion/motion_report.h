@@ -35,6 +35,7 @@ namespace Voussoir
 
   /** Computes the measures of a ground motion. With a target spectrum, spectral_error() is evaluated from
    * 0.04 s to 3 s with 200 periods per decade, for components that are not zero.
+   * Of a sequence the largest errors of its parts are reported.
    * @param motion of make_motion(), with "Factor" and "Scale"
    * @param parameters section "Motion" */
   MotionReport report_motion(const GroundMotion &motion, const MotionParameters &parameters);

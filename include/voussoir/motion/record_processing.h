@@ -25,18 +25,20 @@ namespace Voussoir
    * The record is multiplied by the factor for which its spectrum up to 3 s has the mean logarithm of the target. Then
    * match_spectrum() adds time-reversed impulse responses (Lilhanand and Tseng 1988; compare Al Atik and
    * Abrahamson 2010), in proportion to the envelope of the record: the root of its mean square over one
-   * second, and at least 5 % of the largest value. Phases and the times of strong motion therefore stay close to
-   * those of the record. If the error exceeds 7.5 %, the passes are repeated with 2 % and 10 %, and the record
-   * with the smallest error is returned.
+   * second, relative to the largest. Phases and the times of strong motion therefore stay close to those of
+   * the record.
    * @param a record [m/s^2]
    * @param dt sampling interval [s]
    * @param target spectrum and peak acceleration
+   * @param least_envelope smallest value of the envelope [-]
    * @param n_passes largest number of passes of match_spectrum() */
   std::vector<double> matched_record(const std::vector<double> &a, double dt, const SpectralTarget &target,
-                                     unsigned int n_passes);
+                                     double least_envelope, unsigned int n_passes);
 
   /** Corrects the components of a record as "Motion/Baseline" and "Motion/Match" require. Adds notes with the
-   * values before and after. Components that are zero stay zero.
+   * values before and after. Components that are zero stay zero. If the error of a matched component exceeds
+   * MotionCriteria::maximum_error, it is matched again with other smallest values of the envelope, at most four
+   * times in all, and the best result is used.
    * @param motion record [m/s^2]
    * @param parameters section "Motion"
    * @param factors later factors of the components, for the notes [-]

@@ -13,7 +13,8 @@ namespace Voussoir
   {
     std::vector<double> periods; ///< [s], increasing; the first may be 0
     std::array<std::vector<double>, 3>
-        acceleration; ///< pseudo-acceleration in x, y, z at the periods [m/s^2]
+         acceleration;        ///< pseudo-acceleration in x, y, z at the periods [m/s^2]
+    bool states_unit = false; ///< the headings of the file have a unit
 
     /** Returns the pseudo-acceleration at a period [m/s^2].
      *
