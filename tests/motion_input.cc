@@ -8,11 +8,14 @@
 #include <voussoir/base/error.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
+#include <voussoir/motion/record_processing.h>
 #include <voussoir/motion/resample.h>
+#include <voussoir/motion/response_spectrum.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sys/stat.h>
 
 using namespace Voussoir;
@@ -233,6 +236,131 @@ namespace
       }
   }
 
+  std::vector<double> plus(std::vector<double> a, const std::vector<double> &b)
+  {
+    for (std::size_t k = 0; k < a.size(); ++k)
+      a[k] += b[k];
+    return a;
+  }
+
+  void baselines()
+  {
+    const std::size_t   n = 1001;
+    std::vector<double> record = sine(1.3, .4, .01, n), line(n), parabola(n), square(n), fitted(n);
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      const double t = .01 * k;
+      line[k] = .7 - .11 * t;
+      parabola[k] = line[k] + .02 * t * t;
+      square[k] = t * t;
+      fitted[k] = 10. * t - 100. / 6.; // least-squares line of t^2 from 0 to 10 s
+    }
+    for (const unsigned int degree : {1, 2})
+    {
+      const std::vector<double> &added = degree == 1 ? line : parabola,
+                                once = without_baseline(record, degree);
+      expect_within(difference(without_baseline(plus(once, added), degree), once, 0), 0., 1e-14,
+                    "a record with a baseline");
+      expect_within(difference(without_baseline(added, degree), std::vector<double>(n, 0.), 0), 0., 1e-14,
+                    "a baseline");
+      GroundMotion motion;
+      motion.dt = .01;
+      for (const double a : without_baseline(plus(record, added), degree))
+        motion.acceleration.push_back({{a, 0., 0.}});
+      const MotionIntegrals integrals = motion.integrated();
+      expect_within(integrals.velocity.back()[0], 0., 1e-13, "velocity at the end");
+      expect_within(integrals.displacement.back()[0], 0., 1e-12, "displacement at the end");
+    }
+    // The interpolation of t^2 has an error of dt^2/6 on average.
+    expect_within(difference(plus(without_baseline(square, 1), fitted), square, 0), 0., 2e-5, "line of t^2");
+
+    write_text("input_drift.txt", table(plus(record, line), .01));
+    MotionParameters p = file_parameters();
+    p.component_files[2] = "input_drift.txt";
+    p.baseline = "linear";
+    p.factor = -3.;
+    p.scale[2] = 2.;
+    const GroundMotion  motion = make_motion(p, "");
+    std::vector<double> expected = without_baseline(record, 1);
+    for (double &a : expected)
+      a *= -6.;
+    expect_within(difference(motion.component(2), expected, 0), 0., 1e-12, "baseline and factors");
+    expect(motion.notes.size() == 2 && motion.notes[1].find("z: linear baseline") == 0,
+           "note of the baseline");
+  }
+
+  /** Text of the target spectrum of design_beta() at the periods of make_artificial_motion(), in all digits. */
+  std::string spectrum_text(const MotionParameters &p, const bool three)
+  {
+    std::set<double> periods = {0.};
+    std::size_t      n_points = 1;
+    while (n_points <= p.n_steps())
+      n_points *= 2;
+    const double df = 1. / (n_points * p.time_step);
+    for (std::size_t k = 1; k < n_points / 2 && k * df <= 1.25 / .04; ++k)
+      periods.insert(1. / (k * df));
+    for (const auto &more : {logarithmic_periods(.04, 3., 100), logarithmic_periods(3., 20., 10),
+                             logarithmic_periods(.04, 3., 200)})
+      periods.insert(more.begin(), more.end());
+    std::ostringstream text;
+    text.precision(17);
+    for (const double period : periods)
+    {
+      text << period;
+      for (unsigned int d = 0; d < (three ? 3 : 1); ++d)
+        text << ',' << p.target(d, period);
+      text << '\n';
+    }
+    return text.str();
+  }
+
+  void target_spectra()
+  {
+    MotionParameters p;
+    p.duration = 5.;
+    const GroundMotion built_in = make_motion(p, "");
+    for (const bool three : {true, false})
+    {
+      write_text("input_target.csv", "T, Sa (m/s2)\n" + spectrum_text(p, three));
+      MotionParameters with_file = p;
+      with_file.target_file = "input_target.csv";
+      with_file.peak_acceleration = 1.; // without effect
+      const GroundMotion same = make_motion(with_file, "");
+      for (unsigned int d = 0; d < (three ? 3 : 2); ++d)
+        expect(same.component(d) == built_in.component(d), "the spectrum of the code from a file");
+      expect_within(difference(same.component(2), built_in.component(2), 0), 0., 1e-6, "Vertical ratio");
+    }
+    // Power laws between periods, linear after 0, constant displacement beyond.
+    write_text("input_target.csv", "0 0.2\n.02 .3\n.1 .5\n1 .05\n4 .0125\n");
+    p.target_file = "input_target.csv";
+    p.unit = "g";
+    p.read_target("");
+    const double g = standard_gravity;
+    expect_within(p.target(0, 0.), .2 * g, 1e-14, "peak acceleration");
+    expect_within(p.target(1, .01), .25 * g, 1e-14, "after 0");
+    expect_within(p.target(0, .2), .25 * g, 1e-13, "power law");
+    expect_within(p.target(2, 2.), .025 * .666667 * g, 1e-13, "vertical");
+    expect_within(p.target(0, 8.), .0125 / 4. * g, 1e-14, "beyond");
+
+    const auto bad = [&](const std::string &text)
+    {
+      write_text("input_target.csv", text);
+      return [=] { make_motion(p, ""); };
+    };
+    expect_error(bad("0 1\n.1 2 3\n3 1\n"), {"Target spectrum 'input_target.csv', line 2", "3 columns"});
+    expect_error(bad("0 1 1\n3 1 1\n"), {"line 1", "3 columns"});
+    expect_error(bad("0 1\n.1 nan\n3 1\n"), {"input_target.csv', line 2", "nan"});
+    expect_error(bad("0 1\n.1 -1\n3 1\n"), {"line 2", "-1", "positive"});
+    expect_error(bad("0 1\n.2 1\n.1 1\n3 1\n"), {"line 3", "0.1 s", "increase"});
+    expect_error(bad("-.1 1\n3 1\n"), {"line 1", "negative"});
+    expect_error(bad(".04 1\n3 1\n"), {"input_target.csv", "at most 0.02 s", "0.04 s to 3 s"});
+    expect_error(bad("0 1\n2 1\n"), {"at 3 s or later", "0 s to 2 s"});
+    expect_error(bad("T Sa\n"), {"no numbers"});
+    expect_error(bad("T Sa [cm/s2]\n0 1\n3 1\n"), {"unit cm/s^2", "Motion/Unit is g"});
+    p.target_file = "input_none.csv";
+    expect_error([&] { make_motion(p, ""); }, {"input_none.csv", "cannot be opened"});
+  }
+
   void wrong_entries()
   {
     const auto wrong = [](const std::function<void(MotionParameters &)> &change, const std::string &entry)
@@ -261,6 +389,19 @@ namespace
       }
     }
     wrong([](MotionParameters &p) { p.duration = -2.; }, "Duration");
+    wrong([](MotionParameters &p) { p.rest = -2.; }, "Rest");
+    wrong([](MotionParameters &p) { p.rest = NAN; }, "Rest");
+    wrong([](MotionParameters &p) { p.rest = .015; }, "Rest");
+    wrong([](MotionParameters &p) { p.sequence = "1;2", p.rest = 0.; }, "Rest");
+    for (const std::string sequence : {"1;", ";", "1; a.csv", "-1", "1.5", "1 2"})
+      wrong([&](MotionParameters &p) { p.sequence = sequence; }, "Sequence");
+    for (const std::string sequence : {"a;;b", "a;b;", "a,b", "a,b,", "a,,c", "a,b,c,d", "-", "-,-,-", ",,"})
+      wrong([&](MotionParameters &p) { p.source = "file", p.sequence = sequence; }, "Sequence");
+    wrong([](MotionParameters &p) { p.source = "file", p.sequence = "a;b", p.file = "c"; }, "Sequence");
+    wrong([](MotionParameters &p) { p.source = "file", p.file = "a", p.match = true; }, "Match");
+    wrong([](MotionParameters &p)
+          { p.source = "file", p.file = "a", p.match = true, p.target_file = "b", p.time_step = .05; },
+          "Time step");
     wrong([](MotionParameters &p) { p.duration = 0.1; }, "Duration");
     wrong([](MotionParameters &p) { p.duration = 3000.; }, "Duration");
     MotionParameters p;
@@ -352,6 +493,8 @@ int main(int argc, char **argv)
               {"short_motions", short_motions},
               {"ends", ends},
               {"arithmetic", arithmetic},
+              {"baselines", baselines},
+              {"target_spectra", target_spectra},
               {"wrong_entries", wrong_entries},
               {"wrong_files", wrong_files}},
              argc, argv);

@@ -227,6 +227,12 @@ namespace
         {"subsection Motion\nset Source = file\nset File = a.txt\nset Seed = 3\nend\n",
          {"Motion/Seed", "Motion/Source is file"}},
         {"subsection Motion\nset Unit = g\nend\n", {"Motion/Unit", "artificial"}},
+        {"subsection Motion\nset Match = true\nset Baseline = linear\nend\n",
+         {"Motion/Match", "Motion/Baseline", "have no effect", "artificial"}},
+        {"subsection Motion\nset Sequence = 1; 2\nset Seed = 3\nend\n", {"Motion/Seed", "Motion/Sequence"}},
+        {"subsection Motion\nset Source = file\nset File = a.txt\nset Unit = g\nset Vertical ratio = 0.5\nend\n",
+         {"Motion/Vertical ratio", "Motion/Target spectrum"}},
+        {"subsection Motion\nset Rest = 100\nend\n", {"Motion/Rest", "is 100", "1 to 60"}},
         {"subsection Reservoir\nset Density = 0\nset Water level = 100\nend\n",
          {"Reservoir/Water level", "Reservoir/Density is 0"}},
         {"subsection Reservoir\nset Density = 0\nend\n", {}},
@@ -365,7 +371,7 @@ namespace
     Scene   scene;
     scene.add_parameters(prm);
     const UsualRanges &usual = prm.usual_ranges();
-    expect(usual.size() == 61, std::to_string(usual.size()) + " usual ranges");
+    expect(usual.size() == 62, std::to_string(usual.size()) + " usual ranges");
     for (const char *name : {"Mesh/Arch210/Rock/Depth", "Concrete/Density", "Joints/Friction",
                              "Joints/Keys/Friction", "Loads/Silt/Density", "Limits/Slip"})
       expect(usual.count(name) == 1, std::string("the usual range of ") + name);

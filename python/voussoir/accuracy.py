@@ -301,7 +301,8 @@ def prepare(options, wish):
     common = dict(entry.split("=", 1) for entry in options.set)
     common.update({"Motion/Source": "file", "Motion/File": motion, "Motion/File x": "", "Motion/File y": "", "Motion/File z": "",
                    "Motion/Unit": "m/s^2", "Motion/Duration": -1, "Motion/Factor": 1, "Motion/Scale x": 1, "Motion/Scale y": 1,
-                   "Motion/Scale z": 1, "Output/Figures": "false", "Output/Solution interval": 0})
+                   "Motion/Scale z": 1, "Motion/Sequence": "", "Motion/Rest": 0, "Motion/Target spectrum": "",
+                   "Motion/Baseline": "none", "Motion/Match": "false", "Output/Figures": "false", "Output/Solution interval": 0})
     choices = choices_of(entries, Path(options.scene).parent)
     n_runs = 2 + sum(len(choice.levels) - 1 for choice in choices)
     print(f"{options.scene}: the strongest {part[-1, 0]:.4g} s, from {start:.4g} s on; {n_runs} runs; wish: {percent(wish)}")

@@ -23,7 +23,7 @@ from .command import Parser
 from .errors import ComputationError, InputError
 from .prm import prm_text
 from .program import entries_of, find_program, message_of, start
-from .study_file import is_file_entry, read_study, value_in
+from .study_file import is_file_entry, read_study, value_in, with_paths
 from .study_scene import end_with_parent, record_of, revision_of, row_in_words, write_whole
 
 PLAIN_NUMBER = re.compile(r"[-+]?[0-9]+(\.[0-9]*)?(e[-+]?[0-9]+)?")
@@ -138,7 +138,7 @@ def text_of_scene(study, scene, known):
     chosen = {value.entry: value for value in [*fixed.values(), *values.values()] if value.entry != "Scene"}
     words = {"Output/Figures": "false"}
     for entry, value in chosen.items():
-        words[entry] = str((study.file.parent / value.text).resolve()) if is_file_entry(entry) and value.text else value.text
+        words[entry] = with_paths(entry, value.text, study.file.parent)[0]
     try:
         entries = entries_with(base, words, known)
     except InputError as error:
@@ -147,11 +147,11 @@ def text_of_scene(study, scene, known):
                          f"{study.file.name}, {in_words(study, values)}: {error}") from None
     files = []
     for entry, value in entries.items():
-        if is_file_entry(entry) and value:
-            entries[entry] = str((base.parent / value).resolve())
-            files.append(entries[entry])
-            if "#" in entries[entry]:
-                raise InputError(f"{entries[entry]}: a path with # cannot stand in a scene file. Give the directory another name.")
+        entries[entry], found = with_paths(entry, value, base.parent)
+        files += found
+        for file in found:
+            if "#" in file:
+                raise InputError(f"{file}: a path with # cannot stand in a scene file. Give the directory another name.")
     return prm_text(entries), files
 
 

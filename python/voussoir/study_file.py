@@ -3,7 +3,8 @@
 
 import csv
 import itertools
-from dataclasses import dataclass, field
+import re
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from .errors import InputError
@@ -214,8 +215,20 @@ def path_of(value, study):
 
 
 def is_file_entry(entry):
-    """Mesh/File, Motion/File, Motion/File x..., and the tables of arcs and of temperatures."""
-    return entry.split("/")[-1].split(" ")[0] == "File" or entry in ("Mesh/Arcs/Table", "Loads/Temperature/Table")
+    """Mesh/File, Motion/File, Motion/File x..., the target spectrum, and the tables of arcs and of temperatures."""
+    return entry.split("/")[-1].split(" ")[0] == "File" or entry in ("Mesh/Arcs/Table", "Motion/Target spectrum", "Loads/Temperature/Table")
+
+
+def with_paths(entry, text, directory):
+    """The value of an entry with absolute paths of its files, and these paths. In Motion/Sequence, numbers are seeds."""
+    if is_file_entry(entry) and text:
+        path = str((directory / text).resolve())
+        return path, [path]
+    if entry != "Motion/Sequence":
+        return text, []
+    words = [word.strip() for word in re.split("([;,])", text)]
+    paths = [word if word in ("", ";", ",", "-") or word.isdigit() else str((directory / word).resolve()) for word in words]
+    return " ".join(paths), [path for word, path in zip(words, paths) if word != path]
 
 
 def read_study(path, overrides=()):
@@ -266,8 +279,8 @@ def spell_out(study, choices, settings):
         values = {value.entry: value for part in choice for value in part}
         base = path_of(values["Scene"], study)
         for value in [*settings.values(), *values.values()]:
-            if is_file_entry(value.entry) and value.text:
-                path_of(value, study)
+            for file in with_paths(value.entry, value.text, study.file.parent)[1]:
+                path_of(replace(value, text=file), study)
         study.scenes.append((base, settings, values))
     study.factors = [entry for entry in study.scenes[0][2]
                      if len({values[entry].text for _, _, values in study.scenes}) > 1]

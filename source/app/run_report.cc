@@ -35,7 +35,7 @@ namespace Voussoir
       else
       {
         MotionParameters measures_only = scene.motion;
-        measures_only.source = "file"; // without the errors of an artificial motion's spectrum
+        measures_only.source = "none"; // without the errors of the spectrum
         const MotionReport report = Voussoir::report_motion(run.motion, measures_only);
         const auto        &c = report.components;
         const double       g = standard_gravity;
@@ -81,7 +81,7 @@ namespace Voussoir
       for (const std::string &note : run.motion.notes)
         log.line("Records   %s", note.c_str());
       MotionParameters any = run.scene().motion;
-      any.source = "file"; // without the errors of an artificial motion's spectrum
+      any.source = "none"; // without the errors of the spectrum
       if (const std::string warning = end_warning(report_motion(run.motion, any));
           run.n_steps > 0 && !warning.empty())
         log.line("warning: %s", warning.c_str());

@@ -196,6 +196,7 @@ namespace Voussoir
       before = entry.place;
     }
     scene.check();
+    scene.motion.read_target(scene.directory);
     std::vector<WrittenEntry> in_order;
     for (const DeclaredEntry &declared : known)
       if (const auto found = written.find(declared.name()); found != written.end())

@@ -216,7 +216,10 @@ namespace Voussoir
         .add("static", json_of_statics(dam, run.statics))
         .add("loads", json_of_loads(dam))
         .add("extremes", json_of_extremes(observers));
+    summary.add("end_kinetic_energy", observers.history.kinetic_share());
     assessment.add_to(summary);
+    if (run.motion.parts.size() > 1 && run.n_steps > 0)
+      summary.add("motion_parts", observers.joints.json_of_parts());
     if (observers.blocks)
       summary.add("blocks", observers.blocks->blocks.json());
     summary.add_texts("warnings", log.warnings());

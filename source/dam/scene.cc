@@ -298,10 +298,16 @@ namespace Voussoir
     if (motion.source == "file")
     {
       constexpr const char *entries[3] = {"Motion/File x", "Motion/File y", "Motion/File z"};
-      add("Motion/File", motion.file);
-      for (unsigned int d = 0; d < 3; ++d)
-        add(entries[d], motion.component_files[d]);
+      for (const MotionParameters &part : motion.parts())
+      {
+        const bool in_sequence = !motion.sequence.empty();
+        add(in_sequence ? "Motion/Sequence" : "Motion/File", part.file);
+        for (unsigned int d = 0; d < 3; ++d)
+          add(in_sequence ? "Motion/Sequence" : entries[d], part.component_files[d]);
+      }
     }
+    if (motion.has_target())
+      add("Motion/Target spectrum", motion.target_file);
     return files;
   }
 

@@ -16,6 +16,11 @@ namespace Voussoir
     return k < acceleration.size() ? acceleration[k] : std::array<double, 3>{};
   }
 
+  double GroundMotion::end_of_rest(const std::size_t part) const
+  {
+    return part + 1 < parts.size() ? parts[part + 1].begin : duration();
+  }
+
   std::vector<double> GroundMotion::component(unsigned int direction) const
   {
     std::vector<double> a;
@@ -40,6 +45,7 @@ namespace Voussoir
     GroundMotion result;
     result.dt = dt / n;
     result.notes = notes;
+    result.parts = parts;
     for (std::size_t k = 0; k + 1 < acceleration.size(); ++k)
       for (unsigned int i = 0; i < n; ++i)
       {
@@ -68,6 +74,11 @@ namespace Voussoir
       result.displacement.push_back(u);
     }
     return result;
+  }
+
+  double unit_of_acceleration(const std::string &unit)
+  {
+    return unit == "g" ? standard_gravity : unit == "cm/s^2" ? 0.01 : 1.;
   }
 
   void write_motion(const GroundMotion &motion, const std::string &file)

@@ -3,7 +3,9 @@
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_artificial.h>
 #include <voussoir/motion/motion_files.h>
+#include <voussoir/motion/record_processing.h>
 
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -27,27 +29,90 @@ namespace Voussoir
             throw InputError(message.str());
           }
     }
+
+    /** Returns one record or one artificial motion, with all factors. */
+    GroundMotion make_part(const MotionParameters &parameters, const std::string &scene_directory)
+    {
+      GroundMotion          motion;
+      const bool            artificial = parameters.source == "artificial";
+      double                factor = 1.; // read_motion() includes it, except for records to be matched
+      std::array<double, 3> factors = parameters.scale;
+      if (artificial || parameters.match)
+        factor = parameters.factor;
+      for (double &f : factors)
+        f *= factor;
+      if (artificial)
+        motion = make_artificial_motion(parameters);
+      else
+      {
+        MotionParameters as_read = parameters;
+        as_read.factor = parameters.match ? 1. : parameters.factor;
+        motion = read_motion(as_read, scene_directory);
+        process_record(motion, parameters, factors);
+      }
+      for (auto &sample : motion.acceleration)
+        for (unsigned int d = 0; d < 3; ++d)
+          sample[d] *= factors[d];
+      return motion;
+    }
+
+    /** Appends zero acceleration. Throws InputError if the motion becomes too long. */
+    void append_rest(GroundMotion &motion, const double n_samples)
+    {
+      if (!(motion.acceleration.size() + n_samples <= MotionParameters::most_steps))
+        throw InputError("The ground motion with its rests would have more than ten million steps. Reduce "
+                         "Motion/Rest, or increase Motion/Time step.");
+      motion.acceleration.resize(motion.acceleration.size() + std::size_t(n_samples), {{0., 0., 0.}});
+    }
+
+    /** Adds a note with the times of each part, if there are several. */
+    void add_times(GroundMotion &motion)
+    {
+      for (std::size_t k = 0; motion.parts.size() > 1 && k < motion.parts.size(); ++k)
+      {
+        std::ostringstream note;
+        note << "part " << k + 1 << ", " << motion.parts[k].name << ": " << motion.parts[k].begin << " s to "
+             << motion.parts[k].end << " s, rest until " << motion.end_of_rest(k) << " s";
+        motion.notes.push_back(note.str());
+      }
+    }
+
+    /** Returns the parts one after another, each one followed by "Rest". */
+    GroundMotion make_sequence(const MotionParameters &parameters, const std::string &scene_directory)
+    {
+      GroundMotion motion;
+      motion.dt = parameters.time_step;
+      for (const MotionParameters &part : parameters.parts())
+      {
+        const GroundMotion next = make_part(part, scene_directory);
+        if (!motion.parts.empty()) // the first sample of the next part ends the rest
+          append_rest(motion, std::lround(parameters.rest_length() / motion.dt) - 1);
+        const double begin = motion.acceleration.size() * motion.dt;
+        motion.parts.push_back({part.name_of_part(), begin, begin + next.duration()});
+        motion.acceleration.insert(motion.acceleration.end(), next.acceleration.begin(),
+                                   next.acceleration.end());
+        for (const std::string &note : next.notes)
+          motion.notes.push_back(parameters.sequence.empty() ? note : part.name_of_part() + ": " + note);
+      }
+      append_rest(motion, std::lround(parameters.rest_length() / motion.dt));
+      add_times(motion);
+      return motion;
+    }
   } // namespace
 
   GroundMotion make_motion(const MotionParameters &parameters, const std::string &scene_directory)
   {
     parameters.check();
-
     GroundMotion motion;
-    if (parameters.source == "artificial")
-      motion = make_artificial_motion(parameters);
-    else if (parameters.source == "file")
-      motion = read_motion(parameters, scene_directory);
-    else
+    if (parameters.source == "none")
     {
       motion.dt = parameters.time_step;
       motion.acceleration.resize(parameters.n_steps() + 1, {{0., 0., 0.}});
+      return motion;
     }
-    const double factor =
-        parameters.source == "artificial" ? parameters.factor : 1.; // read_motion() includes it for records
-    for (auto &sample : motion.acceleration)
-      for (unsigned int d = 0; d < 3; ++d)
-        sample[d] *= factor * parameters.scale[d];
+    MotionParameters with_target = parameters;
+    with_target.read_target(scene_directory);
+    motion = make_sequence(with_target, scene_directory);
     check_samples(motion);
     return motion;
   }

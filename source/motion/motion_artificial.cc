@@ -2,7 +2,6 @@
 #include <voussoir/motion/motion_artificial.h>
 #include <voussoir/motion/motion_report.h>
 #include <voussoir/motion/response_spectrum.h>
-#include <voussoir/motion/spectral_matching.h>
 
 #include <algorithm>
 #include <cmath>
@@ -132,24 +131,6 @@ namespace Voussoir
       return series;
     }
 
-    /** Returns the target: 100 periods per decade in the range to match, and some longer periods, which limit
-     * the displacement. */
-    SpectralTarget make_target(const MotionParameters &parameters, unsigned int direction)
-    {
-      using namespace MotionCriteria;
-
-      SpectralTarget target;
-      target.damping = parameters.damping;
-      target.peak_acceleration = parameters.target(direction, 0.);
-      target.periods = logarithmic_periods(first_period, last_period, 100);
-      target.periods.pop_back();
-      for (const double period : logarithmic_periods(last_period, longest_period, 10))
-        target.periods.push_back(period);
-      for (const double period : target.periods)
-        target.pseudo_acceleration.push_back(parameters.target(direction, period));
-      return target;
-    }
-
     /** Multiplies the amplitudes by the ratio of the target to the computed spectrum, in six passes. */
     void correct_amplitudes(Series &series, double dt, const std::vector<double> &envelope,
                             const SpectralTarget &target)
@@ -178,6 +159,22 @@ namespace Voussoir
       return misfit;
     }
   } // namespace
+
+  SpectralTarget make_target(const MotionParameters &parameters, unsigned int direction)
+  {
+    using namespace MotionCriteria;
+
+    SpectralTarget target;
+    target.damping = parameters.damping;
+    target.peak_acceleration = parameters.target(direction, 0.);
+    target.periods = logarithmic_periods(first_period, last_period, 100);
+    target.periods.pop_back();
+    for (const double period : logarithmic_periods(last_period, longest_period, 10))
+      target.periods.push_back(period);
+    for (const double period : target.periods)
+      target.pseudo_acceleration.push_back(parameters.target(direction, period));
+    return target;
+  }
 
   std::vector<double> make_artificial_component(const MotionParameters &parameters, unsigned int direction,
                                                 unsigned int attempt)

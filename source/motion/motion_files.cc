@@ -93,7 +93,7 @@ namespace Voussoir
     GroundMotion              motion;
     motion.dt = parameters.time_step;
     motion.acceleration.resize(find_n_steps(parameters, sources, motion.notes) + 1, {{0., 0., 0.}});
-    const double unit = parameters.unit == "g" ? standard_gravity : parameters.unit == "cm/s^2" ? 0.01 : 1.;
+    const double unit = unit_of_acceleration(parameters.unit);
     for (const Source &source : sources)
     {
       const MotionRecord &record = source.record;
@@ -123,22 +123,28 @@ namespace Voussoir
     try
     {
       if (parameters.source == "file")
-        for (const Source &source : read_sources(parameters, scene_directory))
-          for (const auto &component : source.record.components)
-            for (const double a : component)
-              peak = std::max(peak, source.record.in_g || !source.record.unit.empty() ? weak : std::abs(a));
+        for (const MotionParameters &part : parameters.parts())
+          for (const Source &source : read_sources(part, scene_directory))
+            for (const auto &component : source.record.components)
+              for (const double a : component)
+                peak = std::max(peak, source.record.in_g || !source.record.unit.empty() ? weak : std::abs(a));
     }
     catch (const InputError &)
     {
       return ""; // make_motion() reports the error
     }
-    if (peak == 0. || peak >= weak)
+    std::string what = peak > 0. && peak < weak ? "the largest value of the record" : "";
+    if (const double of_target = parameters.target_lacks_unit() ? parameters.target(0, 0.) : weak;
+        what.empty() && of_target < weak)
+      peak = of_target, what = "the peak acceleration of the target spectrum";
+    if (what.empty())
       return "";
     std::ostringstream text;
     text.precision(3);
-    text << "the largest value of the record is " << peak
-         << ". The unit m/s^2 is assumed, because the input file has no Motion/Unit. If the record is in g, "
-            "set Motion/Unit = g. Otherwise set Motion/Unit = m/s^2.";
+    text
+        << what << " is " << peak
+        << ". The unit m/s^2 is assumed, because the input file has no Motion/Unit. If the file is in g, set "
+           "Motion/Unit = g. Otherwise set Motion/Unit = m/s^2.";
     return text.str();
   }
 } // namespace Voussoir

@@ -5,7 +5,9 @@
 #include <voussoir/motion/motion_parameters.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 namespace Voussoir
@@ -26,7 +28,7 @@ namespace Voussoir
                       Patterns::Selection("artificial|file|none"));
     prm.add_parameter(
         "Duration", duration,
-        "Length of the ground motion and of the run [s]. Longer records are cut. Shorter records are an "
+        "Length of the ground motion and of the run, or of each part of Sequence [s]. Longer records are cut. Shorter records are an "
         "error. -1: length of the shortest record, or 20.48 s for an artificial motion. On rock, -1 extends "
         "the run by the travel time of the waves to the base of the dam, in whole time steps of the motion.",
         {0., 300.});
@@ -41,9 +43,34 @@ namespace Voussoir
       prm.add_parameter(std::string("Scale ") + names[d], scale[d],
                         std::string("Factor [-] of the component in ") + names[d] +
                             ", for every source. 0 switches the component off.");
+    add_sequence_parameters(prm);
     add_file_parameters(prm);
     add_artificial_parameters(prm);
     prm.leave_subsection();
+  }
+
+  void MotionParameters::add_sequence_parameters(Entries &prm)
+  {
+    prm.add_parameter(
+        "Sequence", sequence,
+        "Several motions one after another, separated by semicolons, instead of File, File x, y, "
+        "z or Seed. Source = file: a table as in File, or three files for x, y, z as in File x, "
+        "File y, File z, separated by commas; - for a component without a file. Source = "
+        "artificial: seeds, such as 1; 2.",
+        Patterns::Anything());
+    prm.add_parameter(
+        "Rest", rest,
+        "Zero acceleration after each motion [s], a multiple of Time step, in which the dam comes "
+        "to rest. -1: 10 s with Sequence, otherwise 0.",
+        {1., 60., true});
+    prm.add_parameter(
+        "Target spectrum", target_file,
+        "File with the columns period [s] and pseudo-acceleration for the damping ratio Damping, "
+        "or with one pseudo-acceleration for each of x, y, z. Unit as in Unit; period 0 or at "
+        "most 0.02 s first (peak acceleration), at least 3 s last. One column applies to x and "
+        "y, and multiplied by Vertical ratio to z. It replaces the design spectrum of artificial "
+        "motions, and is the target of Match.",
+        Patterns::Anything());
   }
 
   void MotionParameters::add_file_parameters(Entries &prm)
@@ -59,10 +86,20 @@ namespace Voussoir
           std::string("Source = file: component in ") + names[d] +
               ", as a table with the columns t [s], a, or as a PEER AT2 file. Empty: the component is zero.",
           Patterns::Anything());
-    prm.add_parameter("Unit", unit,
-                      "Source = file: unit of the acceleration in tables: g (9.80665 m/s^2), m/s^2 or "
-                      "cm/s^2. AT2 files are always in g.",
-                      Patterns::Selection("g|m/s^2|cm/s^2"));
+    prm.add_parameter(
+        "Unit", unit,
+        "Unit of the acceleration in tables and in Target spectrum: g (9.80665 m/s^2), m/s^2 or "
+        "cm/s^2. AT2 files are always in g.",
+        Patterns::Selection("g|m/s^2|cm/s^2"));
+    prm.add_parameter("Baseline", baseline,
+                      "Source = file: correction of each component over its length in the run. none. linear: "
+                      "the least-squares straight line of the acceleration is subtracted. quadratic: a "
+                      "parabola. Both make velocity and displacement zero at the end.",
+                      Patterns::Selection("none|linear|quadratic"));
+    prm.add_parameter("Match", match,
+                      "Source = file: true: each component is changed in the time domain until its response "
+                      "spectrum agrees with Target spectrum from 0.04 s to 3 s. Factor and Scale then apply "
+                      "to the matched motion.");
   }
 
   void MotionParameters::add_artificial_parameters(Entries &prm)
@@ -81,12 +118,14 @@ namespace Voussoir
                       {1.5, 4.});
     prm.add_parameter("Peak acceleration", peak_acceleration,
                       "Source = artificial: peak acceleration in x and in y [g].", {.005, 2.});
-    prm.add_parameter("Vertical ratio", vertical_ratio,
-                      "Source = artificial: ratio of peak and spectrum in z to those in x and y [-].",
-                      {.2, 1.5});
+    prm.add_parameter(
+        "Vertical ratio", vertical_ratio,
+        "Source = artificial, or Target spectrum with one column: ratio of peak and spectrum in "
+        "z to those in x and y [-].",
+        {.2, 1.5});
     prm.add_parameter("Damping", damping,
-                      "Damping ratio [-] of the response spectra in spectrum.csv, and with Source = "
-                      "artificial of the design spectrum.",
+                      "Damping ratio [-] of the response spectra in spectrum.csv, of the design spectrum and "
+                      "of Target spectrum.",
                       {.005, .2});
     prm.add_parameter(
         "Seed", seed,
@@ -103,8 +142,8 @@ namespace Voussoir
         "Source = artificial: rate c [1/s] of the decay exp(-c (t - Decay begin)) of the envelope. -1: 0.25, "
         "or 3.75/Duration if the standard envelope does not fit into Duration.");
     prm.add_parameter("Matching iterations", matching_iterations,
-                      "Source = artificial: largest number [-] of corrections in the time domain. They end "
-                      "earlier if the spectrum matches.",
+                      "Source = artificial, or Match: largest number [-] of corrections in the time domain. "
+                      "They end earlier if the spectrum matches.",
                       Patterns::Integer(0, 1000));
   }
 
@@ -129,13 +168,61 @@ namespace Voussoir
       require(value >= low && value <= high, entry, value, rule.str());
     }
 
+    /** Returns the parts of a list without blanks at their ends. */
+    std::vector<std::string> split(const std::string &list, const char separator)
+    {
+      std::vector<std::string> parts;
+      for (std::size_t begin = 0, end; begin <= list.size(); begin = end + 1)
+      {
+        end = std::min(list.find(separator, begin), list.size());
+        const std::string part = list.substr(begin, end - begin);
+        const auto        first = part.find_first_not_of(" \t"), last = part.find_last_not_of(" \t");
+        parts.push_back(first == std::string::npos ? "" : part.substr(first, last - first + 1));
+      }
+      return parts;
+    }
+
+    void check_sequence(const MotionParameters &p)
+    {
+      using Parameters = MotionParameters;
+      require(p.rest == Parameters::automatic || (p.rest >= 0. && p.rest <= 1e4), "Rest", p.rest,
+              "it must lie between 0 and 10000 s, or be -1: automatic");
+      require(std::abs(p.rest_length() / p.time_step - std::round(p.rest_length() / p.time_step)) < 1e-6,
+              "Rest", p.rest_length(), "it must be a multiple of Time step");
+      if (p.sequence.empty())
+        return;
+      require(p.rest_length() >= .999 * p.time_step, "Rest", p.rest_length(),
+              "with Sequence it must be at least one Time step");
+      if (!(p.file + p.component_files[0] + p.component_files[1] + p.component_files[2]).empty())
+        throw InputError(
+            "Motion/Sequence and Motion/File (or File x, y, z) are both given: move the file into "
+            "Sequence, or remove Sequence.");
+      p.parts();
+    }
+
+    /** Checks "Match" and "Target spectrum". */
+    void check_target(const MotionParameters &p)
+    {
+      if (p.source == "file" && p.match && p.target_file.empty())
+        throw InputError("Motion/Match is true, but there is no Motion/Target spectrum: give a file with "
+                         "period and pseudo-acceleration, or set Match to false.");
+      if (!p.has_target())
+        return;
+      require_between(1e-4, 0.99, "Damping", p.damping, "");
+      require_between(1e-6, 100., "Vertical ratio", p.vertical_ratio,
+                      "; to switch the component off, set Scale z to 0");
+      if (p.source == "artificial" || p.match)
+        require(p.time_step <= 0.02, "Time step", p.time_step,
+                p.match ? "matched records need 0.02 s or less" : "artificial motions need 0.02 s or less");
+    }
+
     void check_files(const MotionParameters &p)
     {
       const bool components_given =
           !(p.component_files[0] + p.component_files[1] + p.component_files[2]).empty();
-      if (p.source == "file" && p.file.empty() && !components_given)
+      if (p.source == "file" && p.file.empty() && !components_given && p.sequence.empty())
         throw InputError("Motion/Source is file, but no file is given: set Motion/File (columns t, a_x, a_y, "
-                         "a_z) or Motion/File x, File y, File z.");
+                         "a_z), Motion/File x, File y, File z, or Motion/Sequence.");
       if (p.source == "file" && !p.file.empty() && components_given)
         throw InputError("Motion/File and Motion/File x, y, z are both given: keep either the file with all "
                          "components or the files with one each.");
@@ -147,7 +234,6 @@ namespace Voussoir
     void check_artificial(const MotionParameters &p)
     {
       constexpr double most_steps = 2e5; // match_spectrum() stores 230 vectors of that length
-      require(p.time_step <= 0.02, "Time step", p.time_step, "artificial motions need 0.02 s or less");
       require(p.length() >= 0.2, "Duration", p.length(), "artificial motions need 0.2 s or more");
       require(p.length() / p.time_step <= most_steps, "Duration", p.length(),
               "artificial motions have at most 200,000 time steps: reduce it, or increase Time step");
@@ -165,10 +251,7 @@ namespace Voussoir
       require(envelope.decay_begin > envelope.rise_end, "Decay begin", envelope.decay_begin, rise.str());
       require(p.length() > envelope.decay_begin, "Duration", p.length(), decay.str());
 
-      require_between(1e-4, 0.99, "Damping", p.damping, "");
       require_between(1e-6, 100., "Peak acceleration", p.peak_acceleration, " g");
-      require_between(1e-6, 100., "Vertical ratio", p.vertical_ratio,
-                      "; to switch the component off, set Scale z to 0");
       require_between(0.1, 3., "Characteristic period", p.spectrum.characteristic_period, " s");
       require_between(1., 100., "Maximum beta", p.spectrum.maximum_beta, "");
     }
@@ -192,6 +275,10 @@ namespace Voussoir
     for (unsigned int d = 0; d < 3; ++d)
       require_between(-1e9, 1e9, std::string("Scale ") + "xyz"[d], scale[d], "");
     check_files(*this);
+    if (source == "none")
+      return;
+    check_sequence(*this);
+    check_target(*this);
     if (source == "artificial")
       check_artificial(*this);
   }
@@ -199,6 +286,80 @@ namespace Voussoir
   double MotionParameters::length() const
   {
     return duration_is_automatic() ? time_step * std::floor(20.48 / time_step + 1e-9) : duration;
+  }
+
+  double MotionParameters::rest_length() const
+  {
+    if (rest != automatic)
+      return rest;
+    return sequence.empty() ? 0. : time_step * std::max(1., std::round(10. / time_step));
+  }
+
+  namespace
+  {
+    /** Sets the seed of a part. @p element: element of "Sequence". */
+    void set_seed(MotionParameters &part, const std::string &element)
+    {
+      const char *end = element.data() + element.size();
+      const auto  read = std::from_chars(element.data(), end, part.seed);
+      if (read.ec != std::errc() || read.ptr != end)
+        throw InputError(
+            "Motion/Sequence: '" + element +
+            "' is not a seed. With Motion/Source = artificial give whole numbers from 0, separated "
+            "by semicolons, such as 1; 2.");
+    }
+
+    /** Sets the files of a part. @p element: element of "Sequence". */
+    void set_files(MotionParameters &part, const std::string &element)
+    {
+      const std::vector<std::string> names = split(element, ',');
+      if ((names.size() != 1 && names.size() != 3) || std::count(names.begin(), names.end(), "") > 0 ||
+          std::count(names.begin(), names.end(), "-") == std::ptrdiff_t(names.size()))
+        throw InputError("Motion/Sequence: '" + element +
+                         "' is neither one file with t, a_x, a_y, a_z nor three files for x, y, z (- for a "
+                         "component at rest), separated by commas. Semicolons separate the motions.");
+      if (names.size() == 1)
+        part.file = names[0];
+      else
+        for (unsigned int d = 0; d < 3; ++d)
+          part.component_files[d] = names[d] == "-" ? "" : names[d];
+    }
+  } // namespace
+
+  std::vector<MotionParameters> MotionParameters::parts() const
+  {
+    if (sequence.empty())
+      return {*this};
+    std::vector<MotionParameters> result;
+    for (const std::string &element : split(sequence, ';'))
+    {
+      MotionParameters part = *this;
+      part.sequence.clear();
+      if (source == "artificial")
+        set_seed(part, element);
+      else
+        set_files(part, element);
+      result.push_back(part);
+    }
+    return result;
+  }
+
+  std::string MotionParameters::name_of_part() const
+  {
+    if (source == "artificial")
+      return "seed " + std::to_string(seed);
+    std::string name = file;
+    for (const std::string &component : component_files)
+      if (!component.empty())
+        name += (name.empty() ? "" : ", ") + component;
+    return "'" + name + "'";
+  }
+
+  void MotionParameters::read_target(const std::string &scene_directory)
+  {
+    if (has_target() && !target_file.empty())
+      target_spectrum = read_target_spectrum((std::filesystem::path(scene_directory) / target_file).string(),
+                                             unit, vertical_ratio, MotionCriteria::last_period);
   }
 
   MotionEnvelope MotionParameters::envelope() const
@@ -226,6 +387,8 @@ namespace Voussoir
 
   double MotionParameters::target(unsigned int direction, double period) const
   {
+    if (!target_spectrum.periods.empty())
+      return target_spectrum.at(direction, period);
     const double peak = standard_gravity * peak_acceleration * (direction == 2 ? vertical_ratio : 1.);
     const double beyond = std::max(period / MotionCriteria::last_period, 1.);
     return peak * design_beta(spectrum, period) / (beyond * beyond);

@@ -252,6 +252,12 @@ namespace Voussoir
       return step;
     }
 
+    /** Returns true if the first line of a table has headings. */
+    bool has_headings(const std::vector<Line> &lines)
+    {
+      return !lines.empty() && std::none_of(lines[0].words.begin(), lines[0].words.end(), is_number);
+    }
+
     MotionRecord read_table(const std::string &file, const std::vector<Line> &lines,
                             unsigned int n_components)
     {
@@ -259,10 +265,8 @@ namespace Voussoir
       record.components.resize(n_components);
       std::vector<double>      times;
       std::vector<std::size_t> numbers;
-      for (auto line = lines.begin(); line != lines.end(); ++line)
+      for (auto line = lines.begin() + has_headings(lines); line != lines.end(); ++line)
       {
-        if (line == lines.begin() && std::none_of(line->words.begin(), line->words.end(), is_number))
-          continue; // headings
         if (line->words.size() != n_components + 1)
           fail(file, line->number,
                std::to_string(line->words.size()) + " columns. " +
@@ -302,7 +306,25 @@ namespace Voussoir
       return record;
     }
     if (n_components != 1)
-      fail(file, header->number, "an AT2 file has one component. Give it as File x, File y or File z.");
+      fail(file, header->number,
+           "an AT2 file has one component. Give it as File x, File y or File z, or "
+           "in Motion/Sequence as one of three files, for x, y, z.");
     return read_at2(file, lines, header);
+  }
+
+  NumberTable read_number_table(const std::string &file)
+  {
+    NumberTable             table;
+    std::string             headings;
+    const std::vector<Line> lines = read_lines(file, headings);
+    for (auto line = lines.begin() + has_headings(lines); line != lines.end(); ++line)
+    {
+      table.lines.push_back(line->number);
+      table.rows.emplace_back();
+      for (const std::string &word : line->words)
+        table.rows.back().push_back(read_number(file, *line, word));
+    }
+    table.unit = unit_in(headings);
+    return table;
   }
 } // namespace Voussoir

@@ -60,6 +60,25 @@ namespace Voussoir
       result.significant_duration = time_of(0.95) - time_of(0.05);
       return result;
     }
+
+    /** Returns the largest errors of the parts of a motion. An oscillator of long period still vibrates after
+     * the rest, so that the spectrum of the whole motion differs from those of its parts. */
+    SpectralError largest_error(const GroundMotion &motion, const std::vector<double> &a,
+                                const SpectralTarget &target)
+    {
+      if (motion.parts.size() < 2)
+        return spectral_error(a, motion.dt, target);
+      SpectralError largest;
+      for (const MotionPart &part : motion.parts)
+      {
+        const auto begin = a.begin() + std::lround(part.begin / motion.dt),
+                   end = a.begin() + std::lround(part.end / motion.dt) + 1;
+        const SpectralError error = spectral_error({begin, end}, motion.dt, target);
+        largest.maximum = std::max(largest.maximum, error.maximum);
+        largest.mean = std::max(largest.mean, error.mean);
+      }
+      return largest;
+    }
   } // namespace
 
   MotionReport report_motion(const GroundMotion &motion, const MotionParameters &parameters)
@@ -68,12 +87,14 @@ namespace Voussoir
     std::array<std::vector<double>, 3> accelerations;
     const MotionIntegrals              integrals = motion.integrated();
     report.artificial = parameters.source == "artificial";
+    report.matched = parameters.source == "file" && parameters.match;
+    report.has_target = parameters.has_target();
     for (unsigned int d = 0; d < 3; ++d)
     {
       accelerations[d] = motion.component(d);
       report.components[d] = measure(accelerations[d], motion.dt, integrals, d);
       const double factor = std::abs(parameters.factor * parameters.scale[d]);
-      if (!report.artificial || factor == 0.)
+      if (!report.has_target || factor == 0. || report.components[d].peak_acceleration == 0.)
         continue;
 
       SpectralTarget target;
@@ -81,7 +102,7 @@ namespace Voussoir
       target.periods = logarithmic_periods(MotionCriteria::first_period, MotionCriteria::last_period, 200);
       for (const double period : target.periods)
         target.pseudo_acceleration.push_back(factor * parameters.target(d, period));
-      const SpectralError error = spectral_error(accelerations[d], motion.dt, target);
+      const SpectralError error = largest_error(motion, accelerations[d], target);
       report.components[d].maximum_error = error.maximum;
       report.components[d].mean_error = error.mean;
     }
@@ -106,11 +127,12 @@ namespace Voussoir
         text << std::fixed << std::setprecision(1) << "the spectrum of "
              << "xyz"[d] << " has an error of up to " << 100. * c.maximum_error << " % ("
              << 100. * c.mean_error << " % on average); the limits are 10 % (5 %). Try more \"Matching"
-             << " iterations\", another \"Seed\", a longer \"Duration\" or a smaller \"Time step\".";
+             << " iterations\", another " << (report.matched ? "record" : "\"Seed\"")
+             << ", a longer \"Duration\" or a smaller \"Time step\".";
         warnings.push_back(text.str());
       }
       const std::array<const char *, 3> pairs = {{"x-y", "x-z", "y-z"}};
-      for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int i = 0; i < 3 && report.artificial; ++i)
         if (std::abs(report.correlations[i]) > MotionCriteria::correlation)
         {
           std::ostringstream text;
@@ -124,7 +146,7 @@ namespace Voussoir
   std::vector<std::string> motion_warnings(const MotionReport &report)
   {
     std::vector<std::string> warnings;
-    if (report.artificial)
+    if (report.artificial || report.matched)
       add_spectrum_warnings(report, warnings);
     for (const std::string &warning : {size_warning(report), end_warning(report)})
       if (!warning.empty())
@@ -173,8 +195,8 @@ namespace Voussoir
     if (text.tellp() == 0)
       return "";
     return "the motion does not end at rest in its initial position: " + text.str() +
-           " (limits: 20 % and 10 %). Correct the baseline of the record, or increase Motion/Duration until "
-           "the record is at rest.";
+           " (limits: 20 % and 10 %). Set Motion/Baseline to linear, or increase Motion/Duration until the "
+           "record is at rest.";
   }
 
   void print_report(const MotionReport &report, std::ostream &out)
@@ -202,7 +224,7 @@ namespace Voussoir
     row("end displacement", "m", [](const Component &c) { return c.end_displacement; });
     row("Arias intensity", "m/s", [](const Component &c) { return c.arias_intensity; });
     row("duration D5-95", "s", [](const Component &c) { return c.significant_duration; });
-    if (report.artificial)
+    if (report.has_target)
     {
       row("spectrum, maximum error", "%", [](const Component &c) { return 100. * c.maximum_error; });
       row("spectrum, mean error", "%", [](const Component &c) { return 100. * c.mean_error; });

@@ -218,8 +218,16 @@ namespace Voussoir
   {
     const JointPoints &points = joints.points;
     residual.emplace();
+    std::vector<double> openings, slips; // of the joints
+    for (const JointPoints::Residual &of_joint : points.residuals())
+    {
+      openings.push_back(of_joint.opening);
+      slips.push_back(of_joint.slip);
+    }
     residual->add("max_opening", json_of(points.residual(false)))
-        .add("max_slip", json_of(points.residual(true)));
+        .add("max_slip", json_of(points.residual(true)))
+        .add_list("openings", openings)
+        .add_list("slips", slips);
     hold("opening", "m", joints.opening.value, limits.opening);
     hold("slip", "m", joints.slip.value, limits.slip);
     add_keys(joints.keys);

@@ -25,6 +25,12 @@ namespace Voussoir
     blocks.follow({run.u_before, state.u, run.acceleration, force, ground, velocity, run.motion.dt});
   }
 
+  void BlockObserver::report(Log &log) const
+  {
+    if (const auto [safety, monolith] = blocks.last_safety(); blocks.has_safety() && run.n_steps > 0)
+      log.line("Residual  at the end: sliding safety %.3g (monolith %d)", safety, monolith);
+  }
+
   void BlockObserver::save(boost::archive::binary_oarchive &archive) const
   {
     archive << blocks;

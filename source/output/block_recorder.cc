@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/output/block_recorder.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -63,6 +64,20 @@ namespace Voussoir
     return least;
   }
 
+  double BlockRecorder::last_safety_of(const std::size_t b) const
+  {
+    const BlockBase &base = forces.bases()[b];
+    return sliding_safety(base, resultants(base, now[b]), friction, cohesion);
+  }
+
+  std::pair<double, int> BlockRecorder::last_safety() const
+  {
+    std::pair<double, int> least{std::numeric_limits<double>::infinity(), 0};
+    for (std::size_t b = 0; b < now.size(); ++b)
+      least = std::min(least, {last_safety_of(b), forces.bases()[b].monolith});
+    return least;
+  }
+
   Json BlockRecorder::json() const
   {
     const auto of = [](const Extreme &extreme)
@@ -85,7 +100,7 @@ namespace Voussoir
           .add("min_compression", of(extremes[b].least_compression))
           .add("max_shear", of(extremes[b].shear));
       if (has_safety())
-        json.add("min_sliding_safety", of(extremes[b].safety));
+        json.add("min_sliding_safety", of(extremes[b].safety)).add("end_sliding_safety", last_safety_of(b));
       blocks.add("monolith " + std::to_string(base.monolith), json);
     }
     return blocks;

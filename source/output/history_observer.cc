@@ -79,6 +79,12 @@ namespace Voussoir
     energy_file.open(directory + "/energy.csv", energy);
   }
 
+  void HistoryObserver::report(Log &log) const
+  {
+    if (run.n_steps > 0)
+      log.line("Residual  at the end: kinetic energy %.1e of the largest energy", kinetic_share());
+  }
+
   void HistoryObserver::save(boost::archive::binary_oarchive &archive) const
   {
     archive << history << energy << imbalance;

@@ -3,6 +3,8 @@
 #include <voussoir/output/assessment.h>
 #include <voussoir/output/observers.h>
 
+#include <algorithm>
+
 namespace Voussoir
 {
   JointObserver::JointObserver(const RunState &run) : joints(run.dam->structure, *run.dam->geometry), run(run)
@@ -13,6 +15,14 @@ namespace Voussoir
     joints.points =
         JointPoints(*run.dam->model, structure.pairs, structure.n_joints, scene.limits.waterstop_depth);
     joints.keys = KeyForces(structure, scene.joints);
+  }
+
+  void JointObserver::record()
+  {
+    joints.record(*run.newmark);
+    for (std::size_t part = 0; run.n_steps > 0 && part < run.motion.parts.size(); ++part)
+      if (run.step == run.end_of_part(part))
+        joints.points.end_part();
   }
 
   void JointObserver::open(const std::string &directory)
@@ -46,6 +56,45 @@ namespace Voussoir
   {
     log.line("Joints    largest opening %.2f mm, largest slip %.2f mm", 1e3 * joints.opening.value,
              1e3 * joints.slip.value);
+    const std::size_t n_parts = run.n_steps > 0 ? run.motion.parts.size() : 0;
+    for (std::size_t part = 0; part < n_parts; ++part)
+    {
+      const std::vector<JointPoints::Residual> residuals = joints.points.residuals_of_part(part);
+      if (residuals.empty())
+        continue;
+      const auto opening =
+          std::max_element(residuals.begin(), residuals.end(),
+                           [](const auto &a, const auto &b) { return a.opening < b.opening; });
+      const auto slip = std::max_element(residuals.begin(), residuals.end(),
+                                         [](const auto &a, const auto &b) { return a.slip < b.slip; });
+      log.line("Residual  at t = %.2f s: opening %.2f mm (joint %td), slip %.2f mm (joint %td)",
+               run.end_of_part(part) * run.motion.dt, 1e3 * opening->opening, opening - residuals.begin() + 1,
+               1e3 * slip->slip, slip - residuals.begin() + 1);
+    }
+  }
+
+  Json JointObserver::json_of_parts() const
+  {
+    Json all;
+    for (std::size_t part = 0; part < run.motion.parts.size(); ++part)
+    {
+      const MotionPart &of_motion = run.motion.parts[part];
+      Json              json;
+      json.add("source", of_motion.name)
+          .add("begin", of_motion.begin)
+          .add("end", of_motion.end)
+          .add("end_of_rest", run.motion.end_of_rest(part))
+          .add("time_of_residual", run.end_of_part(part) * run.motion.dt);
+      std::vector<double> openings, slips;
+      for (const JointPoints::Residual &of_joint : joints.points.residuals_of_part(part))
+      {
+        openings.push_back(of_joint.opening);
+        slips.push_back(of_joint.slip);
+      }
+      all.add("part " + std::to_string(part + 1),
+              json.add_list("openings", openings).add_list("slips", slips));
+    }
+    return all;
   }
 
   void JointObserver::add_extremes(Json &json) const

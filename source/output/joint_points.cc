@@ -150,6 +150,33 @@ namespace Voussoir
     return largest;
   }
 
+  std::vector<JointPoints::Residual> JointPoints::residuals() const
+  {
+    std::vector<Residual> largest(rims.size());
+    for (std::size_t p = 0; p < now.size(); ++p)
+    {
+      Residual &of_joint = largest[pairs[p].joint];
+      of_joint.opening = std::max(of_joint.opening, now[p][0]);
+      of_joint.slip = std::max(of_joint.slip, length_of_slip(now[p]));
+    }
+    return largest;
+  }
+
+  void JointPoints::end_part()
+  {
+    for (const Residual &of_joint : residuals())
+      of_parts.insert(of_parts.end(), {of_joint.opening, of_joint.slip});
+  }
+
+  std::vector<JointPoints::Residual> JointPoints::residuals_of_part(const std::size_t part) const
+  {
+    std::vector<Residual> result;
+    const std::size_t     n = rims.size();
+    for (std::size_t j = n * part; j < n * (part + 1) && 2 * j < of_parts.size(); ++j)
+      result.push_back({of_parts[2 * j], of_parts[2 * j + 1]});
+    return result;
+  }
+
   void JointPoints::write(const std::string &directory, const DamGeometry &geometry) const
   {
     OutputFile points(directory + "/joint_points.csv"), cells(directory + "/joint_cells.csv");

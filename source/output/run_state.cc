@@ -38,6 +38,14 @@ namespace Voussoir
     return load;
   }
 
+  unsigned int RunState::end_of_part(const std::size_t part) const
+  {
+    const double time = motion.end_of_rest(part) + dam->foundation->delay();
+    return part + 1 < motion.parts.size()
+               ? std::min(n_steps, static_cast<unsigned int>(std::lround(time / motion.dt)))
+               : n_steps;
+  }
+
   Vector3 RunState::ground_acceleration(const unsigned int after) const
   {
     return dam->foundation->moves_base() ? motion.acceleration[after] : Vector3{};

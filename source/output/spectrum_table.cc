@@ -8,7 +8,6 @@ namespace Voussoir
 {
   Table spectrum_table(const GroundMotion &motion, const MotionParameters &parameters)
   {
-    const bool                       artificial = parameters.source == "artificial";
     const std::vector<double>        periods = logarithmic_periods(.03, 5., 40);
     std::vector<std::vector<double>> columns = {periods,
                                                 std::vector<double>(periods.size(), parameters.damping)};
@@ -20,7 +19,7 @@ namespace Voussoir
       columns.push_back(
           pseudo_acceleration_spectrum(motion.component(d), motion.dt, periods, parameters.damping));
     }
-    for (unsigned int d = 0; d < 3 && artificial; ++d)
+    for (unsigned int d = 0; d < 3 && parameters.has_target(); ++d)
     {
       const double factor = std::abs(parameters.factor * parameters.scale[d]);
       table.columns.push_back(std::string("target_") + "xyz"[d]);

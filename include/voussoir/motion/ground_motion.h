@@ -16,6 +16,13 @@ namespace Voussoir
     std::vector<std::array<double, 3>> velocity, displacement;
   };
 
+  /** Part of a ground motion: one record or one artificial motion of "Motion/Sequence". */
+  struct MotionPart
+  {
+    std::string name;       ///< files, or seed
+    double      begin, end; ///< times of its first and last sample [s]. The rest follows.
+  };
+
   /** Ground motion: acceleration of the base in the axes of the program. x points downstream, y to the left
    * bank, z up. The acceleration is linear between the samples. */
   struct GroundMotion
@@ -23,12 +30,17 @@ namespace Voussoir
     double                             dt = 0.01;    ///< sampling interval [s]
     std::vector<std::array<double, 3>> acceleration; ///< a_x, a_y, a_z [m/s^2] at t = k dt
     std::vector<std::string>           notes; ///< processing of records (duration, filter), for the log
+    std::vector<MotionPart>            parts; ///< one after another; make_motion() sets them
 
     /** Returns the time of the last sample [s]. */
     double duration() const;
 
     /** Returns the acceleration at t = @p k dt [m/s^2]. It is zero after the last sample. */
     std::array<double, 3> sample(std::size_t k) const;
+
+    /** Returns the time at which the rest after a part ends [s]: the beginning of the next part, or the end of
+     * the motion. */
+    double end_of_rest(std::size_t part) const;
 
     /** Returns all samples of one component [m/s^2]. @p direction: 0, 1 or 2 for x, y or z. */
     std::vector<double> component(unsigned int direction) const;
@@ -45,6 +57,9 @@ namespace Voussoir
 
   /** Standard acceleration of gravity, for accelerations in g [m/s^2]. */
   constexpr double standard_gravity = 9.80665;
+
+  /** Returns "g", "m/s^2" or "cm/s^2" (Motion/Unit) in m/s^2. */
+  double unit_of_acceleration(const std::string &unit);
 
   /** Writes a CSV file with the header `t,a_x,a_y,a_z` [s, m/s^2], which make_motion() can read. Throws
    * WriteError if @p file cannot be written. */

@@ -4,9 +4,14 @@
 
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/motion/motion_parameters.h>
+#include <voussoir/motion/spectral_matching.h>
 
 namespace Voussoir
 {
+  /** Returns the target of a component without "Factor" and "Scale": 100 periods per decade in the range to
+   * match, and some longer periods, which limit the displacement. */
+  SpectralTarget make_target(const MotionParameters &parameters, unsigned int direction);
+
   /** Returns one component of an artificial motion without "Factor" and "Scale" [m/s^2], with
    * parameters.n_steps() + 1 samples.
    *

@@ -19,8 +19,8 @@ namespace Voussoir
    * unit than "Unit", or starts at another time than the first one. */
   GroundMotion read_motion(const MotionParameters &parameters, const std::string &scene_directory);
 
-  /** Returns a warning that the tables may be in g: all their values are below 1 m/s^2, and no heading states
-   * a unit. Returns an empty string otherwise, or if a file cannot be read. Intended for input files without
+  /** Returns a warning that the tables or the target spectrum may be in g: all values of the records, or the
+   * peak acceleration of the target spectrum, are below 1 m/s^2, and no heading states a unit. Returns an empty string otherwise, or if a file cannot be read. Intended for input files without
    * the entry "Motion/Unit". */
   std::string unit_warning(const MotionParameters &parameters, const std::string &scene_directory);
 } // namespace Voussoir

@@ -3,9 +3,11 @@
 #define voussoir_motion_parameters_h
 
 #include <voussoir/motion/design_spectrum.h>
+#include <voussoir/motion/target_spectrum.h>
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace Voussoir
 {
@@ -25,15 +27,21 @@ namespace Voussoir
     static constexpr double most_steps = 1e7; ///< largest number of time steps
 
     std::string           source = "artificial";  ///< or "file", "none"
-    double                duration = automatic;   ///< of the ground motion [s]; see length()
+    double                duration = automatic;   ///< of the ground motion or of its parts [s]; see length()
     double                time_step = 0.01;       ///< sampling interval [s]
     double                factor = 1.;            ///< of all components, for every source [-]
     std::array<double, 3> scale = {{1., 1., 1.}}; ///< of the single components, for every source [-]
 
+    std::string sequence;         ///< records or seeds, one after another; empty: one motion; see parts()
+    double      rest = automatic; ///< after each part [s]; see rest_length()
+    std::string target_file;      ///< spectrum for artificial motions and records to be matched, or empty
+
     // Source = file. Paths are relative to the directory of the input file.
-    std::string                file;            ///< one file with t, a_x, a_y, a_z, or empty
-    std::array<std::string, 3> component_files; ///< one file per component, with t, a or AT2, or empty
-    std::string                unit = "m/s^2";  ///< of tables: "g", "m/s^2" or "cm/s^2"
+    std::string                file;              ///< one file with t, a_x, a_y, a_z, or empty
+    std::array<std::string, 3> component_files;   ///< one file per component, with t, a or AT2, or empty
+    std::string                unit = "m/s^2";    ///< of tables: "g", "m/s^2" or "cm/s^2"
+    std::string                baseline = "none"; ///< or "linear", "quadratic": without_baseline()
+    bool                       match = false;     ///< matched_record() to the target spectrum
 
     // Source = artificial
     DesignSpectrum spectrum;
@@ -66,15 +74,44 @@ namespace Voussoir
      * scaled with min(1, length() / 15 s) and the default rate with the inverse. */
     MotionEnvelope envelope() const;
 
-    /** Returns the target of an artificial motion: the pseudo-acceleration [m/s^2], without "Factor" and
-     * "Scale". Beyond 3 s, where the codes end, it decreases with an additional factor (3 s / period)^2.
+    /** Returns the rest after each part [s]: "Rest", or if it is automatic 10 s in whole time steps with
+     * "Sequence" and 0 without. */
+    double rest_length() const;
+
+    /** Returns the sections "Motion" of the single parts of "Sequence", or this section. Throws InputError if
+     * an element of "Sequence" is neither a seed (Source = artificial), nor one file, nor three. */
+    std::vector<MotionParameters> parts() const;
+
+    /** Returns the name of a part for messages: its files, or its seed. */
+    std::string name_of_part() const;
+
+    /** Reads "Target spectrum" if it is given. Throws InputError, see read_target_spectrum(). Required before
+     * target(). */
+    void read_target(const std::string &scene_directory);
+
+    /** Returns true if "Target spectrum" was read, and its headings state no unit. */
+    bool target_lacks_unit() const
+    {
+      return !target_spectrum.periods.empty() && !target_spectrum.states_unit;
+    }
+
+    /** Returns true if there is a target spectrum: for artificial motions, and for records with "Target
+     * spectrum". */
+    bool has_target() const { return source == "artificial" || (source == "file" && !target_file.empty()); }
+
+    /** Returns the target: the pseudo-acceleration [m/s^2], without "Factor" and "Scale", of "Target spectrum"
+     * or of the design spectrum. Beyond 3 s, where the codes end, the design spectrum decreases with an
+     * additional factor (3 s / period)^2.
      * @param direction 0, 1 or 2 for x, y or z
      * @param period natural period [s]; 0: peak acceleration */
     double target(unsigned int direction, double period) const;
 
   private:
     void add_file_parameters(Entries &prm);
-    void add_artificial_parameters(Entries &prm);
+    void add_sequence_parameters(Entries &prm);
+
+    TargetSpectrum target_spectrum; ///< content of target_file
+    void           add_artificial_parameters(Entries &prm);
   };
 
   /** Acceptance criteria of ground motions. Those of artificial motions follow Chinese hydraulic practice. */

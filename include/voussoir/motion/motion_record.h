@@ -35,6 +35,19 @@ namespace Voussoir
    *  - The time does not increase, or the time steps differ.
    *  - An AT2 file is not an acceleration in g, or its number of values is not NPTS. */
   MotionRecord read_motion_record(const std::string &file, unsigned int n_components);
+
+  /** Numbers of a text file with equal separators, comments and headings as the tables of
+   * read_motion_record(). */
+  struct NumberTable
+  {
+    std::vector<std::vector<double>> rows;  ///< at least one number each
+    std::vector<std::size_t>         lines; ///< number of the line of each row
+    std::string                      unit;  ///< unit in the headings, as in "Motion/Unit"; or empty
+  };
+
+  /** Reads a table with any number of columns. Throws InputError with file and line if the file is not a
+   * regular text file of at most 100 MB, or a value is not a finite number. */
+  NumberTable read_number_table(const std::string &file);
 } // namespace Voussoir
 
 #endif

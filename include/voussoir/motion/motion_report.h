@@ -22,17 +22,20 @@ namespace Voussoir
       double significant_duration = 0.; ///< from 5 % to 95 % of the Arias intensity (D5-95) [s]
       double end_velocity = 0.;         ///< [m/s]
       double end_displacement = 0.;     ///< [m]
-      double maximum_error = 0.;        ///< SpectralError::maximum; artificial motions only
-      double mean_error = 0.;           ///< SpectralError::mean; artificial motions only
+      double maximum_error = 0.;        ///< SpectralError::maximum; 0 without target spectrum
+      double mean_error = 0.;           ///< SpectralError::mean; 0 without target spectrum
     };
     std::array<Component, 3> components; ///< x, y, z
     /// Correlation coefficients of the accelerations: x-y, x-z, y-z [-].
     std::array<double, 3> correlations = {{0., 0., 0.}};
     bool                  artificial = false; ///< the motion is artificial
+    bool                  matched = false;    ///< record with "Match"
+    bool                  has_target = false; ///< there is a target spectrum
   };
 
-  /** Computes the measures of a ground motion. For artificial motions, spectral_error() is evaluated from
-   * 0.04 s to 3 s with 200 periods per decade.
+  /** Computes the measures of a ground motion. With a target spectrum, spectral_error() is evaluated from
+   * 0.04 s to 3 s with 200 periods per decade, for components that are not zero.
+   * Of a sequence the largest errors of its parts are reported.
    * @param motion of make_motion(), with "Factor" and "Scale"
    * @param parameters section "Motion" */
   MotionReport report_motion(const GroundMotion &motion, const MotionParameters &parameters);

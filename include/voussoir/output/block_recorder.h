@@ -33,12 +33,18 @@ namespace Voussoir
      * of the base of the monolith. */
     Extreme least_safety() const;
 
+    /** Returns the smallest safety against sliding of all monoliths in the last follow() [-], and the number of
+     * the monolith. */
+    std::pair<double, int> last_safety() const;
+
     /** Returns area and extremes of the base of each monolith: "blocks" of summary.json. */
     Json json() const;
 
     template <class Archive> void serialize(Archive &archive, unsigned int) { archive &history &extremes; }
 
   private:
+    double last_safety_of(std::size_t base) const;
+
     struct Extremes ///< over time, of one monolith
     {
       Extreme                       compression, least_compression, shear, safety;

@@ -59,6 +59,21 @@ namespace Voussoir
     /** Returns the largest value at the last recorded time [m]. @p slip: true for slip, false for opening. */
     Extreme residual(bool slip) const;
 
+    /** Largest opening and slip of a joint [m]. */
+    struct Residual
+    {
+      double opening = 0., slip = 0.;
+    };
+
+    /** Returns the largest values of each joint at the last recorded time. */
+    std::vector<Residual> residuals() const;
+
+    /** Keeps residuals() as those of a part of the ground motion. */
+    void end_part();
+
+    /** Returns the kept residuals of a part, or nothing if end_part() was not called so often. */
+    std::vector<Residual> residuals_of_part(std::size_t part) const;
+
     /** Returns true if any joint has a waterstop. */
     bool has_waterstops() const { return !waterstops.empty(); }
 
@@ -71,7 +86,7 @@ namespace Voussoir
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
-      archive &opening &slip &waterstop_opening &waterstop_slip &last_time;
+      archive &opening &slip &waterstop_opening &waterstop_slip &last_time &of_parts;
       for (Vector3 &moved : now) // as many as there are pairs
         archive &moved[0] & moved[1] & moved[2];
     }
@@ -99,6 +114,7 @@ namespace Voussoir
     std::vector<Between> waterstops;    ///< points of the waterstops
     std::vector<Vector3> now;           ///< opening and slip of the pairs [m]
     std::vector<double>  opening, slip; ///< largest values so far [m]
+    std::vector<double>  of_parts;      ///< opening and slip of each joint, part after part [m]
     double               last_time = 0.;
   };
 } // namespace Voussoir

@@ -40,6 +40,14 @@ namespace Voussoir
     void save(boost::archive::binary_oarchive &archive) const override;
     void load(boost::archive::binary_iarchive &archive) override;
 
+    void report(Log &log) const override;
+
+    /** Returns the present kinetic energy of the concrete relative to the largest energy [-]. */
+    double kinetic_share() const
+    {
+      return run.newmark->state().energy.kinetic / std::max(run.largest_energy(), 1e-300);
+    }
+
     /** Returns the largest error of the energy balance so far, relative to the largest energy [-]. */
     double balance_error() const { return imbalance / std::max(run.largest_energy(), 1e-300); }
 
@@ -60,7 +68,7 @@ namespace Voussoir
   public:
     /** @p run must outlive the observer. */
     explicit JointObserver(const RunState &run);
-    void record() override { joints.record(*run.newmark); }
+    void record() override;
     void flush() override { file.append(joints.history); }
     void open(const std::string &directory) override;
     void write_tables(const std::string &directory) override;
@@ -71,6 +79,10 @@ namespace Voussoir
 
     /** Adds the largest opening and slip [m] to @p json, "extremes" of summary.json. */
     void add_extremes(Json &json) const;
+
+    /** Returns "motion_parts" of summary.json: source, times [s], and largest opening and slip of each joint
+     * after the rest [m]. */
+    Json json_of_parts() const;
 
     JointRecorder joints; ///< the records
 
@@ -133,6 +145,7 @@ namespace Voussoir
     explicit BlockObserver(const RunState &run);
     void follow() override;
     void record() override { blocks.record(run.newmark->state().time); }
+    void report(Log &log) const override;
     void flush() override { file.append(blocks.history); }
     void open(const std::string &directory) override { file.open(directory + "/blocks.csv", blocks.history); }
     void write_tables(const std::string &) override { flush(); }

@@ -44,6 +44,10 @@ namespace Voussoir
       return step == start_step ? pairs_at_start : newmark->pair_states();
     }
 
+    /** Returns the number of the step at which the dam has received a part of the motion and the rest after it.
+     * On rock the waves arrive later. @p part: index in motion.parts. */
+    unsigned int end_of_part(std::size_t part) const;
+
     /** Initializes neighbours and time integration from the static state. @p parameters: parameters of the
      * contact solver. */
     void start(const ContactParameters &parameters);

@@ -9,8 +9,8 @@
 namespace Voussoir
 {
   /** Returns the table of spectrum.csv: pseudo-acceleration of the three components of the motion [m/s^2] over
-   * the period [s], for the damping ratio "Motion/Damping". With an artificial motion, additional columns
-   * contain the design spectrum.
+   * the period [s], for the damping ratio "Motion/Damping". With a target spectrum, additional columns
+   * contain it.
    * @param motion ground motion
    * @param parameters section "Motion" of the input file */
   Table spectrum_table(const GroundMotion &motion, const MotionParameters &parameters);

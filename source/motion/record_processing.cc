@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
+#include <voussoir/motion/motion_artificial.h>
+#include <voussoir/motion/motion_report.h>
+#include <voussoir/motion/record_processing.h>
+#include <voussoir/motion/response_spectrum.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace Voussoir
+{
+  namespace
+  {
+    using Vector = std::vector<double>;
+
+    /** Returns the integral of the product of two functions that are linear between equidistant samples, over
+     * one sixth of the sampling interval. */
+    double product(const Vector &a, const Vector &b)
+    {
+      double sum = 0.;
+      for (std::size_t k = 0; k < a.size(); ++k)
+      {
+        sum += (k == 0 || k + 1 == a.size() ? 2. : 4.) * a[k] * b[k];
+        if (k > 0)
+          sum += a[k - 1] * b[k] + a[k] * b[k - 1];
+      }
+      return sum;
+    }
+
+    /** Subtracts the part of @p a in the direction of @p b. */
+    void remove_part(Vector &a, const Vector &b)
+    {
+      const double share = product(a, b) / product(b, b);
+      for (std::size_t k = 0; k < a.size(); ++k)
+        a[k] -= share * b[k];
+    }
+
+    /** Returns the envelope of a record, relative to its largest value, but not below @p least [-]. */
+    Vector envelope_of(const Vector &a, const double dt, const double least)
+    {
+      constexpr double  window = 1.; // [s]
+      const std::size_t half = std::lround(.5 * window / dt);
+      Vector            sum(a.size() + 1, 0.), envelope(a.size());
+      for (std::size_t k = 0; k < a.size(); ++k)
+        sum[k + 1] = sum[k] + a[k] * a[k];
+      for (std::size_t k = 0; k < a.size(); ++k)
+        envelope[k] = std::sqrt(sum[std::min(a.size(), k + half + 1)] - sum[k > half ? k - half : 0]);
+      const double largest = *std::max_element(envelope.begin(), envelope.end());
+      for (double &value : envelope)
+        value = std::max(value / largest, least);
+      return envelope;
+    }
+
+    bool is_zero(const Vector &a)
+    {
+      return std::all_of(a.begin(), a.end(), [](const double x) { return x == 0.; });
+    }
+
+    /** Returns the factor for which the spectrum of a record has the mean logarithm of the target [-]. */
+    double factor_to(const SpectralTarget &target, const Vector &a, const double dt)
+    {
+      const Vector spectrum = pseudo_acceleration_spectrum(a, dt, target.periods, target.damping);
+      double       sum = 0.;
+      std::size_t  n = 0;
+      for (; n < spectrum.size() && target.periods[n] < MotionCriteria::last_period; ++n)
+        sum += std::log(target.pseudo_acceleration[n] / spectrum[n]);
+      return std::exp(sum / n);
+    }
+
+    /** Returns the measures of one component. @p a: samples [m/s^2]. @p parameters: damping, and target
+     * spectrum of the component @p d. */
+    MotionReport::Component measures(const Vector &a, const double dt, const MotionParameters &parameters,
+                                     const unsigned int d)
+    {
+      GroundMotion motion;
+      motion.dt = dt;
+      motion.acceleration.resize(a.size(), {{0., 0., 0.}});
+      for (std::size_t k = 0; k < a.size(); ++k)
+        motion.acceleration[k][d] = a[k];
+      return report_motion(motion, parameters).components[d];
+    }
+
+    void check_length(const std::size_t n_steps, const double dt)
+    {
+      constexpr std::size_t most_steps = 200000; // match_spectrum() stores 230 vectors of that length
+      constexpr double      shortest = 1.;       // [s]
+      if (n_steps <= most_steps && n_steps * dt >= shortest)
+        return;
+      std::ostringstream message;
+      message << "Motion/Match is true, but the record has " << n_steps << " steps of " << dt
+              << " s. Records of 1 s to 200,000 steps can be matched. Change Motion/Duration or Motion/Time "
+                 "step, or set Motion/Match to false.";
+      throw InputError(message.str());
+    }
+
+    std::string percent(const double value)
+    {
+      std::ostringstream text;
+      text << std::fixed << std::setprecision(1) << 100. * value << " %";
+      return text.str();
+    }
+
+    /** Returns @p factor times @p value; a value at the level of round-off is 0. */
+    double rounded(const double factor, const double value)
+    {
+      return std::abs(factor * value) < 1e-9 ? 0. : factor * value;
+    }
+  } // namespace
+
+  std::vector<double> without_baseline(const std::vector<double> &a, const unsigned int degree)
+  {
+    Vector              result = a;
+    std::vector<Vector> basis; // orthogonal, by Gram and Schmidt
+    for (unsigned int power = 0; power <= degree; ++power)
+    {
+      Vector next;
+      for (std::size_t k = 0; k < a.size(); ++k)
+        next.push_back(std::pow(2. * k / (a.size() - 1.) - 1., power));
+      for (const Vector &other : basis)
+        remove_part(next, other);
+      basis.push_back(std::move(next));
+    }
+    for (unsigned int pass = 0; pass < 2; ++pass) // the second pass removes the round-off of the first
+      for (const Vector &part : basis)
+        remove_part(result, part);
+    return result;
+  }
+
+  std::vector<double> matched_record(const std::vector<double> &a, const double dt,
+                                     const SpectralTarget &target, const double least_envelope,
+                                     const unsigned int n_passes)
+  {
+    const double factor = factor_to(target, a, dt);
+    Vector       scaled = a;
+    for (double &value : scaled)
+      value *= factor;
+    return match_spectrum(scaled, dt, envelope_of(scaled, dt, least_envelope), target,
+                          .5 * MotionCriteria::maximum_error, n_passes);
+  }
+
+  namespace
+  {
+    /** Returns a component without its baseline, and adds a note. */
+    Vector corrected(const Vector &a, GroundMotion &motion, const MotionParameters &parameters,
+                     const unsigned int d, const double factor)
+    {
+      MotionParameters none = parameters;
+      none.source = "none"; // no comparison with the target
+      const Vector result = without_baseline(a, parameters.baseline == "linear" ? 1 : 2);
+      const auto   before = measures(a, motion.dt, none, d), after = measures(result, motion.dt, none, d);
+      std::ostringstream note;
+      note << std::setprecision(3) << "xyz"[d] << ": " << parameters.baseline << " baseline of "
+           << factor * (a.front() - result.front()) << " m/s^2 at the start and "
+           << factor * (a.back() - result.back()) << " m/s^2 at the end subtracted; velocity at the end "
+           << factor * before.end_velocity << " m/s, now " << rounded(factor, after.end_velocity)
+           << "; displacement " << factor * before.end_displacement << " m, now "
+           << rounded(factor, after.end_displacement);
+      motion.notes.push_back(note.str());
+      return result;
+    }
+
+    /** Returns a component that matches the target, and adds a note. */
+    Vector matched(const Vector &a, GroundMotion &motion, const MotionParameters &parameters,
+                   const unsigned int d, const double factor)
+    {
+      MotionParameters unscaled = parameters; // the target too is without the factors
+      unscaled.factor = 1.;
+      unscaled.scale = {{1., 1., 1.}};
+      const SpectralTarget target = make_target(parameters, d);
+      const double         first = factor_to(target, a, motion.dt);
+      Vector               scaled = a;
+      for (double &value : scaled)
+        value *= first;
+      const auto before = measures(scaled, motion.dt, unscaled, d);
+      Vector     result;
+      auto       after = before;
+      for (const double least_envelope : {.05, .1, .2, .02})
+      {
+        const Vector next =
+            matched_record(a, motion.dt, target, least_envelope, parameters.matching_iterations);
+        const auto of_next = measures(next, motion.dt, unscaled, d);
+        if (result.empty() || of_next.maximum_error < after.maximum_error)
+        {
+          result = next;
+          after = of_next;
+        }
+        if (after.maximum_error <= MotionCriteria::maximum_error)
+          break;
+      }
+      std::ostringstream note;
+      note << std::setprecision(3) << "xyz"[d] << ": multiplied by " << first << ", then matched to '"
+           << parameters.target_file << "' in the time domain; error of the spectrum "
+           << percent(before.maximum_error) << ", now " << percent(after.maximum_error) << " (mean "
+           << percent(before.mean_error) << ", now " << percent(after.mean_error) << "); peak acceleration "
+           << std::abs(factor) * before.peak_acceleration / standard_gravity << " g, now "
+           << std::abs(factor) * after.peak_acceleration / standard_gravity << "; Arias intensity "
+           << factor * factor * before.arias_intensity << " m/s, now "
+           << factor * factor * after.arias_intensity;
+      motion.notes.push_back(note.str());
+      return result;
+    }
+  } // namespace
+
+  void process_record(GroundMotion &motion, const MotionParameters &parameters,
+                      const std::array<double, 3> &factors)
+  {
+    if (parameters.match)
+      check_length(motion.acceleration.size() - 1, motion.dt);
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      Vector a = motion.component(d);
+      if (is_zero(a) || factors[d] == 0.)
+        continue;
+      if (parameters.baseline != "none")
+        a = corrected(a, motion, parameters, d, factors[d]);
+      if (parameters.match)
+        a = matched(a, motion, parameters, d, factors[d]);
+      for (std::size_t k = 0; k < a.size(); ++k)
+        motion.acceleration[k][d] = a[k];
+    }
+  }
+} // namespace Voussoir
