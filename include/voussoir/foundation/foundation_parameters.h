@@ -16,6 +16,7 @@ namespace Voussoir
   {
     std::string  model = "rigid";                             ///< rigid, rock or massless
     Material     rock{15e9, .25, 2700.};                      ///< of rock without an entry in @p zones
+    double       sustained = 0.;                              ///< sustained modulus [Pa]; 0: rock.young
     ZoneEntry    zones;                                       ///< materials of named rock volumes
     double       mass_damping = 0., stiffness_damping = 2e-5; ///< Rayleigh damping [1/s], [s]
     std::string  boundary = "mtf3", free_field = "sections";  ///< see boundary_table.h; sections or columns
@@ -26,6 +27,9 @@ namespace Voussoir
     std::string  coupling = "auto"; ///< auto, mean traction or partition
 
     static constexpr double largest_poisson = .45; ///< upper limit of Poisson's ratio of rock [-]
+
+    /** Returns the ratio of sustained and Young's modulus, for all zones of the rock [-]. */
+    double sustained_ratio() const { return sustained > 0. ? sustained / rock.young : 1.; }
 
     /** Returns true if the rock is subcycled with a constant force per time step of the dam (SubcycledRock). */
     bool is_subcycled() const { return coupling == "mean traction" || (coupling == "auto" && substeps > 1); }
