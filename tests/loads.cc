@@ -129,6 +129,75 @@ namespace
           3e-5); // in single precision
   }
 
+  /** A table with elevations on two days, halfway between. */
+  TemperatureParameters heights(const std::string &lines)
+  {
+    write_text("heights.csv", "day, elevation, upstream, downstream\n" + lines);
+    TemperatureParameters t;
+    t.table = "heights.csv";
+    t.grouting = 10.;
+    t.day = 5.;
+    return t;
+  }
+
+  /** The free wall with T = T_g + t + G x + H z: u = alpha ((t + g.r) r - g r^2/2) with g = (G, 0, H), and no
+   * stress (Boley and Weiner 1960). */
+  void free_wall_with_profile(const unsigned int degree)
+  {
+    const double   a = 1e-5, t = 5., g = 2., h = -.5; // 15 to 35 degC at z = 0, 0 to 20 degC at z = 30 m
+    const Heated   bar(wall(), degree, heights("0 0 10 30\n0 30 -10 10\n10 0 20 40\n10 30 10 30\n"));
+    const Unknowns u = bar.displacement(
+        [=](const Vector3 &x)
+        {
+          const double rise = t + g * x[0] + h * x[2], square = dot(x, x) / 2.;
+          return Vector3{{a * (rise * x[0] - g * square), a * rise * x[1], a * (rise * x[2] - h * square)}};
+        });
+    const std::string name = "free wall, degree " + std::to_string(degree) + ", profile: ";
+    below(name + "exact u is in balance", largest(bar.residual(u)) / largest(bar.thermal.load), 1e-10);
+    float stress = 0.f;
+    for (const Stress &s : bar.stress(u))
+      for (const float x : s)
+        stress = std::max(stress, std::abs(x));
+    below(name + "no stress [of E alpha dT]", stress / (bar.concrete.young * a * 20.), 3e-5);
+  }
+
+  /** Without displacements the stress is -E alpha (T - T_g) (nu = 0, elements without incompatible modes). T is linear in x and
+   * between the elevations 7.5, 15 and 22.5 m, which nodes have, and constant below and above. */
+  void clamped_profile()
+  {
+    const Heated bar(
+        wall(), 2, heights("0 7.5 20 0\n0 15 12 4\n0 22.5 6 9\n10 7.5 24 2\n10 15 10 8\n10 22.5 0 5\n"), 0.);
+    const Unknowns u(3 * bar.structure.n_nodes(), 0.);
+    const auto     stress = bar.stress(u);
+    const auto     face = [](const double z, const double low, const double middle, const double high)
+    {
+      return z <= 7.5    ? low
+             : z <= 15.  ? low + (z - 7.5) / 7.5 * (middle - low)
+             : z <= 22.5 ? middle + (z - 15.) / 7.5 * (high - middle)
+                         : high;
+    };
+    for (unsigned int i = 0; i < bar.model.n_nodes(); ++i)
+    {
+      const double x = bar.model.points[i][0], z = bar.model.points[i][2], up = face(z, 22., 11., 3.),
+                   down = face(z, 1., 6., 7.),
+                   exact = -bar.concrete.young * 1e-5 * (up + x / thick * (down - up) - 10.);
+      expect_within(stress[i][2], exact, 1e-5 * bar.concrete.young * 1e-5 * 12., "stress of the profile");
+    }
+  }
+
+  /** The work of the thermal load in a uniform vertical strain 1/H is the force E alpha m A of a bar held at both
+   * ends, with the mean temperature change m over its height H (nu = 0). */
+  void column_with_profile()
+  {
+    const Heated bar(
+        wall(), 2, heights("0 0 30 30\n0 15 18 18\n0 30 10 10\n10 0 30 30\n10 15 18 18\n10 30 10 10\n"), 0.);
+    double force = 0.; // of the nodes z > 0 along z, for u = z/H: E alpha m A
+    for (unsigned int i = 0; i < bar.model.n_nodes(); ++i)
+      force += bar.thermal.load[3 * bar.model.equation[i] + 2] * bar.model.points[i][2] / tall;
+    const double mean = (.5 * (20. + 8.) + .5 * (8. + 0.)) / 2.;
+    expect_close(force, bar.concrete.young * 1e-5 * mean * thick * wide, 1e-10, "force of the profile");
+  }
+
   /** Held along y at both ends, free across: sigma_y = -E alpha dT. */
   void clamped_bar(const unsigned int degree)
   {
@@ -268,7 +337,7 @@ namespace
          {std::array<double, 3>{0., 4., 2.}, {25., 5., 7.}, {150., 7., 12.}, {200., 6., 2.}})
     {
       t.day = day;
-      const auto faces = face_temperatures(t, ".");
+      const auto faces = face_temperatures(t, ".").at(-5.);
       expect_within(faces[0], up, 1e-12, "upstream face");
       expect_within(faces[1], down, 1e-12, "downstream face");
     }
@@ -277,7 +346,18 @@ namespace
     t.table = "none.csv";
     expect_error([&] { face_temperatures(t, "."); }, {"none.csv", "relative"});
     for (const auto &[content, part] :
-         {std::make_pair("0 1\n", "line 1"), {"0 1 2\n0 1 2\n", "ascend"}, {"0 1 2 3\n", "three numbers"}})
+         {std::make_pair("0 1\n", "line 1"),
+          {"0 1 2\n0 1 2\n", "the days must ascend"},
+          {"0 1 2 3 4\n", "three numbers"},
+          {"0 1 2 x\n", "three numbers"},
+          {"0 1 2 +\n", "three numbers"},
+          {"0 1 nan\n", "three numbers"},
+          {"0 1 2\n1 5 2 3\n", "line 2 has 4 numbers"},
+          {"0 5 2 3\n0 4 2 3\n", "4 m follows 5 m"},
+          {"0 5 2 3\n0 6 2 3\n2 6 2 3\n", "no temperatures of day 2 at the elevation 5 m"},
+          {"0 5 2 3\n2 5 2 3\n2 7 2 3\n",
+           "no temperatures of day 0 at the elevation 7 m, but those of day 2"},
+          {"0 5 2 3\n2 5 2 3\n0 7 2 3\n", "the days must ascend"}})
     {
       write_text("bad.csv", content);
       t.table = "bad.csv";
@@ -292,7 +372,10 @@ namespace
       free_wall(degree, 30., 30.);
       free_wall(degree, 30., -10.);
       clamped_bar(degree);
+      free_wall_with_profile(degree);
     }
+    clamped_profile();
+    column_with_profile();
     free_ring();
     factor_of_combination();
     interface();

@@ -64,6 +64,11 @@ def temperature():
     write("seasons.csv", "day,upstream,downstream\n0,0,0\n180,-10,-10\n360,0,0\n")
     found, _ = result("table", *settings(Loads__Temperature__Table="seasons.csv", Loads__Temperature__Day=180))
     expect(found["static"]["crest_displacement"] == crest[-10], "the table's temperatures")
+    write("heights.csv", "day,elevation,upstream,downstream\n0,0,-10,-10\n0,500,-10,-10\n9,0,-10,-4\n9,500,-2,-4\n")
+    found, _ = result("heights", *settings(Loads__Temperature__Table="heights.csv"))
+    expect(found["static"]["crest_displacement"] == crest[-10], "the same temperature at all elevations")
+    _, shown = result("profile", *settings(Loads__Temperature__Table="heights.csv", Loads__Temperature__Day=9))
+    expect("temperature x 1: -10 to -2 degC upstream, -4 downstream, 0 when grouted" in shown, shown)
     refused(["static.prm", "--validate", *settings(Loads__Temperature__Table="seasons.csv", Loads__Temperature__Day=400)],
             "seasons.csv", "day 400", "0 to 360")
     expect("no effect" in voussoir("static.prm", "--validate", *settings(Loads__Temperature__Day=4)).stdout, "a day without table")

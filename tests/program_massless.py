@@ -16,6 +16,7 @@ from run_program import expect, run_cases, runs, same, same_to_the_bit, summary,
 
 MASSLESS = settings("Foundation/Model=massless", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
                     "Motion/Duration=1", "Output/Figures=false", "Contact/Tolerance=1e-12")
+SUSTAINED = ("Concrete/Sustained modulus=14e9", "Foundation/Sustained modulus=9e9")
 ONE_BODY = settings("Contact/Write problems=true")  # these have the operator of the joints whole
 
 
@@ -29,7 +30,7 @@ def one_body():
     open joints and in stages, motion, joints, forces on the bases, and energies, the rock's included."""
     write_scene()
     for name, entries in (("FJA", ("Joints/Model=FJA", "Loads/Uplift/Joints=true", "Statics/Stages=grout 50, fill 60, grout 300")),
-                          ("KSM", ("Joints/Model=KSM", "Dynamics/Error estimate=true"))):
+                          ("KSM", ("Joints/Model=KSM", "Dynamics/Error estimate=true", *SUSTAINED))):
         both = [f"{name}_{which}" for which in ("own", "one")]
         for directory, more in zip(both, ([], ONE_BODY)):
             runs("scene.prm", "--output", directory, *MASSLESS, *settings(*entries), *more)
@@ -75,7 +76,7 @@ def halved():
 def resume():
     """Killed in the middle, it goes on as if it had not been."""
     write_scene()
-    chosen = [*MASSLESS, *settings("Joints/Model=FJA", "Output/Checkpoint interval=20", "Dynamics/Error estimate=true")]
+    chosen = [*MASSLESS, *settings("Joints/Model=FJA", "Output/Checkpoint interval=20", "Dynamics/Error estimate=true", *SUSTAINED)]
     runs("scene.prm", "--output", "whole", *chosen)
     process = subprocess.Popen([run_program.VOUSSOIR, "scene.prm", "--output", "killed", *chosen], stdout=subprocess.DEVNULL)
     while process.poll() is None and not Path("killed", "checkpoint.txt").exists():

@@ -89,7 +89,8 @@ def rigid():
     any_number("estimate", (2,), *SHORT, *settings("Dynamics/Error estimate=true"))
     any_number("sweeps", (2,), *SHORT, *five, *settings("Contact/Method=sweeps", "Contact/Maximum iterations=2000"))
     any_number("massless", (2,), *SHORT, *settings("Foundation/Model=massless", "Mesh/Arch210/Rock/Enabled=true",
-                                                   "Mesh/Arch210/Rock/Element size=60"))
+                                                   "Mesh/Arch210/Rock/Element size=60", "Concrete/Sustained modulus=14e9",
+                                                   "Foundation/Sustained modulus=9e9"))
 
 
 def problems():

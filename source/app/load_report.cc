@@ -5,8 +5,30 @@
 #include <voussoir/dam/base_uplift.h>
 #include <voussoir/dam/temperature.h>
 
+#include <algorithm>
+#include <sstream>
+
 namespace Voussoir
 {
+  namespace
+  {
+    /** Returns the temperatures of a face over the height as text, such as "4" or "-2 to 6". */
+    std::string range_of(const FaceTemperatures &temperatures, const unsigned int face)
+    {
+      double low = temperatures.faces[0][face], high = low;
+      for (const auto &both : temperatures.faces)
+      {
+        low = std::min(low, both[face]);
+        high = std::max(high, both[face]);
+      }
+      std::ostringstream text;
+      text << low;
+      if (high > low)
+        text << " to " << high;
+      return text.str();
+    }
+  } // namespace
+
   void report_loads(const Dam &dam, Log &log)
   {
     const Scene &scene = dam.scene;
@@ -20,8 +42,8 @@ namespace Voussoir
       if (load.name == "temperature")
       {
         const auto t = face_temperatures(scene.loads.temperature, scene.directory);
-        log.line("Loads     temperature x %g: %g degC upstream, %g downstream, %g when grouted", load.factor,
-                 t[0], t[1], scene.loads.temperature.grouting);
+        log.line("Loads     temperature x %g: %s degC upstream, %s downstream, %g when grouted", load.factor,
+                 range_of(t, 0).c_str(), range_of(t, 1).c_str(), scene.loads.temperature.grouting);
       }
       else if (!usual && norm(f) == 0.)
         log.line("warning: the load %s is zero: it does not reach the dam. Check its entries in Loads.",

@@ -25,6 +25,15 @@ namespace Voussoir
                    zone.volume);
     }
 
+    /** Returns a text such as ", rock 0.7", or an empty string for a rigid foundation. */
+    std::string sustained_rock(const Dam &dam)
+    {
+      std::ostringstream text;
+      if (dam.foundation->uses_rock())
+        text << ", rock " << dam.scene.foundation.sustained_ratio();
+      return text.str();
+    }
+
     /** Prints the peak values of the motion, and a warning for each entry that may be an oversight. */
     void report_motion_and_warnings(const RunState &run, Log &log)
     {
@@ -99,6 +108,9 @@ namespace Voussoir
              dam.crest_length);
     log.line("Concrete  %s", in_words(scene.concrete).c_str());
     report_zones(log, dam.concrete_zones, "Concrete/Zones");
+    if (dam.has_sustained_moduli())
+      log.line("          sustained moduli in the static state: %.4g of Young's modulus%s",
+               scene.sustained_ratio(), sustained_rock(dam).c_str());
     if (dam.tied)
       log.line("Joints    %u joint%s, tied: the monolithic dam", dam.n_joints, dam.n_joints == 1 ? "" : "s");
     else

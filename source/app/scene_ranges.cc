@@ -75,7 +75,8 @@ namespace Voussoir
         for (const double day : days)
         {
           temperature.day = day;
-          day_of.emplace(face_temperatures(temperature, scene.directory)[i], day);
+          for (const auto &both : face_temperatures(temperature, scene.directory).faces)
+            day_of.emplace(both[i], day);
         }
         if (day_of.size() > 2)
           day_of.erase(std::next(day_of.begin()), std::prev(day_of.end()));

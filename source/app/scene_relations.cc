@@ -40,6 +40,19 @@ namespace Voussoir
       return text.str();
     }
 
+    /** Returns a warning if a sustained modulus exceeds Young's modulus, or an empty string. */
+    std::string stiff_sustained(const Scene &scene)
+    {
+      std::ostringstream text;
+      for (const auto &[section, ratio] :
+           {std::make_pair("Concrete", scene.sustained_ratio()),
+            {"Foundation", scene.foundation.model == "rigid" ? 1. : scene.foundation.sustained_ratio()}})
+        if (ratio > 1.)
+          text << (text.tellp() > 0 ? " " : "") << section << "/Sustained modulus is " << ratio << " times "
+               << section << "/Young's modulus, but creep reduces the modulus. Exchange or correct them.";
+      return text.str();
+    }
+
     std::string odd_factors(const LoadParameters &loads)
     {
       std::ostringstream text;
@@ -124,9 +137,9 @@ namespace Voussoir
 
   std::vector<std::string> odd_relations(const Scene &scene, const std::vector<WrittenEntry> &entries)
   {
-    std::vector<std::string> warnings = {rare_envelopes(scene), level_of_another_dam(scene, entries),
-                                         other_day(scene), odd_factors(scene.loads),
-                                         undefined_loads(scene, entries)};
+    std::vector<std::string> warnings = {
+        rare_envelopes(scene),    level_of_another_dam(scene, entries), other_day(scene),
+        odd_factors(scene.loads), undefined_loads(scene, entries),      stiff_sustained(scene)};
     add_levels_above_the_reservoir(scene, warnings);
     if (!is_written(entries, "Motion/Unit"))
       warnings.push_back(unit_warning(scene.motion, scene.directory));

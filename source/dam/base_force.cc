@@ -269,7 +269,7 @@ namespace Voussoir
   void BaseForces::add_loads(Structure &whole)
   {
     const Scene &scene = dam.scene;
-    for (const StaticLoad &load : static_loads(scene, {model, whole, dam.materials}))
+    for (const StaticLoad &load : static_loads(scene, {model, whole, dam.sustained}))
       for (unsigned int i = 0; i < model.n_nodes(); ++i)
         if (const unsigned int b = block[i]; b != rigid_ground)
           add_force(constant[b], -1., to(of_block[b].centroid, model.points[i]),

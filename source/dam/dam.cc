@@ -75,6 +75,9 @@ namespace Voussoir
     neighbours = {foundation.get()};
     const auto listed = zone_materials(scene.concrete_zones, "Concrete/Zones");
     materials = materials_of(mesh.zones, scene.concrete, listed);
+    sustained = materials;
+    for (Material &material : sustained)
+      material.young *= scene.sustained_ratio();
     concrete_zones = zones_of(mesh, false, scene.concrete, listed, "Concrete/Zones");
     if (foundation->uses_rock())
       rock_zones =
@@ -165,6 +168,24 @@ namespace Voussoir
     structure.collect_interfaces();
   }
 
+  bool Dam::has_sustained_moduli() const
+  {
+    return scene.sustained_ratio() != 1. ||
+           (foundation->uses_rock() && scene.foundation.sustained_ratio() != 1.);
+  }
+
+  Structure Dam::sustained_structure() const
+  {
+    Structure    result = structure;
+    const double ratio = scene.sustained_ratio();
+    for (Body &body : result.bodies)
+      for (Matrix3 &block : body.stiffness.value)
+        for (double &x : block)
+          x *= ratio;
+    foundation->add_sustained_stiffness(ratio, result);
+    return result;
+  }
+
   /** Removes the pairs at the base, which the foundation couples. */
   void Dam::remove_base_pairs(std::vector<Pair> &pairs) const
   {
@@ -201,7 +222,7 @@ namespace Voussoir
 
   void Dam::add_loads()
   {
-    loads = static_loads(scene, {*model, structure, materials});
+    loads = static_loads(scene, {*model, structure, sustained});
     for (const StaticLoad &load : loads)
       for (std::size_t i = 0; i < load.stress.size(); ++i)
         for (unsigned int c = 0; c < 6; ++c)
@@ -258,9 +279,11 @@ namespace Voussoir
   {
     Unknowns load(3 * structure.n_nodes(), 0.), u;
     add_weight(structure, scene.loads.factor("weight") * scene.statics.gravity, load);
-    JointSystem system(structure, JointLaws(), ContactParameters(), {});
+    StepOperator operation;
+    operation.stiffness = scene.sustained_ratio();
+    JointSystem system(structure, JointLaws(), ContactParameters(), operation);
     system.solve_free(load, u);
-    StressRecovery(*model, materials, scene.elements.incompatible_modes,
+    StressRecovery(*model, sustained, scene.elements.incompatible_modes,
                    scene.output.knows_tractions() ? faces_at_nodes(*model) : std::vector<NodeFace>(),
                    scene.output.knows_tractions())
         .apply(u, {}, initial_stress);

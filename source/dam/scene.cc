@@ -228,6 +228,11 @@ namespace Voussoir
     prm.enter_subsection("Concrete");
     prm.add_parameter("Young's modulus", concrete.young, "Dynamic Young's modulus of the concrete [Pa].",
                       {5e9, 6e10}, Patterns::Double(1.));
+    prm.add_parameter("Sustained modulus", sustained,
+                      "Modulus of elasticity of the concrete in the static state [Pa], which includes creep. "
+                      "The moduli of \"Zones\" have the same ratio to their sustained moduli. 0: Young's "
+                      "modulus.",
+                      {3e9, 6e10, true}, Patterns::Double(0.));
     prm.add_parameter("Poisson's ratio", concrete.poisson, "Poisson's ratio of the concrete [-].",
                       {.1, .3, true}, Patterns::Double(-.99, .499));
     prm.add_parameter("Density", concrete.density, "Density of the concrete [kg/m^3].", {1800., 3000.},

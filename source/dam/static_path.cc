@@ -92,7 +92,7 @@ namespace Voussoir
   {
     StaticPart part{name, at.reservoir.level, grouted,
                     Unknowns(3 * std::size_t(dam.structure.n_nodes()), 0.)};
-    for (const StaticLoad &load : static_loads(at, {*dam.model, dam.structure, dam.materials}))
+    for (const StaticLoad &load : static_loads(at, {*dam.model, dam.structure, dam.sustained}))
       for (std::size_t i = 0; load.is_raised && i < part.raised.size(); ++i)
         part.raised[i] += load.force[i];
     parts.push_back(std::move(part));

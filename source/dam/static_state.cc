@@ -36,8 +36,10 @@ namespace Voussoir
       StaticHistory(Dam &dam, const ContactParameters &parameters, Log &log,
                     const std::function<void()> &stop_if_asked)
           : dam(dam), parameters(parameters), log(log), stop_if_asked(stop_if_asked),
-            springs(dam.foundation->static_springs(dam.structure)),
-            base(dam.foundation->static_base(dam.structure)), path(dam), free(make_free_law())
+            sustained(dam.has_sustained_moduli() ? dam.sustained_structure() : Structure()),
+            structure(dam.has_sustained_moduli() ? sustained : dam.structure),
+            springs(dam.foundation->static_springs(structure)), base(dam.foundation->static_base(structure)),
+            path(dam), free(make_free_law())
       {
         const Scene &scene = dam.scene;
         state.force.assign(3 * dam.structure.pairs.size(), 0.);
@@ -65,6 +67,8 @@ namespace Voussoir
               water->pressures([&](const double z) { return water_pressure(path.n_steps() - 1, z); });
         state.pairs = system->states();
         state.n_open = n_of(PairState::open);
+        if (dam.has_sustained_moduli())
+          add_modulus_force();
         return state;
       }
 
@@ -79,12 +83,22 @@ namespace Voussoir
         return std::count(system->states().begin(), system->states().end(), wanted);
       }
 
+      void add_modulus_force()
+      {
+        Unknowns of_statics;
+        dam.structure.multiply_stiffness(state.u, state.modulus_force);
+        structure.multiply_stiffness(state.u, of_statics);
+        for (std::size_t k = 0; k < of_statics.size(); ++k)
+          state.modulus_force[k] -= of_statics[k];
+        state.modulus_share = 1. - dam.scene.sustained_ratio();
+      }
+
       void grout(const double before, const double grouted)
       {
         close_pairs(dam.structure, before, grouted, state.u, state.closed, gap);
         ContactParameters of_system = parameters;
         of_system.write_problems = parameters.write_problems && grouted == INFINITY;
-        system = std::make_unique<JointSystem>(dam.structure, laws_up_to(grouted, dam, *free), of_system,
+        system = std::make_unique<JointSystem>(structure, laws_up_to(grouted, dam, *free), of_system,
                                                StepOperator(), springs, base.get());
       }
 
@@ -170,6 +184,8 @@ namespace Voussoir
       const ContactParameters      parameters;
       Log                         &log;
       const std::function<void()> &stop_if_asked;
+      Structure                    sustained; ///< or empty
+      Structure                   &structure; ///< with the moduli of the static state
       const Unknowns               springs;
 
       const std::unique_ptr<BaseElimination::Nodes> base;
@@ -217,6 +233,22 @@ namespace Voussoir
           "voussoir SCENE.prm --validate prints the properties of the dam.");
     }
   } // namespace
+
+  Unknowns StaticState::constant_load() const
+  {
+    Unknowns sum = load;
+    for (std::size_t k = 0; k < modulus_force.size(); ++k)
+      sum[k] += modulus_force[k];
+    return sum;
+  }
+
+  Unknowns StaticState::elastic(const Unknowns &total) const
+  {
+    Unknowns result = total;
+    for (std::size_t k = 0; modulus_share != 0. && k < result.size(); ++k)
+      result[k] -= modulus_share * u[k];
+    return result;
+  }
 
   StaticState static_state(Dam &dam, const ContactParameters &parameters, Log &log,
                            const std::function<void()> &stop_if_asked)

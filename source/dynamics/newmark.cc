@@ -70,7 +70,7 @@ namespace Voussoir
   }
 
   void Newmark::start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
-                      const Unknowns &reference_jump, const Unknowns &memory)
+                      const Unknowns &reference_jump, const Unknowns &memory, const Unknowns &constant_force)
   {
     AssertDimension(u.size(), 3 * std::size_t(structure.n_nodes()));
     AssertDimension(v.size(), 3 * std::size_t(structure.n_nodes()));
@@ -78,6 +78,10 @@ namespace Voussoir
     AssertDimension(force.size(), 3 * structure.pairs.size());
     AssertDimension(reference_jump.size(), 3 * structure.pairs.size());
     reference = reference_jump;
+    elastic_force = constant_force;
+    elastic_energy = 0.;
+    for (std::size_t k = 0; k < elastic_force.size(); ++k)
+      elastic_energy += .5 * elastic_force[k] * u[k];
     impulse.assign(force.size(), 0.);
     now = DynamicState();
     now.memory = memory.empty() ? laws.initial_memory() : memory;
@@ -133,6 +137,9 @@ namespace Voussoir
         water += .5 * dot(v, structure.added_mass[i] * v);
       strain += .5 * dot(get(now.u, i), get(now.Ku, i));
     }
+    strain += elastic_energy;
+    for (std::size_t k = 0; k < elastic_force.size(); ++k)
+      strain -= elastic_force[k] * now.u[k];
     now.energy.kinetic = kinetic - water;
     now.energy.added_mass = water;
     now.energy.strain = strain;
@@ -258,6 +265,8 @@ namespace Voussoir
         const std::size_t k = 3 * i + c;
         du[c] = u_new[k] - now.u[k];
         input += .5 * (load[k] + now.load[k]) * du[c];
+        if (!elastic_force.empty())
+          input -= elastic_force[k] * du[c];
         damping += structure.stiffness_damping / dt * (Ku[k] - now.Ku[k]) * du[c];
         if (!structure.dashpots.empty())
           damping += structure.dashpots[k] / dt * du[c] * du[c];

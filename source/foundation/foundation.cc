@@ -60,6 +60,10 @@ namespace Voussoir
     prm.add_parameter("Young's modulus", rock.young,
                       "Young's modulus of rock volumes without an entry in \"Zones\" [Pa].", {5e8, 1.2e11},
                       Double(1.));
+    prm.add_parameter("Sustained modulus", sustained,
+                      "Modulus of elasticity of the same volumes in the static state [Pa]. The moduli of "
+                      "\"Zones\" have the same ratio to their sustained moduli. 0: Young's modulus.",
+                      {3e8, 1.2e11, true}, Double(0.));
     prm.add_parameter("Poisson's ratio", rock.poisson,
                       "Poisson's ratio of the same volumes [-]. With a transmitting boundary of order 2 or "
                       "higher, values of 0.3 or more may require \"Stiffness damping\".",

@@ -32,8 +32,8 @@ namespace Voussoir
         {"massless",
          "elastic rock without mass, the ground motion is prescribed at its outer boundary",
          make_massless_rock,
-         {"Foundation/Model", "Foundation/Young's modulus", "Foundation/Poisson's ratio",
-          "Foundation/Zones"}}};
+         {"Foundation/Model", "Foundation/Young's modulus", "Foundation/Sustained modulus",
+          "Foundation/Poisson's ratio", "Foundation/Zones"}}};
 
     const FoundationRow &row_of_model(const std::string &model)
     {

@@ -60,9 +60,13 @@ namespace Voussoir
             throw InputError("mesh " + source +
                              ": two nodes of one monolith have the same position on the dam's base, " +
                              dam.place_of(base_node.nodes[0]) + ". Merge these nodes in the mesh.");
-        BlockSparseMatrix &K = structure.bodies[0].stiffness;
-        K = with_block(K, dam_nodes.node, dam_nodes.matrix(rock.matrix()));
-        K.symmetrise();
+        add_rock(1., structure);
+      }
+
+      void add_sustained_stiffness(const double ratio, Structure &structure) const override
+      {
+        if (const double more = parameters.sustained_ratio() - ratio; one_body && more != 0.)
+          add_rock(more, structure);
       }
 
       void report(Log &log, const TimeGrid &) const override
@@ -79,7 +83,7 @@ namespace Voussoir
         Unknowns springs(3 * std::size_t(structure.n_nodes()), 0.);
         for (const unsigned int node : dam_nodes.node)
           for (unsigned int c = 0; c < 3; ++c)
-            springs[3 * std::size_t(node) + c] = spring;
+            springs[3 * std::size_t(node) + c] = parameters.sustained_ratio() * spring;
         return springs;
       }
 
@@ -91,14 +95,22 @@ namespace Voussoir
         std::vector<double> springs;
         for (const BaseNode &base_node : rock.base_nodes)
           springs.push_back(spring * base_node.nodes.size());
+        BlockSparseMatrix C = rock.compliance(springs);
+        for (Matrix3 &block : C.value)
+          for (double &x : block)
+            x /= parameters.sustained_ratio();
         return std::make_unique<BaseElimination::Nodes>(
-            BaseElimination::Nodes{dam_nodes.node, dam_nodes.matrix(rock.compliance(springs))});
+            BaseElimination::Nodes{dam_nodes.node, dam_nodes.matrix(C)});
       }
 
       void start(const GroundMotion &, const TimeGrid &steps, const Unknowns &u) override
       {
         grid = steps;
         at_rest = u;
+        offset.clear();
+        for (const unsigned int node : dam_nodes.node)
+          for (unsigned int c = 0; parameters.sustained_ratio() != 1. && c < 3; ++c)
+            offset.push_back((1. - parameters.sustained_ratio()) * u[3 * std::size_t(node) + c]);
       }
 
       Support *support(Structure &structure) override
@@ -142,7 +154,19 @@ namespace Voussoir
     private:
       std::unique_ptr<MasslessSupport> make_support(const Structure &structure, const double dt) const
       {
-        return std::make_unique<MasslessSupport>(rock, dam_nodes, structure.stiffness_damping, dt);
+        return std::make_unique<MasslessSupport>(rock, dam_nodes, structure.stiffness_damping, dt, offset);
+      }
+
+      /** Adds @p factor times the rock to the body of the dam. */
+      void add_rock(const double factor, Structure &structure) const
+      {
+        BlockSparseMatrix of_rock = dam_nodes.matrix(rock.matrix());
+        for (Matrix3 &block : of_rock.value)
+          for (double &x : block)
+            x *= factor;
+        BlockSparseMatrix &K = structure.bodies[0].stiffness;
+        K = with_block(K, dam_nodes.node, of_rock);
+        K.symmetrise();
       }
 
       double static_spring() const
@@ -172,6 +196,7 @@ namespace Voussoir
       DamNodes                         dam_nodes;
       TimeGrid                         grid;
       Unknowns                         at_rest;
+      Unknowns                         offset;      ///< MasslessSupport::offset [m]
       double                           spring = 0.; ///< at the base nodes in the static state [N/m]
       std::unique_ptr<MasslessSupport> supported;
     };

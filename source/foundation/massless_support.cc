@@ -21,8 +21,8 @@ namespace Voussoir
   } // namespace
 
   MasslessSupport::MasslessSupport(const CondensedRock &rock, const DamNodes &dam_nodes,
-                                   const double stiffness_damping, const double dt)
-      : rock(rock), dam_nodes(dam_nodes), damping(stiffness_damping), dt(dt)
+                                   const double stiffness_damping, const double dt, const Unknowns &offset)
+      : rock(rock), dam_nodes(dam_nodes), damping(stiffness_damping), dt(dt), offset(offset)
   {
   }
 
@@ -38,10 +38,21 @@ namespace Voussoir
   Unknowns MasslessSupport::predict(const unsigned int n, const Unknowns &at)
   {
     before = at;
-    Unknowns place = at;
+    Unknowns place = elastic(at);
     for (double &x : place)
       x *= (ratio(n) - 1.) / (ratio(n) + 1.);
+    for (std::size_t k = 0; k < offset.size(); ++k)
+      place[k] += offset[k];
     return place;
+  }
+
+  /** Returns the displacement @p place of the dam nodes without the offset [m]. */
+  Unknowns MasslessSupport::elastic(const Unknowns &place) const
+  {
+    Unknowns result = place;
+    for (std::size_t k = 0; k < offset.size(); ++k)
+      result[k] -= offset[k];
+    return result;
   }
 
   /** Returns the values of one dam node per base node. Dam nodes on the same base node have equal values. */
@@ -72,7 +83,7 @@ namespace Voussoir
     for (const unsigned int node : dam_nodes.node)
       at.insert(at.end(), u.begin() + 3 * std::size_t(node), u.begin() + 3 * std::size_t(node) + 3);
     account.assign(n_entries, 0.);
-    account[strain] = account[at_start] = energy(of_rock(at));
+    account[strain] = account[at_start] = energy(of_rock(elastic(at)));
   }
 
   void MasslessSupport::advance(const unsigned int n, const Unknowns &, const Unknowns &place,
@@ -83,7 +94,7 @@ namespace Voussoir
     Unknowns change = place;
     for (std::size_t k = 0; k < change.size(); ++k)
       change[k] -= before[k];
-    account[strain] = energy(of_rock(place));
+    account[strain] = energy(of_rock(elastic(place)));
     account[damped] += ratio(n) * energy(of_rock(change));
     account[worked] -= work;
     account[largest] = std::max({account[largest], std::abs(account[strain] - account[at_start]),

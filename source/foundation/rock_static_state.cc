@@ -80,8 +80,9 @@ namespace Voussoir
     };
   } // namespace
 
-  RockStaticState::RockStaticState(const RockModel &model, const std::vector<BaseNode> &base_nodes)
-      : model(model), base_nodes(base_nodes)
+  RockStaticState::RockStaticState(const RockModel &model, const std::vector<BaseNode> &base_nodes,
+                                   const double ratio)
+      : model(model), base_nodes(base_nodes), ratio(ratio)
   {
   }
 
@@ -131,7 +132,7 @@ namespace Voussoir
     u_base.resize(3 * base_nodes.size());
     for (std::size_t i = 0; i < base_nodes.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        u_base[3 * i + c] = u[3 * base_nodes[i].rock + c];
+        u_base[3 * i + c] = u[3 * base_nodes[i].rock + c] / ratio;
   }
 
   Unknowns RockStaticState::with_springs(const Unknowns &external, const Unknowns &springs,

@@ -6,7 +6,8 @@ namespace Voussoir
 {
   BlockObserver::BlockObserver(const RunState &run) : blocks(*run.dam, run.statics.joint_water), run(run)
   {
-    blocks.follow({run.statics.u, run.statics.u, {}, run.statics.force});
+    const Unknowns u = run.statics.elastic(run.statics.u);
+    blocks.follow({u, u, {}, run.statics.force});
   }
 
   void BlockObserver::follow()
@@ -22,7 +23,9 @@ namespace Voussoir
     Unknowns force = run.newmark->impulses();
     for (double &f : force)
       f /= run.motion.dt;
-    blocks.follow({run.u_before, state.u, run.acceleration, force, ground, velocity, run.motion.dt});
+    const StaticState &statics = run.statics;
+    blocks.follow({statics.elastic(run.u_before), statics.elastic(state.u), run.acceleration, force, ground,
+                   velocity, run.motion.dt});
   }
 
   void BlockObserver::report(Log &log) const

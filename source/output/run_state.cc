@@ -24,16 +24,16 @@ namespace Voussoir
     newmark =
         std::make_unique<Newmark>(dam->structure, dam->laws, parameters, motion.dt,
                                   impact_rule(scene().impact_rule), support, scene().has_single_factors());
-    Unknowns load = statics.load;
+    Unknowns load = statics.constant_load();
     if (n_steps > 0)
       add_inertia(*dam, motion.acceleration[0], load);
     newmark->start(statics.u, Unknowns(statics.u.size(), 0.), statics.force, load, statics.closed,
-                   statics.memory);
+                   statics.memory, statics.modulus_force);
   }
 
   Unknowns RunState::next_load() const
   {
-    Unknowns load = statics.load;
+    Unknowns load = statics.constant_load();
     add_inertia(*dam, motion.sample(step + 1), load);
     return load;
   }

@@ -37,7 +37,8 @@ namespace Voussoir
       return;
     const Stopwatch watch;
     if (run.is_due(run.scene().output.envelope_interval))
-      envelope.record(run.newmark->state().time, run.newmark->state().u, tractions_now());
+      envelope.record(run.newmark->state().time, run.statics.elastic(run.newmark->state().u),
+                      tractions_now());
     if (run.is_due(run.scene().output.progress_interval) || run.is_last())
       envelope.gather();
     seconds += watch.seconds();
@@ -52,7 +53,7 @@ namespace Voussoir
   std::vector<Stress> StressObserver::now()
   {
     std::vector<Stress> result;
-    recovery.apply(run.newmark->state().u, tractions_now(), result);
+    recovery.apply(run.statics.elastic(run.newmark->state().u), tractions_now(), result);
     for (std::size_t i = 0; i < result.size(); ++i)
       for (unsigned int c = 0; c < 6; ++c)
         result[i][c] += run.dam->initial_stress[i][c];

@@ -10,14 +10,15 @@ namespace Voussoir
 {
   TimeErrorEstimate::TimeErrorEstimate(const Dam &dam, const ContactParameters &parameters, const double dt,
                                        const ImpactRule rule, const DynamicState &start,
-                                       const Unknowns &reference_jump)
+                                       const StaticState &statics)
       : support(dam.foundation->support_of_companion(dam.structure, 2. * dt)),
         newmark(dam.structure, dam.laws, parameters, 2. * dt, rule, support.get(),
                 dam.scene.has_single_factors()),
-        dam(dam), joints(dam.structure, *dam.geometry)
+        dam(dam), statics(statics), joints(dam.structure, *dam.geometry)
   {
     joints.reach = JointReach(*dam.model, dam.structure.pairs);
-    newmark.start(start.u, start.v, start.force, start.load, reference_jump, start.memory);
+    newmark.start(start.u, start.v, start.force, start.load, statics.closed, start.memory,
+                  statics.modulus_force);
     joints.record(newmark);
   }
 
@@ -31,7 +32,7 @@ namespace Voussoir
   void TimeErrorEstimate::record_stresses()
   {
     const DynamicState &state = newmark.state();
-    envelope->record(state.time, state.u,
+    envelope->record(state.time, statics.elastic(state.u),
                      tractions == nullptr ? std::vector<Vector3>()
                                           : tractions->at(state.force, acceleration));
   }

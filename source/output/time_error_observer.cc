@@ -18,7 +18,7 @@ namespace Voussoir
     parameters.write_problems = false;
     coarse_run = std::make_unique<TimeErrorEstimate>(*run.dam, parameters, run.motion.dt,
                                                      impact_rule(scene.impact_rule), run.newmark->state(),
-                                                     run.statics.closed);
+                                                     run.statics);
     // The comparison run has every second time of the run. With longer intervals the run would miss peaks
     // that the comparison run records.
     if (scene.output.envelope_interval == 1 || scene.output.envelope_interval == 2)

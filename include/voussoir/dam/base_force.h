@@ -40,7 +40,7 @@ namespace Voussoir
   /** Time step of the dam. dt = 0: static state. */
   struct StepOfDam
   {
-    const Unknowns &before, &after;  ///< displacements at the start and the end of the step [m]
+    const Unknowns &before, &after;  ///< StaticState::elastic() at the start and the end of the step [m]
     const Unknowns &acceleration;    ///< mean absolute acceleration [m/s^2]; unused if dt = 0
     const Unknowns &joint_force;     ///< mean joint forces, three values per pair [N]
     Vector3         ground{};        ///< mean acceleration of fixed nodes [m/s^2]

@@ -38,8 +38,15 @@ namespace Voussoir
      * It is zero if these nodes are fixed. @p u: displacement, three values per free node [m]. */
     Vector3 base_motion(const Unknowns &u) const;
 
+    /** Returns true if concrete or rock has other moduli in the static state than in the earthquake. */
+    bool has_sustained_moduli() const;
+
+    /** Returns the structure of the static state: #structure with the sustained moduli. */
+    Structure sustained_structure() const;
+
     const Scene          &scene;          ///< input file
     std::vector<Material> materials;      ///< of the concrete, one per entry of HexMesh::zones
+    std::vector<Material> sustained;      ///< the same materials with the moduli of the static state
     std::vector<Zone>     concrete_zones; ///< zones of the monoliths
     std::vector<Zone>     rock_zones;     ///< zones of the rock; empty for a rigid foundation
     std::string           groups;         ///< table of the mesh groups: group_table()

@@ -17,7 +17,7 @@ namespace Voussoir
     double      upstream = 0., downstream = 0.; ///< of the faces [degC]
     double      grouting = 0.;                  ///< at which the dam is free of stress [degC]
     double      expansion = 1e-5;               ///< coefficient of thermal expansion [1/K]
-    std::string table;                          ///< file: day, upstream, downstream; or empty
+    std::string table;                          ///< file: day, (elevation), upstream, downstream; or empty
     double      day = 0.;                       ///< of the table
 
     void add_parameters(Entries &prm);

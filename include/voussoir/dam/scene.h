@@ -104,7 +104,8 @@ namespace Voussoir
     std::string          factors = "double";         ///< precision of the matrix factors of time steps
     MeshParameters       mesh;
     ElementParameters    elements;
-    Material             concrete; ///< of volumes without an entry in @p concrete_zones
+    Material             concrete;       ///< of volumes without an entry in @p concrete_zones
+    double               sustained = 0.; ///< sustained modulus of the concrete [Pa]; 0: Young's modulus
     ZoneEntry            concrete_zones;
     DampingParameters    damping;
     ReservoirParameters  reservoir;
@@ -118,6 +119,9 @@ namespace Voussoir
     MotionParameters     motion;
     LimitParameters      limits;
     OutputParameters     output;
+
+    /** Returns the ratio of sustained and Young's modulus, for all zones of the concrete [-]. */
+    double sustained_ratio() const { return sustained > 0. ? sustained / concrete.young : 1.; }
 
     /** Returns true if the matrix factors are in single precision. */
     bool has_single_factors() const { return factors == "single"; }

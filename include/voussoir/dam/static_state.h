@@ -25,7 +25,8 @@ namespace Voussoir
   };
 
   /** Static state: the equilibrium of dam, joints and foundation under the static loads, from which the
-   * dynamic analysis starts. */
+   * dynamic analysis starts. Its stiffness K_s has the sustained moduli (Dam::sustained_structure()), and that
+   * of the dynamic analysis, K, acts on the increment of the displacement: K_s u_s + K (u - u_s). */
   struct StaticState
   {
     Unknowns                u;           ///< displacement, 3 per node [m]
@@ -39,6 +40,18 @@ namespace Voussoir
     unsigned int            n_open = 0;
     Vector3                 crown{}; ///< displacement of the crest against the base [m]
     std::vector<StaticStep> steps;
+
+    /** Force (K - K_s) u_s, a constant load of the dynamic analysis, three values per node [N]. Empty without
+     * sustained moduli. */
+    Unknowns modulus_force;
+    double   modulus_share = 0.; ///< 1 - sustained modulus / Young's modulus of the concrete [-]
+
+    /** Returns the loads of the dynamic analysis without inertia: load + modulus_force [N]. */
+    Unknowns constant_load() const;
+
+    /** Returns the displacement for which the dynamic moduli of the concrete give the stresses of the
+     * displacement @p total: total - modulus_share u. Three values per node [m]. */
+    Unknowns elastic(const Unknowns &total) const;
   };
 
   /** Computes the static state along StaticPath. A step is solved again until water spreads to no further

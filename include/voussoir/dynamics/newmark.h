@@ -43,11 +43,14 @@ namespace Voussoir
      * @param load nodal loads of this state, three values per node [N]
      * @param reference displacement jump of each pair at which the joint is closed and without slip, three
      * values per pair [m]
-     * @param memory history variables of the pairs; empty: initial values */
+     * @param memory history variables of the pairs; empty: initial values
+     * @param elastic_force constant part of all loads that is an elastic force, three values per node [N];
+     * empty: none. Its work counts as strain energy and not as input. The initial strain energy is
+     * u (K u - elastic_force)/2. */
     void start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
-               const Unknowns &reference, const Unknowns &memory = {});
+               const Unknowns &reference, const Unknowns &memory = {}, const Unknowns &elastic_force = {});
 
-    /** Restores a saved state; start() is not required.
+    /** Restores a saved state; start() is required only with an elastic force.
      * @param state state at the time of the checkpoint
      * @param first energies at the start of the run
      * @param largest_energy value of largest_energy() at the time of the checkpoint [J]
@@ -148,7 +151,9 @@ namespace Voussoir
     Unknowns                      reference, impulse, gap;
     Unknowns     step_start, step_memory; ///< gaps [m] and history variables at the start of the last step
     DynamicState now;
-    Energy       first; ///< energies at the start
+    Unknowns     elastic_force;       ///< constant part of the loads, see start() [N]
+    double       elastic_energy = 0.; ///< half of its product with the initial displacement [J]
+    Energy       first;               ///< energies at the start
     double       largest = 0.;
     double       of_friction = 0.;              ///< JointSystem::friction_correction() of the last step [J]
     std::vector<std::unique_ptr<Level>> levels; ///< one per step size, created on demand

@@ -104,6 +104,11 @@ namespace Voussoir
      * are final and treated according to base(). */
     virtual void add_stiffness(const SolidModel & /*dam*/, Structure & /*structure*/) {}
 
+    /** Changes the stiffness of the foundation in a structure of the static state, where all stiffnesses have a
+     * common factor, to the one with the sustained modulus of the rock. Only if add_stiffness() has added a
+     * stiffness. */
+    virtual void add_sustained_stiffness(double /*ratio*/, Structure & /*structure*/) const {}
+
     /** Adds the rock mass of the base nodes to Structure::mass [kg]. Must be called after the inertia loads
      * of the dam were computed, which exclude the rock. */
     virtual void add_mass(Structure & /*structure*/) const {}
@@ -114,9 +119,9 @@ namespace Voussoir
      * static_base(), or solve_static() iterates until they are free of force. */
     virtual Unknowns static_springs(const Structure & /*structure*/) const { return {}; }
 
-    /** Returns the dam nodes on the foundation and the compliance (S - springs)^-1 [m/N], with the static
-     * stiffness S of the foundation and the springs of static_springs(). Marks these nodes as interface nodes
-     * of their bodies. Returns nullptr if the static solution does not eliminate the base nodes. */
+    /** Returns the dam nodes on the foundation and the compliance (S - springs)^-1 [m/N], with the
+     * sustained stiffness S of the foundation and the springs of static_springs(). Marks these nodes as
+     * interface nodes of their bodies. Returns nullptr if the static solution does not eliminate the base nodes. */
     virtual std::unique_ptr<BaseElimination::Nodes> static_base(Structure & /*structure*/) const
     {
       return nullptr;

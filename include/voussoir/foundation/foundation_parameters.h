@@ -17,6 +17,7 @@ namespace Voussoir
   {
     std::string  model = "rigid";                             ///< rigid, rock or massless
     Material     rock{15e9, .25, 2700.};                      ///< of rock without an entry in @p zones
+    double       sustained = 0.;                              ///< sustained modulus [Pa]; 0: rock.young
     ZoneEntry    zones;                                       ///< materials of named rock volumes
     double       mass_damping = 0., stiffness_damping = 2e-5; ///< Rayleigh damping [1/s], [s]
     std::string  boundary = "mtf3", free_field = "sections";  ///< see boundary_table.h; sections or columns
@@ -30,6 +31,9 @@ namespace Voussoir
 
     /** Returns the number of rock time steps per time step of the dam; 1 before Simulation has set it. */
     unsigned int n_substeps() const { return std::max(1u, substeps); }
+
+    /** Returns the ratio of sustained and Young's modulus, for all zones of the rock [-]. */
+    double sustained_ratio() const { return sustained > 0. ? sustained / rock.young : 1.; }
 
     /** Returns true if the rock is subcycled with a constant force per time step of the dam (SubcycledRock). */
     bool is_subcycled() const { return coupling == "mean traction" || (coupling == "auto" && substeps > 1); }

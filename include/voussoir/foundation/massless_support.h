@@ -12,7 +12,8 @@ namespace Voussoir
    *
    *      (1 + 2 b / dt) S u_new = (2 b / dt - 1) S u_old - 2 force,
    *
-   * with the mean force of the step. Up to round-off the result is that of dam and rock as one body. A time
+   * with the mean force of the step. With a sustained modulus E_s of the rock, u is the displacement minus
+   * (1 - E_s/E) times the static one. Up to round-off the result is that of dam and rock as one body. A time
    * step can be halved three times. */
   class MasslessSupport : public Support
   {
@@ -22,9 +23,10 @@ namespace Voussoir
      * @param rock condensed stiffness of the rock
      * @param dam_nodes dam nodes on the rock
      * @param stiffness_damping damping factor b [s]
-     * @param dt time step of the dam, without reduction [s] */
-    MasslessSupport(const CondensedRock &rock, const DamNodes &dam_nodes, double stiffness_damping,
-                    double dt);
+     * @param dt time step of the dam, without reduction [s]
+     * @param offset displacement without force, three values per dam node [m]; empty: zero */
+    MasslessSupport(const CondensedRock &rock, const DamNodes &dam_nodes, double stiffness_damping, double dt,
+                    const Unknowns &offset = {});
 
     const std::vector<unsigned int> &base_nodes() const override { return dam_nodes.node; }
     unsigned int                     n_substeps() const override { return n_full; }
@@ -55,11 +57,13 @@ namespace Voussoir
     static constexpr unsigned int n_full = 8; ///< substeps of the full time step
     double   ratio(const unsigned int n) const { return 2. * damping * n_full / (dt * n); } ///< 2 b / dt [-]
     Unknowns of_rock(const Unknowns &of_nodes) const;
+    Unknowns elastic(const Unknowns &place) const;
     double   energy(const Unknowns &a) const;
 
     const CondensedRock &rock;
     const DamNodes      &dam_nodes;
     const double         damping, dt; ///< damping factor b [s], time step [s]
+    const Unknowns       offset;      ///< displacement without force [m], or empty
     Unknowns             before;      ///< displacement at the start of the step [m]
   };
 } // namespace Voussoir

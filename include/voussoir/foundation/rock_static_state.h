@@ -18,8 +18,9 @@ namespace Voussoir
     /** Stores the references, which must outlive the object.
      *
      * @param model rock model with its stiffness matrix
-     * @param base_nodes base nodes of the dam */
-    RockStaticState(const RockModel &model, const std::vector<BaseNode> &base_nodes);
+     * @param base_nodes base nodes of the dam
+     * @param ratio factor of the stiffness matrix: sustained over Young's modulus [-] */
+    RockStaticState(const RockModel &model, const std::vector<BaseNode> &base_nodes, double ratio);
 
     /** Returns the springs at the base nodes, see BaseSupport::static_springs(). They are ten times as stiff
      * as the stiffest base node of the monoliths in x. */
@@ -47,6 +48,7 @@ namespace Voussoir
 
     const RockModel             &model;
     const std::vector<BaseNode> &base_nodes;
+    const double                 ratio;
     std::unique_ptr<RockStatics> rock;            ///< solver of the rock, from the first solve() on
     unsigned int                 n_solutions = 0; ///< number of solutions of the rock so far
   };

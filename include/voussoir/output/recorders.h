@@ -119,7 +119,7 @@ namespace Voussoir
 
     /** Computes the stresses of this rank's nodes and updates their extremes.
      * @param time present time [s]
-     * @param u displacements, three values per free node [m]
+     * @param u StaticState::elastic(), three values per free node [m]
      * @param tractions known tractions, as in StressRecovery::apply() */
     void record(double time, const Unknowns &u, const std::vector<Vector3> &tractions);
 

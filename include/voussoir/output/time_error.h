@@ -3,6 +3,7 @@
 #define voussoir_time_error_h
 
 #include <voussoir/dam/dam.h>
+#include <voussoir/dam/static_state.h>
 #include <voussoir/dam/tractions.h>
 #include <voussoir/output/face_tension.h>
 
@@ -37,9 +38,9 @@ namespace Voussoir
      * @param dt time step of the run [s]; the comparison run has 2 dt
      * @param rule velocity correction of closed pairs
      * @param start state of the run at its start
-     * @param reference_jump jumps at which the joints are closed, three values per pair [m] */
+     * @param statics static state of the run; must outlive the object */
     TimeErrorEstimate(const Dam &dam, const ContactParameters &parameters, double dt, ImpactRule rule,
-                      const DynamicState &start, const Unknowns &reference_jump);
+                      const DynamicState &start, const StaticState &statics);
 
     /** Starts the records of stresses. Both arguments must outlive the object.
      * @param stress computes the stresses
@@ -86,6 +87,7 @@ namespace Voussoir
     double of_openings(const JointRecorder &joints) const; ///< [-]
 
     const Dam                      &dam;
+    const StaticState              &statics;
     JointRecorder                   joints;
     std::optional<EnvelopeRecorder> envelope;
     Tractions                      *tractions = nullptr;
