@@ -335,24 +335,17 @@ def content():
 
 
 def added_columns(directory):
-    """Writes accelerations of the crest and arch stresses [Pa] into a run: 1e6 times x of the point, and y."""
+    """Writes accelerations of the crest into a run; finds the columns of accelerations and arch stresses."""
     from voussoir.report_figures import directed, points_with_acceleration
     from voussoir.runs import Run
-    from voussoir.vtu import read_vtu as arrays, write_vtu
     history = [line + f",{c}" for line, c in zip(Path(directory, "history.csv").read_text().splitlines(), ["crest_acceleration_x", *"12345" * 99])]
     Path(directory, "history.csv").write_text("\n".join(history) + "\n")
     Path(directory, "floor_spectra.csv").write_text("period,damping,crest_x\n0.1,0.05,2\n0.2,0.05,3\n0.4,0.05,1\n")
-    data = arrays(Path(directory, "envelope.vtu"))
-    points = [data["Points"][3 * k:3 * k + 3] for k in range(len(data["Points"]) // 3)]
-    cells = [data["connectivity"][8 * k:8 * k + 8] for k in range(len(data["connectivity"]) // 8)]
-    write_vtu(Path(directory, "envelope.vtu"), points, cells, 12, {"monolith": data["monolith"], "arch_stress_max": [1e6 * p[0] for p in points],
-                                                                   "cantilever_stress_max": [1e6 * p[1] + 1e9 * m for p, m in zip(points, data["monolith"])]})
     run = Run(directory)
     expect(points_with_acceleration(run) == ["crest"] and directed([run]) == [run], "the columns are not found")
-    for face in run.faces.values():
-        for column, c in (("arch_stress_max", "x"), ("cantilever_stress_max", "y")):
-            expected = 1e6 * face[c] + 1e9 * face["monolith"] * (c == "y")
-            expect(abs(face[column] - expected).max() < 1e-5 * 1e9, f"{column} is not that of the node")
+    for face in run.faces.values():  # as in runs of earlier versions
+        del face["arch_stress_max"]
+    expect(directed([run]) == [], "a run without the columns")
 
 
 def refusals():

@@ -254,35 +254,12 @@ def face(run, name, column, runs):
     return made
 
 
-DIRECTED = {"arch_stress_max": "arch stress", "cantilever_stress_max": "cantilever stress"}  # fields of envelope.vtu
+DIRECTED = {"arch_stress_max": "arch", "cantilever_stress_max": "cantilever"}  # columns of faces.csv
 
 
 def directed(runs):
-    """Runs whose envelope.vtu has the largest arch and cantilever stresses; their faces get these columns."""
-    found = []
-    for run in runs:
-        file = run.directory / "envelope.vtu"
-        if not file.exists():
-            continue
-        try:
-            data = picture.read_solution(file, monolith=1)
-            for face in run.faces.values():
-                at = nearest(np.stack([face[c] for c in "xyz"], axis=1), face["monolith"], data["Points"], data["monolith"])
-                face.update({name: data[name].astype(float)[at] for name in DIRECTED})
-            found.append(run)
-        except (InputError, KeyError, Skip, ValueError):  # without the fields, as in runs of earlier versions
-            pass
-    return found
-
-
-def nearest(places, monoliths, points, of_points):
-    """For each place the number of the nearest point of its monolith."""
-    result = np.zeros(len(places), dtype=int)
-    for monolith in np.unique(monoliths):
-        here, there = np.flatnonzero(monoliths == monolith), np.flatnonzero(of_points == monolith)
-        for part in np.array_split(here, 1 + len(here) // 500):
-            result[part] = there[np.linalg.norm(places[part][:, None] - points[there][None], axis=2).argmin(axis=1)]
-    return result
+    """Runs whose faces have the largest arch and cantilever stresses (not those of earlier versions)."""
+    return [run for run in runs if run.faces and all(column in face for face in run.faces.values() for column in DIRECTED)]
 
 
 def directed_face(run, name, column, runs):
