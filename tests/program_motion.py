@@ -10,9 +10,12 @@ import math
 import os
 import random
 import re
+import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
 from run_program import run_cases, expect, refused, runs, same, summary, table, voussoir, write, write_scene
+from voussoir.study_file import with_paths
 
 QUICKSTART = str(Path(__file__).resolve().parent.parent / "prm" / "quickstart.prm")
 
@@ -254,6 +257,9 @@ def sequence():
     names, rows = table("parts/energy.csv")
     kinetic, largest = rows[-1][names.index("kinetic")], found["largest_energy"]
     expect(abs(found["end_kinetic_energy"] - kinetic / largest) < 1e-6 * kinetic / largest, "kinetic energy at the end")
+
+    text, files = with_paths("Motion/Sequence", "a.csv; 3; b x.AT2, -, /c.AT2", Path("/d"))  # in a study
+    expect(text == "/d/a.csv ; 3 ; /d/b x.AT2 , - , /c.AT2" and files == ["/d/a.csv", "/d/b x.AT2", "/c.AT2"], f"{text}: {files}")
 
     seeds = ["motion", QUICKSTART, "--set", "Motion/Duration=5", "--output"]
     shown = runs(*seeds, "seeds.csv", "--set", "Motion/Sequence=3; 1", "--set", "Motion/Scale y=0", "--set", "Motion/Scale z=0")

@@ -227,8 +227,8 @@ def with_paths(entry, text, directory):
     if entry != "Motion/Sequence":
         return text, []
     words = [word.strip() for word in re.split("([;,])", text)]
-    paths = [word if word in ("", ";", ",", "-") or word.isdigit() else str((directory / word).resolve()) for word in words]
-    return " ".join(paths), [path for word, path in zip(words, paths) if word != path]
+    paths = {word: str((directory / word).resolve()) for word in words if word not in ("", ";", ",", "-") and not word.isdigit()}
+    return " ".join(paths.get(word, word) for word in words), list(paths.values())
 
 
 def read_study(path, overrides=()):
