@@ -131,7 +131,7 @@ def arcs():
     for model, text in shown.items():
         expect("6 monoliths" in text and ("rock 1000" in text) == (model != "rigid"), f"{model}: {text}")
     expect("exists" in write_scene_of("ring.csv", "--output", "scenes/own.prm", status=2), "no file is replaced")
-    expect("no directory" in write_scene_of("ring.csv", "--output", "nowhere/own.prm", status=2), "no directory")
+    expect("cannot be written" in write_scene_of("ring.csv", "--output", "nowhere/own.prm", status=2), "no directory")
     expect("--kind" in write_scene_of("ring.csv", "--kind", "round", status=2), "an unknown kind")
     expect("upstream_x" in write_scene_of("column.csv" if write("column.csv", "elevation,thickness\n1,2\n") else "", status=2), "a missing column")
     first = [float(runs("modes", "scenes/own.prm", "--count", "1", "--set", "Foundation/Model=massless", "--set",
