@@ -114,6 +114,8 @@ namespace Voussoir
         .add("static", json_of_statics(dam, run.statics))
         .add("loads", json_of_loads(dam))
         .add("extremes", json_of_extremes(observers));
+    if (run.n_steps > 0)
+      summary.add("accelerations", observers.history.json_of_accelerations());
     assessment.add_to(summary);
     if (observers.blocks)
       summary.add("blocks", observers.blocks->blocks.json());

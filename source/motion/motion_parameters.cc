@@ -84,10 +84,11 @@ namespace Voussoir
     prm.add_parameter("Vertical ratio", vertical_ratio,
                       "Source = artificial: ratio of peak and spectrum in z to those in x and y [-].",
                       {.2, 1.5});
-    prm.add_parameter("Damping", damping,
-                      "Damping ratio [-] of the response spectra in spectrum.csv, and with Source = "
-                      "artificial of the design spectrum.",
-                      {.005, .2});
+    prm.add_parameter(
+        "Damping", damping,
+        "Damping ratio [-] of the response spectra in spectrum.csv and floor_spectra.csv, and with Source = "
+        "artificial of the design spectrum.",
+        {.005, .2});
     prm.add_parameter(
         "Seed", seed,
         "Source = artificial: number [-] that selects the random phases. Equal seeds give equal motions.",
