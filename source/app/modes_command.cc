@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/modes_command.h>
+#include <voussoir/app/modes_damping.h>
 #include <voussoir/base/error.h>
 #include <voussoir/dam/dam.h>
 #include <voussoir/dynamics/modes.h>
@@ -110,9 +111,14 @@ namespace Voussoir
     for (const std::string &warning : dam.mesh_warnings)
       std::cerr << "voussoir: warning: " << warning << "\n";
     const std::vector<NaturalMode> modes = natural_modes(dam.structure, count);
-    std::printf("mode  frequency [Hz]\n");
+    const ModesDamping             damping(scene.damping, modes, dam.structure);
+    std::printf("mode  frequency [Hz]  damping [%%]\n");
     for (std::size_t i = 0; i < modes.size(); ++i)
-      std::printf("%4zu  %10.5f\n", i + 1, modes[i].frequency);
+      std::printf("%4zu  %10.5f  %16.3f\n", i + 1, modes[i].frequency, 100. * damping.ratio(i));
+    std::printf("Damping   %s\n", damping.in_words().c_str());
+    std::fflush(stdout);
+    if (const std::string warning = damping.warning(); !warning.empty())
+      std::cerr << "voussoir: warning: " << warning << "\n";
     if (!directory.empty())
       write_modes(dam, modes, directory);
   }
