@@ -47,4 +47,4 @@ def frequencies(program, scene, count, settings=None):
     """Natural frequencies [Hz] of the tied dam, and CPU seconds."""
     text, seconds = run(program, "modes", scene, "--count", count, settings=settings)
     rows = [line.split() for line in text.splitlines()]
-    return [float(row[1]) for row in rows if len(row) == 2 and row[0].isdigit()], seconds
+    return [float(row[1]) for row in rows if len(row) == 3 and row[0].isdigit()], seconds

@@ -9,8 +9,10 @@ import math
 import sys
 from pathlib import Path
 
+import numpy as np
+
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
-from run_program import run_cases, expect, runs, summary, table, write_scene  # noqa: E402
+from run_program import frequencies, run_cases, expect, runs, summary, table, write_scene  # noqa: E402
 from voussoir.vtu import read_vtu  # noqa: E402
 
 TIED = ["--set", "Joints/Model=tied"]
@@ -76,7 +78,7 @@ def damping():
             print(t, f"{.2 * math.sin(2 * math.pi * t / .4)**2 if t < .2 else 0.:.10g}", 0, 0, file=file)
     pulse = settings("Motion/File=pulse.txt", "Motion/Duration=6", "Output/Envelope interval=0", "Damping/Ratio=0.1",
                      "Reservoir/Density=0")
-    frequency = float(runs("modes", "scene.prm", "--count", "1", *pulse).split()[-1])
+    frequency = frequencies(runs("modes", "scene.prm", "--count", "1", *pulse))[0]
     omega = 2 * math.pi * frequency
     # The ratio holds at two frequencies; far from the other one it falls or rises with the frequency.
     for name, f1, f2, zeta in (("stiffness", 1e-4, 6., .1 * frequency / 6.), ("mass", .5, 1e5, .1 * .5 / frequency)):
@@ -222,5 +224,84 @@ def on_rock():
     expect(abs(row["base_x"]) > 1e-6, "the base moves")
 
 
+def accelerations():
+    """Absolute accelerations: against displacements on each foundation, of a rigid dam, and their spectra."""
+    write_scene()
+    probe = settings("Output/Probes=foot: 0 0 0", "Output/Envelope interval=0")
+    massless = [*ROCK, *settings("Foundation/Model=massless")]
+    explicit = [*ROCK, *settings("Foundation/Model=rock", "Dynamics/Steps per sample=5", "Motion/Duration=0.9")]
+    for name, foundation in (("rigid", []), ("massless", massless), ("rock", explicit)):
+        runs("scene.prm", "--output", name, *TIED, *probe, *settings("Reservoir/Density=0"), *foundation)
+        against_displacements(name)
+    runs("scene.prm", "--output", "stiff", *TIED, *probe, *settings("Concrete/Young's modulus=1e18"))
+    rows, found = rows_by_name("stiff/history.csv"), summary("stiff")["accelerations"]
+    for c in "xyz":
+        ground = ground_means(rows, c)
+        for point, limit in (("crest", 1e-5), ("foot", 1e-7)):
+            worst = max(abs(row[f"{point}_acceleration_{c}"] - a) for row, a in zip(rows, ground)) / max(map(abs, ground))
+            expect(worst < limit, f"acceleration of the {point} of a rigid dam along {c}: {worst:.1e}")
+            close(found[point][c]["amplification"], 1., limit, f"amplification at the {point} of a rigid dam, {c}")
+            for row in rows_by_name("stiff/floor_spectra.csv"):
+                expect(abs(row[f"{point}_{c}"] / row[f"ground_{c}"] - 1.) < 1e-5, f"floor spectrum of a rigid dam: {row}")
+    runs("scene.prm", "--output", "jointed", *probe, *settings("Motion/Damping=0.03", "Motion/Scale y=0"))
+    rows, found = rows_by_name("jointed/history.csv"), summary("jointed")["accelerations"]
+    for c in "xyz":
+        ground = [abs(a) for a in ground_means(rows, c)]
+        close(found["ground"][c]["value"], max(ground), 1e-7, f"largest acceleration of the ground, {c}")
+        for point in ("crest", "foot"):
+            peak = max(rows, key=lambda row: abs(row[f"{point}_acceleration_{c}"]))
+            largest = abs(peak[f"{point}_acceleration_{c}"])
+            close(found[point][c]["value"], largest, 1e-7, f"largest acceleration of the {point}, {c}")
+            expect(largest == 0. or abs(found[point][c]["time"] - peak["time"]) < 1e-6, "time of the largest acceleration")
+            ratio = found[point][c]["amplification"]
+            expect(ratio is None if c == "y" else abs(ratio - largest / max(ground)) < 1e-6 * ratio, f"amplification {ratio}")
+        duhamel(rows, c)
+    runs("scene.prm", "--output", "still", *STILL)
+    expect(not Path("still/floor_spectra.csv").exists() and "accelerations" not in summary("still"), "a static state")
+
+
+def ground_means(rows, c):
+    """Mean acceleration of the ground in the step that ends with a row, as for the other points zero in the first row."""
+    a = [row[f"base_acceleration_{c}"] for row in rows]
+    return [0.] + [(p + q) / 2 for p, q in zip(a, a[1:])]
+
+
+def against_displacements(name):
+    """The trapezoidal rule: without impacts the second difference of displacements is the mean of two accelerations."""
+    rows = rows_by_name(f"{name}/history.csv")
+    dt = summary(name)["time_step"]
+    for c in "xyz":
+        u = [row[f"crest_{c}"] + row.get(f"base_{c}", 0.) for row in rows]
+        a = [row[f"crest_acceleration_{c}"] for row in rows]
+        ground = ground_means(rows, c) if name != "rock" else [0.] * len(rows)  # on rock displacements are absolute
+        largest, digits = max(map(abs, a)), 4 * 5e-8 * max(map(abs, u)) / dt**2  # displacements have eight digits
+        worst = max(abs((u[k + 1] - 2 * u[k] + u[k - 1]) / dt**2 + (ground[k] + ground[k + 1] - a[k] - a[k + 1]) / 2)
+                    for k in range(1, len(rows) - 1))
+        print(f"    {name}, {c}: acceleration up to {largest:.3g} m/s2, against the displacements {worst:.1e} m/s2")
+        expect(largest > .1 and worst < 1e-6 * largest + digits, f"absolute acceleration on {name}, {c}: {worst} of {largest}")
+
+
+def duhamel(rows, c, parts=40):
+    """floor_spectra.csv by Duhamel's integral over the accelerations, linear between their times. Peaks are those at the
+    times of the table, of short periods at 20 times per period or more."""
+    dt = rows[1]["time"] - rows[0]["time"]
+    h = dt / parts
+    time = h * np.arange(parts * (len(rows) - 1) + 1)
+    points = {point: [row[f"{point}_acceleration_{c}"] for row in rows] for point in ("crest", "foot")}
+    points["ground"] = ground_means(rows, c)
+    for row in rows_by_name("jointed/floor_spectra.csv")[21:90:8]:
+        period, xi = row["period"], row["damping"]
+        expect(xi == .03, "damping of the floor spectra")
+        w = 2 * math.pi / period
+        wd = w * math.sqrt(1 - xi**2)
+        impulse = np.exp(-xi * w * time) * np.sin(wd * time) / wd
+        every = parts // max(1, math.ceil(20. * dt / period))
+        for point, values in points.items():
+            a = np.interp(time, dt * np.arange(len(rows)), values)
+            exact = w**2 * h * np.abs(np.convolve(a, impulse)[:len(time):every]).max()
+            expect(abs(row[f"{point}_{c}"] - exact) <= 1e-4 * exact + 1e-9,
+                   f"floor spectrum of {point}, {c}, {period:.3g} s: {row[f'{point}_{c}']}, exact {exact}")
+
+
 if __name__ == "__main__":
-    run_cases(steps_per_sample, damping, static_state, recorders, on_rock)
+    run_cases(steps_per_sample, damping, static_state, recorders, on_rock, accelerations)

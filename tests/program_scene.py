@@ -10,7 +10,7 @@ import os
 import re
 from pathlib import Path
 
-from run_program import (run_cases, arch_mesh, expect, from_file, refused, runs, split_tetrahedra, voussoir, write, write_mesh,
+from run_program import (run_cases, arch_mesh, expect, frequencies, from_file, refused, runs, split_tetrahedra, voussoir, write, write_mesh,
                          write_scene)
 
 SOURCE = Path(__file__).resolve().parent.parent
@@ -110,7 +110,9 @@ def values():
                            "Joints/Overrides=1: FJA, 1: FJB": ('"1" twice',),
                            "Output/Probes=foot: 0 0 0; foot: 1 0 0": ('"foot" twice',),
                            "Output/Probes=foot: 0 0 0; far: 0 900 100": ('"far"', "(0, 900, 100) m", "more than an element"),
-                           "Output/Probes=crest: 0 0 0": ('"crest"', "column of history.csv")}.items():
+                           "Output/Probes=crest: 0 0 0": ('"crest"', "column of history.csv"),
+                           "Output/Probes=top_acceleration: 0 0 0": ('"top_acceleration"', "column of history.csv"),
+                           "Output/Probes=ground: 0 0 0": ('"ground"', "floor_spectra.csv")}.items():
         refused(check(setting), *parts)
         message = voussoir(*check(setting)).stderr
         expect(not re.search(r"\[(Double|Integer|Bool|Selection|Map)|MAX_DOUBLE|inclusive|\|", message), message)
@@ -243,7 +245,7 @@ def tetrahedra():
     for name, arguments, n_warnings in (("hexahedra", ["scene.prm", *degree], 0), ("split, degree 1", scene, 1), ("split, degree 2", [*scene, *degree], 0)):
         result = voussoir("modes", *arguments, "--count", "1")
         expect(result.returncode == 0 and result.stderr.count("split tetrahedra") == n_warnings, f"{name}: {result.stderr}")
-        frequency[name] = float(result.stdout.split()[-1])
+        frequency[name] = frequencies(result.stdout)[0]
     print("   ", frequency)
     expect(1.05 < frequency["split, degree 1"] / frequency["split, degree 2"] < 1.15, "the error that the warning states")
     expect(abs(frequency["split, degree 2"] / frequency["hexahedra"] - 1) < .01, "the remedy that it proposes")

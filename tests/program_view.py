@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 from program_physics import Solution, close, settings
-from run_program import expect, refused, run_cases, runs, summary, write_scene
+from run_program import expect, frequencies, refused, run_cases, runs, summary, voussoir, write_scene
 
 SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
 sys.path.insert(0, str(SCRIPTS.parent / "python"))
@@ -68,6 +68,41 @@ def water_line():
     expect(len(wedge) == 4 and wedge[:, 2].max() == 1., f"{wedge}")
 
 
+def damping_of_modes(text, rows):
+    """Rayleigh's formula with the default entries (5 % at 1.2 and 6 Hz); the proposal by the shares; warnings."""
+    def ratio(f, f1, f2):  # 5 % at f1 and f2
+        return 5. * (f1 * f2 / f + f) / (f1 + f2)
+
+    def significant(number):  # modes up to 80 % of the effective mass
+        share, found = 0., []
+        for row in rows[:number]:
+            if share < .8:
+                share += sum(row[f"share_{d}"] for d in "xyz") / 3
+                found.append(row)
+        return found, share >= .8
+
+    for line, row in zip(text.splitlines()[1:41], rows):
+        close(float(line.split()[2]), ratio(row["frequency"], 1.2, 6.), 1e-3, f"damping at {row['frequency']} Hz")
+    for number in (40, 6):
+        found, is_reached = significant(number)
+        expect(is_reached == (number == 40) and len(found) <= number, f"{len(found)} significant modes of {number}")
+        f1 = rows[0]["frequency"]
+        f2 = found[-1]["frequency"] if is_reached else 5. * f1
+        dry = ["modes", "scene.prm", "--count", str(number), *settings("Reservoir/Density=0")]
+        shown = runs(*dry)
+        proposal = re.search(r"Frequency 1 = (\S+), Frequency 2 = (\S+) \((5 times|modes 1 to (\d+)).*; at least (\S+) % in between", shown)
+        expect(proposal and proposal[4] == (str(len(found)) if is_reached else None), shown)
+        for word, exact in ((proposal[1], f1), (proposal[2], f2), (proposal[5], ratio((f1 * f2)**.5, f1, f2))):
+            close(float(word), exact, 5e-3, "proposal")
+        for pins in ((f1, f2), (1.2, 6.), (.2, 1.), (20., 90.)):
+            message = voussoir(*dry, *settings(*(f"Damping/Frequency {k}={pin:.6g}" for k, pin in enumerate(pins, 1)))).stderr
+            ratios = [ratio(row["frequency"], *pins) for row in found if max(row[f"share_{d}"] for d in "xyz") >= .01]
+            n_off, worst = sum(abs(x / 5. - 1.) > .3 for x in ratios), max(ratios, key=lambda x: abs(x - 5.))
+            print(f"    5 % at {pins[0]:.3g} and {pins[1]:.3g} Hz: {n_off} of {len(ratios)} modes, {worst:.2f} %")
+            expect(("damping ratio of" in message) == (n_off > 0), f"{pins}, {ratios}: {message}")
+            expect(n_off == 0 or f"of {n_off} mode" in message and f"{worst:.2f} %" in message, f"{n_off}, {worst}: {message}")
+
+
 def modes():
     """Shapes and effective masses: orthogonal to each other, and in all as much as the mass."""
     write_scene()
@@ -78,6 +113,7 @@ def modes():
         for d in "xyz":
             close(row[f"participation_{d}"] ** 2, row[f"effective_mass_{d}"], 1e-6, "effective mass")
             expect(0. <= row[f"share_{d}"] <= 1., f"share {row}")
+    damping_of_modes(text, rows)
     shares = {d: sum(row[f"share_{d}"] for row in rows) for d in "xyz"}
     print("    shares of 40 modes:", {d: round(share, 4) for d, share in shares.items()})
     expect(all(.85 < share < 1. + 1e-9 for share in shares.values()), f"shares of the mass: {shares}")
@@ -91,8 +127,7 @@ def modes():
     shape = read_vtu("modes/mode-001.vtu")["displacement"]
     close(max(math.hypot(*shape[i:i + 3]) for i in range(0, len(shape), 3)), 1., 1e-5, "largest displacement of a shape")
     picture_of("modes/modes.png")
-    frequencies = [float(line.split()[1]) for line in text.splitlines() if line.strip()[:1].isdigit() and len(line.split()) == 2]
-    close(frequencies[0], rows[0]["frequency"], 1e-4, "frequency")
+    close(frequencies(text)[0], rows[0]["frequency"], 1e-4, "frequency")
 
 
 def summary_of_volume():
@@ -217,7 +252,7 @@ def figures():
         result = subprocess.run([python, str(SCRIPTS / "figures.py"), "fja", "tied", *extra], capture_output=True, text=True, check=False)
         expect(result.returncode == 0 and "error" not in result.stderr, f"{result}")
         for name in ("envelope_upstream", "envelope_downstream_compression", "envelope_arch_upstream", "envelope_cantilever_downstream_compression",
-                     "envelope_vertical_upstream", "history", "spectrum", "energy"):
+                     "envelope_vertical_upstream", "history", "spectrum", "floor_spectra", "energy"):
             expect(all(Path(run, "figures", f"{name}.{ending}").stat().st_size > 3000 for run in ("fja", "tied")), f"{name}.{ending}")
         expect(Path("fja/figures", f"openings.{ending}").exists() and not Path("tied/figures", f"openings.{ending}").exists(), "openings")
     runs("scene.prm", "--output", "fja", "--overwrite")  # the figures are results, not files of others

@@ -220,10 +220,25 @@ def draw_spectrum(axes, table, direction):
     if f"target_{direction}" in table:
         axes.loglog(period, table[f"target_{direction}"], color="k", linewidth=1.3, linestyle=(0, (4, 2)), label="target")
     axes.loglog(period, table[f"spectrum_{direction}"], color=UPSTREAM, linewidth=1.1, label=DIRECTIONS[direction])
+    show_periods(axes, period)
+    axes.legend(loc="lower left", borderaxespad=0.2)
+
+
+def draw_floor_spectra(axes, table, direction):
+    """Response spectra of the crest and the probes in a direction, that of the ground as a thin line."""
+    period = table["period"]
+    names = [name[:-2] for name in table if name.endswith(f"_{direction}") and name != f"ground_{direction}"]
+    for name, colour in zip(names, COLOURS * len(names)):
+        axes.loglog(period, table[f"{name}_{direction}"], color=colour, linewidth=1.1, label=name.replace("_", " "))
+    axes.loglog(period, table[f"ground_{direction}"], color="k", linewidth=0.5, label="ground")
+    show_periods(axes, period)
+    note(axes, DIRECTIONS[direction])
+
+
+def show_periods(axes, period):
     axes.set(xlabel="period [s]", xlim=(period[0], period[-1]))
     axes.set_xticks([0.05, 0.1, 0.2, 0.5, 1, 2], ["0.05", "0.1", "0.2", "0.5", "1", "2"])
     axes.xaxis.set_minor_formatter(NullFormatter())
-    axes.legend(loc="lower left", borderaxespad=0.2)
 
 
 def energy_parts(run):

@@ -8,6 +8,7 @@ envelope_{arch,cantilever,vertical}_{upstream,downstream}[_compression]   stress
 openings, slips                                maxima at the crest, joint by joint
 history, joint_history                         crest and base; the joints that open most
 spectrum                                       of the motion, with the design spectrum
+floor_spectra                                  of the absolute accelerations of crest and probes, with that of the ground
 energy                                         energies and their balance
 
 Of the output directory of `voussoir modes`: modes.png. Figures whose data are missing are skipped with a message.
@@ -22,7 +23,7 @@ import numpy as np
 
 from .errors import InputError
 from .drawing import (DIRECTIONS, FACES, aspect, common_levels, common_top, draw_base, draw_crest, draw_crest_bars, draw_energy,
-                      draw_face, draw_joint_history, draw_spectrum, energy_parts, imbalance, plt, stress_bar, worst_joints)
+                      draw_face, draw_floor_spectra, draw_joint_history, draw_spectrum, energy_parts, imbalance, plt, stress_bar, worst_joints)
 from .runs import Run, Skip
 
 N_WORST_JOINTS = 4
@@ -114,6 +115,18 @@ def spectrum(runs, save):
         save(run, figure, "spectrum")
 
 
+def floor_spectra(runs, save):
+    for run in runs:
+        table = run.table("floor_spectra.csv")
+        figure, row = plt.subplots(1, len(DIRECTIONS), figsize=(3.6 * len(DIRECTIONS), 3.6), sharey=True)
+        for axes, direction in zip(row, DIRECTIONS):
+            draw_floor_spectra(axes, table, direction)
+        row[0].set_ylabel("pseudo-acceleration [m/s²]")
+        row[0].legend(loc="lower left", borderaxespad=0.2)
+        row[0].set_title(f"{run.heading}\nFloor response spectra, damping {100 * table['damping'][0]:g} %", loc="left")
+        save(run, figure, "floor_spectra")
+
+
 def energy(runs, save):
     for run in runs:
         time, balance = run.energy["time"], imbalance(run)
@@ -151,7 +164,7 @@ def main():
         figure.savefig(run.directory / "figures" / f"{name}.{options.format}", metadata=metadata)
         plt.close(figure)
 
-    todo = [envelopes, history, spectrum, energy]
+    todo = [envelopes, history, spectrum, floor_spectra, energy]
     if all(run.tied for run in runs):
         print("figures: tied dam, no figures of joints")
     else:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/modes_command.h>
+#include <voussoir/app/modes_damping.h>
 #include <voussoir/app/spectrum_analysis.h>
 #include <voussoir/base/error.h>
 #include <voussoir/dam/dam.h>
@@ -140,16 +141,21 @@ namespace Voussoir
       std::cerr << "voussoir: warning: " << warning << "\n";
     const std::vector<NaturalMode> modes = natural_modes(dam.structure, count);
     const Table                    table = table_of(modes, dam.structure);
+    const ModesDamping             damping(scene.damping, modes, dam.structure);
     if (json)
       std::printf("%s\n", json_of(dam, table).text().c_str());
     else
     {
-      std::printf("mode  frequency [Hz]\n");
+      std::printf("mode  frequency [Hz]  damping [%%]\n");
       for (std::size_t i = 0; i < modes.size(); ++i)
-        std::printf("%4zu  %10.5f\n", i + 1, modes[i].frequency);
+        std::printf("%4zu  %10.5f  %16.3f\n", i + 1, modes[i].frequency, 100. * damping.ratio(i));
+      std::printf("Damping   %s\n", damping.in_words().c_str());
       if (!directory.empty())
         print_masses(table);
     }
+    std::fflush(stdout);
+    if (const std::string warning = damping.warning(); !warning.empty())
+      std::cerr << "voussoir: warning: " << warning << "\n";
     if (spectrum)
       print_spectrum_analysis(dam, modes, *spectrum, directory);
     if (!directory.empty())

@@ -217,6 +217,8 @@ namespace Voussoir
         .add("loads", json_of_loads(dam))
         .add("extremes", json_of_extremes(observers));
     summary.add("end_kinetic_energy", observers.history.kinetic_share());
+    if (run.n_steps > 0)
+      summary.add("accelerations", observers.history.json_of_accelerations());
     assessment.add_to(summary);
     if (run.motion.parts.size() > 1 && run.n_steps > 0)
       summary.add("motion_parts", observers.joints.json_of_parts());

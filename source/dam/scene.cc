@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <sstream>
 
 namespace Voussoir
@@ -151,7 +152,7 @@ namespace Voussoir
     prm.enter_subsection("Output");
     prm.add_parameter(
         "Probes", probes,
-        "Points whose displacement is written to history.csv, as \"name: x y z; name: x y z\" [m]. The "
+        "Points whose displacement and absolute acceleration are written to history.csv, as \"name: x y z; name: x y z\" [m]. The "
         "nearest node is used.",
         Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
     prm.add_parameter("Envelope interval", envelope_interval,
@@ -197,15 +198,17 @@ namespace Voussoir
     for (const auto &probe : probes)
     {
       const bool taken = probe.first == "crest" || probe.first == "crest_left" || probe.first == "base" ||
-                         probe.first == "base_acceleration";
+                         probe.first == "ground" ||
+                         std::regex_match(probe.first, std::regex(".*_acceleration"));
       const std::string entry = "Entry \"Output/Probes\": ";
       const std::string example = " Separate probes by semicolons, as in \"name: x y z; name: x y z\".";
       if (probe.first.empty())
         throw InputError(entry + "the probe has no name." + example);
       if (taken)
-        throw InputError(entry + "\"" + probe.first +
-                         "\" cannot be the name of a probe, because it names another column of history.csv. "
-                         "Choose another name.");
+        throw InputError(
+            entry + "\"" + probe.first +
+            "\" cannot be the name of a probe, because it names another column of history.csv or "
+            "floor_spectra.csv. Choose another name, without \"_acceleration\" at its end.");
       if (probe.first.find_first_of(",\"") != std::string::npos)
         throw InputError(entry + "\"" + probe.first +
                          "\" cannot be the name of a probe, because it becomes a column of history.csv, "

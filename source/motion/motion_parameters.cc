@@ -123,10 +123,11 @@ namespace Voussoir
         "Source = artificial, or Target spectrum with one column: ratio of peak and spectrum in "
         "z to those in x and y [-].",
         {.2, 1.5});
-    prm.add_parameter("Damping", damping,
-                      "Damping ratio [-] of the response spectra in spectrum.csv, of the design spectrum and "
-                      "of Target spectrum.",
-                      {.005, .2});
+    prm.add_parameter(
+        "Damping", damping,
+        "Damping ratio [-] of the response spectra in spectrum.csv and floor_spectra.csv, of the "
+        "design spectrum and of Target spectrum.",
+        {.005, .2});
     prm.add_parameter(
         "Seed", seed,
         "Source = artificial: number [-] that selects the random phases. Equal seeds give equal motions.",

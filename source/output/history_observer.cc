@@ -18,18 +18,32 @@ namespace Voussoir
     const DamGeometry &geometry = *run.dam->geometry;
     const SolidModel  &model = *run.dam->model;
     table.add("time", [this] { return run.newmark->state().time; });
-    table.add_vector("crest", [this] { return run.relative_to_base(run.dam->geometry->crown); });
+    declare_point("crest", geometry.crown);
     if (model.equation[geometry.crown_left] != model.equation[geometry.crown])
-      table.add_vector("crest_left", [this] { return run.relative_to_base(run.dam->geometry->crown_left); });
+      declare_point("crest_left", geometry.crown_left);
     table.add_vector("base_acceleration", [this] { return run.motion.sample(run.step); });
     if (!run.dam->base_is_held())
       table.add_vector("base", [this] { return run.dam->base_motion(run.newmark->state().u); });
     for (const auto &probe : run.scene().output.probe_places())
     {
-      const Vector3     &p = probe.second;
-      const unsigned int node = probe_node(model, probe.first, dealii::Point<3>(p[0], p[1], p[2]));
-      table.add_vector(probe.first, [this, node] { return run.relative_to_base(node); });
+      const Vector3 &p = probe.second;
+      declare_point(probe.first, probe_node(model, probe.first, dealii::Point<3>(p[0], p[1], p[2])));
     }
+    declare_accelerations();
+  }
+
+  void HistoryObserver::declare_point(const std::string &name, const unsigned int node)
+  {
+    history_columns.add_vector(name, [this, node] { return run.relative_to_base(node); });
+    points.push_back(name);
+    nodes.push_back(node);
+  }
+
+  void HistoryObserver::declare_accelerations()
+  {
+    for (std::size_t k = 0; k < points.size(); ++k)
+      history_columns.add_vector(points[k] + "_acceleration",
+                                 [this, k] { return run.absolute_acceleration(nodes[k]); });
   }
 
   void HistoryObserver::declare_energy()
@@ -79,10 +93,20 @@ namespace Voussoir
     energy_file.open(directory + "/energy.csv", energy);
   }
 
-  void HistoryObserver::report(Log &log) const
+  void HistoryObserver::finish(const std::string &directory, Log &)
   {
     if (run.n_steps > 0)
-      log.line("Residual  at the end: kinetic energy %.1e of the largest energy", kinetic_share());
+      FloorAccelerations(history, points)
+          .spectra(run.motion.dt, run.scene().motion.damping)
+          .write(directory + "/floor_spectra.csv");
+  }
+
+  void HistoryObserver::report(Log &log) const
+  {
+    if (run.n_steps == 0)
+      return;
+    log.line("Crest     %s", FloorAccelerations(history, points).in_words().c_str());
+    log.line("Residual  at the end: kinetic energy %.1e of the largest energy", kinetic_share());
   }
 
   void HistoryObserver::save(boost::archive::binary_oarchive &archive) const

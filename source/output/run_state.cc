@@ -61,6 +61,16 @@ namespace Voussoir
     return result - dam->base_motion(u);
   }
 
+  Vector3 RunState::absolute_acceleration(const unsigned int node) const
+  {
+    if (step == 0)
+      return {};
+    if (const unsigned int e = dam->model->equation[node]; e != rigid_ground)
+      return get(acceleration, e);
+    const Vector3 before = ground_acceleration(step - 1), after = ground_acceleration(step);
+    return {{.5 * (before[0] + after[0]), .5 * (before[1] + after[1]), .5 * (before[2] + after[2])}};
+  }
+
   double RunState::largest_energy() const
   {
     // Before the motion begins, the largest energy is only round-off of the static state.

@@ -188,14 +188,18 @@ def oscillator():
             check.close(f"displacement {name}", row[3], u, 2e-3, size)
             if k:
                 before = exact((k - 1) * dt)
+                mean = (v - before[1]) / dt + a0 * (math.sin(w * k * dt) + math.sin(w * (k - 1) * dt)) / 2
+                check.close(f"absolute acceleration {name}", row[9], mean, 2e-3, w * w * size)
                 lost += dt * 2 * xi * w * mass * (v**2 + before[1]**2) / 2
                 work -= dt * mass * (a0 * math.sin(w * k * dt) * v + a0 * math.sin(w * (k - 1) * dt) * before[1]) / 2
             for column, value in ((1, .5 * mass * v * v), (2, .5 * stiffness * u * u), (4, lost), (7, work)):
                 check.close(f"energy, column {column}, {name}", energy[k][column], value, 5e-3, abs(work) + .5 * stiffness * size**2)
         a, b = (float(x) for x in re.search(r"a = (\S+) 1/s, b = (\S+) s ", shown).groups())
         check.close(f"printed factors {name}", a / 2 / w + b * w / 2, xi, 1e-3)
-        lines = runs("modes", f"{directory}.prm", "--count", "5").split()
-        check.close("frequency", min((float(x) for x in lines[4::2]), key=lambda x: abs(x - f)), f, 1e-6)
+        modes = [line.split() for line in runs("modes", f"{directory}.prm", "--count", "5").splitlines()[1:6]]
+        _, frequency, percent = min(modes, key=lambda row: abs(float(row[1]) - f))
+        check.close("frequency", float(frequency), f, 1e-6)
+        check.close(f"damping of the mode {name}", float(percent), 100 * xi, 1e-4)
     # Between its samples the motion is linear: Steps per sample = 10 of every tenth sample of a polygon is the polygon.
     coarse = [(a0 * math.sin(1.7 * k), 10 * k * dt) for k in range(41)]
     polygon = [p + i / 10 * (q - p) for (p, _), (q, _) in zip(coarse, coarse[1:]) for i in range(10)] + [coarse[-1][0]]

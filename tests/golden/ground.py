@@ -55,6 +55,7 @@ def flat_ground(check):
     factor = (1., -.6, .4)
     wave = [[f * scenes.outcrop(k * dt)[1] for f in factor] for k in range(501)]
     write("flat.txt", "".join(f"{k * dt:.6f} {a[0]:.12g} {a[1]:.12g} {a[2]:.12g}\n" for k, a in enumerate(wave)))
+    largest = max(abs(scenes.outcrop(k * dt)[1]) for k in range(501))
     for field in ("columns", "sections"):
         runs(scene(field, "flat.msh", Concrete={"Young's modulus": 1e9, "Density": 1},
                    Motion={"Source": "file", "File": "flat.txt", "Unit": "m/s^2", "Duration": 500 * dt, "Time step": dt},
@@ -65,6 +66,8 @@ def flat_ground(check):
             for c in range(3):
                 check.close(f"flat ground, {'xyz'[c]}, {field}", row[7 + c], factor[c] * scenes.outcrop(row[0] - delay)[0],
                             .02, abs(factor[c]) * .01)
+                check.close(f"its acceleration, {'xyz'[c]}, {field}", row[10 + c], factor[c] * scenes.outcrop(row[0] - dt / 2 - delay)[1],
+                            .02, abs(factor[c]) * largest)
 
 
 def motion():

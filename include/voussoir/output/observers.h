@@ -6,6 +6,7 @@
 #include <voussoir/dam/tractions.h>
 #include <voussoir/output/block_recorder.h>
 #include <voussoir/output/face_tension.h>
+#include <voussoir/output/floor_accelerations.h>
 #include <voussoir/output/observer.h>
 #include <voussoir/output/run_state.h>
 #include <voussoir/output/stability_monitor.h>
@@ -27,7 +28,8 @@ namespace Voussoir
     const StabilityMonitor monitor;
   };
 
-  /** Displacements of crest and probes (history.csv) and energies (energy.csv). */
+  /** Displacements and accelerations of crest and probes (history.csv, floor_spectra.csv) and energies
+   * (energy.csv). */
   class HistoryObserver : public Observer
   {
   public:
@@ -37,10 +39,10 @@ namespace Voussoir
     void flush() override;
     void open(const std::string &directory) override;
     void write_tables(const std::string &) override { flush(); }
+    void finish(const std::string &directory, Log &log) override;
+    void report(Log &log) const override;
     void save(boost::archive::binary_oarchive &archive) const override;
     void load(boost::archive::binary_iarchive &archive) override;
-
-    void report(Log &log) const override;
 
     /** Returns the present kinetic energy of the concrete relative to the largest energy [-]. */
     double kinetic_share() const
@@ -48,18 +50,25 @@ namespace Voussoir
       return run.newmark->state().energy.kinetic / std::max(run.largest_energy(), 1e-300);
     }
 
+    /** Returns "accelerations" of summary.json [m/s^2]. */
+    Json json_of_accelerations() const { return FloorAccelerations(history, points).json(); }
+
     /** Returns the largest error of the energy balance so far, relative to the largest energy [-]. */
     double balance_error() const { return imbalance / std::max(run.largest_energy(), 1e-300); }
 
   private:
     void declare_history();
     void declare_energy();
+    void declare_point(const std::string &name, unsigned int node);
+    void declare_accelerations();
 
-    const RunState &run;
-    double          imbalance = 0.; ///< largest |energy balance| so far [J]
-    Table           history, energy;
-    TableColumns    history_columns{history}, energy_columns{energy};
-    TableFile       history_file, energy_file;
+    const RunState           &run;
+    double                    imbalance = 0.; ///< largest |energy balance| so far [J]
+    std::vector<std::string>  points;         ///< names of the crest and the probes
+    std::vector<unsigned int> nodes;          ///< their nodes in the mesh
+    Table                     history, energy;
+    TableColumns              history_columns{history}, energy_columns{energy};
+    TableFile                 history_file, energy_file;
   };
 
   /** Openings, slips and pressures of the joints. */
