@@ -9,7 +9,7 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double largest_share = .8; // of the effective mass
+    constexpr double heavy_share = .8; // of the effective mass
     constexpr double heavy = .01;        // share of a single mode in a direction
     constexpr double tolerance = .3;     // relative difference from the ratio
     constexpr double range = 5.;         // Frequency 2 over Frequency 1 without sufficient modes
@@ -46,7 +46,7 @@ namespace Voussoir
       }
       frequency.push_back(mode.frequency);
       is_heavy.push_back(largest >= heavy);
-      if (share < largest_share)
+      if (share < heavy_share)
       {
         share += mean;
         ++n_modes;
@@ -63,13 +63,13 @@ namespace Voussoir
   std::pair<double, double> ModesDamping::proposal() const
   {
     const double first = frequency.front(), last = frequency[n_modes - 1];
-    return {first, share >= largest_share && last > first ? last : range * first};
+    return {first, share >= heavy_share && last > first ? last : range * first};
   }
 
   std::string ModesDamping::in_words() const
   {
     const auto [f1, f2] = proposal();
-    const bool is_reached = share >= largest_share;
+    const bool is_reached = share >= heavy_share;
     return text("proposal: Damping/Frequency 1 = %.3g, Frequency 2 = %.3g (", f1, f2) +
            (is_reached ? text("modes 1 to %zu: %.0f %% of the effective mass", n_modes, 100. * share)
                        : text("5 times the first: the modes have only %.0f %% of the effective mass",
