@@ -326,6 +326,7 @@
       figure.classList.add("view3d-on");
       this.model = new Model(this.stage, data);
       this.label = element(this.stage, "span", "view3d-label");
+      this.label.hidden = true; // until a joint is chosen
       this.bar = element(this.stage, "div", "view3d-bar");
       this.makeControls();
       this.makePlots();
