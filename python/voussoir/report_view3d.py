@@ -24,7 +24,7 @@ from .drawing import plt
 LIBRARIES = Path("/usr/share/javascript")  # of Debian; the environment variable VOUSSOIR_JAVASCRIPT names another directory, of npm
 SCRIPTS = ("three/build/three.min.js", "three/examples/js/controls/OrbitControls.js", "dygraphs/dist/dygraph.min.js")
 STYLE = "dygraphs/dist/dygraph.min.css"
-LENGTH = 4_200_000  # of the data of all runs: scripts of 1 MB, figures of 2 to 2.5 MB, and these data are less than 8 MB
+LENGTH = 4_100_000  # of the data of all runs: scripts of 1 MB, figures of 2.6 MB, and these data are less than 8 MB
 NUMBERS = 500_000  # in the histories of a run
 STATIC_WORDS = "The dam with magnified displacements from the grouted state. Tension is positive."
 COLUMNS = ("opening_upstream", "opening_downstream", "slip_upstream", "slip_downstream")
