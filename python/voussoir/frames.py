@@ -49,10 +49,10 @@ class Frames:
 
     def strongest(self, count):
         """The `count` consecutive frames that include the largest opening (without joints: displacement from the first frame) and have
-        the largest sum of squared displacements from the first frame. The first frame of all is the static state and no part of them."""
+        the largest sum of squared displacements from the first frame. The first frame of all is the static state, and no part of them unless it is alone."""
         n = len(self.times)
-        if n <= max(2, count):
-            return np.arange(min(n, max(count, 1)))
+        if n - 1 <= count:
+            return np.arange(min(1, n - 1), n)
         moved = self.values("displacement", np.arange(n))
         square = ((moved - moved[0])**2).sum(axis=(1, 2))
         largest = self.values("opening", np.arange(n)).max(axis=1)

@@ -205,11 +205,14 @@
 
     // Dots along the edges of the chosen joint: a line as wide as WebGL does not draw it.
     mark() {
-      const parts = 12, x = this.position.array, places = [];
-      for (let e = 0; e < this.edgeJoints.length; ++e)
-        if (this.joint > 0 && this.edgeJoints[e] === this.joint)
-          for (let t = 0; t <= parts; ++t)
-            for (let c = 0; c < 3; ++c) places.push(x[3 * this.edges[2 * e] + c] * (1 - t / parts) + x[3 * this.edges[2 * e + 1] + c] * t / parts);
+      const x = this.position.array, places = [];
+      for (let e = 0; e < this.edgeJoints.length; ++e) {
+        if (this.joint < 1 || this.edgeJoints[e] !== this.joint) continue;
+        const [a, b] = [0, 1].map((end) => x.subarray(3 * this.edges[2 * e + end], 3 * this.edges[2 * e + end] + 3));
+        const parts = Math.ceil(400 * Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) / this.size);
+        for (let t = 0; t <= parts; ++t)
+          for (let c = 0; c < 3; ++c) places.push(a[c] + t / parts * (b[c] - a[c]));
+      }
       this.selected.visible = places.length > 0;
       this.selected.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(places), 3));
     }
@@ -278,7 +281,7 @@
       } else {
         this.graph = new Dygraph(this.place, rows, {
           labels: ["time", ...this.labels], colors: this.colours, strokeWidth: 1.2, legend: "never", axisLabelFontSize: 11, gridLineColor: "#e3e7eb",
-          axisLineColor: "#9aa3ac", rightGap: 8, xRangePad: 0, highlightCircleSize: 3.5, animatedZooms: false,
+          axisLineColor: "#9aa3ac", rightGap: 14, xRangePad: 0, highlightCircleSize: 3.5, animatedZooms: false,
           axes: {y: {axisLabelWidth: 40, pixelsPerLabel: 28, axisLabelFormatter: (value) => shown(value, value % 1 ? 1 : 0)}, x: {pixelsPerLabel: 60, axisLabelFormatter: (value) => `${shown(value, value % 1 ? 1 : 0)} s`}},
           highlightCallback: (event, x, points, row) => this.tell(row),
           unhighlightCallback: () => this.tell(-1),
@@ -323,6 +326,7 @@
       figure.classList.add("view3d-on");
       this.model = new Model(this.stage, data);
       this.label = element(this.stage, "span", "view3d-label");
+      this.label.hidden = true; // until a joint is chosen
       this.bar = element(this.stage, "div", "view3d-bar");
       this.makeControls();
       this.makePlots();
@@ -397,7 +401,8 @@
         crest.show("Displacement of the crest [mm]", numbers(history.crest.time, "f4"), [values(history.crest)]);
         this.plots.push(crest);
       }
-      element(this.live, "p", "view3d-help", "Turn: drag. Zoom: wheel or two fingers, after a click. Plots: drag to zoom, double click for all, click to go to a time; shaded: the times of the view.");
+      const plots = this.plots.length ? " Plots: drag to zoom, double click for all, click to go to a time; shaded: the times of the view." : "";
+      element(this.live, "p", "view3d-help", `Turn: drag. Zoom: wheel or two fingers, after a click.${plots}`);
     }
 
     // A click without a drag chooses a joint.

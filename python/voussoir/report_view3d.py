@@ -26,6 +26,7 @@ SCRIPTS = ("three/build/three.min.js", "three/examples/js/controls/OrbitControls
 STYLE = "dygraphs/dist/dygraph.min.css"
 LENGTH = 4_100_000  # of the data of all runs: scripts of 1 MB, figures of 2.6 MB, and these data are less than 8 MB
 NUMBERS = 500_000  # in the histories of a run
+STATIC_WORDS = "The dam with magnified displacements from the grouted state. Tension is positive."
 COLUMNS = ("opening_upstream", "opening_downstream", "slip_upstream", "slip_downstream")
 LIVE_WORDS = "The dam in its strongest seconds, with magnified displacements from the grouted state. A click on a joint shows its history. Tension is positive."
 LICENCE = """/*! three.js, Copyright 2010 three.js authors. dygraphs, Copyright 2006 Dan Vanderkam, Copyright 2009 other contributors.
@@ -50,7 +51,8 @@ def section(page, runs):
             page.missing.append(f"{run.name}: the moving dam: {reason}")
     if not views:
         return
-    page.section("The moving dam")
+    moves = any(len(frames.times) > 1 for _, frames in views)
+    page.section("The moving dam" if moves else "The displaced dam")
     scripts, style = libraries()
     page.styles.append(Path(__file__).with_suffix(".css").read_text(encoding="utf-8") + style)
     if scripts:
@@ -62,7 +64,8 @@ def section(page, runs):
         still, data, words = found
         title = f'<p class="name">{escape(run.name)}</p>' if len(runs) > 1 else ""
         live = f'<div class="view3d-live"></div><script type="application/json">{data}</script>' if scripts else ""
-        caption = page.caption(f'<span class="view3d-still">{escape(words)}</span>' + (f'<span class="view3d-live">{LIVE_WORDS}</span>' if scripts else ""))
+        of_view = f'<span class="view3d-live">{LIVE_WORDS if moves else STATIC_WORDS}</span>' if scripts else ""
+        caption = page.caption(f'<span class="view3d-still">{escape(words)}</span>{of_view}')
         page.add(f'<figure class="view3d">{title}{live}<img class="view3d-still" src="{still}" alt="{escape(words)}">{caption}</figure>')
     if not scripts:
         page.add('<p class="sub view3d-note">With the Debian packages libjs-three and libjs-dygraphs, <code>voussoir report</code> writes a view '
@@ -119,7 +122,7 @@ class Shown:
 
     def words(self):
         opening = self.opening[self.widest].max()
-        return (f"The dam at t = {self.times[self.widest]:.2f} s" + (f", largest opening {opening:.1f} mm" if opening > 0. else "")
+        return (f"The dam at t = {self.times[self.widest]:.2f} s" + (f", largest opening {opening:.1f} mm" if opening > .05 else "")
                 + f"; displacements from the grouted state × {self.factor:g}"
                 + ("; colours: maximum principal stress, tension positive." if self.stress is not None else "."))
 
@@ -136,7 +139,7 @@ class Shown:
                 "stress": self.stress is not None and packed_over_time(stresses(self.stress)), "stressTop": self.top,
                 "envelope": self.envelope is not None and packed(stresses(self.envelope), "u1"),
                 "jointNodes": packed(nodes, "<u4"), "nodeJoints": packed(joints, "<u2"),
-                "opening": packed_over_time(to_byte(self.opening[:, nodes], 0., max(widest, 1e-9))), "openingTop": widest,
+                "opening": packed_over_time(to_byte(self.opening[:, nodes], 0., max(widest, 1e-9))), "openingTop": widest if widest > .05 else 0.,
                 "history": history_of(self.run)}
 
 
@@ -204,6 +207,8 @@ def history_of(run):
         table = read_table(run.directory / "joint_history.csv")
     except Skip:
         return result
+    if len(table["time"]) < 2:
+        return {**result, "crest": None}
     joints = [name[17:] for name in table if re.fullmatch(r"opening_upstream_\d+", name)]
     columns = thinned({"time": table["time"]} | {f"{name}_{joint}": 1e3 * table[f"{name}_{joint}"] for joint in joints for name in COLUMNS},
                       min(8192, NUMBERS // (4 * len(joints) + 1)))
