@@ -28,6 +28,13 @@ def place(row):
     return row["face"], *(round(float(row[c]), 3) for c in "xyz")
 
 
+def base_of(nodes, quads):
+    """Places of the base: outer edges of both faces below the crest."""
+    edges = Counter(tuple(sorted((place(nodes[int(q[f"n{a}"])]), place(nodes[int(q[f"n{(a + 1) % 4}"])]))))
+                    for q in quads for a in range(4))
+    return {p[1:] for edge, n in edges.items() if n == 1 and min(p[3] for p in edge) < 209.9 for p in edge}
+
+
 def faces():
     """The headline leaves the foot out; the area above a strength; what the faces carry."""
     write_scene()
@@ -35,9 +42,7 @@ def faces():
     shown = runs("scene.prm", "--output", "run", "--set", f"Output/Tensile strength={strength}", "--set",
                  "Output/Solution interval=25", "--set", "Mesh/Arch210/Elements up=14")  # of 15 m: the foot of 21 m has a row inside
     result, nodes, quads = summary("run"), rows("run/faces.csv"), rows("run/faces_cells.csv")
-    edges = Counter(tuple(sorted((place(nodes[int(q[f"n{a}"])]), place(nodes[int(q[f"n{(a + 1) % 4}"])]))))
-                    for q in quads for a in range(4))
-    base = {p[1:] for edge, n in edges.items() if n == 1 and min(p[3] for p in edge) < 209.9 for p in edge}
+    base = base_of(nodes, quads)
     for face in ("upstream", "downstream"):
         mine = [n for n in nodes if n["face"] == face]
         away = [float(n["max_principal"]) for n in mine if min(math.dist(place(n)[1:], b) for b in base) > 21.]
@@ -90,6 +95,78 @@ def pressures():
         expect(0 < row[7] < row[2], f"mean pressure {row[7]}")
         for s in solutions:
             expect(all(s["joint_pressure"][i] == 0 for i in mine if s["joint_state"][i] == 0), "an open pair has none")
+
+
+def normals(nodes, quads):
+    """Normal of each row of faces.csv: integral of its bilinear shape function times the normal, by 2 x 2 Gauss points."""
+    sums = [[0., 0., 0.] for _ in nodes]
+    gauss = [.5 - .5 / math.sqrt(3), .5 + .5 / math.sqrt(3)]
+    for quad in quads:
+        corners = [int(quad[f"n{k}"]) for k in range(4)]
+        p = [[float(nodes[n][c]) for c in "xyz"] for n in corners]
+        for s in gauss:
+            for t in gauss:
+                a = [(1 - t) * (p[1][c] - p[0][c]) + t * (p[2][c] - p[3][c]) for c in range(3)]
+                b = [(1 - s) * (p[3][c] - p[0][c]) + s * (p[2][c] - p[1][c]) for c in range(3)]
+                n = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+                sign = 1 if (n[0] < 0) == (quad["face"] == "upstream") else -1
+                for node, shape in zip(corners, ((1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t)):
+                    for c in range(3):
+                        sums[node][c] += sign * shape * n[c]
+    return sums
+
+
+def along(s, t):
+    """Stress in the direction t. s: xx yy zz xy yz zx."""
+    return sum(a * b for a, b in zip(traction(s, t), t)) / sum(a * a for a in t)
+
+
+def directions():
+    """Arch, cantilever and vertical stresses of every step against the six components and the normals of faces.csv: fields,
+    envelopes, and extremes away from the base."""
+    write_scene()
+    shown = runs("scene.prm", "--output", "run", "--set", "Output/Solution interval=1", "--set", "Motion/Duration=0.3",
+                 "--set", "Mesh/Arch210/Elements up=14", "--set", "Mesh/Arch210/Elements through=2")
+    nodes, quads, result = rows("run/faces.csv"), rows("run/faces_cells.csv"), summary("run")["extremes"]
+    times = [row[0] for row in table("run/history.csv")[1]]
+    solutions = [read_vtu(f"run/solution-{k:05d}.vtu") for k in range(len(times))]
+    envelope, points = read_vtu("run/envelope.vtu"), solutions[0]["Points"]
+    places = [points[3 * i:3 * i + 3] for i in range(len(points) // 3)]
+    near = lambda x: [i for i, p in enumerate(places) if math.dist(p, x) < .02]
+    size = max(max(map(abs, s["stress_zz"])) for s in solutions)
+    worst, base = dict.fromkeys(("fields", "faces.csv", "envelope.vtu"), 0.), base_of(nodes, quads)
+    for row, n in zip(nodes, normals(nodes, quads)):
+        arch = (-n[1], n[0], 0.)
+        tangents = {"arch": arch, "cantilever": (-n[2] * arch[1], n[2] * arch[0], n[0] * arch[1] - n[1] * arch[0]), "vertical": (0, 0, 1)}
+        own = near(place(row)[1:])  # two nodes at a joint: the one with the smaller difference counts
+        found = {}
+        for name, t in tangents.items():
+            over_time = [[along([s[c][i] for c in STRESS], t) for s in solutions] for i in own]
+            for end, choose in (("max", max), ("min", min)):
+                value, column = float(row[f"{name}_stress_{end}"]), f"{name}_stress_{end}"
+                found[column] = min(abs(choose(values) - value) for values in over_time)
+                worst["envelope.vtu"] = max(worst["envelope.vtu"], min(abs(envelope[column][i] - value) for i in own) / size)
+            if name != "vertical":
+                worst["fields"] = max(worst["fields"], min(max(abs(s[f"{name}_stress"][i] - x) for s, x in zip(solutions, values))
+                                                           for i, values in zip(own, over_time)) / size)
+        worst["faces.csv"] = max(worst["faces.csv"], max(found.values()) / size)
+    print(f"    differences, of {size / 1e6:.3g} MPa: {worst}")
+    expect(max(worst.values()) < 1e-5, f"{worst}")
+    on_faces = {i for row in nodes for i in near(place(row)[1:])}
+    expect(0 < len(on_faces) < len(places), f"{len(on_faces)} of {len(places)} points are on faces")
+    expect(all((x == 0.) == (i not in on_faces) for i, x in enumerate(envelope["arch_stress_max"])), "values away from the faces")
+    for name in ("arch", "cantilever", "vertical"):
+        for face in ("upstream", "downstream"):
+            for end, choose in (("max", max), ("min", min)):
+                extreme, column = result[f"{name}_stress_{end}_{face}_away_from_base"], f"{name}_stress_{end}"
+                expected = choose(float(n[column]) for n in nodes if n["face"] == face and min(math.dist(place(n)[1:], b) for b in base) > 21.)
+                expect(abs(extreme["value"] - expected) < 1e-5 * size, f"{column}, {face}: {extreme['value']}, {expected}")
+                (k,) = [k for k, t in enumerate(times) if abs(t - extreme["time"]) < 1e-6]
+                field = "stress_zz" if name == "vertical" else f"{name}_stress"
+                expect(min(abs(solutions[k][field][i] - expected) for i in near(extreme["place"])) < 1e-5 * size, f"{column}, {face}: place and time")
+    for name in ("arch", "cantilever"):
+        low, high = (1e-6 * result[f"{name}_stress_{end}_upstream_away_from_base"]["value"] for end in ("min", "max"))
+        expect(f"{name} stress away from the base from {low:.2f} to {high:.2f} MPa upstream, from " in shown, shown)
 
 
 def block(lean_upstream, lean_downstream):
@@ -188,4 +265,4 @@ def moving_water():
 
 
 if __name__ == "__main__":
-    run_cases(faces, pressures, temperature, loads, moving_water)
+    run_cases(faces, directions, pressures, temperature, loads, moving_water)

@@ -216,7 +216,8 @@ def figures():
     for extra, ending in (([], "png"), (["--format", "pdf"], "pdf")):
         result = subprocess.run([python, str(SCRIPTS / "figures.py"), "fja", "tied", *extra], capture_output=True, text=True, check=False)
         expect(result.returncode == 0 and "error" not in result.stderr, f"{result}")
-        for name in ("envelope_upstream", "envelope_downstream_compression", "history", "spectrum", "energy"):
+        for name in ("envelope_upstream", "envelope_downstream_compression", "envelope_arch_upstream", "envelope_cantilever_downstream_compression",
+                     "envelope_vertical_upstream", "history", "spectrum", "energy"):
             expect(all(Path(run, "figures", f"{name}.{ending}").stat().st_size > 3000 for run in ("fja", "tied")), f"{name}.{ending}")
         expect(Path("fja/figures", f"openings.{ending}").exists() and not Path("tied/figures", f"openings.{ending}").exists(), "openings")
     runs("scene.prm", "--output", "fja", "--overwrite")  # the figures are results, not files of others

@@ -7,6 +7,7 @@
 #include <voussoir/joints/joint_system.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh_joints.h>
+#include <voussoir/output/face_tension.h>
 #include <voussoir/solid/face_quads.h>
 #include <voussoir/solid/initial_strain.h>
 #include <voussoir/solid/stress.h>
@@ -177,6 +178,122 @@ namespace
     note("ring: the same from strains alone", hoop[false]);
   }
 
+  /** The same ring with elements of degree 2: the arch stress is the hoop stress, the two others that of plane
+   * strain, 2 nu A. */
+  void ring_in_faces()
+  {
+    const double p = 1e6, a = 40., b = 50., nu = .2, A = -p * b * b / (b * b - a * a), B = a * a * A;
+    Material     m;
+    m.young = 25e9;
+    m.poisson = nu;
+    const auto bent = [&](const Vector3 &x)
+    {
+      const double r = b - x[0], angle = .02 * x[1];
+      return Vector3{{-r * std::cos(angle), r * std::sin(angle), x[2]}};
+    };
+    SolidModel model(Grids::wall({{thick, wide, tall}}, {{4, 8, 3}}, 8, bent), 2);
+    model.free_base();
+    const Unknowns      u = field(model,
+                                  [&](const dealii::Point<3> &x)
+                                  {
+                               const double r = std::hypot(x[0], x[1]);
+                               const double radial = (1. + nu) / m.young * ((1. - 2. * nu) * A * r + B / r);
+                               return Vector3{{radial * x[0] / r, radial * x[1] / r, 0.}};
+                             });
+    std::vector<Stress> stress, exact;
+    StressRecovery(model, {m}, true).apply(u, {}, stress);
+    for (const auto &x : model.points)
+    {
+      const double r = std::hypot(x[0], x[1]), c = x[0] / r, s = x[1] / r, radial = A - B / (r * r),
+                   hoop = A + B / (r * r);
+      exact.push_back({{float(radial * c * c + hoop * s * s), float(radial * s * s + hoop * c * c),
+                        float(2. * nu * A), float((radial - hoop) * c * s), 0.f, 0.f}});
+    }
+    const FaceDirections faces(model);
+    double               error[2][FaceDirections::n_stresses] = {};
+    for (const FaceDirections::Node &at : faces.nodes)
+      if (const auto &x = model.points[at.node];
+          std::abs(std::atan2(x[1], -x[0]) - .2) < .19) // not at the ends, whose normals are of one side
+      {
+        const double r = std::hypot(x[0], x[1]), known[] = {A + B / (r * r), 2. * nu * A, 2. * nu * A};
+        for (const bool of_elements : {false, true})
+          for (unsigned int k = 0; k < FaceDirections::n_stresses; ++k)
+          {
+            const double now = at.stresses((of_elements ? stress : exact)[at.node])[k];
+            error[of_elements][k] = std::max(error[of_elements][k], std::abs(now / known[k] - 1.));
+          }
+      }
+    expect(faces.nodes.size() == 2 * 17 * 7, "nodes of both faces");
+    for (unsigned int k = 0; k < FaceDirections::n_stresses; ++k)
+    {
+      below(std::string("ring: ") + FaceDirections::name(k) + " stress of the exact tensor", error[0][k],
+            1e-6);
+      below("  of elements of degree 2", error[1][k], .003);
+    }
+  }
+
+  /** Faces that lean and are not parallel to the y axis, x = .75 z + .3 y: a uniform stress of a linear
+   * displacement, and then its opposite. The arch direction is (.3, 1, 0), the steepest ascent (.75/1.09,
+   * -.3 .75/1.09, 1). */
+  void leaning_faces()
+  {
+    Material m;
+    m.young = 25e9;
+    m.poisson = .2;
+    const auto lean = [](const Vector3 &x)
+    {
+      const double y = x[1] + .5 * std::sin(x[0] + x[2]);
+      return Vector3{{x[0] + .75 * x[2] + .3 * y, y, x[2]}};
+    };
+    const double e[6] = {1e-5, -2e-5, 4e-5, 3e-5, -1e-5, 2e-5}, trace = e[0] + e[1] + e[2];
+    const double shear = m.young / 2. / (1. + m.poisson),
+                 lame = m.young * m.poisson / (1. + m.poisson) / (1. - 2. * m.poisson);
+    const double  rise = .75 / 1.09;
+    const Vector3 tangents[] = {{{.3, 1., 0.}}, {{rise, -.3 * rise, 1.}}, {{0., 0., 1.}}};
+    Stress        uniform;
+    for (unsigned int c = 0; c < 6; ++c)
+      uniform[c] = float(c < 3 ? lame * trace + 2. * shear * e[c] : shear * e[c]);
+    for (const unsigned int degree : {1, 2})
+    {
+      SolidModel model(Grids::wall({{thick, wide, tall}}, {{2, 3, 3}}, 3, lean), degree);
+      model.free_base();
+      Unknowns u = field(
+          model,
+          [&](const dealii::Point<3> &x) {
+            return Vector3{{e[0] * x[0] + e[3] * x[1], e[1] * x[1] + e[4] * x[2], e[2] * x[2] + e[5] * x[0]}};
+          });
+      const StressRecovery recovery(model, {m}, true);
+      EnvelopeRecorder     envelope(recovery, std::vector<Stress>(model.n_nodes(), Stress{}));
+      envelope.faces = FaceEnvelope(model);
+      envelope.record(1., u, {});
+      for (double &x : u)
+        x = -x;
+      envelope.record(2., u, {});
+      envelope.gather();
+      double worst = 0.;
+      for (std::size_t i = 0; i < envelope.faces.directions.nodes.size(); ++i)
+        for (unsigned int k = 0; k < FaceDirections::n_stresses; ++k)
+        {
+          const double exact =
+              dot(tangents[k], traction(uniform, tangents[k])) / dot(tangents[k], tangents[k]);
+          for (const bool largest : {true, false})
+          {
+            const auto [value, time] = envelope.faces.extreme(i, k, largest);
+            worst = std::max(worst, std::abs(value - (largest ? 1. : -1.) * std::abs(exact)));
+            expect(time == (largest == (exact > 0.) ? 1.f : 2.f), "time of the extreme");
+          }
+        }
+      below("leaning faces: uniform stress, degree " + std::to_string(degree), worst / 1e6, 5e-5);
+      expect(envelope.faces.directions.nodes.size() == 2 * std::pow(3 * degree + 1, 2),
+             "nodes of both faces");
+      const std::vector<float> arch = envelope.faces.field(model.n_nodes(), 0, true);
+      for (unsigned int i = 0; i < model.n_nodes(); ++i)
+        expect((arch[i] == 0.f) == !(model.on_surface(i, PhysicalId::upstream) ||
+                                     model.on_surface(i, PhysicalId::downstream)),
+               "the field has values on both faces only");
+    }
+  }
+
   /** Two monoliths, the joint pressed by a force that is the work of a given pressure. */
   void joint(const unsigned int degree)
   {
@@ -334,6 +451,49 @@ namespace
       }
   }
 
+  /** A prism under its own weight: cantilever and vertical stress are -rho g (h - z), the arch stress is zero.
+   * The extremes away from the base are those of the crest and of the lowest node above a tenth of the height. */
+  void weight_in_faces()
+  {
+    Material m;
+    m.young = 25e9;
+    m.poisson = 0.;
+    SolidModel      model(Grids::wall({{thick, wide, tall}}, {{2, 4, 4}}, 4), 2);
+    const Structure structure = assemble_structure(model, {m}, true);
+    Unknowns        load(3 * structure.n_nodes(), 0.), u;
+    add_weight(structure, 9.81, load);
+    JointSystem(structure, JointLaws(), ContactParameters(), {}).solve_free(load, u);
+    const StressRecovery recovery(model, {m}, true);
+    EnvelopeRecorder     envelope(recovery, std::vector<Stress>(model.n_nodes(), Stress{}));
+    envelope.faces = FaceEnvelope(model);
+    envelope.record(0., u, {});
+    const double weight = m.density * 9.81;
+    double       worst[FaceDirections::n_stresses] = {};
+    for (std::size_t i = 0; i < envelope.faces.directions.nodes.size(); ++i)
+      for (unsigned int k = 0; k < FaceDirections::n_stresses; ++k)
+      {
+        const double depth = tall - model.points[envelope.faces.directions.nodes[i].node][2];
+        worst[k] = std::max(
+            worst[k], std::abs(envelope.faces.extreme(i, k, false).first + (k == 0 ? 0. : weight * depth)));
+      }
+    for (unsigned int k = 0; k < FaceDirections::n_stresses; ++k)
+      below(std::string("weight: ") + FaceDirections::name(k) + " stress, of that at the base",
+            worst[k] / (weight * tall), 1e-5);
+    const FaceTension tension(model);
+    for (const int surface : {PhysicalId::upstream, PhysicalId::downstream})
+    {
+      const Extreme least = tension.extreme_away_from_base(envelope.faces, model, surface, 1, false);
+      expect_close(least.value, -weight * (tall - 3.75), 1e-5, "cantilever stress away from the base");
+      expect_close(least.place[2], 3.75, 1e-12, "its elevation");
+      expect_within(least.place[0], surface == PhysicalId::upstream ? 0. : thick, 1e-12, "its face");
+      expect_within(tension.extreme_away_from_base(envelope.faces, model, surface, 1, true).value, 0., 10.,
+                    "cantilever stress at the crest");
+    }
+    expect(
+        std::isnan(tension.extreme_away_from_base(envelope.faces, model, PhysicalId::crest, 0, true).value),
+        "no node");
+  }
+
   /** A linear stress on a sheared mesh with Poisson's ratio, from its exact displacement: all components on
    * the base. */
   void linear_on_base()
@@ -465,11 +625,14 @@ int main()
   return run({{"patch", patch},
               {"corner", corner},
               {"ring", ring},
+              {"arch stress of a ring", ring_in_faces},
+              {"leaning faces", leaning_faces},
               {"joint of degree 1", [] { joint(1); }},
               {"joint of degree 2", [] { joint(2); }},
               {"joint that is not normal to the face", skew_joint},
               {"dam", dam},
               {"weight on the base", weight_on_base},
+              {"weight in the faces", weight_in_faces},
               {"linear stress on the base", linear_on_base},
               {"expansion on the base", expansion_on_base},
               {"moving water", moving_water},

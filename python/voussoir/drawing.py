@@ -99,7 +99,7 @@ def draw_face(axes, run, name, column, levels, strength=0.):
     outline, joints = edges(np.stack([s, z], axis=1), np.stack([face["x"], face["y"], z], axis=1), cells)
     axes.add_collection(LineCollection(joints, colors="k", linewidths=0.5))
     axes.add_collection(LineCollection(outline, colors="k", linewidths=1.1, capstyle="round"))
-    label_face(axes, face, stress, column == "max_principal")
+    label_face(axes, face, stress, "max" in column)
     return contours
 
 
@@ -124,9 +124,9 @@ def label_face(axes, face, stress, tension):
     axes.grid(False)
 
 
-def stress_bar(figure, contours, axes, levels, **place):
+def stress_bar(figure, contours, axes, levels, kind="principal", **place):
     bar = figure.colorbar(contours, ax=axes, orientation="horizontal", ticks=levels, **place)
-    bar.set_label("principal stress, tension positive [MPa]")
+    bar.set_label(f"{kind} stress, tension positive [MPa]")
     return bar
 
 

@@ -4,6 +4,7 @@
     scripts/figures.py DIR... [--format png|svg|pdf]
 
 envelope_{upstream,downstream}[_compression]   principal stress over the run, developed elevation views
+envelope_{arch,cantilever,vertical}_{upstream,downstream}[_compression]   stresses in these directions
 openings, slips                                maxima at the crest, joint by joint
 history, joint_history                         crest and base; the joints that open most
 spectrum                                       of the motion, with the design spectrum
@@ -32,8 +33,17 @@ def strength_of(run):
     return 1e-6 * run.limit("Tensile strength")
 
 
+# Columns of faces.csv, their titles, and the names of their figures
+ENVELOPES = [("max_principal", "maximum principal stress", "envelope_{}"), ("min_principal", "minimum principal stress", "envelope_{}_compression")] + [
+    (f"{name}_stress_{end}", f"{end}imum {name} stress", f"envelope_{name}_{{}}{suffix}")
+    for name in ("arch", "cantilever", "vertical") for end, suffix in (("max", ""), ("min", "_compression"))]
+
+
 def envelopes(runs, save):
-    for column, kind, suffix in (("max_principal", "maximum", ""), ("min_principal", "minimum", "_compression")):
+    for column, kind, figure_name in ENVELOPES:
+        if "_stress_" in column and not all(column in face for run in runs for face in run.faces.values()):
+            print(f"figures: skipped {figure_name.format('*')}: faces.csv of an earlier version")
+            continue
         levels = common_levels(runs, column)
         for run in runs:
             for name in FACES:
@@ -41,12 +51,12 @@ def envelopes(runs, save):
                 try:
                     contours = draw_face(axes, run, name, column, levels, strength_of(run))
                 except Skip as reason:
-                    print(f"figures: skipped envelope_{name}{suffix}: {reason}")
+                    print(f"figures: skipped {figure_name.format(name)}: {reason}")
                     plt.close(figure)
                     continue
-                axes.set_title(f"{run.heading}\n{name.capitalize()} face: envelope of {kind} principal stress", pad=10)
-                stress_bar(figure, contours, axes, levels, fraction=0.05, pad=0.16, aspect=45)
-                save(run, figure, f"envelope_{name}{suffix}")
+                axes.set_title(f"{run.heading}\n{name.capitalize()} face: envelope of {kind}", pad=10)
+                stress_bar(figure, contours, axes, levels, kind.split()[1], fraction=0.05, pad=0.16, aspect=45)
+                save(run, figure, figure_name.format(name))
 
 
 def crest_maxima(runs, save):

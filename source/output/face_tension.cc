@@ -78,6 +78,20 @@ namespace Voussoir
     return smallest;
   }
 
+  Extreme FaceTension::extreme_away_from_base(const FaceEnvelope &envelope, const SolidModel &model,
+                                              const int surface, const unsigned int k,
+                                              const bool largest) const
+  {
+    Extreme result{std::numeric_limits<double>::quiet_NaN()};
+    for (std::size_t i = 0; i < envelope.directions.nodes.size(); ++i)
+      if (const FaceDirections::Node &at = envelope.directions.nodes[i];
+          at.surface == surface && !near_base[at.node])
+        if (const auto [x, time] = envelope.extreme(i, k, largest);
+            !(largest ? x <= result.value : x >= result.value))
+          result = extreme_at(model, at.node, x, time);
+    return result;
+  }
+
   double FaceTension::difference(const EnvelopeRecorder &a, const EnvelopeRecorder &b,
                                  const int surface) const
   {

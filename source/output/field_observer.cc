@@ -44,6 +44,12 @@ namespace Voussoir
       fields[0].values[i] = p[0];
       fields[1].values[i] = p[1];
     }
+    for (unsigned int k = 0; k < 2; ++k) // the vertical stress is stress_zz
+    {
+      fields.push_back({std::string(FaceDirections::name(k)) + "_stress", std::vector<float>(s.size(), 0.f)});
+      for (const FaceDirections::Node &at : stresses.envelope.faces.directions.nodes)
+        fields.back().values[at.node] = at.stresses(s[at.node])[k];
+    }
   }
 
   /** Adds opening, slip, pressure and contact state (0 open, 1 stick, 2 slip) at the nodes of the joints. The

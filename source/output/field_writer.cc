@@ -71,11 +71,14 @@ namespace Voussoir
   }
 
   void FieldWriter::write_faces(const std::string &directory, const DamGeometry &geometry,
-                                const std::vector<float> &maximum, const std::vector<float> &minimum) const
+                                const std::vector<NodalField> &fields) const
   {
     OutputFile nodes(directory + "/faces.csv"), quads(directory + "/faces_cells.csv");
     nodes.precision(8);
-    nodes << "face,monolith,x,y,z,s,max_principal,min_principal\n";
+    nodes << "face,monolith,x,y,z,s";
+    for (const NodalField &field : fields)
+      nodes << ',' << field.name;
+    nodes << '\n';
     quads << "face,monolith,n0,n1,n2,n3\n";
     unsigned int n_lines = 0;
     for (const int surface : {PhysicalId::upstream, PhysicalId::downstream})
@@ -90,7 +93,10 @@ namespace Voussoir
             ++n_lines;
             const Point<3> &p = model.points[i];
             nodes << name << ',' << quad.monolith << ',' << p[0] << ',' << p[1] << ',' << p[2] << ','
-                  << geometry.arc_length(p) << ',' << maximum[i] << ',' << minimum[i] << '\n';
+                  << geometry.arc_length(p);
+            for (const NodalField &field : fields)
+              nodes << ',' << field.values[i];
+            nodes << '\n';
           }
         quads << name << ',' << quad.monolith;
         for (const unsigned int i : quad.nodes)

@@ -192,6 +192,7 @@ namespace Voussoir
       if (p[1] < minimum[i])
         minimum[i] = p[1], time_of_minimum[i] = static_cast<float>(time);
     }
+    faces.record(time, stress, first, last);
   }
 
   void EnvelopeRecorder::gather()
@@ -199,6 +200,7 @@ namespace Voussoir
     for (auto *values : {&maximum, &minimum, &time_of_maximum, &time_of_minimum})
       Ranks::gather(values->data(), begin);
     overstress.gather(begin);
+    faces.gather(begin);
   }
 
   Extreme EnvelopeRecorder::extreme(const SolidModel &model, const int surface, const bool largest) const

@@ -28,6 +28,7 @@ namespace Voussoir
         tension(*run.dam->model), envelope(recovery, run.dam->initial_stress)
   {
     envelope.overstress = Overstress(run.scene().limits.tensile_strength, run.dam->model->n_nodes());
+    envelope.faces = FaceEnvelope(*run.dam->model);
   }
 
   /** Records the stresses of this rank's nodes. Before the first rank prints stresses, they are gathered. */
@@ -63,12 +64,16 @@ namespace Voussoir
   {
     if (!is_recording())
       return;
-    const FieldWriter writer(*run.dam->model);
-    writer.write_vtu(directory + "/envelope.vtu", {},
-                     {{"max_principal", envelope.maximum},
-                      {"min_principal", envelope.minimum},
-                      {"max_joint_pressure", joints.largest_pressure(*run.dam->model)}});
-    writer.write_faces(directory, *run.dam->geometry, envelope.maximum, envelope.minimum);
+    const SolidModel                    &model = *run.dam->model;
+    const FieldWriter                    writer(model);
+    std::vector<FieldWriter::NodalField> fields = {{"max_principal", envelope.maximum},
+                                                   {"min_principal", envelope.minimum}};
+    for (unsigned int k = 0; k < FaceDirections::n_stresses; ++k)
+      for (const bool largest : {true, false})
+        fields.push_back({FaceEnvelope::name(k, largest), envelope.faces.field(model.n_nodes(), k, largest)});
+    writer.write_faces(directory, *run.dam->geometry, fields);
+    fields.push_back({"max_joint_pressure", joints.largest_pressure(model)});
+    writer.write_vtu(directory + "/envelope.vtu", {}, fields);
   }
 
   std::string StressObserver::largest_in_words(const int surface, const bool with_base) const
@@ -78,6 +83,17 @@ namespace Voussoir
     char          text[40];
     std::snprintf(text, sizeof(text), "%.2f MPa", 1e-6 * largest.value);
     return std::isfinite(largest.value) ? text : "none";
+  }
+
+  std::string StressObserver::range_in_words(const unsigned int k, const int surface) const
+  {
+    double range[2];
+    for (const bool largest : {false, true})
+      range[largest] =
+          1e-6 * tension.extreme_away_from_base(envelope.faces, *run.dam->model, surface, k, largest).value;
+    char text[60];
+    std::snprintf(text, sizeof(text), "from %.2f to %.2f MPa", range[0], range[1]);
+    return std::isfinite(range[0]) ? text : "none";
   }
 
   void StressObserver::report(Log &log) const
@@ -91,6 +107,10 @@ namespace Voussoir
         largest_in_words(PhysicalId::downstream, false).c_str(),
         largest_in_words(PhysicalId::upstream, true).c_str(),
         largest_in_words(PhysicalId::downstream, true).c_str());
+    for (const unsigned int k : {0, 1})
+      log.line("          %s stress away from the base %s upstream, %s downstream", FaceDirections::name(k),
+               range_in_words(k, PhysicalId::upstream).c_str(),
+               range_in_words(k, PhysicalId::downstream).c_str());
     if (const double f = run.scene().strength_of_area(); f > 0.)
       log.line(
           "          above the strength of %.2f MPa: %.1f %% of the upstream face, %.1f %% of the downstream "
@@ -115,6 +135,12 @@ namespace Voussoir
       const Json largest = json_of(tension.largest_away_from_base(envelope, model, surface));
       json.add(name + "_away_from_base", largest).add(name + "_above_foot", largest); // for one release
     }
+    for (unsigned int k = 0; k < FaceDirections::n_stresses; ++k)
+      for (const auto &[face, surface] :
+           {std::make_pair("upstream", PhysicalId::upstream), {"downstream", PhysicalId::downstream}})
+        for (const bool largest : {true, false})
+          json.add(FaceEnvelope::name(k, largest) + "_" + face + "_away_from_base",
+                   json_of(tension.extreme_away_from_base(envelope.faces, model, surface, k, largest)));
   }
 
   Json StressObserver::json_of_strength() const

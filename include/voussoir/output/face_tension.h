@@ -29,6 +29,16 @@ namespace Voussoir
      * such node. */
     Extreme smallest_away_from_base(const EnvelopeRecorder &envelope, const SolidModel &model) const;
 
+    /** Returns an extreme arch, cantilever or vertical stress on a face away from the base [Pa]; NaN if there is
+     * no such node.
+     * @param envelope stresses of both faces
+     * @param model mesh of the dam
+     * @param surface PhysicalId::upstream or downstream
+     * @param k number of the stress, see FaceDirections::name()
+     * @param largest true: largest value; false: smallest value */
+    Extreme extreme_away_from_base(const FaceEnvelope &envelope, const SolidModel &model, int surface,
+                                   unsigned int k, bool largest) const;
+
     /** Returns the root mean square difference of the maxima of two envelopes on a face away from the base,
      * weighted by area [Pa]. It includes the nodes where @p a is at least half of its maximum. It is 0 if
      * there is no tension, and NaN if there is no such face. */

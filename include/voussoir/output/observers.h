@@ -113,6 +113,7 @@ namespace Voussoir
   private:
     std::vector<Vector3> tractions_now();
     std::string          largest_in_words(int surface, bool with_base) const;
+    std::string          range_in_words(unsigned int k, int surface) const;
 
     const RunState      &run;
     const JointRecorder &joints;

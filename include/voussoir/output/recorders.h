@@ -6,6 +6,7 @@
 #include <voussoir/dam/dam_geometry.h>
 #include <voussoir/dynamics/newmark.h>
 #include <voussoir/joints/joint_reach.h>
+#include <voussoir/output/face_stresses.h>
 #include <voussoir/output/joint_points.h>
 #include <voussoir/output/key_forces.h>
 #include <voussoir/output/overstress.h>
@@ -136,10 +137,11 @@ namespace Voussoir
     std::vector<float> maximum, minimum;                 ///< extremes of each node over time [Pa]
     std::vector<float> time_of_maximum, time_of_minimum; ///< times of the extremes [s]
     Overstress         overstress; ///< durations of overstress; the caller sets it before record()
+    FaceEnvelope       faces; ///< extremes in the directions of the faces; the caller sets it before record()
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
-      archive &maximum &minimum &time_of_maximum &time_of_minimum &overstress;
+      archive &maximum &minimum &time_of_maximum &time_of_minimum &overstress &faces;
     }
 
   private:
@@ -173,11 +175,11 @@ namespace Voussoir
     /** Writes nodes and quadrilaterals of the upstream and downstream faces to faces.csv and faces_cells.csv.
      * @param directory output directory
      * @param geometry geometry of the dam, for the developed positions
-     * @param maximum, minimum principal stresses of the nodes [Pa]
+     * @param fields columns of faces.csv after the positions
      *
      * Throws WriteError. */
     void write_faces(const std::string &directory, const DamGeometry &geometry,
-                     const std::vector<float> &maximum, const std::vector<float> &minimum) const;
+                     const std::vector<NodalField> &fields) const;
 
   private:
     const SolidModel &model;

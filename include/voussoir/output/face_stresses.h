@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_face_stresses_h
+#define voussoir_face_stresses_h
+
+#include <voussoir/solid/stress.h>
+
+#include <string>
+#include <utility>
+
+namespace Voussoir
+{
+  /** Normal stresses in fixed directions at the nodes of the upstream and the downstream face: arch,
+   * cantilever and vertical stress, as in USACE EM 1110-2-2201 (Arch Dam Design, 1994, chapters 6 and 7).
+   * Let n be the outward unit normal of the face and z the upward unit vector.
+   *
+   * - arch direction: horizontal tangent of the face, a = z x n / |z x n|; stress a . sigma a;
+   * - cantilever direction: tangent of the face normal to a, upward, c = n x a; stress c . sigma c;
+   * - vertical stress: z . sigma z.
+   *
+   * The normal of a node is the mean over the element faces around it, weighted by its shape function. Only
+   * element faces of the same surface and monolith contribute. If n is vertical, a is the y axis. */
+  class FaceDirections
+  {
+  public:
+    static constexpr unsigned int n_stresses = 3; ///< arch, cantilever, vertical
+
+    /** Returns "arch", "cantilever" or "vertical". */
+    static const char *name(unsigned int k);
+
+    /** Face at one of its nodes. */
+    struct Node
+    {
+      unsigned int node;             ///< node of the model
+      int          surface;          ///< PhysicalId::upstream or downstream
+      Stress       arch, cantilever; ///< factors of the six stress components [-]
+
+      /** Returns the arch, cantilever and vertical stress [Pa]. @p s: stress of the node [Pa]. */
+      std::array<float, n_stresses> stresses(const Stress &s) const;
+    };
+
+    FaceDirections() = default;
+
+    /** Computes the directions at all nodes of both faces. */
+    explicit FaceDirections(const SolidModel &model);
+
+    /** Returns the index into nodes of the first entry that is not below @p node. */
+    std::size_t first_of(unsigned int node) const;
+
+    std::vector<Node> nodes; ///< sorted by node
+  };
+
+  /** Largest and smallest arch, cantilever and vertical stresses of both faces over time. */
+  class FaceEnvelope
+  {
+  public:
+    FaceEnvelope() = default; ///< inactive: no nodes
+
+    /** Prepares the records of all nodes of both faces. */
+    explicit FaceEnvelope(const SolidModel &model);
+
+    /** Updates the extremes of the nodes @p first to @p last - 1.
+     * @param time present time [s]
+     * @param stress present stress of each node of the model [Pa] */
+    void record(double time, const std::vector<Stress> &stress, std::size_t first, std::size_t last);
+
+    /** Exchanges the extremes of all ranks. Rank r owns the nodes begin[r] to begin[r + 1] of the model. */
+    void gather(std::vector<std::size_t> begin);
+
+    /** Returns an extreme [Pa] and its time [s].
+     * @param i index into directions.nodes
+     * @param k number of the stress, see FaceDirections::name()
+     * @param largest true: largest value over time; false: smallest */
+    std::pair<float, float> extreme(const std::size_t i, const unsigned int k, const bool largest) const
+    {
+      return {extremes[index(i, k, largest)], times[index(i, k, largest)]};
+    }
+
+    /** Returns a field on the model: extremes at the nodes of both faces, and 0 at the other nodes [Pa]. */
+    std::vector<float> field(std::size_t n_nodes, unsigned int k, bool largest) const;
+
+    /** Returns the name of an extreme in output files, such as "arch_stress_max". */
+    static std::string name(unsigned int k, bool largest);
+
+    FaceDirections directions; ///< nodes of both faces
+
+    template <class Archive> void serialize(Archive &archive, unsigned int) { archive &extremes &times; }
+
+  private:
+    static constexpr unsigned int n_extremes = 2 * FaceDirections::n_stresses;
+
+    /** Returns the index of an extreme in extremes and times. @p i: index into directions.nodes. */
+    static std::size_t index(const std::size_t i, const unsigned int k, const bool largest)
+    {
+      return n_extremes * i + 2 * k + (largest ? 0 : 1);
+    }
+    std::vector<float> extremes; ///< n_extremes values per node of directions [Pa]
+    std::vector<float> times;    ///< times of the extremes [s]
+  };
+} // namespace Voussoir
+
+#endif

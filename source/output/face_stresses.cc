@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/ranks.h>
+#include <voussoir/output/face_stresses.h>
+#include <voussoir/solid/for_faces.h>
+
+#include <algorithm>
+#include <map>
+
+namespace Voussoir
+{
+  namespace
+  {
+    Vector3 cross(const Vector3 &a, const Vector3 &b)
+    {
+      return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+    }
+
+    Vector3 unit(Vector3 x)
+    {
+      const double size = norm(x);
+      for (double &c : x)
+        c /= size;
+      return x;
+    }
+
+    /** Returns the factors of xx yy zz xy yz zx in t . sigma t. @p t: unit vector. */
+    Stress factors(const Vector3 &t)
+    {
+      const double all[6] = {t[0] * t[0],      t[1] * t[1],      t[2] * t[2],
+                             2. * t[0] * t[1], 2. * t[1] * t[2], 2. * t[2] * t[0]};
+      Stress       result;
+      std::copy(std::begin(all), std::end(all), result.begin());
+      return result;
+    }
+
+    FaceDirections::Node directions_at(const unsigned int node, const int surface, const Vector3 &area)
+    {
+      const Vector3 n = unit(area);
+      // z x n; a face is horizontal if its slope is below 1e-6.
+      const Vector3 arch = length(n[0], n[1]) > 1e-6 ? unit({{-n[1], n[0], 0.}}) : Vector3{{0., 1., 0.}};
+      return {node, surface, factors(arch), factors(cross(n, arch))};
+    }
+
+    float product(const Stress &factor, const Stress &s)
+    {
+      float sum = 0.f;
+      for (unsigned int c = 0; c < 6; ++c)
+        sum += factor[c] * s[c];
+      return sum;
+    }
+  } // namespace
+
+  const char *FaceDirections::name(const unsigned int k)
+  {
+    constexpr const char *names[n_stresses] = {"arch", "cantilever", "vertical"};
+    return names[k];
+  }
+
+  std::array<float, FaceDirections::n_stresses> FaceDirections::Node::stresses(const Stress &s) const
+  {
+    return {{product(arch, s), product(cantilever, s), s[2]}};
+  }
+
+  FaceDirections::FaceDirections(const SolidModel &model)
+  {
+    for (const int surface : {PhysicalId::upstream, PhysicalId::downstream})
+    {
+      std::map<unsigned int, Vector3> area;
+      for_faces(model, surface, model.fe.degree + 1,
+                [&](const auto &values, const auto &dofs)
+                {
+                  for (const unsigned int q : values.quadrature_point_indices())
+                    for (unsigned int i = 0; i < dofs.size(); ++i)
+                      if (const double part = values.shape_value(i, q) * values.JxW(q); part != 0.)
+                        for (unsigned int c = 0; c < 3; ++c)
+                          area[dofs[i]][c] += part * values.normal_vector(q)[c];
+                });
+      for (const auto &[node, sum] : area)
+        if (model.on_surface(node, surface))
+          nodes.push_back(directions_at(node, surface, sum));
+    }
+    std::stable_sort(nodes.begin(), nodes.end(),
+                     [](const Node &a, const Node &b) { return a.node < b.node; });
+  }
+
+  std::size_t FaceDirections::first_of(const unsigned int node) const
+  {
+    return std::lower_bound(nodes.begin(), nodes.end(), node,
+                            [](const Node &n, const unsigned int i) { return n.node < i; }) -
+           nodes.begin();
+  }
+
+  FaceEnvelope::FaceEnvelope(const SolidModel &model)
+      : directions(model), extremes(n_extremes * directions.nodes.size()), times(extremes.size(), 0.f)
+  {
+    for (std::size_t e = 0; e < extremes.size(); ++e)
+      extremes[e] = e % 2 == 0 ? -1e30f : 1e30f;
+  }
+
+  void FaceEnvelope::record(const double time, const std::vector<Stress> &stress, const std::size_t first,
+                            const std::size_t last)
+  {
+    const std::size_t begin = directions.first_of(first), end = directions.first_of(last);
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      const auto now = directions.nodes[i].stresses(stress[directions.nodes[i].node]);
+      for (unsigned int k = 0; k < FaceDirections::n_stresses; ++k)
+      {
+        if (const std::size_t e = index(i, k, true); now[k] > extremes[e])
+          extremes[e] = now[k], times[e] = static_cast<float>(time);
+        if (const std::size_t e = index(i, k, false); now[k] < extremes[e])
+          extremes[e] = now[k], times[e] = static_cast<float>(time);
+      }
+    }
+  }
+
+  void FaceEnvelope::gather(std::vector<std::size_t> begin)
+  {
+    for (std::size_t &i : begin)
+      i = n_extremes * directions.first_of(i);
+    Ranks::gather(extremes.data(), begin);
+    Ranks::gather(times.data(), begin);
+  }
+
+  std::vector<float> FaceEnvelope::field(const std::size_t n_nodes, const unsigned int k,
+                                         const bool largest) const
+  {
+    std::vector<float> result(n_nodes, 0.f);
+    for (std::size_t i = 0; i < directions.nodes.size(); ++i)
+      result[directions.nodes[i].node] = extremes[index(i, k, largest)];
+    return result;
+  }
+
+  std::string FaceEnvelope::name(const unsigned int k, const bool largest)
+  {
+    return std::string(FaceDirections::name(k)) + "_stress_" + (largest ? "max" : "min");
+  }
+} // namespace Voussoir
