@@ -125,7 +125,7 @@ def values():
                            "Mesh/Arch210/Rock/Enabled=true": ("rock", "Foundation/Model is rigid"),
                            "Joints/Model=FJB": ("Joints/Friction (scene.prm, line 12)", "FJB"),
                            "Joints/Keys/Height=0.3": ("Joints/Keys/Height", "KSM"),
-                           "Mesh/File=a.msh": ("Mesh/File", "arch210"),
+                           "Mesh/File=a.msh": ("Mesh/File", "Mesh/Source is not file"),
                            "Motion/Seed=7": ("Motion/Seed", "Motion/Source is file"),
                            "Limits/Tensile strength=2.5": ("Limits/Tensile strength", "2.5 Pa", "21 GPa"),
                            "Limits/Waterstop opening=15": ("Limits/Waterstop opening", "15 m", "20 cm"),
@@ -258,7 +258,8 @@ def scenes():
         if "Source = file" in text:
             continue  # has a mesh of its own
         entries = ["Elements along=18", "Elements up=4", "Elements through=1"] + ["Joints=2"] * ("Joints = 0" not in text)
-        settings = [f"Mesh/Arch210/{entry}" for entry in entries]
+        section = "Arcs" if "Source = arcs" in text else "Arch210"
+        settings = [f"Mesh/{section}/{entry}" for entry in entries]
         if "Motion" not in text:
             settings += ["Motion/Duration=12", "Dynamics/Steps per sample=20"]
         settings = [x for setting in settings for x in ("--set", setting)]
