@@ -177,7 +177,7 @@ def corrections():
     for p, q in zip(table("linear.csv")[1], table("drift.csv")[1]):
         expect(all(abs(a - b) < 1e-11 for a, b in zip(p, q)), f"a straight line remains: {p}, {q}")
     shown = runs(*base, "--output", "drift.csv", "--set", "Motion/File=drifting.csv")
-    expect("Set Motion/Baseline to linear" in shown, shown)
+    expect("Correct the baseline (Motion/Baseline)" in shown, shown)
 
     pga, factor = .4, -1.5
     periods = [0.] + [.01 * 1.02 ** k for k in range(300)]

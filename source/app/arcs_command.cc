@@ -33,13 +33,35 @@ namespace Voussoir
               mesh_quality(mesh, false).smallest_scaled_jacobian};
     }
 
-    /** Sets joints at distances of about 18 m, and elements of about a tenth of the height. */
-    void choose_mesh(ArchGrid &grid, const double length, const double height)
+    double crest_length_of(const ArchShape &shape)
+    {
+      double length = 0;
+      for (const Bank bank : {Bank::right, Bank::left})
+        length += shape.crest_length(bank, shape.end(bank, shape.top()));
+      return length;
+    }
+
+    /** Sets joints at distances of about 18 m, and elements of about a tenth of the height. Reduces the smallest height
+     * if the end monoliths are low. Returns the measures of the mesh. */
+    Measures choose_mesh(MeshParameters &parameters)
     {
       constexpr double usual_width = 18.; ///< of a monolith [m]
+      ArchGrid        &grid = parameters.arcs.grid;
+      const auto       shape = parameters.arcs.shape("");
+      const double     length = crest_length_of(*shape), height = shape->top() - shape->bottom();
       grid.n_joints = std::clamp(std::round(length / usual_width) - 1, 0., double(PhysicalId::max_joints));
       const double per_monolith = std::ceil(length / grid.n_monoliths() / (height / 10) - 1e-9);
       grid.elements_along = grid.n_monoliths() * std::max(2., per_monolith);
+      while (grid.smallest_height > 0.5)
+        try
+        {
+          return measures_of(parameters);
+        }
+        catch (const InputError &)
+        {
+          grid.smallest_height /= 2;
+        }
+      return measures_of(parameters);
     }
 
     std::string chosen_kind(const Arguments &arguments)
@@ -92,7 +114,10 @@ namespace Voussoir
     if (arguments.words.size() != 1)
       throw InputError("`voussoir arcs` needs one table of arcs. `voussoir arcs --help` shows the usage.");
     const std::string table = arguments.words[0];
-    const fs::path    file = arguments.value("--output", fs::path(table).replace_extension(".prm").string());
+    if (table.find('#') != std::string::npos)
+      throw InputError("The path " + table +
+                       " contains #, which begins a comment in an input file. Rename the table.");
+    const fs::path file = arguments.value("--output", fs::path(table).replace_extension(".prm").string());
     if (fs::exists(file))
       throw InputError("The file " + file.string() +
                        " exists. Choose another one with --output, or remove it.");
@@ -100,9 +125,8 @@ namespace Voussoir
     parameters.source = "arcs";
     parameters.arcs.table = table;
     parameters.arcs.kind = chosen_kind(arguments);
-    const Measures rough = measures_of(parameters);
-    choose_mesh(parameters.arcs.grid, rough.crest_length, rough.top - rough.bottom);
-    const Measures dam = measures_of(parameters);
+    parameters.check();
+    const Measures dam = choose_mesh(parameters);
 
     std::error_code error;
     fs::path from_scene = fs::relative(table, file.parent_path().empty() ? "." : file.parent_path(), error);

@@ -10,9 +10,9 @@ namespace Voussoir
   namespace
   {
     constexpr double heavy_share = .8; // of the effective mass
-    constexpr double heavy = .01;        // share of a single mode in a direction
-    constexpr double tolerance = .3;     // relative difference from the ratio
-    constexpr double range = 5.;         // Frequency 2 over Frequency 1 without sufficient modes
+    constexpr double heavy = .01;      // share of a single mode in a direction
+    constexpr double tolerance = .3;   // relative difference from the ratio
+    constexpr double range = 5.;       // Frequency 2 over Frequency 1 without sufficient modes
 
     /** Returns the smallest ratio between two frequencies with the ratio 1, at their geometric mean. */
     double smallest_between(const double f1, const double f2)

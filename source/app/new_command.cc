@@ -189,7 +189,12 @@ namespace Voussoir
               ask("Mesh/Length unit");
             }
             else if (source == "arcs")
+            {
+              ask("Mesh/Arcs/Kind");
               ask_file("Mesh/Arcs/Table", true);
+              for (const char *entry : {"Joints", "Elements along", "Elements up", "Elements through"})
+                add("Mesh/Arcs/" + std::string(entry));
+            }
             else
               for (const char *entry : {"Joints", "Elements along", "Elements up", "Elements through"})
                 add("Mesh/Arch210/" + std::string(entry));
@@ -269,7 +274,7 @@ namespace Voussoir
       for (const unsigned int steps : {1, 2, 5, 10, 20, 50})
         try
         {
-          dam.foundation->check({scene.motion.time_step / steps, scene.foundation.substeps, 1}, steps);
+          dam.foundation->check({scene.motion.time_step / steps, scene.foundation.n_substeps(), 1}, steps);
           set("Dynamics/Steps per sample", std::to_string(steps));
           return;
         }

@@ -110,7 +110,7 @@ namespace Voussoir
       for (unsigned int number = 1; std::getline(in, line); ++number)
       {
         const std::string         place = entry + file + ", line " + std::to_string(number);
-        const std::vector<double> x = numbers_in(line, number == 1, place);
+        const std::vector<double> x = numbers_in(line, n_columns == 0, place);
         if (x.empty())
           continue;
         if (n_columns == 0)

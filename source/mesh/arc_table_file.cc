@@ -103,7 +103,8 @@ namespace Voussoir
     {
       if (number == 1 && line.compare(0, 3, "\xef\xbb\xbf") == 0)
         line.erase(0, 3);
-      if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#')
+      const auto first = line.find_first_not_of(" \t\r,\"");
+      if (first == std::string::npos || line[first] == '#')
         continue;
       const std::vector<std::string> cells = cells_of(line);
       if (names.empty())

@@ -38,6 +38,9 @@ namespace Voussoir
         double     last = shape.end(bank, z);
         if (z < abutment(w) || place(last) < -1e-6)
           last = shape.reach(bank, z);
+        if (place(0) > 1e-6)
+          throw InputError("The plane of a column of nodes crosses y = 0 at z = " + number_text(z) +
+                           " m. Put y = 0 at the crown, where the crest is normal to the stream.");
         if (place(last) < -1e-6)
           throw InputError("The arc at z = " + number_text(z) +
                            " m cannot be continued into the bank. Reduce \"Smallest height\", or correct the "
@@ -223,10 +226,10 @@ namespace Voussoir
     double       before = 0;
     for (const double place : grid.joint_places)
     {
-      if (!(place > before && place < length))
+      if (!(place >= before + 1 && place <= length - 1)) // monoliths of at least 1 m
         throw InputError(entry + "Joint chainages\" has " + number_text(place) + " m after " +
                          number_text(before) +
-                         " m. Give increasing lengths between 0 and the length of the " + "crest, " +
+                         " m. Give lengths that increase by at least 1 m, up to the length of the crest, " +
                          number_text(length) + " m, measured from its right end.");
       before = place;
     }

@@ -199,7 +199,10 @@ namespace Voussoir
               y.push_back(a);
               x.push_back(b);
             }
-            if (y.size() < 4 || y.front() >= 0 || y.back() <= 0)
+            if (y.size() >= 4 && (y.front() >= 0 || y.back() <= 0))
+              throw InputError(table.file + ": the points at elevation " + number_text(z.back()) +
+                               " m are all on one side of y = 0. Put y = 0 at the crown.");
+            if (y.size() < 4)
               throw InputError(
                   table.file + ": the " + (f == 0 ? "upstream" : "downstream") + " face at elevation " +
                   number_text(z.back()) + " m has " + std::to_string(y.size()) +

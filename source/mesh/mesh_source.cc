@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/mesh/foreign_mesh.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/mesh_source.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -125,6 +127,22 @@ namespace Voussoir
 
   namespace
   {
+    /** Throws InputError for rock beside a dam whose end walls are high: the rock supports the base only. */
+    void check_ends(const ArchShape &shape, const ArchGrid &grid, const std::string &source)
+    {
+      const auto   valley = arch_valley(shape, grid);
+      const double height = shape.top() - shape.bottom();
+      for (const bool is_left : {false, true})
+        if (const double wall = shape.top() - (is_left ? valley.back() : valley.front())[1];
+            wall > std::max(grid.smallest_height, grid.end_wall_height) + 0.05 * height)
+          throw InputError(
+              source + ": the dam ends with a wall of " + number_text(wall) + " m at the " +
+              (is_left ? "left" : "right") +
+              " bank. The generated rock supports only the base of the dam, not such a wall. Let "
+              "the abutment rise to the crest, use a mesh file with rock, or set "
+              "\"Foundation/Model\" to rigid.");
+    }
+
     HexMesh generate(const MeshParameters &parameters, const std::string &scene_directory)
     {
       const bool                       is_arch210 = parameters.source == "arch210";
@@ -136,6 +154,8 @@ namespace Voussoir
       const ArchRockParameters rock = parameters.generated_rock()->complete(height);
       check_grid(shape, grid, parameters.section());
       rock.check(parameters.section(), height);
+      if (rock.enabled)
+        check_ends(shape, grid, parameters.name());
       HexMesh mesh = make_arch(shape, grid);
       if (rock.enabled)
         add_arch_rock(shape, grid, rock, mesh);

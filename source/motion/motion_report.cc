@@ -195,8 +195,8 @@ namespace Voussoir
     if (text.tellp() == 0)
       return "";
     return "the motion does not end at rest in its initial position: " + text.str() +
-           " (limits: 20 % and 10 %). Set Motion/Baseline to linear, or increase Motion/Duration until the "
-           "record is at rest.";
+           " (limits: 20 % and 10 %). Correct the baseline (Motion/Baseline), or increase Motion/Duration until "
+           "the record is at rest.";
   }
 
   void print_report(const MotionReport &report, std::ostream &out)

@@ -26,9 +26,28 @@ namespace Voussoir
   FrameSteps::FrameSteps(const GroundMotion &motion, const unsigned int n_frames, const double delay)
       : n_frames(n_frames)
   {
-    std::vector<double> sum = {0.};
-    for (const auto &a : motion.acceleration)
-      sum.push_back(sum.back() + a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    const auto sums_within = [&motion](const double begin, const double end)
+    {
+      std::vector<double> sum = {0.};
+      for (std::size_t k = 0; k < motion.acceleration.size(); ++k)
+      {
+        const auto &a = motion.acceleration[k];
+        const bool  is_within =
+            k * motion.dt >= begin - 0.5 * motion.dt && k * motion.dt <= end + 0.5 * motion.dt;
+        sum.push_back(sum.back() + (is_within ? a[0] * a[0] + a[1] * a[1] + a[2] * a[2] : 0.));
+      }
+      return sum;
+    };
+    std::vector<double> sum = sums_within(0., motion.duration());
+    if (motion.parts.size() > 1) // the strongest part of a sequence
+    {
+      sum = {0.};
+      for (const MotionPart &part : motion.parts)
+        if (const auto of_part = sums_within(part.begin, part.end); of_part.back() > sum.back())
+          sum = of_part;
+      if (sum.size() == 1)
+        return;
+    }
     const auto step_of = [&](const double part)
     { return std::lower_bound(sum.begin() + 1, sum.end() - 1, part * sum.back()) - (sum.begin() + 1); };
     if (n_frames < 2 || !(sum.back() > 0.))
@@ -171,7 +190,11 @@ namespace Voussoir
   void FrameObserver::open(const std::string &directory)
   {
     if (!steps.contains(0)) // Output/Frames is 0
+    {
+      std::error_code error; // an earlier part of a resumed run may have written frames
+      std::filesystem::remove(directory + "/frames.bin", error);
       return;
+    }
     const std::string name = directory + "/frames.bin", begin = head();
     if (is_resumed)
       keep_frames_so_far(name, begin);

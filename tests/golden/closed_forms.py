@@ -11,7 +11,7 @@ from run_program import expect, runs, summary, table, write
 
 def face_rows(directory):
     """Rows of face, x, y, z, s, largest and smallest principal stress."""
-    return [[row[0], *map(float, row[2:])] for row in table_with_names(f"{directory}/faces.csv")[1]]
+    return [[row[0], *map(float, row[2:8])] for row in table_with_names(f"{directory}/faces.csv")[1]]
 
 
 def weight():
