@@ -13,7 +13,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from run_program import VOUSSOIR, arch_mesh, expect, refused, run_cases, runs, voussoir, write, write_scene
+from run_program import VOUSSOIR, arch_mesh, expect, frequencies, refused, run_cases, runs, voussoir, write, write_scene
 
 
 def settings(*entries):
@@ -27,7 +27,7 @@ def spelling():
                         ("c", ["-o", "c.msh", "--format=2.2"]), ("d", ["-o=d.msh", "--format", "2.2"])):
         runs("mesh", *words, "scene.prm", "--set=Mesh/Arch210/Joints=1")
         expect(Path(f"{name}.msh").read_bytes() == Path("a.msh").read_bytes(), f"{words}: another mesh")
-    expect(len(runs("modes", "scene.prm", "--count=1").splitlines()) == 2, "--count=1")
+    expect(len(frequencies(runs("modes", "scene.prm", "--count=1"))) == 1, "--count=1")
     expect("friction 0.25" in runs("scene.prm", "--validate", "--set=Joints/Friction=0.25"), "--set=ENTRY=VALUE")
     write("arcs.csv", "elevation,upstream_x,upstream_radius,thickness,downstream_radius,right_angle,left_angle\n"
                       "0,-4,60,14,42,25,27\n30,-8,75,12,58,38,41\n60,-7,90,9,76,47,49\n90,0,100,4,96,53,55\n")
@@ -153,7 +153,7 @@ def objects():
 
     text = runs("modes", "scene.prm", "--count", "4", "--output", "modes")
     found = json.loads(runs("modes", "scene.prm", "--count", "4", "--json"))
-    expect([f"{mode['frequency']:.5f}" for mode in found["modes"]] == re.findall(r"^ +\d+ +(\d+\.\d{5})$", text, re.M), f"{found}")
+    expect([f"{mode['frequency']:.5f}" for mode in found["modes"]] == re.findall(r"^ +\d+ +(\d+\.\d{5}) ", text, re.M), f"{found}")
     header, *rows = [line.split(",") for line in Path("modes/modes.csv").read_text().splitlines()]
     for row, mode in zip(rows, found["modes"], strict=True):
         expect(list(mode) == header, f"{list(mode)}")
@@ -223,7 +223,7 @@ def questions():
     write("x.txt", "".join(f"{.01 * i:.2f} {math.sin(.3 * i):.6f}\n" for i in range(101)))
     file = answered_file("c.prm", "", "", "cohesive", "2 MPa", "", "", "file", "", "x.txt", "", "", "")
     model, entries = accepted(file, 100, "at rest|cohesive joints are up to")
-    expect("# Length of the ground motion and of the run [s]. -1: length of the shortest record, or 20.48 s" in Path(file).read_text(), "-1")
+    expect("# Length of the ground motion and of the run, or of each part of Sequence [s]. -1: length of the shortest record, or 20.48 s" in Path(file).read_text(), "-1")
     expect(model["law"] == "cohesive" and entries["Strength"] == "2 MPa" and entries["File x"] == "x.txt" and "File y" not in entries, f"{entries}")
     expect(model["motion"]["peak_acceleration"][1:] == [0, 0], f"{model['motion']}")
     result = answered("\n".join(["", "180", "tied", "massless", "artificial", "20", "0.2"]), "d.prm")
@@ -242,7 +242,7 @@ def questions():
     larger = {2: 1, 5: 2, 10: 5, 20: 10}[steps]
     print("    rock:", steps, "steps per sample;", model["rock"])
     expect(.01 / steps <= model["rock"]["critical_time_step"] < .01 / larger, f"{model['rock']}")
-    refused(["e.prm", "--validate", *settings(f"Dynamics/Steps per sample={larger}")], "Steps per sample")
+    refused(["e.prm", "--validate", *settings(f"Dynamics/Steps per sample={larger}", "Foundation/Substeps=1")], "Steps per sample")
 
 
 if __name__ == "__main__":

@@ -89,6 +89,10 @@ namespace Voussoir
           << "     # at equal distances; or: set Joint chainages = 20, 38, ... [m]\n"
           << "    set Elements along   = " << grid.elements_along << "     # along the crest\n"
           << "    set Elements up      = " << grid.elements_up << "     # from the base to the crest\n"
+          << (grid.smallest_height == ArchGrid().smallest_height
+                  ? ""
+                  : "    set Smallest height  = " + number_text(grid.smallest_height) +
+                        "   # m, of the dam at the banks\n")
           << "    set Elements through = " << grid.elements_through
           << "      # through the thickness; `voussoir accuracy` estimates the error\n  end\nend\n\n"
           << "subsection Concrete\n  set Young's modulus = 24 GPa    # dynamic\n"
