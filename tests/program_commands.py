@@ -31,9 +31,9 @@ def spelling():
     expect("friction 0.25" in runs("scene.prm", "--validate", "--set=Joints/Friction=0.25"), "--set=ENTRY=VALUE")
     write("arcs.csv", "elevation,upstream_x,upstream_radius,thickness,downstream_radius,right_angle,left_angle\n"
                       "0,-4,60,14,42,25,27\n30,-8,75,12,58,38,41\n60,-7,90,9,76,47,49\n90,0,100,4,96,53,55\n")
-    runs("arcs", "arcs.csv", "--output", "e.msh", "--along", "8")
-    runs("arcs", "--along=8", "-o", "f.msh", "arcs.csv")
-    expect(Path("e.msh").read_bytes() == Path("f.msh").read_bytes(), "arcs: another mesh")
+    runs("arcs", "arcs.csv", "--output", "e.prm", "--kind", "circular")
+    runs("arcs", "--kind=circular", "-o", "f.prm", "arcs.csv")
+    expect(Path("e.prm").read_bytes() == Path("f.prm").read_bytes(), "arcs: another scene")
     for arguments, parts in ((["scene.prm", "--quiet=1"], ("--quiet", "has no value", '"=1"')),
                              (["scene.prm", "--output="], ("--output", "needs a value", "DIR")),
                              (["scene.prm", "-o"], ("--output", "needs a value")),
