@@ -305,6 +305,23 @@ namespace
         layers.cells.push_back(cell);
     expect_close(volume(layers), polygon * 6 * h, 1e-10, "volume of the layers upstream");
 
+    // A dam with exchanged banks has the mirrored mesh.
+    MeshParameters q = p;
+    write_text("mirrored.csv",
+               circular + "285,-2,74,22,50,20,22\n345,-8,112,15,95,40,43\n405,0,150,6,144,48,51\n");
+    q.arcs.table = "mirrored.csv";
+    const auto moments = [](const HexMesh &of)
+    {
+      std::array<double, 3> sums{}; // of y, of y^3, of x y
+      for (const auto &node : of.nodes)
+        for (unsigned int k = 0; k < 3; ++k)
+          sums[k] += k == 0 ? node[1] : k == 1 ? std::pow(node[1], 3) : node[0] * node[1];
+      return sums;
+    };
+    const auto here = moments(mesh), mirrored = moments(make_mesh(q, "."));
+    for (unsigned int k = 0; k < 3; ++k)
+      expect_close(-mirrored[k], here[k], 1e-6, "the mirrored mesh, moment " + std::to_string(k));
+
     p.arcs_rock.sides = 10;
     expect_error([&] { make_mesh(p, "."); }, {"\"Mesh/Arcs/Rock/Sides\"", "50 m"});
   }
