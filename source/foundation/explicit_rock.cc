@@ -164,8 +164,9 @@ namespace Voussoir
   {
     report_rock(parameters, model, steps, delay(), log);
     if (steps.substeps > 1)
-      log.line("          %u rock steps in each step of the dam; the critical time step of the rock is %.4g s",
-               steps.substeps, dt_critical);
+      log.line(
+          "          %u rock steps in each step of the dam; the critical time step of the rock is %.4g s",
+          steps.substeps, dt_critical);
   }
 
   void ExplicitRock::add_to_summary(Json &summary, const TimeGrid &steps) const
