@@ -271,6 +271,26 @@ namespace
       expect_within(integrals.velocity.back()[0], 0., 1e-13, "velocity at the end");
       expect_within(integrals.displacement.back()[0], 0., 1e-12, "displacement at the end");
     }
+    // With rests: the ground is at rest after each part, also with a jump at the ends of the record.
+    std::vector<double> jumping(n);
+    for (std::size_t k = 0; k < n; ++k)
+      jumping[k] = line[k] + std::cos(.01 * k);
+    write_text("input_jumping.txt", table(jumping, .01));
+    for (const char *baseline : {"linear", "quadratic"})
+    {
+      MotionParameters rests = file_parameters();
+      rests.sequence = "input_jumping.txt, input_jumping.txt, input_jumping.txt; input_jumping.txt, -, -";
+      rests.baseline = baseline;
+      rests.rest = 1.;
+      const GroundMotion    both = make_motion(rests, "");
+      const MotionIntegrals of = both.integrated();
+      for (const double time : {10., 11., 21.5})
+      {
+        const std::size_t k = std::lround(time / .01);
+        expect_within(of.velocity[k][0], 0., 1e-12, std::string(baseline) + ": velocity in a rest");
+        expect_within(of.displacement[k][0], 0., 1e-11, std::string(baseline) + ": displacement in a rest");
+      }
+    }
     // The interpolation of t^2 has an error of dt^2/6 on average.
     expect_within(difference(plus(without_baseline(square, 1), fitted), square, 0), 0., 2e-5, "line of t^2");
 

@@ -30,8 +30,9 @@ namespace Voussoir
           }
     }
 
-    /** Returns one record or one artificial motion, with all factors. */
-    GroundMotion make_part(const MotionParameters &parameters, const std::string &scene_directory)
+    /** Returns one record or one artificial motion, with all factors. @p is_alone: no rest and no other part. */
+    GroundMotion make_part(const MotionParameters &parameters, const std::string &scene_directory,
+                           const bool is_alone)
     {
       GroundMotion          motion;
       const bool            artificial = parameters.source == "artificial";
@@ -48,7 +49,7 @@ namespace Voussoir
         MotionParameters as_read = parameters;
         as_read.factor = parameters.match ? 1. : parameters.factor;
         motion = read_motion(as_read, scene_directory);
-        process_record(motion, parameters, factors);
+        process_record(motion, parameters, factors, !is_alone);
       }
       for (auto &sample : motion.acceleration)
         for (unsigned int d = 0; d < 3; ++d)
@@ -82,9 +83,11 @@ namespace Voussoir
     {
       GroundMotion motion;
       motion.dt = parameters.time_step;
-      for (const MotionParameters &part : parameters.parts())
+      const auto parts = parameters.parts();
+      const bool is_alone = parts.size() == 1 && parameters.rest_length() == 0.;
+      for (const MotionParameters &part : parts)
       {
-        const GroundMotion next = make_part(part, scene_directory);
+        const GroundMotion next = make_part(part, scene_directory, is_alone);
         if (!motion.parts.empty()) // the first sample of the next part ends the rest
           append_rest(motion, std::lround(parameters.rest_length() / motion.dt) - 1);
         const double begin = motion.acceleration.size() * motion.dt;

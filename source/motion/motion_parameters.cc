@@ -94,7 +94,8 @@ namespace Voussoir
     prm.add_parameter("Baseline", baseline,
                       "Source = file: correction of each component over its length in the run. none. linear: "
                       "the least-squares straight line of the acceleration is subtracted. quadratic: a "
-                      "parabola. Both make velocity and displacement zero at the end.",
+                      "parabola. Both make velocity and displacement zero at the end. With Rest or Sequence "
+                      "the first and the last sample become zero, too.",
                       Patterns::Selection("none|linear|quadratic"));
     prm.add_parameter("Match", match,
                       "Source = file: true: each component is changed in the time domain until its response "

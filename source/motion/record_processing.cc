@@ -31,12 +31,19 @@ namespace Voussoir
       return sum;
     }
 
-    /** Subtracts the part of @p a in the direction of @p b. */
-    void remove_part(Vector &a, const Vector &b)
+    /** Makes @p a orthogonal to @p b by a multiple of @p along. */
+    void remove_part(Vector &a, const Vector &b, const Vector &along)
     {
-      const double share = product(a, b) / product(b, b);
+      const double share = product(a, b) / product(along, b);
       for (std::size_t k = 0; k < a.size(); ++k)
-        a[k] -= share * b[k];
+        a[k] -= share * along[k];
+    }
+
+    /** Returns the samples with zeros instead of the first and the last one. */
+    Vector with_zero_ends(Vector a)
+    {
+      a.front() = a.back() = 0.;
+      return a;
     }
 
     /** Returns the envelope of a record, relative to its largest value, but not below @p least [-]. */
@@ -111,9 +118,10 @@ namespace Voussoir
     }
   } // namespace
 
-  std::vector<double> without_baseline(const std::vector<double> &a, const unsigned int degree)
+  std::vector<double> without_baseline(const std::vector<double> &a, const unsigned int degree,
+                                       const bool has_zero_ends)
   {
-    Vector              result = a;
+    Vector              result = has_zero_ends ? with_zero_ends(a) : a;
     std::vector<Vector> basis; // orthogonal, by Gram and Schmidt
     for (unsigned int power = 0; power <= degree; ++power)
     {
@@ -121,12 +129,15 @@ namespace Voussoir
       for (std::size_t k = 0; k < a.size(); ++k)
         next.push_back(std::pow(2. * k / (a.size() - 1.) - 1., power));
       for (const Vector &other : basis)
-        remove_part(next, other);
+        remove_part(next, other, other);
       basis.push_back(std::move(next));
     }
-    for (unsigned int pass = 0; pass < 2; ++pass) // the second pass removes the round-off of the first
+    // The second pass removes the round-off of the first. With zero ends the passes are an iteration, which
+    // converges by a factor of about the reciprocal of the number of samples.
+    const unsigned int n_passes = has_zero_ends ? 50 : 2;
+    for (unsigned int pass = 0; pass < n_passes; ++pass)
       for (const Vector &part : basis)
-        remove_part(result, part);
+        remove_part(result, part, has_zero_ends ? with_zero_ends(part) : part);
     return result;
   }
 
@@ -146,16 +157,17 @@ namespace Voussoir
   {
     /** Returns a component without its baseline, and adds a note. */
     Vector corrected(const Vector &a, GroundMotion &motion, const MotionParameters &parameters,
-                     const unsigned int d, const double factor)
+                     const unsigned int d, const double factor, const bool has_zero_ends)
     {
       MotionParameters none = parameters;
       none.source = "none"; // no comparison with the target
-      const Vector result = without_baseline(a, parameters.baseline == "linear" ? 1 : 2);
+      const Vector result = without_baseline(a, parameters.baseline == "linear" ? 1 : 2, has_zero_ends);
       const auto   before = measures(a, motion.dt, none, d), after = measures(result, motion.dt, none, d);
+      const std::size_t  first = has_zero_ends ? 1 : 0, last = a.size() - 1 - first;
       std::ostringstream note;
       note << std::setprecision(3) << "xyz"[d] << ": " << parameters.baseline << " baseline of "
-           << factor * (a.front() - result.front()) << " m/s^2 at the start and "
-           << factor * (a.back() - result.back()) << " m/s^2 at the end subtracted; velocity at the end "
+           << factor * (a[first] - result[first]) << " m/s^2 at the start and "
+           << factor * (a[last] - result[last]) << " m/s^2 at the end subtracted; velocity at the end "
            << factor * before.end_velocity << " m/s, now " << rounded(factor, after.end_velocity)
            << "; displacement " << factor * before.end_displacement << " m, now "
            << rounded(factor, after.end_displacement);
@@ -206,7 +218,7 @@ namespace Voussoir
   } // namespace
 
   void process_record(GroundMotion &motion, const MotionParameters &parameters,
-                      const std::array<double, 3> &factors)
+                      const std::array<double, 3> &factors, const bool has_zero_ends)
   {
     if (parameters.match)
       check_length(motion.acceleration.size() - 1, motion.dt);
@@ -216,7 +228,7 @@ namespace Voussoir
       if (is_zero(a) || factors[d] == 0.)
         continue;
       if (parameters.baseline != "none")
-        a = corrected(a, motion, parameters, d, factors[d]);
+        a = corrected(a, motion, parameters, d, factors[d], has_zero_ends);
       if (parameters.match)
         a = matched(a, motion, parameters, d, factors[d]);
       for (std::size_t k = 0; k < a.size(); ++k)

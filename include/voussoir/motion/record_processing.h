@@ -16,9 +16,14 @@ namespace Voussoir
    * displacement of the ground is lost. A straight line in the acceleration is removed exactly, from the
    * velocity a parabola. Least-squares line of the acceleration: first step of Chiu 1997 (Bulletin of the
    * Seismological Society of America 87); polynomials: Boore 2001 (91).
-   * @param a samples [m/s^2], at least degree + 2
-   * @param degree 1: straight line; 2: parabola */
-  std::vector<double> without_baseline(const std::vector<double> &a, unsigned int degree);
+   *
+   * With @p has_zero_ends the first and the last sample become zero, and the polynomial is not subtracted there.
+   * Without acceleration before and after the record, velocity and displacement at the end are then zero, too.
+   * @param a samples [m/s^2], at least degree + 2, with @p has_zero_ends degree + 4
+   * @param degree 1: straight line; 2: parabola
+   * @param has_zero_ends for a record with a rest, or another record, before or after it */
+  std::vector<double> without_baseline(const std::vector<double> &a, unsigned int degree,
+                                       bool has_zero_ends = false);
 
   /** Returns a record that matches a response spectrum.
    *
@@ -42,10 +47,11 @@ namespace Voussoir
    * @param motion record [m/s^2]
    * @param parameters section "Motion"
    * @param factors later factors of the components, for the notes [-]
+   * @param has_zero_ends see without_baseline()
    *
    * Throws InputError if the record is too short or too long to be matched. */
   void process_record(GroundMotion &motion, const MotionParameters &parameters,
-                      const std::array<double, 3> &factors);
+                      const std::array<double, 3> &factors, bool has_zero_ends);
 } // namespace Voussoir
 
 #endif
