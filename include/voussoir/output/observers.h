@@ -63,9 +63,10 @@ namespace Voussoir
     void declare_accelerations();
 
     const RunState           &run;
-    double                    imbalance = 0.; ///< largest |energy balance| so far [J]
-    std::vector<std::string>  points;         ///< names of the crest and the probes
-    std::vector<unsigned int> nodes;          ///< their nodes in the mesh
+    bool                      crown_is_at_joint = false; ///< history.csv has both sides of the joint
+    double                    imbalance = 0.;            ///< largest |energy balance| so far [J]
+    std::vector<std::string>  points;                    ///< names of the crest and the probes
+    std::vector<unsigned int> nodes;                     ///< their nodes in the mesh
     Table                     history, energy;
     TableColumns              history_columns{history}, energy_columns{energy};
     TableFile                 history_file, energy_file;
