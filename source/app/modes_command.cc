@@ -102,15 +102,19 @@ namespace Voussoir
       std::fflush(stdout);
     }
 
-    /** Returns the rows of the table as objects, with the names of the columns as keys. */
-    Json json_of(const Dam &dam, const Table &table)
+    /** Returns the rows of the table as objects, with the names of the columns as keys, and the damping ratios. */
+    Json json_of(const Dam &dam, const Table &table, const ModesDamping &damping)
     {
       std::vector<Json> modes(table.rows.size());
       for (std::size_t k = 0; k < modes.size(); ++k)
         for (std::size_t i = 0; i < table.columns.size(); ++i)
           modes[k].add(table.columns[i], table.rows[k][i]);
+      for (std::size_t k = 0; k < modes.size(); ++k)
+        modes[k].add("damping", damping.ratio(k));
       std::vector<std::string> warnings = dam.mesh_warnings;
       warnings.insert(warnings.end(), dam.scene.warnings.begin(), dam.scene.warnings.end());
+      if (const std::string warning = damping.warning(); !warning.empty())
+        warnings.push_back(warning);
       Json json;
       json.add("scene", dam.scene.name)
           .add_list("free_mass", free_mass(dam.structure))
@@ -143,7 +147,7 @@ namespace Voussoir
     const Table                    table = table_of(modes, dam.structure);
     const ModesDamping             damping(scene.damping, modes, dam.structure);
     if (json)
-      std::printf("%s\n", json_of(dam, table).text().c_str());
+      std::printf("%s\n", json_of(dam, table, damping).text().c_str());
     else
     {
       std::printf("mode  frequency [Hz]  damping [%%]\n");

@@ -149,7 +149,7 @@ namespace Voussoir
       std::string value = member.second; // indent all lines of the value
       for (std::size_t i = 0; (i = value.find('\n', i)) != std::string::npos; i += 3)
         value.insert(i + 1, "  ");
-      result += (result.size() > 1 ? ",\n  \"" : "\n  \"") + member.first + "\": " + value;
+      result += (result.size() > 1 ? ",\n  " : "\n  ") + quoted_text(member.first) + ": " + value;
     }
     return result + (members.empty() ? "}" : "\n}");
   }
@@ -158,7 +158,7 @@ namespace Voussoir
   {
     std::string result = "{";
     for (const auto &member : members)
-      result += (result.size() > 1 ? ", \"" : "\"") + member.first + "\": " + member.second;
+      result += (result.size() > 1 ? ", " : "") + quoted_text(member.first) + ": " + member.second;
     return result + "}";
   }
 } // namespace Voussoir
