@@ -9,21 +9,24 @@ namespace Voussoir
 {
   namespace
   {
-    const CommandOption set = {"--set", "'Section/Entry=value'",
-                               "override an entry of the scene; may be given several times"};
+    const CommandOption overrides = {"--set", "'Section/Entry=value'",
+                                     "override an entry of the scene; may be given several times"};
 
     const std::vector<Command> commands = {
         {"",
          "SCENE.prm",
          "Runs a scene: static state and earthquake of a dam.",
          {{"--output", "DIR", "directory for the results, by default output/SCENE"},
-          set,
+          overrides,
           {"--resume", "", "continue from the last checkpoint in the directory"},
           {"--overwrite", "", "replace the results in the directory"},
           {"--validate", "", "check scene, mesh and motion, print a summary, and stop"},
           {"--json", "", "with --validate: print the summary as a JSON object"},
           {"--quiet", "", "print only errors; with --validate also warnings"}}},
-        {"scene", "SCENE.prm", "Prints the complete scene, with included files and all defaults.", {set}},
+        {"scene",
+         "SCENE.prm",
+         "Prints the complete scene, with included files and all defaults.",
+         {overrides}},
         {"arcs",
          "TABLE.csv",
          "Writes a commented scene for a dam from a table of arcs.",
@@ -34,7 +37,7 @@ namespace Voussoir
          "Writes the mesh of a scene as a file of gmsh.",
          {{"--output", "FILE.msh", "the file to write", true},
           {"--format", "4.1|2.2", "MSH format, by default 4.1"},
-          set}},
+          overrides}},
         {"modes",
          "SCENE.prm",
          "Prints natural frequencies of the monolithic dam, with added mass [Hz].",
@@ -45,7 +48,7 @@ namespace Voussoir
            "also print the response to a spectrum (CQC): that of section Motion, or a table of period [s], "
            "acceleration [m/s^2]"},
           {"--json", "", "print frequencies, participation factors and effective masses as a JSON object"},
-          set}},
+          overrides}},
         {"new",
          "[FILE.prm]",
          "Asks for dam, water, joints, foundation and motion. Writes a commented scene, by default dam.prm.",
@@ -53,7 +56,7 @@ namespace Voussoir
         {"motion",
          "SCENE.prm",
          "Writes the ground motion of a scene, t, a_x, a_y, a_z [s, m/s^2], and prints a report.",
-         {{"--output", "FILE.csv", "the file to write", true}, set}},
+         {{"--output", "FILE.csv", "the file to write", true}, overrides}},
         {"contact",
          "FILE.hdf5...",
          "Solves frictional contact problems in FCLib's format. Prints a JSON object per file, with CPU "
@@ -70,12 +73,12 @@ namespace Voussoir
          {{"--for", "X%", "target error, by default 1%"},
           {"--seconds", "X", "duration of the strongest motion [s], by default 5"},
           {"--output", "DIR", "directory for runs, table and chart, by default output/SCENE-accuracy"},
-          set},
+          overrides},
          "accuracy.py"},
         {"view",
          "SCENE.prm",
          "Draws a scene: mesh, groups, joints, water, axes, rock.",
-         {{"--output", "DIR", "directory for the pictures, by default output/SCENE-view"}, set},
+         {{"--output", "DIR", "directory for the pictures, by default output/SCENE-view"}, overrides},
          "view.py"},
         {"report",
          "DIR...",
@@ -237,7 +240,7 @@ namespace Voussoir
 
   bool sets_entry(const CommandOption &option)
   {
-    return option.meaning == std::string(set.meaning);
+    return option.meaning == std::string(overrides.meaning);
   }
 
   Arguments read_arguments(const std::vector<std::string> &words)
@@ -269,7 +272,7 @@ namespace Voussoir
         continue;
       if (find_option(command, word.text) == nullptr)
         refuse_option(command, word.text);
-      if (word.text == set.name)
+      if (word.text == overrides.name)
         arguments.overrides.push_back(word.value);
       else if (*word.option->value == '\0')
         arguments.flags.insert(word.text);
@@ -314,7 +317,7 @@ namespace Voussoir
       words.insert(words.end(), {option, value});
     words.insert(words.end(), arguments.flags.begin(), arguments.flags.end());
     for (const std::string &entry : arguments.overrides)
-      words.insert(words.end(), {set.name, entry});
+      words.insert(words.end(), {overrides.name, entry});
     words.push_back("--");
     words.insert(words.end(), arguments.words.begin(), arguments.words.end());
     return words;

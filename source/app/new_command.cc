@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/new_command.h>
-#include <voussoir/app/scene_ranges.h>
-#include <voussoir/base/entries.h>
+#include <voussoir/app/scene_text.h>
 #include <voussoir/base/error.h>
-#include <voussoir/base/output_file.h>
 #include <voussoir/dam/dam.h>
-#include <voussoir/foundation/foundation_names.h>
 #include <voussoir/mesh/mesh_axes.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <iostream>
-#include <map>
 #include <sstream>
 #include <unistd.h>
 
@@ -27,10 +22,10 @@ namespace Voussoir
   namespace
   {
     /** Questions on standard output, and the scene of the answers. */
-    class NewScene
+    class NewScene : public SceneText
     {
     public:
-      explicit NewScene(const std::string &file);
+      using SceneText::SceneText;
 
       void ask_dam();
       void ask_water();
@@ -38,33 +33,15 @@ namespace Voussoir
       void ask_foundation();
       void ask_motion();
 
-      /** Returns the scene: answers, and the entries that depend on the dam. */
-      std::string text();
-
     private:
-      const DeclaredEntry *find(const std::string &name) const;
-      void                 set(const std::string &name, const std::string &value);
       void ask(const std::string &name, const std::string &standard, const std::function<void()> &check = {});
       void ask(const std::string &name) { ask(name, find(name)->default_value); }
       void ask_file(const std::string &name, bool needed);
       void clear(const std::string &name);
-      void add(const std::string &name) { values.emplace(name, find(name)->default_value); }
       void set_rock();
 
-      Entries                            prm;
-      Scene                              scene;
-      std::vector<DeclaredEntry>         known;
-      std::map<std::string, std::string> values; ///< as written, by entry
-      HexMesh                            mesh;
+      HexMesh mesh;
     };
-
-    NewScene::NewScene(const std::string &file)
-    {
-      scene.add_parameters(prm);
-      known = declared_entries(prm);
-      scene.name = fs::path(file).stem().string();
-      scene.directory = fs::path(file).parent_path().string();
-    }
 
     /** Repeats questions until the answers are valid. At the end of the input an error is final. */
     void until_valid(const std::function<void()> &questions)
@@ -80,48 +57,6 @@ namespace Voussoir
             throw;
           std::cout << "   " << error.what() << "\n";
         }
-    }
-
-    /** Returns the choices of an entry, or an empty text. */
-    std::string choices_of(const DeclaredEntry &entry)
-    {
-      return entry.pattern.rfind("[Selection", 0) == 0 ? ", " + pattern_in_words(entry.pattern) : "";
-    }
-
-    /** Returns a comment on an entry: the first sentence of its help text, with the unit and the choices, and the
-     * sentence about the value -1. */
-    std::string comment_of(const DeclaredEntry &entry, const std::string &value)
-    {
-      const std::string &help = entry.documentation;
-      const auto         sentence = [&help](const std::size_t from)
-      {
-        const std::string text = help.substr(from, help.find(". ", from) - from);
-        return text.substr(0, text.find_last_not_of('.') + 1);
-      };
-      const auto automatic = value == "-1" ? help.find("-1: ") : std::string::npos;
-      return sentence(0) + choices_of(entry) + "." +
-             (automatic == std::string::npos ? "" : " " + sentence(automatic) + ".");
-    }
-
-    /** Returns the declaration of an entry, or null. */
-    const DeclaredEntry *NewScene::find(const std::string &name) const
-    {
-      const auto found = std::find_if(known.begin(), known.end(),
-                                      [&](const DeclaredEntry &entry) { return entry.name() == name; });
-      return found == known.end() ? nullptr : &*found;
-    }
-
-    /** Sets an entry. Throws InputError for an invalid or unusual value. */
-    void NewScene::set(const std::string &name, const std::string &value)
-    {
-      const DeclaredEntry &declared = *find(name);
-      if (value.find('#') != std::string::npos)
-        throw InputError("An input file cannot contain \"#\" in \"" + value + "\". Rename the file.");
-      const std::string converted = set_entry(prm, declared, value, "\"" + name + "\"");
-      const UsedValue   used = {name, name, declared.unit(), std::strtod(converted.c_str(), nullptr)};
-      if (const std::string warning = implausible(used, prm.usual_ranges()); !warning.empty())
-        throw InputError(warning);
-      values[name] = value;
     }
 
     /** Asks for an entry until its value is valid. @p check: throws InputError for a value that does not fit the
@@ -234,20 +169,14 @@ namespace Voussoir
         ask("Joints/Strength", "1 MPa");
         ask("Joints/Fracture energy", "150 N/m");
       }
-      for (const DeclaredEntry &entry : known)
-        if (entry.name().rfind("Joints/", 0) == 0 && entry.unit() != "" &&
-            scene.joints.any_reads(entry.name()))
-          add(entry.name());
+      add_joints();
     }
 
     void NewScene::ask_foundation()
     {
       std::cout << "\n4. Foundation\n";
       ask("Foundation/Model", find("Foundation/Model")->default_value, [this] { set_rock(); });
-      for (const char *entry : {"Young's modulus", "Poisson's ratio", "Density"})
-        if (const std::string name = std::string("Foundation/") + entry;
-            foundation_reads(scene.foundation.model, name))
-          add(name);
+      add_foundation();
     }
 
     /** Adds rock to the mesh of a foundation that needs it, and chooses its time step. */
@@ -313,47 +242,8 @@ namespace Voussoir
         values.erase("Dynamics/Steps per sample");
         return;
       }
-      for (const char *entry : {"Motion/Duration", "Motion/Time step", "Damping/Ratio", "Damping/Frequency 1",
-                                "Damping/Frequency 2"})
+      for (const char *entry : {"Motion/Duration", "Motion/Time step"})
         add(entry);
-    }
-
-    std::string NewScene::text()
-    {
-      for (const char *entry : {"Young's modulus", "Poisson's ratio", "Density"})
-        add("Concrete/" + std::string(entry));
-      scene.check();
-      std::ostringstream       out;
-      std::vector<std::string> section;
-      const auto               indent = [&] { return std::string(2 * section.size(), ' '); };
-      const auto               close = [&](const std::size_t depth)
-      {
-        while (section.size() > depth)
-        {
-          section.pop_back();
-          out << indent() << "end\n";
-        }
-      };
-      for (const DeclaredEntry &entry : known)
-      {
-        const auto value = values.find(entry.name());
-        if (value == values.end())
-          continue;
-        std::size_t common = 0;
-        while (common < section.size() && common + 1 < entry.path.size() &&
-               section[common] == entry.path[common])
-          ++common;
-        close(common);
-        for (std::size_t i = common; i + 1 < entry.path.size(); ++i)
-        {
-          out << (section.empty() ? "\n" : "") << indent() << "subsection " << entry.path[i] << "\n";
-          section.push_back(entry.path[i]);
-        }
-        out << indent() << "# " << comment_of(entry, value->second) << "\n"
-            << indent() << "set " << entry.path.back() << " = " << value->second << "\n";
-      }
-      close(0);
-      return out.str();
     }
   } // namespace
 
@@ -362,29 +252,17 @@ namespace Voussoir
     const std::string file = words.empty() ? "dam.prm" : words[0];
     if (words.size() > 1)
       throw InputError("`voussoir new` writes one file. Remove the argument \"" + words[1] + "\".");
-    const auto expect_new = [&file]
-    {
-      std::error_code error;
-      if (fs::exists(fs::symlink_status(file, error)))
-        throw InputError(
-            "The file " + file +
-            " exists. `voussoir new` does not replace it: name another file, as `voussoir new other.prm`.");
-    };
-    expect_new();
-    std::cout << "Enter takes the value in brackets. The end of the input takes all remaining ones.\n";
     NewScene scene(file);
+    scene.expect_new();
+    std::cout << "Enter takes the value in brackets. The end of the input takes all remaining ones.\n";
     scene.ask_dam();
     scene.ask_water();
     scene.ask_joints();
     scene.ask_foundation();
     scene.ask_motion();
-    const std::string text = scene.text();
-    expect_new();
-    OutputFile out(file);
-    out << "# Scene of a dam, written by `voussoir new`. All other entries have their defaults.\n"
-           "# Check each value: `voussoir parameters SECTION` describes all entries of a section.\n"
-        << text;
-    out.check();
+    scene.add_materials();
+    scene.write("# Scene of a dam, written by `voussoir new`. All other entries have their defaults.\n"
+                "# Check each value: `voussoir parameters SECTION` describes all entries of a section.\n");
     std::cout << "\n"
               << file << " is written. Check each value, then\n    voussoir " << file
               << " --validate\n    voussoir " << file << "\n";

@@ -197,8 +197,7 @@ namespace Voussoir
     using namespace dealii::Patterns;
     prm.add_parameter(
         "Elements along", elements_along,
-        "Total number of elements along the crest [-]. Rounded up to a multiple of the number of "
-        "monoliths.",
+        "Total number of elements along the crest [-]. Rounded up such that each monolith has a whole number.",
         Integer(1, 10000));
     prm.add_parameter("Elements up", elements_up, "Number of elements from the base to the crest [-].",
                       Integer(1, 1000));
