@@ -130,6 +130,22 @@ namespace Voussoir
       }
     }
 
+    /** Returns the changes of a scene as a JSON object. */
+    std::string json_of_choices(const Scene &scene)
+    {
+      std::vector<Json> list;
+      for (const ModelChoice &choice : scene.model_choices())
+      {
+        Json entries, row;
+        for (const auto &[entry, value] : choice.entries)
+          entries.add(entry, value);
+        row.add("group", choice.group).add("name", choice.name);
+        row.add("set", entries).add_flag("simpler", choice.is_simpler);
+        list.push_back(row);
+      }
+      return Json().add("choices", list).text() + "\n";
+    }
+
     void run_with_scene(const Arguments &arguments)
     {
       Scene              scene;
@@ -145,7 +161,7 @@ namespace Voussoir
       if (command.empty())
         return run_scene(scene, text.str(), arguments);
       if (command == "scene")
-        std::cout << text.str();
+        std::cout << (arguments.has("--choices") ? json_of_choices(scene) : text.str());
       else if (command == "modes")
         print_modes(scene, arguments.value("--count", "10"), arguments.value("--output"),
                     arguments.value("--spectrum"), arguments.has("--json"));

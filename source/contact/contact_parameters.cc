@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/parameter_handler.h>
 
+#include <voussoir/base/model_choices.h>
 #include <voussoir/contact/contact_parameters.h>
 
 namespace Voussoir
@@ -29,6 +30,13 @@ namespace Voussoir
     prm.add_parameter("Write interval", write_interval,
                       "Every N-th contact problem is written, where N is this number [-].", Integer(1));
     prm.leave_subsection();
+  }
+
+  void ContactParameters::add_choices(ModelChoices &choices) const
+  {
+    if (const double other = 100. * tolerance; other <= 1e-6)
+      choices.add("numerics", "tolerance of the joints " + number_text(other), "Contact/Tolerance", other,
+                  true);
   }
 
   std::string ContactParameters::method_names()

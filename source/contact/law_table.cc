@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/entries.h>
+#include <voussoir/base/model_choices.h>
 #include <voussoir/base/names.h>
 #include <voussoir/contact/cohesive_law.h>
 #include <voussoir/contact/fja_law.h>
@@ -100,6 +101,20 @@ namespace Voussoir
       if (includes(law.entries, entry))
         names += (names.empty() ? "" : ", ") + std::string(law.name);
     return names;
+  }
+
+  void add_law_choices(const std::string &present, const LawParameters &parameters, ModelChoices &choices)
+  {
+    const EntryNames read = row_of(laws, present, "is no joint law", "The laws are:").entries;
+    for (const LawRow &law : laws)
+    {
+      if (law.name == present)
+        continue;
+      std::map<std::string, std::string> entries = {{"Joints/Model", law.name}, {"Joints/Overrides", ""}};
+      if (includes(law.entries, "Joints/Strength") && parameters.strength == 0.)
+        entries.insert({{"Joints/Strength", "1e6"}, {"Joints/Fracture energy", "150"}});
+      choices.add("joints", law.name, entries, includes_all(read, law.entries));
+    }
   }
 
   std::string joint_law_names()

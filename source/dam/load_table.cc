@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/entries.h>
+#include <voussoir/base/model_choices.h>
 #include <voussoir/base/names.h>
 #include <voussoir/dam/dam_loads.h>
 #include <voussoir/dam/face_pressure.h>
@@ -193,6 +194,26 @@ namespace Voussoir
     for (const LoadRow *row : rows_by_order())
       if (row->declare)
         row->declare(loads, prm);
+  }
+
+  void add_load_choices(const Scene &scene, ModelChoices &choices)
+  {
+    std::vector<const LoadRow *> active;
+    for (const LoadRow &row : load_table())
+      if (row.acts(scene) && scene.loads.factor(row.name) != 0.)
+        active.push_back(&row);
+    for (const LoadRow *without : active)
+    {
+      if (without->is_by_gravity && !without->defined_by) // weight and water have other changes
+        continue;
+      std::string combination;
+      for (const LoadRow *row : active)
+        if (row != without)
+          combination += row->name + (" " + number_text(scene.loads.factor(row->name))) + ", ";
+      combination += "earthquake " + number_text(scene.loads.factor("earthquake"));
+      choices.add("loads", "without " + std::string(without->name),
+                  {{"Loads/Combinations", "needs: " + combination}, {"Loads/Combination", "needs"}}, true);
+    }
   }
 
   std::vector<StaticLoad> static_loads(const Scene &scene, const LoadSite &site)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/entries.h>
+#include <voussoir/base/model_choices.h>
 #include <voussoir/base/names.h>
 #include <voussoir/dam/reservoir.h>
 #include <voussoir/solid/for_faces.h>
@@ -32,6 +33,23 @@ namespace Voussoir
         "reservoir.",
         {.1, 1.5, true}, Patterns::Double(0.));
     prm.leave_subsection();
+  }
+
+  void ReservoirParameters::add_choices(ModelChoices &choices) const
+  {
+    if (density == 0. || level <= choices.bottom)
+      return;
+    choices.add("water", "empty reservoir", "Reservoir/Density", 0., true);
+    choices.add("water", "water level 10 % lower", "Reservoir/Water level",
+                level - .1 * (level - choices.bottom));
+    if (added_mass == "none" || factor == 0.)
+      return choices.add("water", "Westergaard",
+                         {{"Reservoir/Added mass", "Westergaard"}, {"Reservoir/Factor", "1"}});
+    choices.add("water", "no added mass", {{"Reservoir/Added mass", "none"}}, true);
+    if (factor != 1.)
+      choices.add("water", "Westergaard", "Reservoir/Factor", 1.);
+    if (factor != .5)
+      choices.add("water", "half of Westergaard", "Reservoir/Factor", .5);
   }
 
   void add_water_pressure(const SolidModel &model, const ReservoirParameters &reservoir, const double gravity,

@@ -4,6 +4,7 @@
 #include <voussoir/base/number_text.h>
 #include <voussoir/contact/fclib_io.h>
 #include <voussoir/contact/law_table.h>
+#include <voussoir/dam/load_table.h>
 #include <voussoir/dam/scene.h>
 #include <voussoir/dynamics/newmark.h>
 #include <voussoir/foundation/foundation_names.h>
@@ -39,6 +40,13 @@ namespace Voussoir
     prm.add_parameter("Frequency 2", frequency_2, "Upper frequency with this damping ratio [Hz].", {.5, 100.},
                       Patterns::Double(1e-6));
     prm.leave_subsection();
+  }
+
+  void DampingParameters::add_choices(ModelChoices &choices) const
+  {
+    for (const double other : {.03, .1})
+      if (ratio != other)
+        choices.add("material", "damping " + number_text(100. * other) + " %", "Damping/Ratio", other);
   }
 
   void DampingParameters::check() const
@@ -97,6 +105,25 @@ namespace Voussoir
                        [&](const auto &joint) { return joint_law_reads(joint.second, entry); });
   }
 
+  void JointParameters::add_choices(ModelChoices &choices) const
+  {
+    if (choices.n_joints == 0)
+      return;
+    add_law_choices(model, *this, choices);
+    if (overrides.empty() && model != "tied" && choices.n_joints > 1)
+    {
+      std::string tied;
+      for (unsigned int joint = 2; joint <= choices.n_joints; joint += 2)
+        tied += (tied.empty() ? "" : ", ") + std::to_string(joint) + ": tied";
+      choices.add("joints", "every second joint", {{"Joints/Overrides", tied}}, true);
+    }
+    if (any_reads("Joints/Friction") && friction > 0.)
+    {
+      choices.add("joints", "friction 25 % lower", "Joints/Friction", .75 * friction);
+      choices.add("joints", "friction 25 % higher", "Joints/Friction", 1.25 * friction);
+    }
+  }
+
   void JointParameters::check() const
   {
     // KSM treats a flank as closed within 1e-9 of the key height. A step starts with the error of the
@@ -120,6 +147,13 @@ namespace Voussoir
               << " m/Pa.";
       throw InputError(message.str());
     }
+  }
+
+  void StaticParameters::add_choices(ModelChoices &choices) const
+  {
+    for (const char *kind : {"staged", "monolithic"})
+      if (self_weight != "none" && self_weight != kind)
+        choices.add("loads", "self-weight " + std::string(kind), {{"Statics/Self-weight", kind}});
   }
 
   void StaticParameters::add_parameters(Entries &prm)
@@ -280,6 +314,45 @@ namespace Voussoir
     contact.add_parameters(prm);
     limits.add_parameters(prm);
     output.add_parameters(prm);
+  }
+
+  std::vector<ModelChoice> Scene::model_choices() const
+  {
+    ModelChoices  choices;
+    const HexMesh hexes = hex_mesh();
+    choices.bottom = 1e300, choices.top = -1e300;
+    choices.has_rock = mesh.source != "file";
+    for (const HexMesh::Cell &cell : hexes.cells)
+      if (is_monolith(cell.volume))
+      {
+        choices.n_joints = std::max<unsigned int>(choices.n_joints, cell.volume - 1);
+        for (const unsigned int node : cell.nodes)
+        {
+          choices.bottom = std::min(choices.bottom, hexes.nodes[node][2]);
+          choices.top = std::max(choices.top, hexes.nodes[node][2]);
+        }
+      }
+      else
+        choices.has_rock = true;
+    reservoir.add_choices(choices);
+    foundation.add_choices(choices);
+    joints.add_choices(choices);
+    add_load_choices(*this, choices);
+    statics.add_choices(choices);
+    motion.add_choices(choices);
+    damping.add_choices(choices);
+    choices.add("material", "Young's modulus 20 % lower", "Concrete/Young's modulus", .8 * concrete.young);
+    mesh.add_choices(foundation_reads(foundation.model, "Foundation/Young's modulus"), choices);
+    if (elements.degree == 1)
+      choices.add("numerics", "elements of degree 2", "Elements/Degree", 2.);
+    choices.add("numerics", "half the time step", "Dynamics/Steps per sample", 2. * steps_per_sample);
+    if (steps_per_sample % 2 == 0)
+      choices.add("numerics", "twice the time step", "Dynamics/Steps per sample", .5 * steps_per_sample,
+                  true);
+    if (!has_single_factors())
+      choices.add("numerics", "factors in single precision", {{"Dynamics/Factors", "single"}}, true);
+    contact.add_choices(choices);
+    return choices.list;
   }
 
   HexMesh Scene::hex_mesh() const

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/model_choices.h>
 #include <voussoir/base/names.h>
 #include <voussoir/foundation/foundation_table.h>
 #include <voussoir/foundation/massless_rock.h>
@@ -62,6 +63,28 @@ namespace Voussoir
     std::unique_ptr<Foundation> foundation = row_of_model(site.parameters.model).make(site);
     check_mesh(site, *foundation);
     return foundation;
+  }
+
+  void FoundationParameters::add_choices(ModelChoices &choices) const
+  {
+    const EntryNames read = row_of_model(model).entries;
+    for (const FoundationRow &row : rows)
+      if (row.name != model && choices.has_rock)
+        choices.add("foundation", row.name, {{"Foundation/Model", row.name}},
+                    includes_all(read, row.entries));
+    if (model == "rigid")
+      return;
+    for (const double share : {.8, 1.25})
+      choices.add("foundation",
+                  "modulus of the rock " + std::string(share < 1. ? "20 % lower" : "25 % higher"),
+                  "Foundation/Young's modulus", share * rock.young);
+    if (model != "rock")
+      return;
+    for (const char *name : {"mtf2", "viscous-spring"})
+      if (boundary != name)
+        choices.add("foundation", "boundary " + std::string(name), {{"Foundation/Boundary", name}});
+    if (coupling != "partition" && substeps > 0)
+      choices.add("foundation", "twice the rock steps", "Foundation/Substeps", 2. * n_substeps());
   }
 
   std::string foundation_names()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/model_choices.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/mesh/arch_grid.h>
 
@@ -209,6 +210,24 @@ namespace Voussoir
         "is embedded in the bank. All rows of elements share this height. With 0, the elements at the ends "
         "would be as flat as \"End wall height\" divided by \"Elements up\".",
         Double(0, 20));
+  }
+
+  void ArchGrid::add_choices(const std::string &section, ModelChoices &choices) const
+  {
+    const unsigned int monoliths = choices.n_joints + 1;
+    const auto         add =
+        [&](const char *name, const unsigned int now, const unsigned int unit, const unsigned int least)
+    {
+      const unsigned int coarse = std::max<unsigned int>(least, now / 2), fine = (3 * now + 1) / 2;
+      const std::string  entry = section + "/Elements " + name;
+      if (coarse < now)
+        choices.add("numerics", std::string("fewer elements ") + name, entry, unit * coarse, true);
+      choices.add("numerics", std::string("more elements ") + name, entry, unit * fine);
+    };
+    add("along", std::max(1u, (elements_along + monoliths - 1) / monoliths), monoliths, 1);
+    if (rows.empty())
+      add("up", elements_up, 1, 4);
+    add("through", elements_through, 1, 1);
   }
 
   void check_grid(const ArchShape &shape, const ArchGrid &grid, const std::string &section)

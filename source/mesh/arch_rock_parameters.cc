@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/model_choices.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/mesh/arch_rock.h>
 
@@ -38,6 +39,21 @@ namespace Voussoir
                       "boundary requires them.",
                       Integer(6, 100));
     prm.leave_subsection();
+  }
+
+  void ArchRockParameters::add_choices(const std::string &section, ModelChoices &choices) const
+  {
+    const ArchRockParameters now = complete(choices.top - choices.bottom);
+    const std::string        rock = section + "/Rock/";
+    for (const double share : {.7, 1.5})
+      choices.add("foundation", share < 1. ? "smaller box of rock" : "larger box of rock",
+                  {{rock + "Upstream", number_text(share * now.upstream)},
+                   {rock + "Downstream", number_text(share * now.downstream)},
+                   {rock + "Sides", number_text(share * now.sides)},
+                   {rock + "Depth", number_text(share * now.depth)}},
+                  share < 1.);
+    choices.add("numerics", "larger rock elements", rock + "Element size", 1.4 * now.element_size, true);
+    choices.add("numerics", "smaller rock elements", rock + "Element size", now.element_size / 1.4);
   }
 
   void ArchRockParameters::check(const std::string &section, const double height) const

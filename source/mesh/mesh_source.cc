@@ -99,6 +99,15 @@ namespace Voussoir
     add_rock("Arcs", arcs_rock);
   }
 
+  void MeshParameters::add_choices(const bool uses_rock, ModelChoices &choices) const
+  {
+    if (source == "file")
+      return;
+    (source == "arcs" ? arcs.grid : ArchGrid(arch210)).add_choices(section(), choices);
+    if (uses_rock)
+      generated_rock()->add_choices(section(), choices);
+  }
+
   void MeshParameters::check() const
   {
     file_axes(axes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/model_choices.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/motion/motion_parameters.h>
 
@@ -362,6 +363,22 @@ namespace Voussoir
     if (has_target() && !target_file.empty())
       target_spectrum = read_target_spectrum((std::filesystem::path(scene_directory) / target_file).string(),
                                              unit, vertical_ratio, MotionCriteria::last_period);
+  }
+
+  void MotionParameters::add_choices(ModelChoices &choices) const
+  {
+    const auto moves = [&](const unsigned int d)
+    {
+      const bool in_file = source == "file" && file.empty() && sequence.empty() && component_files[d].empty();
+      return source != "none" && factor != 0. && scale[d] != 0. && !in_file;
+    };
+    if (moves(1))
+      choices.add("motion", "without the cross-stream component", "Motion/Scale y", 0., true);
+    if (moves(2))
+      choices.add("motion", "without the vertical component", "Motion/Scale z", 0., true);
+    for (unsigned int n = 1; source == "artificial" && sequence.empty() && n <= 3; ++n)
+      choices.add("motion", "scatter of the motion, seed " + std::to_string(seed + n), "Motion/Seed",
+                  seed + n);
   }
 
   MotionEnvelope MotionParameters::envelope() const

@@ -27,6 +27,14 @@ namespace Voussoir
                        { return name.back() == '/' ? entry.rfind(name, 0) == 0 : entry == name; });
   }
 
+  /** Returns true if @p names contain all @p parts or their sections. */
+  inline bool includes_all(const EntryNames &names, const EntryNames &parts)
+  {
+    return std::all_of(parts.begin(), parts.end(),
+                       [&](const std::string &part)
+                       { return includes(names, part) || std::count(names.begin(), names.end(), part) > 0; });
+  }
+
   // Below, the rows of a table are structs with the members name and doc (a short description).
 
   /** Returns the names of a table in the order of the rows, such as "rigid|rock|massless", a selection of

@@ -12,6 +12,8 @@ namespace dealii
 
 namespace Voussoir
 {
+  struct ModelChoices;
+
   /** Parameters of the contact solver: subsection "Contact" of the input file. */
   struct ContactParameters
   {
@@ -27,6 +29,9 @@ namespace Voussoir
 
     /** Declares the entries of subsection "Contact". */
     void add_parameters(dealii::ParameterHandler &prm);
+
+    /** Adds another tolerance. */
+    void add_choices(ModelChoices &choices) const;
 
     /** Returns the methods as a ParameterHandler selection: newton, proximal and sweeps (Gauss-Seidel). */
     static std::string method_names();

@@ -10,6 +10,8 @@
 
 namespace Voussoir
 {
+  struct ModelChoices;
+
   /** Makes the joint law with the given @p name: tied, FJA, FJB, KSM or cohesive. Throws InputError for an
    * unknown name, for equations that the law does not have, and for invalid parameters. */
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters);
@@ -38,6 +40,9 @@ namespace Voussoir
 
   /** Returns the names of the laws as a ParameterHandler selection: "tied|FJA|FJB|KSM|cohesive". */
   std::string joint_law_names();
+
+  /** Adds the other laws for all joints. A law is simpler if the present one reads all of its entries. */
+  void add_law_choices(const std::string &present, const LawParameters &parameters, ModelChoices &choices);
 
   /** Returns names and short descriptions of the laws, for the help of the entry "Joints/Model". */
   std::string joint_law_docs();

@@ -9,6 +9,7 @@
 namespace Voussoir
 {
   class Entries;
+  struct ModelChoices;
 
   class SolidModel;
 
@@ -23,6 +24,9 @@ namespace Voussoir
 
     /** Declares the entries of the subsection. */
     void add_parameters(Entries &prm);
+
+    /** Adds the changes of water and added mass. */
+    void add_choices(ModelChoices &choices) const;
   };
 
   /** Adds the hydrostatic pressure on the surface "upstream" to @p load [N]. @p gravity: [m/s^2]. */

@@ -2,6 +2,7 @@
 #ifndef voussoir_scene_h
 #define voussoir_scene_h
 
+#include <voussoir/base/model_choices.h>
 #include <voussoir/contact/contact_solver.h>
 #include <voussoir/contact/law_parameters.h>
 #include <voussoir/dam/limits.h>
@@ -17,7 +18,7 @@
 namespace Voussoir
 {
   // Each struct has the entries of one subsection of the input file. add_parameters() declares the entries,
-  // check() throws InputError for invalid values.
+  // check() throws InputError for invalid values, add_choices() adds changes for `voussoir needs`.
 
   /** Parameters of the subsection "Elements". */
   struct ElementParameters
@@ -33,6 +34,7 @@ namespace Voussoir
     double ratio = .05, frequency_1 = 1.2, frequency_2 = 6.; ///< [-], [Hz], [Hz]
     void   add_parameters(Entries &prm);
     void   check() const;
+    void   add_choices(ModelChoices &choices) const;
     double mass_factor() const;      ///< a0 [1/s]
     double stiffness_factor() const; ///< a1 [s]
   };
@@ -47,6 +49,7 @@ namespace Voussoir
     std::map<unsigned int, std::string> overrides;                        ///< model by joint number
     void                                add_parameters(Entries &prm);
     void                                check() const;
+    void                                add_choices(ModelChoices &choices) const;
 
     /** Returns the parameters of the joint laws. @p young: Young's modulus of the concrete [Pa]. */
     LawParameters law(double young) const;
@@ -70,6 +73,7 @@ namespace Voussoir
     double       gravity = 9.81;         ///< [m/s^2]
     std::string  stages;                 ///< stages before the final water level: static_stages()
     void         add_parameters(Entries &prm);
+    void         add_choices(ModelChoices &choices) const;
   };
 
   /** Parameters of the subsection "Output". */
@@ -137,6 +141,10 @@ namespace Voussoir
 
     /** Declares all entries. */
     void add_parameters(Entries &prm);
+
+    /** Returns changes of modelling and numerical choices. Only changes that have an effect are listed. Throws InputError
+     * like hex_mesh(). */
+    std::vector<ModelChoice> model_choices() const;
 
     /** Generates or reads the mesh. A generated mesh has rock if the foundation needs it. Throws InputError like
      * make_mesh(). */

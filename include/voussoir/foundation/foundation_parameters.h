@@ -11,6 +11,7 @@
 namespace Voussoir
 {
   class Entries;
+  struct ModelChoices;
 
   /** Parameters of the subsection "Foundation" of the input file. */
   struct FoundationParameters
@@ -40,6 +41,9 @@ namespace Voussoir
 
     /** Declares the entries of the subsection. */
     void add_parameters(Entries &prm);
+
+    /** Adds the changes of the foundation. */
+    void add_choices(ModelChoices &choices) const;
 
     /** Returns the materials of the zones by name. Throws the InputErrors of Voussoir::zone_materials(). */
     std::map<std::string, Material> zone_materials() const;

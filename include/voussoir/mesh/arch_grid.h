@@ -11,6 +11,7 @@
 namespace Voussoir
 {
   class Entries;
+  struct ModelChoices;
 
   /** Mesh of an arch dam: joints, numbers of elements, and the dam's lowest parts. */
   struct ArchGrid
@@ -26,6 +27,9 @@ namespace Voussoir
 
     /** Declares the entries of the current subsection that all dams have. */
     void add_parameters(Entries &prm);
+
+    /** Adds coarser and finer meshes. @p section: subsection of the entries, as "Mesh/Arcs". */
+    void add_choices(const std::string &section, ModelChoices &choices) const;
 
     /** Returns the number of monoliths. */
     unsigned int n_monoliths() const { return n_joints + 1; }

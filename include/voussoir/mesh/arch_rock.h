@@ -7,6 +7,7 @@
 namespace Voussoir
 {
   class Entries;
+  struct ModelChoices;
 
   /** Parameters of the rock around an arch dam, subsections "Mesh/Arch210/Rock" and "Mesh/Arcs/Rock". The rock is a
    * block with a valley along x. The cross section of the valley is arch_valley(). */
@@ -22,6 +23,9 @@ namespace Voussoir
 
     /** Declares the subsection "Rock" of the current subsection. Lengths of 0 are allowed if @p or_from_height. */
     void add_parameters(Entries &prm, bool or_from_height);
+
+    /** Adds other sizes of the rock. @p section: as "Mesh/Arch210"; the heights are those of the dam. */
+    void add_choices(const std::string &section, ModelChoices &choices) const;
 
     /** Throws InputError if a number is out of range. @p section: as "Mesh/Arch210", for messages; @p height:
      * height of the dam [m]. */

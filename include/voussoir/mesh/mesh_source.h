@@ -12,6 +12,7 @@
 namespace Voussoir
 {
   class Entries;
+  struct ModelChoices;
 
   /** Source of the mesh: subsection "Mesh" of the input file. */
   struct MeshParameters
@@ -28,6 +29,9 @@ namespace Voussoir
     MeshParameters();
 
     void add_parameters(Entries &prm);
+
+    /** Adds the changes of a generated mesh. @p uses_rock: true if the foundation uses rock. */
+    void add_choices(bool uses_rock, ModelChoices &choices) const;
 
     /** Throws InputError if the file or the table of the source is not named, if axes is not three different axes, or
      * if the parameters of arch210 are wrong. */

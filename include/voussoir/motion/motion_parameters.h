@@ -12,6 +12,7 @@
 namespace Voussoir
 {
   class Entries;
+  struct ModelChoices;
 
   /** Envelope of an artificial motion: (t / rise_end)^2, then 1, then exp(-decay_rate (t - decay_begin)). */
   struct MotionEnvelope
@@ -55,6 +56,9 @@ namespace Voussoir
     unsigned int   matching_iterations = 20;   ///< largest number of passes of match_spectrum()
 
     void add_parameters(Entries &prm);
+
+    /** Adds motions with fewer components, and other motions of the same spectrum ("scatter"). */
+    void add_choices(ModelChoices &choices) const;
 
     /** Checks the entries. Throws InputError with the name of a wrong entry. */
     void check() const;
