@@ -262,7 +262,7 @@ namespace
       R.add(0, 0, {1e9, 0., 0., 0., 1e9, 0., 0., 0., 1e9});
       return R;
     }
-    Unknowns predict(unsigned int, const Unknowns &) override { return {0., 0., 0.}; }
+    Unknowns predict(unsigned int, double, const Unknowns &) override { return {0., 0., 0.}; }
     void     advance(const unsigned int n, const Unknowns &, const Unknowns &, double) override
     {
       pushes.push_back(n);

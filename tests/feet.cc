@@ -239,7 +239,7 @@ namespace
     constexpr double   damping = 2e-3, dt = 1e-2;
     MasslessSupport    whole(rock, standing, damping, dt), quarter(rock, standing, damping, dt / 4);
     const unsigned int n = whole.n_substeps();
-    const Unknowns     at = {1., -2., 3.}, a = whole.predict(n / 4, at), b = quarter.predict(n, at);
+    const Unknowns     at = {1., -2., 3.}, a = whole.predict(n / 4, 0., at), b = quarter.predict(n, 0., at);
     const auto         c = whole.compliance(n / 4), d = quarter.compliance(n);
     for (unsigned int i = 0; i < 3; ++i)
       below("massless rock, a quarter of a step: place", a[i] / b[i] - 1., 1e-14);
@@ -247,9 +247,36 @@ namespace
       below("  compliance", c.value[0][i] - d.value[0][i], 1e-14 * d.value[0][0]);
     below("  place by hand", a[0] - (2. * damping * 4. / dt - 1.) / (2. * damping * 4. / dt + 1.), 1e-14);
   }
+
+  /** Constant accelerations at stations: displacements a t^2/2, interpolated by height. */
+  void test_base_motion()
+  {
+    GroundMotion motion;
+    motion.dt = .5;
+    motion.acceleration.assign(5, {{1., 0., 0.}});
+    motion.stations = {{false, 150., std::vector<std::array<double, 3>>(5, {{3., 0., 0.}})},
+                       {true, 120., std::vector<std::array<double, 3>>(5, {{1., 4., 0.}})},
+                       {false, 120., std::vector<std::array<double, 3>>(5, {{2., 0., 0.}})}};
+    const std::vector<Vector3> places = {{{0., 0., 100.}},  {{0., -1., 110.}}, {{0., -1., 120.}},
+                                         {{0., -1., 135.}}, {{0., -1., 170.}}, {{0., 1., 105.}},
+                                         {{0., 1., 200.}}};
+    const double               x[] = {0., .5, 1., 1.5, 2., 0., 0.}, y[] = {0., 0., 0., 0., 0., 1., 4.};
+    const BaseMotion           base(motion, places);
+    const Unknowns             u = base.displacement(1.5), v = base.velocity(1.25);
+    for (unsigned int i = 0; i < places.size(); ++i)
+    {
+      below("base motion: displacement x", u[3 * i] - x[i] * 1.125, 1e-14);
+      below("  displacement y", u[3 * i + 1] - y[i] * 1.125, 1e-14);
+      below("  velocity x, between two samples", v[3 * i] - x[i] * 1.25, 1e-14);
+    }
+    below("  after the motion", base.displacement(9.)[12] - 2. * 2., 1e-14);
+    motion.stations.resize(1);
+    motion.stations[0].height = 100.;
+    below("  one station at the lowest node", BaseMotion(motion, places).displacement(1.)[0] - 1., 1e-14);
+  }
 } // namespace
 
 int main()
 {
-  return run_all({test_operator, test_solution, test_parts});
+  return run_all({test_operator, test_solution, test_parts, test_base_motion});
 }

@@ -108,7 +108,7 @@ namespace
       rock = std::max(rock, foundation.balance_error());
       interface = std::max(interface, std::abs(foundation.energy_balance().coupling_error()));
       auto          &own = dynamic_cast<SubcycledRock &>(foundation);
-      const Unknowns places = own.predict(0, {}); // where they are
+      const Unknowns places = own.predict(0, 0., {}); // where they are
       for (std::size_t k = 0; k < places.size(); ++k)
       {
         const double u = newmark.state().u[3 * std::size_t(own.base_nodes()[k / 3]) + k % 3];

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import run_program
 from program_watch import settings
-from run_program import expect, run_cases, runs, same, same_to_the_bit, summary, table, write_scene
+from run_program import expect, refused, run_cases, runs, same, same_to_the_bit, summary, table, write_scene
 
 MASSLESS = settings("Foundation/Model=massless", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
                     "Motion/Duration=1", "Output/Figures=false", "Contact/Tolerance=1e-12")
@@ -78,14 +78,71 @@ def resume():
     write_scene()
     chosen = [*MASSLESS, *settings("Joints/Model=FJA", "Output/Checkpoint interval=20", "Dynamics/Error estimate=true", *SUSTAINED)]
     runs("scene.prm", "--output", "whole", *chosen)
-    process = subprocess.Popen([run_program.VOUSSOIR, "scene.prm", "--output", "killed", *chosen], stdout=subprocess.DEVNULL)
+    stop_and_resume("whole", chosen)
+
+
+def records(**files):
+    """Writes records of 1 s: name -> factor of three smooth components, from rest to rest."""
+    from math import pi, sin
+    for name, factor in files.items():
+        with open(name + ".txt", "w", encoding="ascii") as file:
+            for k in range(101):
+                t = .01 * k
+                print(t, *(factor * sin(pi * t) ** 2 * sin(w * t + p) for w, p in ((17, 0), (23, 1), (29, 2))), file=file)
+
+
+def abutments():
+    """Different motions of the banks. Equal records at the banks and no motion of the base are the uniform motion: the dam is
+    strained alike, but for the discretisation of the ground's displacement, which is of second order. One body and monoliths on
+    the rock agree. The rock's account closes, and a killed run goes on as if it had not been."""
+    write_scene()
+    records(strong=.6, still=0, other=.9)
+    bottom = 0  # all base nodes are at or above it
+    damping = settings("Damping/Frequency 1=1e-6", "Joints/Model=FJA", "Motion/Source=file", "Motion/Duration=-1", "Motion/Unit=m/s^2")
+    off = []
+    for steps in (2, 4):
+        common = [*MASSLESS, *damping, *settings(f"Dynamics/Steps per sample={steps}")]
+        runs("scene.prm", "--output", f"uniform{steps}", *common, "--set", "Motion/File=strong.txt")
+        banks = f"Motion/Abutments=right {bottom}: strong.txt; left {bottom}: strong.txt"
+        runs("scene.prm", "--output", f"banks{steps}", *common, "--set", "Motion/File=still.txt", "--set", banks)
+        names, a = table(f"uniform{steps}/joint_history.csv")
+        _, b = table(f"banks{steps}/joint_history.csv")
+        size = max(abs(x) for row in a for x in row[1:])
+        off.append(max(abs(x - y) for p, q in zip(a, b) for x, y in zip(p, q)) / size)
+        expect(size > 1e-4, f"the joints hardly move: {size} m")
+        expect(summary(f"banks{steps}")["energy_balance_error"] < 1e-8, "energy of the dam")
+        balance = max(map(abs, column(f"banks{steps}", "rock_balance"))) / max(map(abs, column(f"banks{steps}", "rock_feet")))
+        expect(balance < 1e-9, f"the rock's account closes to {balance:.1e}")
+    print(f"    openings and slips differ by {off[0]:.1e} and, with half the step, {off[1]:.1e}")
+    expect(off[1] < 1e-3 and off[1] < .35 * off[0], f"not of second order: {off}")
+    different = [*MASSLESS, *damping, *settings("Motion/File=strong.txt", "Motion/Abutments=right 120: other.txt; left 90: other.txt; "
+                                                "left 200: strong.txt", "Dynamics/Steps per sample=2")]
+    runs("scene.prm", "--output", "own", *different)
+    runs("scene.prm", "--output", "one", *different, *ONE_BODY)
+    (_, own), (_, one) = (table(f"{directory}/joint_history.csv") for directory in ("own", "one"))
+    size = max(abs(x) for row in one for x in row[1:])
+    apart = max(abs(x - y) for a, b in zip(own, one) for x, y in zip(a, b)) / size
+    print(f"    one body: off by {apart:.1e} of {size:.3g} m")
+    expect(apart < 1e-4, "one body and monoliths on the rock differ")
+    changed = table("uniform2/joint_history.csv")[1]
+    expect(max(abs(x - y) for a, b in zip(own, changed) for x, y in zip(a, b)) > .05 * size, "the banks do not matter")
+    for directory, more in (("own", []), ("one", ONE_BODY)):
+        stop_and_resume(directory, [*different, *more, *settings("Output/Checkpoint interval=20")])
+    refused(["scene.prm", *different, "--set", "Foundation/Model=rigid"], "Motion/Abutments", "massless", "one body")
+    refused(["scene.prm", *different, "--set", "Motion/Abutments=middle 3: other.txt"], "middle 3", "right 95")
+    refused(["scene.prm", *different, "--set", "Motion/Abutments=left 3: nowhere.txt"], "nowhere.txt")
+
+
+def stop_and_resume(whole, chosen):
+    """Kills a second run after its first checkpoint, resumes it, and compares it with the first one."""
+    process = subprocess.Popen([run_program.VOUSSOIR, "scene.prm", "--output", "killed", "--overwrite", *chosen], stdout=subprocess.DEVNULL)
     while process.poll() is None and not Path("killed", "checkpoint.txt").exists():
         time.sleep(.001)
     process.send_signal(signal.SIGKILL)
     expect(process.wait() == -signal.SIGKILL, "it ended before it could be killed")
     runs("scene.prm", "--output", "killed", *chosen, "--resume")
-    same_to_the_bit("whole", "killed")
+    same_to_the_bit(whole, "killed")
 
 
 if __name__ == "__main__":
-    run_cases(one_body, halved, resume)
+    run_cases(one_body, halved, resume, abutments)

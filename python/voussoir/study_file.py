@@ -220,14 +220,15 @@ def is_file_entry(entry):
 
 
 def with_paths(entry, text, directory):
-    """The value of an entry with absolute paths of its files, and these paths. In Motion/Sequence, numbers are seeds."""
+    """The value of an entry with absolute paths of its files, and these paths. In Motion/Sequence, numbers are
+    seeds; in Motion/Abutments, a bank and a height precede the files."""
     if is_file_entry(entry) and text:
         path = str((directory / text).resolve())
         return path, [path]
-    if entry != "Motion/Sequence":
+    if entry not in ("Motion/Sequence", "Motion/Abutments"):
         return text, []
-    words = [word.strip() for word in re.split("([;,])", text)]
-    paths = {word: str((directory / word).resolve()) for word in words if word not in ("", ";", ",", "-") and not word.isdigit()}
+    words = [word.strip() for word in re.split("([;,]|(?:right|left) [^:;]*:)" if entry == "Motion/Abutments" else "([;,])", text)]
+    paths = {word: str((directory / word).resolve()) for word in words if word not in ("", ";", ",", "-") and not word.isdigit() and word[-1] != ":"}
     return " ".join(paths.get(word, word) for word in words), list(paths.values())
 
 

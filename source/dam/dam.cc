@@ -161,10 +161,10 @@ namespace Voussoir
     }
     else
       structure.pairs = std::move(pairs);
-    foundation->add_stiffness(*model, structure);
-    structure.n_joints = tied ? 0 : n_joints;
     structure.mass_damping = scene.damping.mass_factor();
     structure.stiffness_damping = scene.damping.stiffness_factor();
+    foundation->add_stiffness(*model, structure);
+    structure.n_joints = tied ? 0 : n_joints;
     structure.collect_interfaces();
   }
 

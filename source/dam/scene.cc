@@ -387,6 +387,12 @@ namespace Voussoir
           add(in_sequence ? "Motion/Sequence" : entries[d], part.component_files[d]);
       }
     }
+    for (const StationParameters &station : motion.stations())
+    {
+      add("Motion/Abutments", station.record.file);
+      for (const std::string &component : station.record.component_files)
+        add("Motion/Abutments", component);
+    }
     if (motion.has_target())
       add("Motion/Target spectrum", motion.target_file);
     return files;
@@ -432,6 +438,11 @@ namespace Voussoir
       throw InputError("Entry \"Contact/Write problems\" requires a rigid base or massless rock, because the "
                        "files cannot contain the coupling of base nodes by rock. Remove the entry, or set "
                        "\"Foundation/Model\" to rigid or massless.");
+    if (!motion.abutments.empty() && foundation.model != "massless")
+      throw InputError("Entry \"Motion/Abutments\" requires \"Foundation/Model\" = massless, not " +
+                       foundation.model +
+                       ": a rigid base moves as one body, and rock with mass receives the ground motion from "
+                       "below. Set the model to massless, or remove the entry.");
     joints.check();
     loads.check();
     static_stages(statics.stages);

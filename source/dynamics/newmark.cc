@@ -203,7 +203,7 @@ namespace Voussoir
                                BaseOfStep &base)
   {
     if (support)
-      base.displacement = support->predict(level.n_substeps, at_base(now.u));
+      base.displacement = support->predict(level.n_substeps, now.time, at_base(now.u));
     Unknowns offset = reference, start(reference.size()), memory = now.memory;
     for (double &x : offset)
       x = -x;

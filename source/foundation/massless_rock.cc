@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace Voussoir
 {
@@ -50,6 +51,12 @@ namespace Voussoir
       {
         rock = condense_rock(parameters, mesh, dam, incompatible_modes, source);
         dam_nodes = DamNodes(rock.base_nodes);
+        std::map<unsigned int, Vector3> place;
+        for (unsigned int i = 0; i < dam.n_nodes(); ++i)
+          place[dam.equation[i]] = {{dam.points[i][0], dam.points[i][1], dam.points[i][2]}};
+        for (const unsigned int node : dam_nodes.node)
+          places.push_back(place.at(node));
+        damping = structure.stiffness_damping;
         if (!one_body)
         {
           spring = static_spring();
@@ -103,14 +110,35 @@ namespace Voussoir
             BaseElimination::Nodes{dam_nodes.node, dam_nodes.matrix(C)});
       }
 
-      void start(const GroundMotion &, const TimeGrid &steps, const Unknowns &u) override
+      void start(const GroundMotion &motion, const TimeGrid &steps, const Unknowns &u) override
       {
         grid = steps;
+        if (!motion.stations.empty())
+          base_motion = std::make_unique<BaseMotion>(motion, places);
         at_rest = u;
         offset.clear();
         for (const unsigned int node : dam_nodes.node)
           for (unsigned int c = 0; parameters.sustained_ratio() != 1. && c < 3; ++c)
             offset.push_back((1. - parameters.sustained_ratio()) * u[3 * std::size_t(node) + c]);
+      }
+
+      /** Adds the forces by different motions of the banks. With a support they are part of its prediction. */
+      void advance(Unknowns &load) override
+      {
+        if (!one_body || !base_motion)
+          return;
+        const double            time = grid.dt * ++steps_done[0];
+        const Unknowns          u = base_motion->displacement(time), v = base_motion->velocity(time);
+        const BlockSparseMatrix S = dam_nodes.matrix(rock.matrix());
+        for (unsigned int i = 0; i < S.n_rows(); ++i)
+          for (std::size_t k = S.start[i]; k < S.start[i + 1]; ++k)
+          {
+            const std::size_t j = 3 * std::size_t(S.column[k]);
+            const Vector3 force = S.value[k] * Vector3{{u[j] + damping * v[j], u[j + 1] + damping * v[j + 1],
+                                                        u[j + 2] + damping * v[j + 2]}};
+            for (unsigned int c = 0; c < 3; ++c)
+              load[3 * std::size_t(dam_nodes.node[i]) + c] += force[c];
+          }
       }
 
       Support *support(Structure &structure) override
@@ -147,6 +175,8 @@ namespace Voussoir
 
       std::vector<std::vector<double> *> state() override
       {
+        if (one_body && base_motion)
+          return {&steps_done};
         return supported ? std::vector<std::vector<double> *>{&supported->account}
                          : std::vector<std::vector<double> *>();
       }
@@ -154,7 +184,8 @@ namespace Voussoir
     private:
       std::unique_ptr<MasslessSupport> make_support(const Structure &structure, const double dt) const
       {
-        return std::make_unique<MasslessSupport>(rock, dam_nodes, structure.stiffness_damping, dt, offset);
+        return std::make_unique<MasslessSupport>(rock, dam_nodes, structure.stiffness_damping, dt, offset,
+                                                 base_motion.get());
       }
 
       /** Adds @p factor times the rock to the body of the dam. */
@@ -196,8 +227,12 @@ namespace Voussoir
       DamNodes                         dam_nodes;
       TimeGrid                         grid;
       Unknowns                         at_rest;
-      Unknowns                         offset;      ///< MasslessSupport::offset [m]
-      double                           spring = 0.; ///< at the base nodes in the static state [N/m]
+      Unknowns                         offset;            ///< MasslessSupport::offset [m]
+      double                           spring = 0.;       ///< at the base nodes in the static state [N/m]
+      std::vector<Vector3>             places;            ///< of the dam nodes on the rock [m]
+      double                           damping = 0.;      ///< stiffness-proportional [s]
+      std::unique_ptr<BaseMotion>      base_motion;       ///< or null: the banks have the ground motion
+      std::vector<double>              steps_done = {0.}; ///< for base_motion of one body
       std::unique_ptr<MasslessSupport> supported;
     };
   } // namespace

@@ -18,11 +18,27 @@ namespace Voussoir
       largest,
       n_entries
     };
+
+    Unknowns plus(Unknowns place, const Unknowns &offset)
+    {
+      for (std::size_t k = 0; k < offset.size(); ++k)
+        place[k] += offset[k];
+      return place;
+    }
+
+    /** Returns the displacement @p place without the offset [m]. */
+    Unknowns difference(Unknowns place, const Unknowns &offset)
+    {
+      for (std::size_t k = 0; k < offset.size(); ++k)
+        place[k] -= offset[k];
+      return place;
+    }
   } // namespace
 
   MasslessSupport::MasslessSupport(const CondensedRock &rock, const DamNodes &dam_nodes,
-                                   const double stiffness_damping, const double dt, const Unknowns &offset)
-      : rock(rock), dam_nodes(dam_nodes), damping(stiffness_damping), dt(dt), offset(offset)
+                                   const double stiffness_damping, const double dt, const Unknowns &offset,
+                                   const BaseMotion *motion)
+      : rock(rock), dam_nodes(dam_nodes), damping(stiffness_damping), dt(dt), offset(offset), motion(motion)
   {
   }
 
@@ -35,24 +51,23 @@ namespace Voussoir
     return dam_nodes.matrix(result);
   }
 
-  Unknowns MasslessSupport::predict(const unsigned int n, const Unknowns &at)
+  Unknowns MasslessSupport::predict(const unsigned int n, const double time, const Unknowns &at)
   {
-    before = at;
-    Unknowns place = elastic(at);
+    from = offset_at(time);
+    to = motion ? offset_at(time + n * dt / n_full) : from;
+    before = difference(at, from);
+    Unknowns place = before;
     for (double &x : place)
       x *= (ratio(n) - 1.) / (ratio(n) + 1.);
-    for (std::size_t k = 0; k < offset.size(); ++k)
-      place[k] += offset[k];
+    for (std::size_t k = 0; k < to.size(); ++k)
+      place[k] += to[k];
     return place;
   }
 
-  /** Returns the displacement @p place of the dam nodes without the offset [m]. */
-  Unknowns MasslessSupport::elastic(const Unknowns &place) const
+  /** Returns the displacement of the dam nodes without force at a time [m], or empty if it is zero. */
+  Unknowns MasslessSupport::offset_at(const double time) const
   {
-    Unknowns result = place;
-    for (std::size_t k = 0; k < offset.size(); ++k)
-      result[k] -= offset[k];
-    return result;
+    return motion ? plus(motion->displacement(time), offset) : offset;
   }
 
   /** Returns the values of one dam node per base node. Dam nodes on the same base node have equal values. */
@@ -83,20 +98,20 @@ namespace Voussoir
     for (const unsigned int node : dam_nodes.node)
       at.insert(at.end(), u.begin() + 3 * std::size_t(node), u.begin() + 3 * std::size_t(node) + 3);
     account.assign(n_entries, 0.);
-    account[strain] = account[at_start] = energy(of_rock(elastic(at)));
+    account[strain] = account[at_start] = energy(of_rock(difference(at, offset)));
   }
 
-  void MasslessSupport::advance(const unsigned int n, const Unknowns &, const Unknowns &place,
+  void MasslessSupport::advance(const unsigned int n, const Unknowns &force, const Unknowns &place,
                                 const double work)
   {
     if (account.empty())
       return;
-    Unknowns change = place;
-    for (std::size_t k = 0; k < change.size(); ++k)
-      change[k] -= before[k];
-    account[strain] = energy(of_rock(elastic(place)));
-    account[damped] += ratio(n) * energy(of_rock(change));
+    const Unknowns now = difference(place, to);
+    account[strain] = energy(of_rock(now));
+    account[damped] += ratio(n) * energy(of_rock(difference(now, before)));
     account[worked] -= work;
+    for (std::size_t k = 0; motion && k < force.size(); ++k) // work of the moving rock
+      account[worked] += force[k] * (to[k] - from[k]);
     account[largest] = std::max({account[largest], std::abs(account[strain] - account[at_start]),
                                  account[damped], std::abs(account[worked])});
   }

@@ -61,7 +61,7 @@ namespace Voussoir
     return dam_nodes.matrix(patch->compliance(n));
   }
 
-  Unknowns SubcycledRock::predict(const unsigned int n, const Unknowns &)
+  Unknowns SubcycledRock::predict(const unsigned int n, double, const Unknowns &)
   {
     const Stopwatch watch;
     const double    worked = Ranks::work();

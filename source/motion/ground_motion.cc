@@ -32,29 +32,58 @@ namespace Voussoir
   GroundMotion GroundMotion::scaled(const double factor) const
   {
     GroundMotion result = *this;
-    for (auto &a : result.acceleration)
-      for (double &component : a)
-        component *= factor;
+    const auto   scale = [factor](std::vector<std::array<double, 3>> &acceleration)
+    {
+      for (auto &a : acceleration)
+        for (double &component : a)
+          component *= factor;
+    };
+    scale(result.acceleration);
+    for (MotionStation &station : result.stations)
+      scale(station.acceleration);
     return result;
   }
+
+  namespace
+  {
+    /** Returns samples at intervals that are @p n times smaller, by linear interpolation. */
+    std::vector<std::array<double, 3>> refined_samples(const std::vector<std::array<double, 3>> &samples,
+                                                       const unsigned int                        n)
+    {
+      std::vector<std::array<double, 3>> result;
+      for (std::size_t k = 0; k + 1 < samples.size(); ++k)
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          std::array<double, 3> a;
+          for (unsigned int c = 0; c < 3; ++c)
+            a[c] = samples[k][c] + double(i) / n * (samples[k + 1][c] - samples[k][c]);
+          result.push_back(a);
+        }
+      result.push_back(samples.back());
+      return result;
+    }
+  } // namespace
 
   GroundMotion GroundMotion::refined(const unsigned int n) const
   {
     if (n == 1 || acceleration.empty())
       return *this;
-    GroundMotion result;
+    GroundMotion result = *this;
     result.dt = dt / n;
-    result.notes = notes;
-    result.parts = parts;
-    for (std::size_t k = 0; k + 1 < acceleration.size(); ++k)
-      for (unsigned int i = 0; i < n; ++i)
-      {
-        std::array<double, 3> a;
-        for (unsigned int c = 0; c < 3; ++c)
-          a[c] = acceleration[k][c] + double(i) / n * (acceleration[k + 1][c] - acceleration[k][c]);
-        result.acceleration.push_back(a);
-      }
-    result.acceleration.push_back(acceleration.back());
+    result.acceleration = refined_samples(acceleration, n);
+    for (MotionStation &station : result.stations)
+      station.acceleration = refined_samples(station.acceleration, n);
+    return result;
+  }
+
+  GroundMotion GroundMotion::relative(const MotionStation &station) const
+  {
+    GroundMotion result;
+    result.dt = dt;
+    result.acceleration = station.acceleration;
+    for (std::size_t k = 0; k < acceleration.size(); ++k)
+      for (unsigned int c = 0; c < 3; ++c)
+        result.acceleration[k][c] -= acceleration[k][c];
     return result;
   }
 

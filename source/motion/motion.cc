@@ -5,6 +5,7 @@
 #include <voussoir/motion/motion_files.h>
 #include <voussoir/motion/record_processing.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -101,6 +102,43 @@ namespace Voussoir
       add_times(motion);
       return motion;
     }
+    /** Returns the largest and the last displacement of a motion relative to the base in words. */
+    std::string relative_displacement(const GroundMotion &relative)
+    {
+      const auto         displacement = relative.integrated().displacement;
+      std::ostringstream text;
+      double             all = 0., end = 0.;
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        double largest = 0.;
+        for (const auto &u : displacement)
+          largest = std::max(largest, std::abs(u[c]));
+        text << (c == 0 ? "largest displacement relative to the base " : ", ") << 1e3 * largest << " mm in "
+             << "xyz"[c];
+        all = std::max(all, largest), end = std::max(end, std::abs(displacement.back()[c]));
+      }
+      if (end > MotionCriteria::end_displacement * all)
+        text << ". warning: at the end " << 1e3 * end
+             << " mm remain. They strain the dam. If they are an error of the records, correct the baseline "
+                "(Motion/Baseline)";
+      return text.str();
+    }
+
+    /** Adds the records of the stations, with the same length as the motion, and notes. */
+    void add_stations(const MotionParameters &parameters, const std::string &scene_directory,
+                      GroundMotion &motion)
+    {
+      for (StationParameters &station : parameters.stations())
+      {
+        station.record.duration = motion.parts[0].end;
+        GroundMotion record = make_part(station.record, scene_directory, parameters.rest_length() == 0.);
+        check_samples(record);
+        record.acceleration.resize(motion.acceleration.size(), {{0., 0., 0.}});
+        motion.stations.push_back({station.is_left, station.height, record.acceleration});
+        motion.notes.push_back("station " + station.name + " m, " + station.record.name_of_part() + ": " +
+                               relative_displacement(motion.relative(motion.stations.back())));
+      }
+    }
   } // namespace
 
   GroundMotion make_motion(const MotionParameters &parameters, const std::string &scene_directory)
@@ -117,6 +155,7 @@ namespace Voussoir
     with_target.read_target(scene_directory);
     motion = make_sequence(with_target, scene_directory);
     check_samples(motion);
+    add_stations(with_target, scene_directory, motion);
     return motion;
   }
 } // namespace Voussoir

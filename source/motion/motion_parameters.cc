@@ -88,6 +88,14 @@ namespace Voussoir
               ", as a table with the columns t [s], a, or as a PEER AT2 file. Empty: the component is zero.",
           Patterns::Anything());
     prm.add_parameter(
+        "Abutments", abutments,
+        "Source = file: other motions at the banks, as \"right Z: FILES; left Z: FILES\", with the height Z [m] "
+        "of the station. FILES: one file as in File, or three files for x, y, z, separated by commas. File, or "
+        "File x, y, z, is then the motion at the lowest base node. The motion of the other base nodes is "
+        "interpolated linearly by height between the stations of their bank, and above the highest station it "
+        "is that of the station. Requires Foundation/Model = massless.",
+        Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
+    prm.add_parameter(
         "Unit", unit,
         "Unit of the acceleration in tables and in Target spectrum: g (9.80665 m/s^2), m/s^2 or "
         "cm/s^2. AT2 files are always in g.",
@@ -284,6 +292,7 @@ namespace Voussoir
     check_target(*this);
     if (source == "artificial")
       check_artificial(*this);
+    stations();
   }
 
   double MotionParameters::length() const
@@ -312,13 +321,13 @@ namespace Voussoir
             "by semicolons, such as 1; 2.");
     }
 
-    /** Sets the files of a part. @p element: element of "Sequence". */
-    void set_files(MotionParameters &part, const std::string &element)
+    /** Sets the files of a part. @p element: element of "Sequence" or "Abutments", which @p entry names. */
+    void set_files(MotionParameters &part, const std::string &element, const std::string &entry)
     {
       const std::vector<std::string> names = split(element, ',');
       if ((names.size() != 1 && names.size() != 3) || std::count(names.begin(), names.end(), "") > 0 ||
           std::count(names.begin(), names.end(), "-") == std::ptrdiff_t(names.size()))
-        throw InputError("Motion/Sequence: '" + element +
+        throw InputError("Motion/" + entry + ": '" + element +
                          "' is neither one file with t, a_x, a_y, a_z nor three files for x, y, z (- for a "
                          "component at rest), separated by commas. Semicolons separate the motions.");
       if (names.size() == 1)
@@ -341,8 +350,34 @@ namespace Voussoir
       if (source == "artificial")
         set_seed(part, element);
       else
-        set_files(part, element);
+        set_files(part, element, "Sequence");
       result.push_back(part);
+    }
+    return result;
+  }
+
+  std::vector<StationParameters> MotionParameters::stations() const
+  {
+    std::vector<StationParameters> result;
+    if (!abutments.empty() && (source != "file" || !sequence.empty()))
+      throw InputError("Motion/Abutments requires Motion/Source = file, without Motion/Sequence. Remove "
+                       "Abutments, or give the motion by Motion/File or File x, y, z.");
+    for (const auto &[name, files] : abutments)
+    {
+      const bool         is_left = name.rfind("left ", 0) == 0;
+      std::istringstream height(name.substr(std::min(name.size(), name.find(' '))));
+      std::string        more;
+      double             z;
+      if ((!is_left && name.rfind("right ", 0) != 0) || !(height >> z) || height >> more)
+        throw InputError("Motion/Abutments: '" + name +
+                         "' is no station. Write the bank and the height in m, as in \"right 95: "
+                         "right.csv; left 95: left.csv\".");
+      MotionParameters record = *this;
+      record.abutments.clear();
+      record.file.clear();
+      record.component_files = {};
+      set_files(record, files, "Abutments");
+      result.push_back({name, is_left, z, record});
     }
     return result;
   }

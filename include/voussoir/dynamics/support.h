@@ -33,9 +33,9 @@ namespace Voussoir
     virtual BlockSparseMatrix compliance(unsigned int n) const = 0;
 
     /** Returns the displacement of the base nodes after the next @p n substeps without coupling forces [m].
-     * @p at: displacement of the base nodes at the start of the step [m]. The support does not advance. Must
-     * be called by all ranks. */
-    virtual Unknowns predict(unsigned int n, const Unknowns &at) = 0;
+     * @p time: time at the start of the step [s]; @p at: displacement of the base nodes at the start of the step
+     * [m]. The support does not advance. Must be called by all ranks. */
+    virtual Unknowns predict(unsigned int n, double time, const Unknowns &at) = 0;
 
     /** Advances the support by the @p n substeps of the last predict(). Must be called by all ranks.
      * @param n number of substeps

@@ -3,6 +3,7 @@
 #define voussoir_massless_support_h
 
 #include <voussoir/dynamics/support.h>
+#include <voussoir/foundation/base_motion.h>
 #include <voussoir/foundation/condensed_rock.h>
 
 namespace Voussoir
@@ -13,7 +14,8 @@ namespace Voussoir
    *      (1 + 2 b / dt) S u_new = (2 b / dt - 1) S u_old - 2 force,
    *
    * with the mean force of the step. With a sustained modulus E_s of the rock, u is the displacement minus
-   * (1 - E_s/E) times the static one. Up to round-off the result is that of dam and rock as one body. A time
+   * (1 - E_s/E) times the static one. With different motions of the banks, u is also relative to the
+   * displacement of the rock without the dam (BaseMotion). Up to round-off the result is that of dam and rock as one body. A time
    * step can be halved three times. */
   class MasslessSupport : public Support
   {
@@ -24,14 +26,16 @@ namespace Voussoir
      * @param dam_nodes dam nodes on the rock
      * @param stiffness_damping damping factor b [s]
      * @param dt time step of the dam, without reduction [s]
-     * @param offset displacement without force, three values per dam node [m]; empty: zero */
+     * @param offset displacement without force, three values per dam node [m]; empty: zero
+     * @param motion motion of the rock at the dam nodes without the dam, relative to the ground motion; null: none.
+     * It must outlive the object. */
     MasslessSupport(const CondensedRock &rock, const DamNodes &dam_nodes, double stiffness_damping, double dt,
-                    const Unknowns &offset = {});
+                    const Unknowns &offset = {}, const BaseMotion *motion = nullptr);
 
     const std::vector<unsigned int> &base_nodes() const override { return dam_nodes.node; }
     unsigned int                     n_substeps() const override { return n_full; }
     BlockSparseMatrix                compliance(unsigned int n) const override;
-    Unknowns                         predict(unsigned int n, const Unknowns &at) override;
+    Unknowns                         predict(unsigned int n, double time, const Unknowns &at) override;
     void advance(unsigned int n, const Unknowns &force, const Unknowns &place, double work) override;
 
     /** Sets the energies to those of the static state. Must be called before the first advance() if energies
@@ -57,14 +61,16 @@ namespace Voussoir
     static constexpr unsigned int n_full = 8; ///< substeps of the full time step
     double   ratio(const unsigned int n) const { return 2. * damping * n_full / (dt * n); } ///< 2 b / dt [-]
     Unknowns of_rock(const Unknowns &of_nodes) const;
-    Unknowns elastic(const Unknowns &place) const;
+    Unknowns offset_at(double time) const;
     double   energy(const Unknowns &a) const;
 
     const CondensedRock &rock;
     const DamNodes      &dam_nodes;
     const double         damping, dt; ///< damping factor b [s], time step [s]
     const Unknowns       offset;      ///< displacement without force [m], or empty
-    Unknowns             before;      ///< displacement at the start of the step [m]
+    const BaseMotion    *motion;      ///< or null
+    Unknowns             before;      ///< displacement at the start of the step, without its offset [m]
+    Unknowns             from, to;    ///< offset at the start and at the end of the step [m], or empty
   };
 } // namespace Voussoir
 

@@ -50,7 +50,7 @@ namespace Voussoir
     BlockSparseMatrix                compliance(unsigned int n) const override;
 
     /** Predicts with RockPatch from the motion of the rock; @p at is unused. Must be called by all ranks. */
-    Unknowns predict(unsigned int n, const Unknowns &at) override;
+    Unknowns predict(unsigned int n, double time, const Unknowns &at) override;
 
     /** Advances the rock by @p n time steps under the opposite forces. Must be called by all ranks. */
     void advance(unsigned int n, const Unknowns &force, const Unknowns &place, double work) override;

@@ -23,6 +23,14 @@ namespace Voussoir
     double      begin, end; ///< times of its first and last sample [s]. The rest follows.
   };
 
+  /** Record at one bank of the valley, of the same length as the ground motion. */
+  struct MotionStation
+  {
+    bool                               is_left;      ///< true: left bank (y > 0)
+    double                             height;       ///< z [m]
+    std::vector<std::array<double, 3>> acceleration; ///< as in GroundMotion [m/s^2]
+  };
+
   /** Ground motion: acceleration of the base in the axes of the program. x points downstream, y to the left
    * bank, z up. The acceleration is linear between the samples. */
   struct GroundMotion
@@ -31,6 +39,7 @@ namespace Voussoir
     std::vector<std::array<double, 3>> acceleration; ///< a_x, a_y, a_z [m/s^2] at t = k dt
     std::vector<std::string>           notes; ///< processing of records (duration, filter), for the log
     std::vector<MotionPart>            parts; ///< one after another; make_motion() sets them
+    std::vector<MotionStation> stations; ///< other motions at the banks, "Motion/Abutments"; empty: the same
 
     /** Returns the time of the last sample [s]. */
     double duration() const;
@@ -50,6 +59,9 @@ namespace Voussoir
 
     /** Returns the same motion with @p n steps in each sampling interval. */
     GroundMotion refined(unsigned int n) const;
+
+    /** Returns the motion of a station minus this motion. */
+    GroundMotion relative(const MotionStation &station) const;
 
     /** Returns velocity and displacement, by exact integration of the linear acceleration. */
     MotionIntegrals integrated() const;

@@ -6,6 +6,7 @@
 #include <voussoir/motion/target_spectrum.h>
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ namespace Voussoir
     double rise_end, decay_begin; ///< [s]
     double decay_rate;            ///< [1/s]
   };
+
+  struct StationParameters;
 
   /** Section "Motion" of an input file. */
   struct MotionParameters
@@ -43,6 +46,9 @@ namespace Voussoir
     std::string                unit = "m/s^2";    ///< of tables: "g", "m/s^2" or "cm/s^2"
     std::string                baseline = "none"; ///< or "linear", "quadratic": without_baseline()
     bool                       match = false;     ///< matched_record() to the target spectrum
+
+    /** Files of records at the banks by "right HEIGHT" or "left HEIGHT"; see stations(). */
+    std::map<std::string, std::string> abutments;
 
     // Source = artificial
     DesignSpectrum spectrum;
@@ -86,6 +92,9 @@ namespace Voussoir
      * an element of "Sequence" is neither a seed (Source = artificial), nor one file, nor three. */
     std::vector<MotionParameters> parts() const;
 
+    /** Returns the records of "Abutments", by bank and height. Throws InputError if an entry cannot be read. */
+    std::vector<StationParameters> stations() const;
+
     /** Returns the name of a part for messages: its files, or its seed. */
     std::string name_of_part() const;
 
@@ -116,6 +125,15 @@ namespace Voussoir
 
     TargetSpectrum target_spectrum; ///< content of target_file
     void           add_artificial_parameters(Entries &prm);
+  };
+
+  /** Record of "Abutments". */
+  struct StationParameters
+  {
+    std::string      name; ///< "right HEIGHT" or "left HEIGHT"
+    bool             is_left;
+    double           height; ///< z [m]
+    MotionParameters record;
   };
 
   /** Acceptance criteria of ground motions. Those of artificial motions follow Chinese hydraulic practice. */
