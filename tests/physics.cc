@@ -548,8 +548,8 @@ namespace
     {
       const double                        c = std::cos(angle), s = std::sin(angle);
       std::vector<SpectrumResponse::Mode> modes = {
-          {{frequency, {c, 0., 0., s, 0., 0.}}, .05, {{S_a, 0., 0.}}},
-          {{frequency, {-s, 0., 0., c, 0., 0.}}, .05, {{S_a, 0., 0.}}}};
+          {{frequency, {c, 0., 0., s, 0., 0.}}, .05, {{S_a, 0., 0.}}, {}},
+          {{frequency, {-s, 0., 0., c, 0., 0.}}, .05, {{S_a, 0., 0.}}, {{0., 0., .5}}}};
       const SpectrumResponse response(structure, modes, {{1., 0., 0.}});
       std::vector<double>    u, force;
       for (const SpectrumResponse::Part &part : response.parts())
@@ -573,6 +573,7 @@ namespace
     const auto             S_a = [](const unsigned int d, const double f) {
       return d == 0 ? .2 + f : d == 1 ? .5 + 2. * f : 0.;
     };
+    const auto share = [](const unsigned int d, const unsigned int k) { return d == 0 ? 0. : .25 * (k - 1); };
     for (const unsigned int m : {0, 1, 3, 4})
     {
       std::vector<SpectrumResponse::Mode> modes;
@@ -580,7 +581,7 @@ namespace
       for (unsigned int d = 0; d < 2; ++d)
       {
         std::vector<double> w, at, sum, S;
-        double              rest_u = 12. * (n + 1 - 12.) / (2. * c[d]), rest_force = n;
+        double              rigid_u = peak[d] * 12. * (n + 1 - 12.) / (2. * c[d]), rigid_force = peak[d] * n;
         for (unsigned int k = 1; k <= m; ++k)
         {
           Unknowns shape(3 * n, 0.);
@@ -590,14 +591,17 @@ namespace
           S.push_back(S_a(d, w.back() / (2. * pi)));
           at.push_back(std::sqrt(2. / (n + 1)) * std::sin(k * pi * 12. / (n + 1)));
           sum.push_back(k % 2 == 0 ? 0. : std::sqrt(2. / (n + 1)) / std::tan(k * pi / (2. * (n + 1))));
-          rest_u -= at.back() * sum.back() / (w.back() * w.back());
-          rest_force -= sum.back() * sum.back();
+          const double part = share(d, k) * S.back() - peak[d]; // of the rigid part
+          rigid_u += part * at.back() * sum.back() / (w.back() * w.back());
+          rigid_force += part * sum.back() * sum.back();
           modes.push_back({{w.back() / (2. * pi), shape},
                            damping,
-                           {{S_a(0, w.back() / (2. * pi)), S_a(1, w.back() / (2. * pi)), 0.}}});
+                           {{S_a(0, w.back() / (2. * pi)), S_a(1, w.back() / (2. * pi)), 0.}},
+                           {{share(0, k), share(1, k), .7}}});
+          S.back() *= std::sqrt(1. - share(d, k) * share(d, k));
         }
-        u[d] = std::pow(peak[d] * rest_u, 2);
-        force[d] = std::pow(peak[d] * rest_force, 2);
+        u[d] = rigid_u * rigid_u;
+        force[d] = rigid_force * rigid_force;
         for (unsigned int i = 0; i < m; ++i)
           for (unsigned int j = 0; j < m; ++j)
           {

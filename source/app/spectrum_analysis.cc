@@ -28,6 +28,24 @@ namespace Voussoir
       std::printf("%-42s %10.3f %10.3f %10.3f\n", name, x[0], x[1], x[2]);
     }
 
+    /** Returns the two frequencies of Gupta's method for the ground motion along axis @p d [Hz]: modes below the
+     * first one have no rigid share, and modes above the second one are rigid. */
+    std::array<double, 2> rigid_range(const ChosenSpectrum &spectrum, const unsigned int d)
+    {
+      double                 acceleration = 0., velocity = 0.;
+      constexpr unsigned int n = 500; // periods, at equal ratios
+      for (unsigned int k = 0; k <= n; ++k)
+      {
+        const double period = spectrum.last_period *
+                              std::pow(SpectrumTable::rigid_period / spectrum.last_period, k / double(n));
+        const double a = spectrum.at(period)[d];
+        acceleration = std::max(acceleration, a);
+        velocity = std::max(velocity, a * period / (2. * M_PI));
+      }
+      const double first = velocity > 0. ? acceleration / (2. * M_PI * velocity) : 1.;
+      return {first, (first + 2. / SpectrumTable::rigid_period) / 3.};
+    }
+
     /** Returns the modes of the combination, with their accelerations. */
     std::vector<SpectrumResponse::Mode> modes_to_combine(const std::vector<NaturalMode> &modes,
                                                          const ChosenSpectrum &spectrum, const double damping)
@@ -35,7 +53,17 @@ namespace Voussoir
       std::vector<SpectrumResponse::Mode> result;
       for (const NaturalMode &mode : modes)
         if (const double period = 1. / mode.frequency; period > SpectrumTable::rigid_period)
-          result.push_back({mode, damping, spectrum.at(period)});
+          result.push_back({mode, damping, spectrum.at(period), {}});
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        const auto [first, second] =
+            rigid_range(spectrum, d); // first < second, unless all modes are flexible
+        for (SpectrumResponse::Mode &m : result)
+          m.rigid_share[d] =
+              first < second
+                  ? std::clamp(std::log(m.mode.frequency / first) / std::log(second / first), 0., 1.)
+                  : 0.;
+      }
       return result;
     }
 
@@ -146,12 +174,16 @@ namespace Voussoir
                        "spectral_acceleration_z",
                        "participation_x",
                        "participation_y",
-                       "participation_z"};
+                       "participation_z",
+                       "rigid_share_x",
+                       "rigid_share_y",
+                       "rigid_share_z"};
       for (std::size_t k = 0; k < modes.size(); ++k)
       {
         const Vector3 &a = modes[k].acceleration, factor = modes[k].mode.participation(structure);
         table.rows.push_back({double(k + 1), modes[k].mode.frequency, modes[k].damping, a[0], a[1], a[2],
-                              factor[0], factor[1], factor[2]});
+                              factor[0], factor[1], factor[2], modes[k].rigid_share[0],
+                              modes[k].rigid_share[1], modes[k].rigid_share[2]});
       }
       return table;
     }
@@ -182,16 +214,19 @@ namespace Voussoir
                 {
                   const double a = table.at(period);
                   return Vector3{{a, a, a}};
-                }};
+                },
+                std::min(table.period.back(), MotionCriteria::last_period)};
       }
       const MotionParameters &motion = scene.motion;
       if (motion.source != "artificial")
         throw InputError("--spectrum design: the scene has no design spectrum, because Motion/Source is " +
                          motion.source + ". Set Motion/Source to artificial, or give a file of a spectrum.");
       return {
-          motion.spectrum.code + " (section Motion)", motion.damping, [motion](const double period) {
+          motion.spectrum.code + " (section Motion)", motion.damping,
+          [motion](const double period) {
             return Vector3{{motion.target(0, period), motion.target(1, period), motion.target(2, period)}};
-          }};
+          },
+          MotionCriteria::last_period};
     }
   } // namespace
 

@@ -32,19 +32,20 @@ namespace Voussoir
       return part;
     }
 
-    /** Returns the residual response to a unit ground acceleration along axis @p d: the static response to
-     * the acceleration without its parts in the modes. */
-    SpectrumResponse::Part residual(const Structure &structure, JointSystem &system,
-                                    const std::vector<SpectrumResponse::Mode> &modes,
-                                    const std::vector<Vector3> &participation, const unsigned int d)
+    /** Returns the rigid part for the ground motion along axis @p d: the rigid shares of the modes, and the static
+     * response to the peak ground acceleration @p peak without its parts in the modes. */
+    SpectrumResponse::Part rigid_part(const Structure &structure, JointSystem &system,
+                                      const std::vector<SpectrumResponse::Mode> &modes,
+                                      const std::vector<Vector3> &participation, const unsigned int d,
+                                      const double peak)
     {
       SpectrumResponse::Part part;
       part.acceleration.assign(3 * structure.n_nodes(), 0.);
       for (std::size_t i = d; i < part.acceleration.size(); i += 3)
-        part.acceleration[i] = 1.;
+        part.acceleration[i] = peak;
       for (std::size_t k = 0; k < modes.size(); ++k)
         for (std::size_t i = 0; i < part.acceleration.size(); ++i)
-          part.acceleration[i] -= participation[k][d] * modes[k].mode.shape[i];
+          part.acceleration[i] -= peak * participation[k][d] * modes[k].mode.shape[i];
       Unknowns load(part.acceleration.size());
       for (unsigned int i = 0; i < structure.n_nodes(); ++i)
       {
@@ -52,6 +53,15 @@ namespace Voussoir
         set(load, i, {{-force[0], -force[1], -force[2]}});
       }
       system.solve_free(load, part.displacement);
+      for (std::size_t k = 0; k < modes.size(); ++k)
+      {
+        const double share = modes[k].rigid_share[d] * modes[k].acceleration[d] * participation[k][d];
+        for (std::size_t i = 0; i < part.acceleration.size(); ++i)
+        {
+          part.acceleration[i] += share * modes[k].mode.shape[i];
+          part.displacement[i] -= share * modes[k].mode.shape[i] / omega_squared(modes[k].mode);
+        }
+      }
       return part;
     }
   } // namespace
@@ -66,12 +76,13 @@ namespace Voussoir
       participation.push_back(m.mode.participation(structure));
       amplitude.emplace_back();
       for (unsigned int d = 0; d < 3; ++d)
-        amplitude.back()[d] = participation.back()[d] * m.acceleration[d] / omega_squared(m.mode);
+        amplitude.back()[d] = participation.back()[d] * m.acceleration[d] *
+                              std::sqrt(1. - m.rigid_share[d] * m.rigid_share[d]) / omega_squared(m.mode);
       all.push_back(part_of(m.mode));
     }
     JointSystem system(structure, JointLaws(), ContactParameters(), {});
     for (unsigned int d = 0; d < 3; ++d)
-      all.push_back(residual(structure, system, modes, participation, d));
+      all.push_back(rigid_part(structure, system, modes, participation, d, peak[d]));
     weight.assign(n * n, 0.);
     for (std::size_t i = 0; i < modes.size(); ++i)
       for (std::size_t j = 0; j < modes.size(); ++j)
@@ -79,7 +90,7 @@ namespace Voussoir
             dot(amplitude[i], amplitude[j]) * cqc_coefficient(modes[i].mode.frequency, modes[i].damping,
                                                               modes[j].mode.frequency, modes[j].damping);
     for (unsigned int d = 0; d < 3; ++d)
-      weight[(modes.size() + d) * (n + 1)] = peak[d] * peak[d];
+      weight[(modes.size() + d) * (n + 1)] = 1.;
   }
 
   double SpectrumResponse::combine(const std::vector<double> &of_parts) const

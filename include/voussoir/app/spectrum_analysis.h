@@ -18,6 +18,8 @@ namespace Voussoir
     /** Returns the pseudo-acceleration along x, y, z at a period [s]; at period 0 the peak ground acceleration
      * [m/s^2]. Throws InputError if a table ends at a shorter period. */
     std::function<Vector3(double period)> at;
+
+    double last_period; ///< end of the range for Gupta's method [s]
   };
 
   /** Returns the spectrum that --spectrum names. The factors of the ground motion multiply it: "Motion/Factor",

@@ -17,10 +17,13 @@ namespace Voussoir
    * @param z_1, z_2 damping ratios [-] */
   double cqc_coefficient(double f_1, double z_1, double f_2, double z_2);
 
-  /** Response spectrum analysis. The response to each direction of the ground motion is the complete quadratic
-   * combination of the modes, and the response to all directions the square root of the sum of squares (US NRC
-   * Regulatory Guide 1.92, revision 3, 2012). The mass that the modes do not represent follows the peak ground
-   * acceleration without delay; its static response is one more uncorrelated part of each direction.
+  /** Response spectrum analysis (US NRC Regulatory Guide 1.92, revision 3, 2012, with the method of Gupta 1990).
+   *
+   * A stiff mode follows the ground motion without delay with a share of its response, Mode::rigid_share. The mass
+   * that the modes do not represent follows the peak ground acceleration. The sum of both, with signs, is the rigid
+   * part. The response to each direction of the ground motion is the square root of the sum of squares of the rigid
+   * part and the complete quadratic combination of the modes without their rigid shares. The response to all
+   * directions is the square root of the sum of squares.
    *
    * Every linear result is combined with combine(). A result that is not linear in the displacements, such as a
    * principal stress, has no such combination: the signs of the combined values and their simultaneity are
@@ -34,16 +37,17 @@ namespace Voussoir
       NaturalMode mode;
       double      damping;      ///< damping ratio [-]
       Vector3     acceleration; ///< S_a of the ground motion along x, y, z [m/s^2]
+      Vector3 rigid_share{};    ///< correlation with the ground motion, for each of these motions, 0 to 1 [-]
     };
 
-    /** State of the structure for a unit amplitude of a part of the response. */
+    /** State of the structure: for a unit amplitude of a mode, or for the rigid part of a direction. */
     struct Part
     {
       Unknowns displacement; ///< u, three values per node
       Unknowns acceleration; ///< absolute acceleration a, with K u = -M a
     };
 
-    /** Computes the parts: the modes, then the residual response to each direction.
+    /** Computes the parts: the modes, then the rigid part of each direction.
      * @param structure structure without pairs
      * @param modes modes of the combination; may be empty
      * @param peak peak ground accelerations along x, y, z [m/s^2] */
