@@ -287,6 +287,9 @@ def prepare(options, wish):
     entries = entries_of(options.scene, options.set)
     if entries["Motion/Source"] == "none":
         raise InputError(f"the scene {options.scene} has no motion (Motion/Source = none): there is no earthquake to chart.")
+    if entries["Motion/Abutments"]:
+        raise InputError(f"the scene {options.scene} has Motion/Abutments: the strongest part of the motion is cut from one record. Estimate the "
+                         "error with the same motion at all base nodes: --set Motion/Abutments=")
     if entries["Output/Envelope interval"] == "0":
         options.set.append("Output/Envelope interval=1")
     directory = Path(options.output or f"output/{Path(options.scene).stem}-accuracy")

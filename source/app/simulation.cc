@@ -114,7 +114,10 @@ namespace Voussoir
       n_steps += scene.steps_per_sample *
                  std::ceil(dam.foundation->delay() / (scene.steps_per_sample * motion.dt) - 1e-9);
     if (n_steps > 0)
+    {
       dam.foundation->check(state.grid(), scene.steps_per_sample);
+      dam.foundation->check_stations(motion);
+    }
     if (checkpoint.provenance_now() != checkpoint.provenance)
       throw InputError("An input file of the scene changed while the program read it. Start the run again.");
     counters.setup = counters.clock.seconds();

@@ -29,20 +29,26 @@ namespace Voussoir
     }
 
     /** Returns the two frequencies of Gupta's method for the ground motion along axis @p d [Hz]: modes below the
-     * first one have no rigid share, and modes above the second one are rigid. */
+     * first one have no rigid share, and modes above the second one are rigid. The first one is that of the longest
+     * period with 99 % of the largest acceleration: the end of the plateau of a design spectrum. */
     std::array<double, 2> rigid_range(const ChosenSpectrum &spectrum, const unsigned int d)
     {
-      double                 acceleration = 0., velocity = 0.;
       constexpr unsigned int n = 500; // periods, at equal ratios
+      std::vector<double>    periods, accelerations;
       for (unsigned int k = 0; k <= n; ++k)
       {
-        const double period = spectrum.last_period *
-                              std::pow(SpectrumTable::rigid_period / spectrum.last_period, k / double(n));
-        const double a = spectrum.at(period)[d];
-        acceleration = std::max(acceleration, a);
-        velocity = std::max(velocity, a * period / (2. * M_PI));
+        periods.push_back(spectrum.last_period *
+                          std::pow(SpectrumTable::rigid_period / spectrum.last_period, k / double(n)));
+        accelerations.push_back(spectrum.at(periods.back())[d]);
       }
-      const double first = velocity > 0. ? acceleration / (2. * M_PI * velocity) : 1.;
+      const double largest = *std::max_element(accelerations.begin(), accelerations.end());
+      const auto   is_large = [&](const double a) { return a >= .99 * largest; };
+      const auto   k =
+          std::find_if(accelerations.begin(), accelerations.end(), is_large) - accelerations.begin();
+      double inside = periods[k], outside = periods[std::max<std::ptrdiff_t>(k - 1, 0)];
+      for (unsigned int pass = 0; pass < 40; ++pass)
+        (is_large(spectrum.at(.5 * (inside + outside))[d]) ? inside : outside) = .5 * (inside + outside);
+      const double first = 1. / inside;
       return {first, (first + 2. / SpectrumTable::rigid_period) / 3.};
     }
 

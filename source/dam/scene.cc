@@ -352,6 +352,11 @@ namespace Voussoir
     if (!has_single_factors())
       choices.add("numerics", "factors in single precision", {{"Dynamics/Factors", "single"}}, true);
     contact.add_choices(choices);
+    if (!motion.abutments.empty()) // requires massless rock
+      choices.list.erase(std::remove_if(choices.list.begin(), choices.list.end(),
+                                        [](const ModelChoice &choice)
+                                        { return choice.entries.count("Foundation/Model") > 0; }),
+                         choices.list.end());
     return choices.list;
   }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/foundation/base_motion.h>
 
 #include <algorithm>
@@ -7,6 +9,36 @@
 
 namespace Voussoir
 {
+  namespace
+  {
+    /** Returns the lowest and the highest z [m]. */
+    std::pair<double, double> heights(const std::vector<Vector3> &places)
+    {
+      std::pair<double, double> range(INFINITY, -INFINITY);
+      for (const Vector3 &place : places)
+        range = {std::min(range.first, place[2]), std::max(range.second, place[2])};
+      return range;
+    }
+  } // namespace
+
+  void BaseMotion::check(const GroundMotion &motion, const std::vector<Vector3> &places)
+  {
+    const auto [low, high] = heights(places);
+    std::map<std::pair<bool, double>, unsigned int> count;
+    for (const MotionStation &station : motion.stations)
+    {
+      const std::string name = "Motion/Abutments: the station \"" +
+                               std::string(station.is_left ? "left " : "right ") +
+                               number_text(station.height) + "\" ";
+      if (++count[{station.is_left, station.height}] > 1)
+        throw InputError(name + "is given twice. Remove one, or correct its height.");
+      if (station.height < low - 1e-6 * (high - low) || station.height > 2. * high - low)
+        throw InputError(name +
+                         "is not at the base of the dam, whose nodes are from z = " + number_text(low) +
+                         " to " + number_text(high) + " m. Give the height in the axes of the mesh.");
+    }
+  }
+
   BaseMotion::BaseMotion(const GroundMotion &motion, const std::vector<Vector3> &places) : dt(motion.dt)
   {
     std::map<std::pair<bool, double>, unsigned int> stations; // by bank and height
@@ -15,12 +47,14 @@ namespace Voussoir
       stations[{station.is_left, station.height}] = relative.size();
       relative.push_back(motion.relative(station).integrated());
     }
-    double bottom = INFINITY;
+    const double bottom = heights(places).first;
+    double       sum = 0., n = 0.;
     for (const Vector3 &place : places)
-      bottom = std::min(bottom, place[2]);
+      if (place[2] < bottom + 1e-3)
+        sum += place[1], n += 1.;
     for (const Vector3 &place : places)
     {
-      const bool is_left = place[1] > 0.;
+      const bool is_left = place[1] > sum / n;
       Shares     of_place;
       double     below = bottom;
       for (const auto &[where, number] : stations)

@@ -81,6 +81,8 @@ namespace Voussoir
         log.line("Rock      massless: %s", in_words(parameters.rock).c_str());
       }
 
+      void check_stations(const GroundMotion &motion) const override { BaseMotion::check(motion, places); }
+
       /** Springs that make the stiffness matrix of a monolith regular. static_base() subtracts them from the
        * rock, which must remain positive definite. Their stiffness is half of the upper bound. */
       Unknowns static_springs(const Structure &structure) const override

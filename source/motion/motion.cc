@@ -135,8 +135,10 @@ namespace Voussoir
         check_samples(record);
         record.acceleration.resize(motion.acceleration.size(), {{0., 0., 0.}});
         motion.stations.push_back({station.is_left, station.height, record.acceleration});
-        motion.notes.push_back("station " + station.name + " m, " + station.record.name_of_part() + ": " +
-                               relative_displacement(motion.relative(motion.stations.back())));
+        const std::string name = "station " + station.name + " m, " + station.record.name_of_part() + ": ";
+        for (const std::string &note : record.notes)
+          motion.notes.push_back(name + note);
+        motion.notes.push_back(name + relative_displacement(motion.relative(motion.stations.back())));
       }
     }
   } // namespace

@@ -404,9 +404,12 @@ namespace Voussoir
   {
     const auto moves = [&](const unsigned int d)
     {
-      const bool in_file = source == "file" && file.empty() && sequence.empty() && component_files[d].empty();
+      const bool in_file = source == "file" && file.empty() && abutments.empty() && sequence.empty() &&
+                           component_files[d].empty();
       return source != "none" && factor != 0. && scale[d] != 0. && !in_file;
     };
+    if (!abutments.empty())
+      choices.add("motion", "banks move as the base", {{"Motion/Abutments", ""}}, true);
     if (moves(1))
       choices.add("motion", "without the cross-stream component", "Motion/Scale y", 0., true);
     if (moves(2))

@@ -220,6 +220,10 @@ namespace Voussoir
   void process_record(GroundMotion &motion, const MotionParameters &parameters,
                       const std::array<double, 3> &factors, const bool has_zero_ends)
   {
+    if (motion.acceleration.size() < 6 && parameters.baseline != "none")
+      throw InputError(
+          "The record of the ground motion has " + std::to_string(motion.acceleration.size()) +
+          " samples, too few for Motion/Baseline. Set Baseline to none, or give a longer record.");
     if (parameters.match)
       check_length(motion.acceleration.size() - 1, motion.dt);
     for (unsigned int d = 0; d < 3; ++d)

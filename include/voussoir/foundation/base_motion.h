@@ -11,8 +11,9 @@
 namespace Voussoir
 {
   /** Motion of the rock at the base nodes without the dam, relative to the ground motion: GroundMotion::stations.
-   * The displacement is interpolated linearly by height between the stations of a bank. The lowest node has the
-   * ground motion. Nodes above the highest station have its motion,
+   * The lowest node divides the banks: the left bank has the larger y. The displacement is interpolated linearly by
+   * height between the stations of a bank. The lowest node has the ground motion, and so has a bank without a
+   * station. Nodes above the highest station have its motion,
    * and so have all nodes of a bank with one station that is not above the lowest node. */
   class BaseMotion
   {
@@ -20,6 +21,10 @@ namespace Voussoir
     /** @param motion ground motion with stations
      * @param places positions of the base nodes [m] */
     BaseMotion(const GroundMotion &motion, const std::vector<Vector3> &places);
+
+    /** Throws InputError if two stations of a bank have the same height, or if a station is below the lowest base
+     * node, or above the highest one by more than the height of the base. */
+    static void check(const GroundMotion &motion, const std::vector<Vector3> &places);
 
     /** Returns the relative displacement at a time, three values per place [m]. */
     Unknowns displacement(double time) const { return at(time, &MotionIntegrals::displacement); }

@@ -76,6 +76,9 @@ namespace Voussoir
     /** Throws InputError if the time integration would be unstable. The message uses the number of time steps
      * of the dam per sample of the ground motion. Called before a dynamic analysis only. */
     virtual void check(const TimeGrid & /*grid*/, unsigned int /*steps_per_sample*/) const {}
+
+    /** Throws InputError if stations of the motion do not fit the base. Called before a dynamic analysis only. */
+    virtual void check_stations(const GroundMotion & /*motion*/) const {}
   };
 
   /** Part of a foundation under the base nodes of the dam: stiffness, mass, static state, and the support in
