@@ -3,16 +3,17 @@
 
 Each choice of a scene (time step, elements along, up, through, ...) is refined alone. Its signed error of a value is the limit at size zero
 minus the value of the scene. With three levels whose differences have one sign and decrease, the order is fitted; elsewhere a cautious
-order is taken. The centre of the bar is the value plus the signed errors of all choices (combination). The margin on both sides is
-MARGIN times the root of the sum of squares of the doubts of the choices. The bar contains the value.
+order is taken. The centre of the bar is the value plus the signed errors of all choices (combination). The bar contains the value.
 
-The doubt of a choice is the extrapolated part of its signed error (limit minus finest level), and at least SHARE of the largest difference
-between its levels: refinements of several choices do not add exactly.
+The doubt of a choice is the largest of: the extrapolated part of its signed error (limit minus finest level); without a fit of three levels
+the largest difference between them; the median of its relative signed errors of all quantities, since the error of one quantity may be small
+by chance. The margin on both sides of the centre is MARGIN times the root of the sum of squares of the doubts.
 """
 
 import json
 import math
 from pathlib import Path
+from statistics import median
 
 from .errors import InputError
 from .prm import read_entries
@@ -22,7 +23,7 @@ HEADLINES = {  # quantity -> title, unit, least value that has a bar
     "max_opening": ("largest opening", "m", 1e-5), "max_slip": ("largest slip", "m", 1e-5),
     f"max_tension_upstream{AWAY}": ("tension upstream", "Pa", 1e3), f"max_tension_downstream{AWAY}": ("tension downstream", "Pa", 1e3),
     "crest_displacement": ("crest displacement", "m", 1e-5)}
-MARGIN, SHARE = 1., .3
+MARGIN = 1.25
 UNRELATED = ("Output/", "Dynamics/Error estimate", "Contact/Write")  # beginnings of entries that do not change the results
 
 
@@ -52,14 +53,15 @@ def solve_order(quotient, coarse, fine):
 
 def limit_and_doubt(values, sizes, order):
     """Limit at size zero of one value, and the doubt of the limit. values, sizes: from coarse to fine; order: where none can be fitted."""
-    finest = values[-1]
+    values, sizes, scatter = values[-3:], sizes[-3:], 0.
     if len(values) > 2:
-        first, last = values[-2] - values[-3], finest - values[-2]
+        first, last = values[1] - values[0], values[2] - values[1]
         if first * last > 0 and abs(last) < abs(first):
-            order = solve_order(first / last, sizes[-3] / sizes[-2], sizes[-2] / sizes[-1])
-    coarsest = values[-3:][0]
-    limit = finest + (finest - coarsest) / ((sizes[-3:][0] / sizes[-1]) ** order - 1)
-    return limit, max(abs(limit - finest), SHARE * (max(values[-3:]) - min(values[-3:])))
+            order = solve_order(first / last, sizes[0] / sizes[1], sizes[1] / sizes[2])
+        else:
+            scatter = max(values) - min(values)
+    extrapolated = (values[-1] - values[0]) / ((sizes[0] / sizes[-1]) ** order - 1)
+    return values[-1] + extrapolated, max(abs(extrapolated), scatter)
 
 
 def bar(value, parts):
@@ -68,6 +70,17 @@ def bar(value, parts):
     combined = value + sum(errors.values())
     margin = MARGIN * math.hypot(*(doubt for _, doubt in parts.values()))
     return {"value": value, "combined": combined, "low": max(0., min(value, combined - margin)), "high": max(value, combined + margin), "parts": errors}
+
+
+def bars_of_choices(values, choices):
+    """Error bars of the values of a scene, {quantity: see bar()}. choices: {name: (values of each level from coarse to fine, sizes, order)}."""
+    parts = {name: {} for name in values}
+    for choice, (levels, sizes, order) in choices.items():
+        found = {name: limit_and_doubt([level.get(name, 0.) for level in levels], sizes, order) for name in values}
+        common = median(abs(limit / values[name] - 1.) for name, (limit, _) in found.items())
+        for name, (limit, doubt) in found.items():
+            parts[name][choice] = limit, max(doubt, common * values[name])
+    return {name: {**bar(value, parts[name]), "unit": HEADLINES[name][1]} for name, value in values.items()}
 
 
 # ---------------------------------------------------------------- the bars of a run
@@ -121,7 +134,7 @@ def bars_of_run(directory, summary, history):
 def scaled(bar_of_window, value):
     """The bar with the same relative errors about another value."""
     factor = value / bar_of_window["value"]
-    numbers = {key: factor * float(bar_of_window[key]) for key in ("value", "combined", "low", "high")}
+    numbers = {key: factor * float(bar_of_window[key]) for key in ("combined", "low", "high")}
     if not all(math.isfinite(x) for x in numbers.values()):
         raise ValueError("a number is not finite")
-    return {**numbers, "parts": {choice: factor * error for choice, error in bar_of_window["parts"].items()}, "unit": bar_of_window["unit"]}
+    return {"value": value, **numbers, "parts": {choice: factor * error for choice, error in bar_of_window["parts"].items()}, "unit": bar_of_window["unit"]}

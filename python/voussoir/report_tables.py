@@ -85,7 +85,7 @@ def add_bars(run, found):
 
 def bar_words(item):
     """Error bar of an item relative to its value, such as "-0.4 to +1.6", in its unit."""
-    return " to ".join(("+" if end >= item.value else "") + number(end - item.value, item.unit, 2) for end in item.bar)
+    return " to ".join(("+" if end > item.value else "") + number(end - item.value, item.unit, 2) for end in item.bar)
 
 
 class Item:
