@@ -140,7 +140,7 @@ def maths():
     entries = {"Mesh/Source": "file", "Foundation/Model": "rigid", "Dynamics/Steps per sample": "1"}
     for degree, subdivided, names in (("1", "false", "degree"), ("2", "false", "mesh"), ("2", "true", None)):  # of a mesh from a file
         found = [c.name for c in accuracy.choices_of({**entries, "Elements/Degree": degree, "Mesh/Subdivide": subdivided})]
-        expect(all(c.cautious == 1. for c in accuracy.choices_of({**entries, "Elements/Degree": degree, "Mesh/Subdivide": subdivided})[1:]), "orders")
+        expect(all(c.cautious == 1. and c.order == 2. for c in accuracy.choices_of({**entries, "Elements/Degree": degree, "Mesh/Subdivide": subdivided})[1:]), "orders")
         expect(found == ["time step", names][:1 + bool(names)], f"degree {degree}, Subdivide = {subdivided}: {found}")
     Path("arcs.csv").write_text("# arcs\nelevation,upstream_x\n400,0\n300,1\n", encoding="utf-8")
     arcs = {"Mesh/Source": "arcs", "Mesh/Arcs/Joints": "7", "Mesh/Arcs/Elements along": "17", "Mesh/Arcs/Elements up": "4",
