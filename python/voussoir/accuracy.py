@@ -48,6 +48,7 @@ SUBDIVIDE = "Mesh/Subdivide"
 ROCK_SHARE = 22 / 210  # default size of rock elements in a dam of arcs, as a share of the height
 TAPER = 0.2  # of the motion's beginning [s]
 RUNS = b"2"  # what this script reads of a run: those of another kind are made again
+UNITS = {"m": (1e3, "mm"), "Pa": (1e-6, "MPa")}  # of printed values
 FIRST, LAST = "base", "wish"  # names of the runs of the scene as it is, and of what is proposed
 
 
@@ -56,7 +57,7 @@ class Choice:
 
     def __init__(self, name, levels, sizes, current, order=2.0):
         self.name, self.levels, self.sizes, self.current, self.order = name, levels, sizes, current, order
-        self.cautious = 2. if name == "time step" else 1.  # order of error bars, where none can be fitted
+        self.cautious = 2. if name in ("time step", "rock size") else 1.  # order of error bars, where none can be fitted
         self.limit, self.fitted = None, False  # measures at size zero; is the order a fit?
 
     def key(self, level):
@@ -238,8 +239,8 @@ def about_bars(bars):
     """Prints the error bars, and the values by combination of the single refinements."""
     print("\nError bars of the largest values over these seconds (in brackets: the signed error of each choice; combined: value plus these errors):")
     for name, found in bars.items():
-        scale, unit = (1e3, "mm") if found["unit"] == "m" else (1e-6, "MPa")
-        parts = ", ".join(f"{choice} {scale * error:+.2g}" for choice, error in found["parts"].items())
+        scale, unit = UNITS[found["unit"]]
+        parts = ", ".join(f"{choice} {signed(scale * error)}" for choice, error in found["parts"].items())
         print(f"  {bar_text(name, found)} ({parts}); combined {scale * found['combined']:.4g} {unit}")
 
 
@@ -257,9 +258,14 @@ def about_run(scene, directory):
 
 def bar_text(name, found):
     """Error bar of a quantity, such as "largest opening 57.1 mm, -0.4 to +1.6 mm"."""
-    scale, unit = (1e3, "mm") if found["unit"] == "m" else (1e-6, "MPa")
-    below, above = (f"{scale * (found[end] - found['value']):+.2g}" if found[end] != found["value"] else "0" for end in ("low", "high"))
+    scale, unit = UNITS[found["unit"]]
+    below, above = (signed(scale * (found[end] - found["value"])) for end in ("low", "high"))
     return f"{HEADLINES[name][0]:20s} {scale * found['value']:.4g} {unit}, {below} to {above} {unit}"
+
+
+def signed(x):
+    """A number with its sign and two digits, without an exponent."""
+    return f"{x:+.{max(0, min(4, 1 - math.floor(math.log10(abs(x)))))}f}" if abs(x) >= 1e-4 else "0"
 
 
 def percent(x):

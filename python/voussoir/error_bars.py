@@ -77,7 +77,7 @@ def bars_of_choices(values, choices):
     parts = {name: {} for name in values}
     for choice, (levels, sizes, order) in choices.items():
         found = {name: limit_and_doubt([level.get(name, 0.) for level in levels], sizes, order) for name in values}
-        common = median(abs(limit / values[name] - 1.) for name, (limit, _) in found.items())
+        common = median([abs(limit / values[name] - 1.) for name, (limit, _) in found.items()] or [0.])
         for name, (limit, doubt) in found.items():
             parts[name][choice] = limit, max(doubt, common * values[name])
     return {name: {**bar(value, parts[name]), "unit": HEADLINES[name][1]} for name, value in values.items()}
