@@ -273,8 +273,9 @@ def tiles(run):
             item = found[key]
             limit = (f'<span class="limit">{LIMIT_WORDS.get(item.state, "limit")} '
                      f'{escape(with_unit(item.limit["limit"], item.unit))}</span>') if item.limit else ""
+            bar = f'<span class="limit">{bar_words(item)} {item.unit}</span>' if item.bar else ""
             cells.append(f'<div class="tile {item.state}"><span class="what">{escape(item.title)}</span><span class="number">'
-                         f'{number(item.magnitude, item.unit)} <span class="unit">{item.unit}</span></span>{limit}</div>')
+                         f'{number(item.magnitude, item.unit)} <span class="unit">{item.unit}</span></span>{bar}{limit}</div>')
     return f'<div class="tiles">{"".join(cells)}</div>' if cells else ""
 
 
