@@ -87,7 +87,8 @@ def cases():
 def write_mesh(program, directory, dam, name, elements):
     counts = {f"Mesh/Arcs/Elements {way}": count for way, count in zip(("along", "up", "through"), elements)}
     run(program, "mesh", directory / f"{dam}.prm", "--output", directory / f"{name}.msh",
-        settings={"Mesh/Source": "arcs", "Mesh/Arcs/Table": f"{dam}.csv", "Mesh/Arcs/Joints": DAMS[dam][1], **counts})
+        settings={"Mesh/Source": "arcs", "Mesh/Arcs/Table": f"{dam}.csv", "Mesh/Arcs/Joints": DAMS[dam][1], "Mesh/Arcs/Smallest height": .5,
+                  "Motion/Source": "none", **counts})
 
 
 def write_scene(program, directory, dam):

@@ -35,7 +35,7 @@ from pathlib import Path
 import numpy as np
 
 from .command import Parser
-from .error_bars import HEADLINES, bars_of_choices, headlines, relevant, solve_order
+from .error_bars import HEADLINES, bars_of_choices, beside, headlines, relevant, solve_order
 from .errors import ComputationError, InputError
 from .program import call, entries_of, message_of, set_options, start
 from .results import Results, read_summary
@@ -245,8 +245,10 @@ def about_bars(bars):
 
 
 def about_run(scene, directory):
-    """Prints the error bars of the latest run of the scene, if the run is in SCENE beside the directory."""
+    """Prints the error bars of the run of the scene, if a reader of the run finds this directory: the run is in SCENE beside it."""
     run = directory.resolve().parent / scene.stem
+    if beside(run, scene.stem, "accuracy", "accuracy.json") != directory.resolve() / "accuracy.json":
+        return
     try:
         bars = Results(run).error_bars
     except InputError:  # no run, or a run of other entries
