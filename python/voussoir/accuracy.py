@@ -245,7 +245,7 @@ def about_bars(bars):
 
 
 def about_run(scene, directory):
-    """Prints the error bars of the run of the scene, if a reader of the run finds this directory: the run is in SCENE beside it."""
+    """Prints the error bars of the run of the scene, if a reader of the run finds this directory: both have the same parent."""
     run = directory.resolve().parent / scene.stem
     if beside(run, scene.stem, "accuracy", "accuracy.json") != directory.resolve() / "accuracy.json":
         return
