@@ -85,21 +85,22 @@ def cases():
 
 
 def write_mesh(program, directory, dam, name, elements):
-    counts = zip(("--along", "--up", "--through"), elements)
-    run(program, "arcs", directory / f"{dam}.csv", "--output", directory / f"{name}.msh", "--joints", DAMS[dam][1],
-        *(word for count in counts for word in count))
+    counts = {f"Mesh/Arcs/Elements {way}": count for way, count in zip(("along", "up", "through"), elements)}
+    run(program, "mesh", directory / f"{dam}.prm", "--output", directory / f"{name}.msh",
+        settings={"Mesh/Source": "arcs", "Mesh/Arcs/Table": f"{dam}.csv", "Mesh/Arcs/Joints": DAMS[dam][1], "Mesh/Arcs/Smallest height": .5,
+                  "Motion/Source": "none", **counts})
 
 
 def write_scene(program, directory, dam):
     table, _, along, up, level = DAMS[dam]
     (directory / f"{dam}.csv").write_text(HEAD + table)
-    write_mesh(program, directory, dam, dam, (along, up, 2))
     entries = {"Mesh": {"Source": "file", "File": f"{dam}.msh"}, "Concrete": {"Young's modulus": "27 GPa", "Density": "2400 kg/m3"},
                "Reservoir": {"Water level": level}, "Joints": {"Friction": .75},
                "Motion": {"Source": "file", "Unit": "m/s^2"}, "Output": {"Figures": "false"}}
     (directory / f"{dam}.prm").write_text("".join(
         f"subsection {section}\n" + "".join(f"  set {entry} = {value}\n" for entry, value in values.items()) + "end\n"
         for section, values in entries.items()))
+    write_mesh(program, directory, dam, dam, (along, up, 2))
 
 
 def result(program, directory, dam, settings):

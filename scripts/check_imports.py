@@ -13,7 +13,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "python" / "voussoir"
-LAYERS = (("errors",), ("palette", "prm", "tables", "units", "vtu", "chromium"), ("results",), ("program",), ("__init__", "command", "runs", "zone_tension"),
+LAYERS = (("errors",), ("palette", "prm", "tables", "units", "vtu", "chromium"), ("error_bars", "results"), ("program",),
+          ("__init__", "command", "runs", "zone_tension"),
           ("drawing", "frames", "picture", "report_tables", "study_file", "study_scene"),
           ("mode_shapes", "report_answers", "report_figures", "study_figures", "study_results"),
           ("report_view3d",),

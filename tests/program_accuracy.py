@@ -92,6 +92,9 @@ def command():
     for part in ("time step", "along", "up", "through", "s per s", "The scene as it is: error", " 60 %:"):
         expect(part in text, f"'{part}' is missing: {text}")
     result = json.loads(Path("out/accuracy.json").read_text())
+    bar = result["error_bars"]["max_opening"]
+    expect(set(bar["parts"]) == {"time step", "along", "up", "through"} and bar["low"] <= bar["value"] <= bar["high"] and bar["unit"] == "m", f"{bar}")
+    expect(f"largest opening      {1e3 * bar['value']:.4g} mm" in text and f"combined {1e3 * bar['combined']:.4g} mm" in text, text)
     proposal = result["proposal"]  # which of several settings is the cheapest depends on the machine; was it tried, and told as it is?
     expect(proposal["predicted"] <= 0.6 and 0. < proposal["error"] < 1.2, f"{result}")
     expect(proposal["meets"] == (proposal["error"] <= 0.6) and ("For 60 %" in text) == proposal["meets"], f"{proposal}: {text}")
@@ -137,6 +140,7 @@ def maths():
     entries = {"Mesh/Source": "file", "Foundation/Model": "rigid", "Dynamics/Steps per sample": "1"}
     for degree, subdivided, names in (("1", "false", "degree"), ("2", "false", "mesh"), ("2", "true", None)):  # of a mesh from a file
         found = [c.name for c in accuracy.choices_of({**entries, "Elements/Degree": degree, "Mesh/Subdivide": subdivided})]
+        expect(all(c.cautious == 1. and c.order == 2. for c in accuracy.choices_of({**entries, "Elements/Degree": degree, "Mesh/Subdivide": subdivided})[1:]), "orders")
         expect(found == ["time step", names][:1 + bool(names)], f"degree {degree}, Subdivide = {subdivided}: {found}")
     Path("arcs.csv").write_text("# arcs\nelevation,upstream_x\n400,0\n300,1\n", encoding="utf-8")
     arcs = {"Mesh/Source": "arcs", "Mesh/Arcs/Joints": "7", "Mesh/Arcs/Elements along": "17", "Mesh/Arcs/Elements up": "4",
@@ -166,6 +170,70 @@ def maths():
     strongest(accuracy, np)
     digests(accuracy)
     asked_for(accuracy, np)
+
+
+def bars():
+    """The rule of the error bars on sequences with known limits; the bars of a run are those of the strongest seconds, relative to its values."""
+    sys.path.insert(0, str(SCRIPTS.parent / "python"))
+    import numpy as np
+    from voussoir.error_bars import MARGIN, bar, bars_of_choices, limit_and_doubt, scaled
+    draw = np.random.default_rng(5)
+    for _ in range(200):  # three levels, one sign, decreasing differences: the order is fitted, the combination is exact
+        truth, parts = draw.uniform(1., 9.), {}
+        errors = draw.uniform(-.2, .2, 4)
+        value = truth - errors.sum()
+        for k, (error, sizes) in enumerate(zip(errors, ([1, 2 / 3, 1 / 2], [1, 1 / 2, 1 / 4], [1 / 3, 1 / 5, 1 / 6], [1, 1 / 1.4, .5]))):
+            order = draw.uniform(1.2, 3.8)
+            parts[k] = limit_and_doubt([value + error * (1 - (h / sizes[0]) ** order) for h in sizes], sizes, 1.)
+            expect(abs(parts[k][0] - value - error) < 1e-7, f"limit {parts[k]}, error {error}, order {order}")
+        found = bar(value, parts)
+        expect(abs(found["combined"] - truth) < 1e-6 and found["low"] <= value <= found["high"], f"{found}, truth {truth}")
+        margin = MARGIN * np.sqrt(sum(doubt ** 2 for _, doubt in parts.values()))
+        expect(abs(found["low"] - min(value, truth - margin)) < 1e-6 and abs(found["high"] - max(value, truth + margin)) < 1e-6, f"{found}, {margin}")
+    for values, sizes, order, expected in (((5., 2.), [1, 1 / 2], 1., (-1., 3.)), ((5., 2.), [1, 1 / 2], 2., (1., 1.)),  # two levels
+                                           ((0., 4., 2.), [1, 1 / 2, 1 / 4], 2., (2. + 2. / 15., 4.)),  # both signs: doubt as large as the scatter
+                                           ((0., 1., 3.), [1, 1 / 2, 1 / 4], 1., (4., 3.))):  # growing differences
+        found = limit_and_doubt(values, sizes, order)
+        expect(np.allclose(found, expected), f"{values}: {found}, not {expected}")
+    levels = [{"max_opening": 10., "max_slip": 20., "crest_displacement": 5.}, {"max_opening": 9., "max_slip": 20., "crest_displacement": 5.05}]
+    found = bars_of_choices(levels[0], {"degree": (levels, [1, .5], 1.)})  # relative signed errors -20, 0 and 2 %: the median is 2 %
+    for name, low, high in (("max_opening", 8. - MARGIN, 10.), ("max_slip", 20. - .4 * MARGIN, 20. + .4 * MARGIN), ("crest_displacement", 5.1 - .1 * MARGIN, 5.1 + .1 * MARGIN)):
+        expect(np.allclose([found[name]["low"], found[name]["high"]], [low, high]), f"{name}: {found[name]}")
+    found = scaled({"value": 2., "combined": 2.1, "low": 1.9, "high": 2.4, "parts": {"up": .1}, "unit": "m"}, 6.)
+    expect(np.allclose([found[key] for key in ("value", "combined", "low", "high")], [6., 6.3, 5.7, 7.2]) and abs(found["parts"]["up"] - .3) < 1e-12, f"{found}")
+    of_run()
+
+
+def of_run():
+    """voussoir.load(DIR).error_bars: only of the same scene; Output/ does not matter."""
+    from voussoir.errors import InputError
+    from voussoir.results import load
+    write_scene()
+    runs("scene.prm", "--output", "scene", "--set", "Output/Solution interval=10")
+
+    def refused_for(*words):
+        try:
+            bars_found = load("scene").error_bars
+        except InputError as error:
+            expect(all(word in str(error) for word in words), str(error))
+        else:
+            raise AssertionError(f"{bars_found}, although {words}")
+
+    refused_for("no error bar: run voussoir accuracy scene.prm")
+    text = runs("accuracy", "scene.prm", "--seconds", "0.3", "--output", "scene-accuracy", "--for", "900%")
+    of_window, found, extremes = json.loads(Path("scene-accuracy/accuracy.json").read_text())["error_bars"], load("scene").error_bars, summary("scene")["extremes"]
+    base = summary("scene-accuracy/runs/base")["extremes"]
+    expect(f"largest opening      {1e3 * extremes['max_opening']['value']:.4g} mm" in text.partition("Run   ")[2], f"the bars of the run are not printed: {text}")
+    expect(set(found) == set(of_window) and {"max_opening", "max_slip", "crest_displacement"} <= set(found), f"{set(found)}, {set(of_window)}")
+    for name in set(found) - {"crest_displacement"}:
+        expect(of_window[name]["value"] == base[name]["value"] and found[name]["value"] == extremes[name]["value"], name)
+        for end in ("low", "high"):
+            expect(abs(found[name][end] / found[name]["value"] - of_window[name][end] / of_window[name]["value"]) < 1e-12, f"{name}, {end}")
+        expect(abs(of_window[name]["value"] + sum(of_window[name]["parts"].values()) - of_window[name]["combined"]) < 1e-9 * of_window[name]["value"], name)
+    runs("scene.prm", "--output", "scene", "--overwrite", "--set", "Joints/Friction=0.7")
+    refused_for("is of another scene", "Joints/Friction = 0.6, here 0.7")
+    Path("scene-accuracy/accuracy.json").write_text("{}")
+    refused_for("is not of this version of voussoir accuracy")
 
 
 def cheapest(accuracy, np):
@@ -259,4 +327,4 @@ def table_of_text(name):
 
 
 if __name__ == "__main__":
-    run_cases(estimate, command, on_rock, maths)
+    run_cases(estimate, command, on_rock, maths, bars)

@@ -517,6 +517,37 @@ def unjudged():
     expect("Not evaluated: duration of overstress (the stresses are recorded at one time only)" in text, "the page does not say what is not evaluated")
 
 
+def undecided():
+    """A limit within the error bar is undecided; a bar on one side of it decides. The bars are in the table, or the command that makes them."""
+    write_scene("scene.prm", "subsection Limits\nset Opening = 1\nset Tension = 1 MPa\nend\n")
+    runs("scene.prm", "--output", "run")
+    runs("report", "run")
+    expect("no error bar: run voussoir accuracy scene.prm" in Reader("run/report.html").text, "the command is not on the page")
+    from voussoir.error_bars import relevant
+    from voussoir.prm import read_entries
+    from voussoir.report_tables import items, verdict
+    from voussoir.runs import Run
+    found, entries = summary("run"), read_entries(Path("run/scene.prm").read_text())
+    value = found["extremes"]["max_opening"]["value"]
+    Path("scene-accuracy").mkdir(exist_ok=True)
+    for low, high, limit, state in ((.9, 1.2, 1.3, "satisfied"), (.9, 1.2, 1.1, "undecided"), (.9, 1.2, .95, "undecided"), (.9, 1.2, .8, "exceeded")):
+        bar = {"value": 2., "combined": 2., "low": 2. * low, "high": 2. * high, "parts": {"up": .1}, "unit": "m"}  # of other seconds
+        Path("scene-accuracy/accuracy.json").write_text(json.dumps({"error": {"openings": .01, "tension": .01}, "wish": .02, "error_bars": {"max_opening": bar},
+                                                                    "entries": relevant({entry: text for entry, (text, _) in entries.items()})}))
+        found["limits"] = {"opening": {"value": value, "limit": limit * value, "unit": "m", "satisfied": limit >= 1.}}
+        Path("run/summary.json").write_text(json.dumps(found))
+        run = Run("run")
+        item = items(run)["max_opening"]
+        expect(item.state == state == verdict(run)[0], f"limit {limit}: {item.state}, {verdict(run)}")
+        close(item.bar[0], low * value, 1e-9, "low end")
+        close(item.bar[1], high * value, 1e-9, "high end")
+        expect(items(run)["max_slip"].bar is None, "a bar that accuracy.json does not have")
+        expect(("undecided" in verdict(run)[1]) == (state == "undecided"), verdict(run)[1])
+    runs("report", "run")
+    text = Reader("run/report.html").text
+    expect("1 of 1 limits is exceeded" in text and f"+{200. * value:.1f}"[:3] in text and "no error bar" not in text, text[:3000])
+
+
 def earlier():
     """Which stress is compared with a limit is on the page; a run of version 0.3, whose limits were compared with the base, is read."""
     write_scene("scene.prm", LIMITS)
@@ -669,4 +700,4 @@ def area(corners):
 
 
 if __name__ == "__main__":
-    run_cases(page, beside_static, browser, colours, units, answers, content, refusals, numbers, unjudged, earlier, keys, ended, spectrum)
+    run_cases(page, beside_static, browser, colours, units, answers, content, refusals, numbers, unjudged, undecided, earlier, keys, ended, spectrum)

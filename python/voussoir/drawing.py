@@ -147,6 +147,9 @@ def draw_crest_bars(axes, run, quantity, top, limit=0.):
     for k, (face, values) in enumerate(crest_values(run, quantity).items()):
         axes.bar(number + (k - 0.5) * 0.4, values, 0.38, color=FACES[face],
                  label=f"{face}: {values.max():.1f} mm at joint {number[values.argmax()]}")
+        if (bar := run.error_bars[0].get(f"max_{quantity}")) and values.max() == common_top([run], quantity):
+            show_error_bar(axes, number[values.argmax()] + (k - 0.5) * 0.4, values.max(), bar)
+            top = max(top, values.max() * bar["high"] / bar["value"])
     show_limit(axes, 1e3 * limit, "mm", top)
     every = -(-len(number) // 15)
     axes.set_xticks(number[::every])
@@ -155,6 +158,12 @@ def draw_crest_bars(axes, run, quantity, top, limit=0.):
     axes.set_ylim(0, 1.42 * max(top, 1e3 * limit if 1e3 * limit < 2. * top else 0.) or 1)
     axes.grid(False, axis="x")
     axes.legend(loc="upper left", handletextpad=0.4, borderaxespad=0.2)
+
+
+def show_error_bar(axes, x, value, bar):
+    """The relative error bar of a largest value (see error_bars.py) at a point of a figure."""
+    below, above = (abs(value) * abs(bar[end] / bar["value"] - 1.) for end in ("low", "high"))
+    axes.errorbar([x], [value], [[below], [above]] if value >= 0. else [[above], [below]], color="black", capsize=3, linewidth=1.2, zorder=5)
 
 
 def show_limit(axes, limit, unit, top):
@@ -195,6 +204,9 @@ def draw_crest(axes, runs):
     for number, run in enumerate(runs):
         time, crest = run.history["time"], 1e3 * run.history["crest_x"]
         axes.plot(time, crest, **line(number), linewidth=0.9, label=run.name)
+        if bar := run.error_bars[0].get("crest_displacement"):
+            peak = abs(crest).argmax()
+            show_error_bar(axes, time[peak], crest[peak], bar)
         for peak, place in ((crest.argmax(), "bottom"), (crest.argmin(), "top")) if len(runs) == 1 else ():
             axes.plot(time[peak], crest[peak], "o", color="k", markersize=3.5)
             axes.annotate(minus(f"{crest[peak]:.1f} mm at {time[peak]:.2f} s"), (time[peak], crest[peak]), ha="center", va=place,

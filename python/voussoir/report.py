@@ -131,9 +131,23 @@ def results(page, runs):
     page.add(extremes(runs))
     page.add('<p class="sub">Opening and slip are counted from the grouted state, with the dam under its own weight. Tension is '
              'positive. Places are x (downstream), y (to the left bank), z (up) in metres.</p>')
+    error_bars(page, runs)
     if any("value_with_base" in limit for run in runs for limit in run.summary.get("limits", {}).values()):
         page.add('<p class="sub">Limits of stresses are compared with the values away from the base: farther from it than a tenth of the '
                  'dam’s height. Closer to the base the stress of an elastic dam grows with refinement of the mesh.</p>')
+
+
+def error_bars(page, runs):
+    """What the error bars are, or why a run has none."""
+    for run in runs:
+        bars, reason = run.error_bars
+        of = f"{escape(run.name)}: " if len(runs) > 1 else ""
+        if bars:
+            page.add(f'<p class="sub">{of}Behind a value: its error bar of mesh and time step, by <code>voussoir accuracy</code> over the strongest '
+                     'seconds of the motion; the relative error of these seconds is applied to the whole run. A limit within the bar is '
+                     "undecided. Values without a bar are compared as they are.</p>")
+        elif reason:
+            page.add(f'<p class="sub">{of}{escape(reason)}</p>')
 
 
 def dam_and_scene(page, runs):

@@ -8,10 +8,10 @@ from html import escape
 
 import numpy as np
 
-from . import tables
+from . import error_bars, tables
 from .errors import InputError
 from .picture import read_solution
-from .report_tables import MINUS, html_table, items, number, verdict, with_unit
+from .report_tables import MINUS, bar_words, html_table, items, number, verdict, with_unit
 from .runs import NotComputed, Skip
 
 # Dynamic tensile strength of dam concrete if the scene gives none [Pa]: a tenth of the dynamic compressive strength (DL 5073-2000), which
@@ -44,6 +44,8 @@ def opening(found):
         return "There are no joints that can open."
     item = found["max_opening"]
     error = f", with an estimated error of {number(item.error, item.unit, 2)} mm of the time step" if isinstance(item.error, (int, float)) else ""
+    if item.bar:
+        error = f", error bar {bar_words(item)} {item.unit}"
     text = f"By at most <b>{value_of(item)}</b>{place_and_time(item)}{error}."
     if "max_slip" in found:
         text += f" Their faces slip by at most {value_of(found['max_slip'])}{place_and_time(found['max_slip'])}."
@@ -155,12 +157,8 @@ def answers(run):
 
 def beside(run, command, file):
     """The file of `voussoir COMMAND --output` for the same scene: in RUN/COMMAND, or in SCENE-COMMAND beside RUN. Throws NotComputed."""
-    for directory in (run.directory / command, run.directory.resolve().parent / f"{run.scene.replace('/', '-')}-{command}"):
-        try:
-            if (directory / file).is_file():
-                return directory / file
-        except (OSError, ValueError):  # a name that no file can have
-            pass
+    if (found := error_bars.beside(run.directory, run.scene, command, file)) is not None:
+        return found
     raise NotComputed(f"voussoir {command} {run.scene}.prm --output {run.directory.name}/{command}")
 
 

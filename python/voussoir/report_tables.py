@@ -43,9 +43,49 @@ def with_unit(value, unit):
     return decimal(float(f"{value * SCALES[unit]:.4g}")) + (f" {unit}" if unit else "")
 
 
+LIMIT_WORDS = {"exceeded": "exceeds the limit", "undecided": "undecided, limit"}
 WORDS = {"demand_capacity": "demand-capacity ratio", "overstressed_share": "share of a face above the tensile strength",
          "overstress_duration": "duration of overstress", "sliding_safety": "least safety against sliding on the base",
          "key_shear_stress": "shear stress of the keys"}
+
+
+def state_of(limit, bar=None):
+    """satisfied or exceeded if this is so for the whole error bar (least, largest value); otherwise undecided. Without a bar, by the value."""
+    if bar is None:
+        return "satisfied" if limit["satisfied"] else "exceeded"
+    satisfied = [end >= limit["limit"] if limit.get("is_least") else end <= limit["limit"] for end in bar]
+    return "satisfied" if all(satisfied) else "undecided" if any(satisfied) else "exceeded"
+
+
+def bars_of_limits(run):
+    """Error bars of the values that limits are compared with: {name of the limit: (least, largest value)}."""
+    bars, limits, found = run.error_bars[0], limits_of(run), {}
+    for key, bar in bars.items():
+        name = key.removeprefix("max_").removesuffix(f"_{AWAY}")
+        if not key.endswith(AWAY) or "value_with_base" in limits.get(name, {}):  # earlier versions compare the whole face
+            found[name] = bar["low"], bar["high"]
+    faces = [bars[key] for key in (f"max_tension_{face}_{AWAY}" for face in ("upstream", "downstream")) if key in bars]
+    strength = (run.summary.get("overstress") or {}).get("tensile_strength")
+    if len(faces) == 2 and strength and "value_with_base" in limits.get("demand_capacity", {}):
+        found["demand_capacity"] = tuple(max(bar[end] for bar in faces) / strength for end in ("low", "high"))
+    return found
+
+
+def add_bars(run, found):
+    """Gives the items of a run their error bars. That of the crest belongs to the farther of its two displacements."""
+    bars = {key: (bar["low"], bar["high"]) for key, bar in run.error_bars[0].items()}
+    if crest := [key for key in ("crest_downstream", "crest_upstream") if key in found and "crest_displacement" in bars]:
+        bars[max(crest, key=lambda key: found[key].magnitude)] = bars.pop("crest_displacement")
+    if "demand_capacity" in (of_limits := bars_of_limits(run)):
+        bars["demand_capacity"] = of_limits["demand_capacity"]
+    for key, (low, high) in bars.items():
+        if key in found:
+            found[key].bar = (low, high) if found[key].value >= 0. else (-high, -low)
+
+
+def bar_words(item):
+    """Error bar of an item relative to its value, such as "-0.4 to +1.6", in its unit."""
+    return " to ".join(("+" if end > item.value else "") + number(end - item.value, item.unit, 2) for end in item.bar)
 
 
 class Item:
@@ -53,6 +93,7 @@ class Item:
 
     def __init__(self, title, unit, found, limit=None, error=None):
         self.title, self.unit, self.limit, self.error = title, unit, limit, error
+        self.bar = None  # least and largest value by `voussoir accuracy`
         found = found if isinstance(found, dict) else {"value": found}
         self.value, self.place, self.time = found["value"], found.get("place"), found.get("time")
 
@@ -62,7 +103,7 @@ class Item:
 
     @property
     def state(self):
-        return "" if self.limit is None else "satisfied" if self.limit["satisfied"] else "exceeded"
+        return "" if self.limit is None else state_of(self.limit, self.bar)
 
     def where(self):
         """Place and time in words."""
@@ -129,6 +170,7 @@ def items(run):
             found[f"crest_{name}"] = Item(f"Crest, farthest {name}", "mm", {"value": float(crest[k]), "time": float(time[k])})
     except (Skip, KeyError):
         pass
+    add_bars(run, found)
     return found
 
 
@@ -199,22 +241,25 @@ def overstress_of_faces(found, overstress, limits, away):
 
 
 def verdict(run):
-    """satisfied, exceeded or nothing; and a sentence."""
+    """satisfied, exceeded, undecided or nothing; and a sentence."""
     limits, unjudged = limits_of(run), run.summary.get("limits_not_evaluated", {})
     rest = " Not evaluated: " + "; ".join(f"{WORDS.get(name, name.replace('_', ' '))} ({why})" for name, why in unjudged.items()) + "." if unjudged else ""
     if not limits:
         return "", rest.strip() or "The scene gives no limits (section Limits), so nothing is evaluated here."
-    texts = []
+    texts, bars = {"exceeded": [], "undecided": []}, bars_of_limits(run)
     for name, limit in limits.items():
-        if not limit["satisfied"]:
+        if (state := state_of(limit, bars.get(name))) != "satisfied":
             unit = {"Pa": "MPa", "m": "mm"}.get(limit.get("unit", ""), limit.get("unit", "")) or ("%" if "share" in name else "")
             value = f"{number(limit['value'], unit)}{' ' + unit if unit else ''}"
             bound = "required" if limit.get("is_least") else "limit"  # as in the log
-            texts.append(f"{WORDS.get(name, name.replace('_', ' '))} {value} ({bound} {with_unit(limit['limit'], unit)})")
-    if not texts:
+            texts[state].append(f"{WORDS.get(name, name.replace('_', ' '))} {value} ({bound} {with_unit(limit['limit'], unit)})")
+    if not any(texts.values()):
         return ("", f"{len(limits)} of {len(limits) + len(unjudged)} limits are satisfied.{rest}") if unjudged else (
             "satisfied", "All limits of the scene are satisfied.")
-    return "exceeded", f"{len(texts)} of {len(limits)} limits {'is' if len(texts) == 1 else 'are'} exceeded: {'; '.join(texts)}.{rest}"
+    words = {"exceeded": "exceeded", "undecided": "undecided, as the limit lies within the error bar"}
+    sentences = [f"{len(found)} of {len(limits)} limits {'is' if len(found) == 1 else 'are'} {words[state]}: {'; '.join(found)}."
+                 for state, found in texts.items() if found]
+    return "exceeded" if texts["exceeded"] else "undecided", " ".join(sentences) + rest
 
 
 def tiles(run):
@@ -226,10 +271,11 @@ def tiles(run):
     for key in ("max_opening", "max_slip", *stresses, "demand_capacity"):
         if key in found:
             item = found[key]
-            limit = (f'<span class="limit">{"exceeds the limit" if item.state == "exceeded" else "limit"} '
+            limit = (f'<span class="limit">{LIMIT_WORDS.get(item.state, "limit")} '
                      f'{escape(with_unit(item.limit["limit"], item.unit))}</span>') if item.limit else ""
+            bar = f'<span class="limit">{bar_words(item)} {item.unit}</span>' if item.bar else ""
             cells.append(f'<div class="tile {item.state}"><span class="what">{escape(item.title)}</span><span class="number">'
-                         f'{number(item.magnitude, item.unit)} <span class="unit">{item.unit}</span></span>{limit}</div>')
+                         f'{number(item.magnitude, item.unit)} <span class="unit">{item.unit}</span></span>{bar}{limit}</div>')
     return f'<div class="tiles">{"".join(cells)}</div>' if cells else ""
 
 
@@ -245,6 +291,9 @@ def extremes(runs):
         cells = [f'{escape(title)} <span class="unit">{"[" + item.unit + "]" if item.unit else ""}</span>']
         for of_run in found:
             one = of_run.get(key)
+            if one and one.bar:
+                cells.append((f'{number(one.value, one.unit)} <span class="unit">{bar_words(one)}</span>', one.state))
+                continue
             error = f' <span class="unit">± {number(one.error, one.unit, 2)}</span>' if one and isinstance(one.error, (int, float)) else ""
             cells.append((f"{number(one.value, one.unit)}{error}", one.state) if one else "–")
         if limited:

@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Dict
 
+from .error_bars import bars_of_run
 from .errors import InputError
 from .tables import PathLike, Table, read_table
 
@@ -53,6 +54,13 @@ class Results:
     def summary(self) -> Dict[str, Any]:
         """summary.json, which a finished run has."""
         return read_summary(self.directory)
+
+    @cached_property
+    def error_bars(self) -> Dict[str, Any]:
+        """Error bars of the largest values, from `voussoir accuracy` of the same scene in DIR/accuracy or SCENE-accuracy beside DIR.
+
+        {quantity: {"value", "low", "high", "combined", "parts", "unit"}} [m, Pa]; throws InputError if there are none."""
+        return bars_of_run(self.directory, self.summary, self.history)
 
     history = _table_property("history", "Crest, base and probes over time [s, m, m/s2].")
     joints = _table_property("joints", "Largest opening and slip of each joint at the crest [m].")

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from . import tables
+from .error_bars import bars_of_run, scene_name
 from .errors import InputError
 from .prm import read_entries
 from .results import read_summary
@@ -57,12 +58,19 @@ class Run:
     def __init__(self, directory):
         self.directory = Path(directory)
         self.summary = with_new_names(read_summary(directory))
-        scene = str(self.summary.get("scene", self.directory.name))
-        self.scene = Path(scene).stem if scene.endswith(".prm") else scene
+        self.scene = scene_name(directory, self.summary)
         self.law = str(self.summary.get("law", ""))
         self.tied = self.law.lower() == "tied"
         self.heading = f"{self.scene}, {self.law}" if self.law else self.scene
         self.name = self.heading  # among others; see name_apart()
+
+    @cached_property
+    def error_bars(self):
+        """Error bars of the largest values by `voussoir accuracy` (see error_bars.bars_of_run()), and why there are none."""
+        try:
+            return (bars_of_run(self.directory, self.summary, self.history), "") if self.moves else ({}, "")
+        except (InputError, Skip) as reason:
+            return {}, str(reason)
 
     @property
     def moves(self):
