@@ -110,7 +110,7 @@ def numbers():
     low = [d for d in "xyz" if sum(row[f"share_{d}"] for row in modes) < .9]
     expect(low and all(f"% in {d}" in warned for d in low) and "90 %" in warned, warned)
     fields_agree(found)
-    periods = [0, .1] + [.3 * 10**(k / 100) for k in range(101)]
+    periods = [0, .1] + [.3 * 10**(k / 1000) for k in range(1001)]
     write("spectrum.csv", "period,acceleration\n" + "".join(f"{p:.9g},{code(p):.9g}\n" for p in periods))
     other = printed(runs("modes", "scene.prm", *count, "--spectrum", "spectrum.csv", *settings("Motion/Scale z=0.6666667")))
     for name in ("displacement of the crown [mm]", "base force [MN]", "arch (horizontal in the face)"):
