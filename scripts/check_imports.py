@@ -14,11 +14,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "python" / "voussoir"
 LAYERS = (("errors",), ("palette", "prm", "tables", "units", "vtu", "chromium"), ("error_bars", "results"), ("program",),
-          ("__init__", "command", "runs", "zone_tension"),
+          ("command", "runs", "zone_tension"),
           ("drawing", "frames", "picture", "report_tables", "study_file", "study_scene"),
-          ("mode_shapes", "report_answers", "report_figures", "study_figures", "study_results"),
+          ("mode_shapes", "needs_verdicts", "report_answers", "report_needs", "report_figures", "study_figures", "study_results"),
           ("report_view3d",),
-          ("accuracy", "figures", "film", "report", "study", "view"))
+          ("accuracy", "figures", "film", "needs_command", "needs_output", "needs_runs", "report", "study", "view"), ("__init__",))
 FLOOR = {name: floor for floor, names in enumerate(LAYERS) for name in names}
 
 

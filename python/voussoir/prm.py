@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
 from typing import Any, Dict, Mapping, Optional, Tuple
 
 
@@ -26,8 +27,8 @@ def read_entries(text: str) -> Dict[str, Tuple[str, Optional[str]]]:
     return entries
 
 
-def prm_text(entries: Mapping[str, Any]) -> str:
-    """Returns an input file with these entries, "Section/Entry" -> value."""
+def prm_text(entries: Mapping[str, Any], remarks: Mapping[str, str] = MappingProxyType({})) -> str:
+    """Returns an input file with these entries, "Section/Entry" -> value. An entry of @p remarks has this comment before it."""
     lines: list[str] = []
     path: list[str] = []
     for entry, value in entries.items():
@@ -38,6 +39,8 @@ def prm_text(entries: Mapping[str, Any]) -> str:
         for section in sections[len(path):]:
             lines.append("  " * len(path) + f"subsection {section}")
             path.append(section)
+        if entry in remarks:
+            lines.extend("  " * len(path) + f"# {line}" for line in remarks[entry].splitlines())
         lines.append("  " * len(path) + f"set {name} = {value}")
     while path:
         path.pop()

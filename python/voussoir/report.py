@@ -24,6 +24,7 @@ from .command import Parser
 from .errors import ComputationError, InputError
 from .prm import prm_text
 from .report_answers import accuracy_sentence, answers, mesh_quality, modes, modes_of
+from .report_needs import needs_of, needs_table, smallest_sentence
 from .report_tables import blocks, blocks_of, differences, extremes, facts, html_table, number, table, tiles, verdict
 from .runs import NotComputed, Run, Skip, name_apart
 
@@ -277,6 +278,16 @@ def bases(page, runs):
                  [(named(runs, run), f"safety against sliding of {run.name}", lambda run=run: figures.sliding(run, safe)) for run in safe])
 
 
+def needs(page, runs):
+    """Table of `voussoir needs`, of each scene once."""
+    for run in {run.scene: run for run in reversed(runs)}.values():
+        if run.moves and (found := page.made(f"what the scene of {run.name} needs", lambda run=run: needs_of(run))) is not None:
+            page.section(f"What the scene{' ' + run.scene if len(runs) > 1 else ''} needs")
+            page.add(f"<p>{smallest_sentence(found)}</p>{needs_table(found)}")
+            page.add(f'<p class="sub">Change of each result in percent, over the strongest {found["seconds"]:g} s of the motion; cost as a ratio. In brackets: '
+                     "negligible differences.</p>")
+
+
 def checks(page, runs):
     page.section("Energy and checks")
     moving = [run for run in runs if run.moves]
@@ -336,7 +347,7 @@ def allowed(directive, texts):
 def page_of(runs, study):
     page = Page()
     head(page, runs, study)
-    for section in (summary, results, view3d.section, dam_and_scene, motion, response, stresses, bases, checks):
+    for section in (summary, results, view3d.section, dam_and_scene, motion, response, stresses, bases, needs, checks):
         section(page, runs)
     repeat(page, runs, study)
     if page.missing:

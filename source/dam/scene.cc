@@ -4,7 +4,6 @@
 #include <voussoir/base/number_text.h>
 #include <voussoir/contact/fclib_io.h>
 #include <voussoir/contact/law_table.h>
-#include <voussoir/dam/load_table.h>
 #include <voussoir/dam/scene.h>
 #include <voussoir/dynamics/newmark.h>
 #include <voussoir/foundation/foundation_names.h>

@@ -8,6 +8,8 @@ namespace Voussoir
 {
   class Entries;
   struct LoadParameters;
+  struct ModelChoices;
+  struct Scene;
 
   // From the rows of load_table.cc.
 
@@ -16,6 +18,9 @@ namespace Voussoir
 
   /** Returns the names with their help texts: "weight, water (with its added mass)". */
   std::string static_load_docs();
+
+  /** Adds the scene without each one of its loads, except weight and water. */
+  void add_load_choices(const Scene &scene, ModelChoices &choices);
 
   /** Declares the entries of all static loads in subsections of "Loads". */
   void add_load_parameters(LoadParameters &loads, Entries &prm);

@@ -8,8 +8,6 @@
 
 namespace Voussoir
 {
-  struct ModelChoices;
-
   /** Model on which static loads act. */
   struct LoadSite
   {
@@ -65,9 +63,6 @@ namespace Voussoir
 
   /** Returns the table of all static loads, in the order of help texts and messages. */
   const std::vector<LoadRow> &load_table();
-
-  /** Adds the scene without each one of its loads, except weight and water. */
-  void add_load_choices(const Scene &scene, ModelChoices &choices);
 
   /** Returns the active static loads of an input file, with the factors of its load combination. */
   std::vector<StaticLoad> static_loads(const Scene &scene, const LoadSite &site);

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The section of the report about `voussoir needs`: verdicts of the modelling choices, and the smallest scene."""
+
+import json
+from html import escape
+
+from .needs_verdicts import COLUMNS
+from .report_answers import beside
+from .report_tables import MINUS, html_table
+from .runs import Skip
+
+
+def differs(run, entries):
+    """First entry with another value in the run than in needs.json, None if there is none. Output and paths do not count."""
+    for entry, (value, _) in run.entries.items():
+        known = entries.get(entry)
+        if not entry.startswith("Output/") and "File" not in entry and known not in (None, value) and "/" not in f"{known}{value}":
+            return entry
+    return None
+
+
+def needs_of(run):
+    """needs.json of the run's scene. Throws Skip."""
+    file = beside(run, "needs", "needs.json")
+    try:
+        found = json.loads(file.read_text(encoding="utf-8"))
+        needs_table(found), smallest_sentence(found), float(found["seconds"])
+        entry = differs(run, found["entries"])
+    except (AttributeError, KeyError, OSError, RecursionError, TypeError, ValueError) as error:
+        raise Skip(f"{file} is not of voussoir needs ({type(error).__name__})") from error
+    if entry is not None:
+        raise Skip(f"{file} is of another version of the scene: {entry} differs")
+    return found
+
+
+def percent(change, counts):
+    """Text of a relative change, in brackets if it is negligible."""
+    if change is None:
+        return ""
+    text = f"{100 * change:+.{1 if abs(change) < 0.1 else 0}f}".replace("-", MINUS)
+    return text if counts else f"({text})"
+
+
+def needs_table(found):
+    """Rows of the table as HTML."""
+    heads = [("group", ""), ("choice", ""), *((f"{column.title} [%]", "n") for column in COLUMNS.values()), ("cost", "n"), ("verdict", "")]
+    body = []
+    for row in found["rows"]:
+        changes = row.get("changes")
+        cells = [percent(changes[name], row["counts"][name]) for name in COLUMNS] if changes else [""] * len(COLUMNS)
+        reason = f": {escape(str(row['reason']))}" if row["verdict"] == "not known" and row["reason"] else ""
+        body.append(("", [escape(str(row["group"])), escape(str(row["name"])), *cells, f"{row['cost']:.2f}" if changes else "",
+                          escape(str(row["verdict"])) + reason]))
+    return html_table(heads, body)
+
+
+def smallest_sentence(found):
+    """What the smallest scene is, and whether its promise holds, as HTML."""
+    smallest, target = found["smallest"], f"{100 * float(found['target']):g} %"
+    text = f"<code>voussoir needs</code> changed one choice at a time, with a target of {target}. "
+    if not smallest["rows"]:
+        return text + "No cheaper combination of choices stays within the target."
+    text += f"The smallest scene differs by: {escape('; '.join(map(str, smallest['rows'])))}. "
+    if smallest["holds"] is None or "cost" not in smallest:
+        return text + f"It was not compared with the scene ({escape(str(smallest['failure']))})."
+    state = "stays within the target" if smallest["holds"] else '<b class="exceeded">does not stay within the target</b>'
+    return text + (f"Over the whole motion it {state} in {int(smallest['within'])} of {int(smallest['of'])} results, for {float(smallest['cost']):.2f} of the "
+                   "processor time.")

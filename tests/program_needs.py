@@ -1,0 +1,241 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tests of `voussoir needs`: verdicts, the table, the smallest scene, resumed commands, bad input, the section of the report.
+
+    program_needs.py VOUSSOIR CASE...     cases: see the functions with that name below
+"""
+
+import csv
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from run_program import VOUSSOIR, expect, run_cases, runs, summary, voussoir, write, write_scene
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "python"))
+ROWS = [{"group": "joints", "name": "tied", "set": {"Joints/Model": "tied"}, "simpler": True},
+        {"group": "joints", "name": "weaker friction", "set": {"Joints/Friction": "0.45"}, "simpler": False},
+        {"group": "motion", "name": "no vertical component", "set": {"Motion/Scale z": "0"}, "simpler": False},
+        {"group": "material", "name": "no such material", "set": {"Concrete/Density": "-1"}, "simpler": False},
+        {"group": "numerics", "name": "contact tolerance 1e-6", "set": {"Contact/Tolerance": "1e-6"}, "simpler": True}]
+LONG = ["--set", "Motion/Duration=2"]
+
+
+def stand_in(rows):
+    """A program that declares these rows for every scene, and otherwise is the program under test."""
+    write("rows.json", json.dumps(rows))
+    write("program", f"""#!/bin/sh
+if [ "$1" = scene ]; then
+  for word in "$@"; do if [ "$word" = --choices ]; then cat "{Path.cwd()}/rows.json"; exit 0; fi; done
+fi
+exec "{VOUSSOIR}" "$@"
+""")
+    os.chmod("program", 0o755)
+    return str(Path("program").resolve())
+
+
+def needs(*arguments, status=0, program="program"):
+    """Output and messages of the command, started as the program starts it, with the rows of stand_in()."""
+    result = subprocess.run([sys.executable, ROOT / "scripts" / "needs.py", *arguments], capture_output=True, text=True, timeout=200,
+                            env={**os.environ, "VOUSSOIR_PROGRAM": str(Path(program).resolve())})
+    expect(result.returncode == status, f"status {result.returncode} of needs {arguments}: {result.stdout[-3000:]}{result.stderr}")
+    return result.stdout, result.stderr
+
+
+def rows_of(directory):
+    return {row["name"]: row for row in json.loads(Path(directory, "needs.json").read_text())["rows"]}
+
+
+def verdicts():
+    """Changes, verdicts, the sum of changes and the change to take back, on made-up numbers."""
+    from voussoir import needs_verdicts as n
+    base = {"opening": 0.02, "slip": 0.1, "tension_upstream": 2e6, "tension_downstream": 1e6, "base_shear": 1e10, "sliding_safety": 0.5, "crest": 0.05}
+
+    def row(name, cost, simpler=True, entry=None, **factors):
+        changes, counts = n.changes_of({key: value * factors.get(key, 1.) for key, value in base.items()}, base)
+        return {"group": "x", "name": name, "simpler": simpler, "set": {entry or name: "1"}, "changes": changes, "counts": counts, "cost": cost,
+                "reference": "coarse", "values": base, "where": {}}
+
+    changes, counts = n.changes_of({**base, "opening": 0.023, "slip": None}, base)
+    expect(abs(changes["opening"] - 0.15) < 1e-12 and changes["slip"] == -1. and changes["crest"] == 0. and not counts["crest"], f"{changes}")
+    changes, counts = n.changes_of({"opening": 9e-5}, {"opening": 1e-5})  # relative to 0.1 mm, and negligible
+    expect(abs(changes["opening"] - 0.8) < 1e-12 and not counts["opening"] and changes["slip"] is None and not counts["slip"], f"{changes}, {counts}")
+    a, b, c, d = (row("a", 0.5, opening=1.03, crest=0.99), row("b", 0.6, opening=0.97), row("c", 0.8, crest=1.02), row("d", 0.4, entry="a", crest=1.09))
+    e, f = row("e", 0.1, simpler=False), row("f", 0.99)
+    failed = {**row("g", 0.1), "failure": "no"}
+    rows = [a, b, c, d, e, f, failed]
+    n.judge(rows, {}, 0.05)
+    expect([r["verdict"] for r in rows] == [n.UNIMPORTANT] * 3 + [n.MATTERS] + [n.UNIMPORTANT] * 2 + [n.UNKNOWN], f"{[r['verdict'] for r in rows]}")
+    expect(d["reason"] == "crest displacement" and failed["reason"] == "no", f"{d['reason']}")
+    candidates = n.candidates_of(rows)
+    expect([r["name"] for r in candidates] == ["a", "b", "c"], f"{[r['name'] for r in candidates]}")
+    # 3 + 3 % of the opening are above 5 %, though the signs differ: a and c cost 0.4, b and c 0.48.
+    expect([r["name"] for r in n.cheapest(candidates, 0.05)] == ["a", "c"], "cheapest at 5 %")
+    expect([r["name"] for r in n.cheapest(candidates, 0.0601)] == ["a", "b", "c"], "cheapest at 6 %")
+    expect(n.cheapest(candidates, 0.001) == [], "nothing at 0.1 %")
+    d["verdict"] = n.UNIMPORTANT
+    expect([r["name"] for r in n.cheapest(n.candidates_of(rows), 0.1)] == ["d", "b"], "of two rows with the same entry only one")
+    changes, counts = n.changes_of({**base, "crest": 0.06, "opening": 0.0201}, base)
+    expect(n.to_take_back([b, c], changes, counts) is c, "the column that misses the target most decides")
+    # Numerical error: the larger of that of the column and the root mean square, times twice the root of the size of the row, at most 1
+    wide, narrow = row("wide", 1., slip=1.6, opening=1.1), row("narrow", 1., slip=1.01)
+    error = {**dict.fromkeys(n.COLUMNS, 0.), "opening": 0.2, "slip": -0.5, "sliding_safety": 9.}
+    typical = ((0.04 + 0.25) / 6) ** 0.5
+    n.judge([wide, narrow], error, 0.05)
+    expect(abs(wide["errors"]["opening"] - typical) < 1e-12 and wide["errors"]["slip"] == 0.5 and abs(wide["errors"]["crest"] - typical) < 1e-12, f"{wide}")
+    expect(wide["verdict"] == n.MATTERS and wide["reason"] == "largest slip", f"{wide}")
+    expect(abs(narrow["errors"]["slip"] - 0.1) < 1e-9 and narrow["verdict"] == n.UNKNOWN and "largest slip" in narrow["reason"], f"{narrow}")
+    own = {**row("own mesh", 1., slip=1.01), "reference": "scene"}
+    n.judge([own], error, 0.05)
+    expect(own["verdict"] == n.UNIMPORTANT and own["errors"] == {}, f"{own}")
+    scatter = [row("scatter 1", 1., slip=1.1), row("other", 1.), row("scatter 2", 2., slip=0.7, crest=1.01)]
+    one, other = n.merge_scatter(scatter)
+    expect(one["name"] == "scatter of the motion" and other["name"] == "other" and abs(one["changes"]["slip"] + 0.3) < 1e-12, f"{one}")
+    expect(abs(one["changes"]["crest"] - 0.01) < 1e-12 and one["cost"] == 1.5 and not one["simpler"], f"{one}")
+
+
+def table():
+    """A table of few rows: a row that fails has its reason, the changes are those of separate runs, a second command runs nothing."""
+    import voussoir as package
+    write_scene()
+    stand_in(ROWS)
+    arguments = ["--seconds", "1", "--jobs", "2", "--output", "out", *LONG, "--", "scene.prm"]
+    text, _ = needs(*arguments)
+    print(text)
+    for part in ("tied", "largest opening", "matters", "times one run of the scene", "needs.csv"):
+        expect(part in text, f"'{part}' is missing: {text}")
+    rows = rows_of("out")
+    expect(list(rows) == [row["name"] for row in ROWS], f"{list(rows)}")
+    expect(rows["tied"]["verdict"] == "matters" and rows["tied"]["changes"]["opening"] == -1., f"{rows['tied']}")
+    expect(rows["no such material"]["verdict"] == "not known" and "Concrete/Density" in rows["no such material"]["reason"], f"{rows['no such material']}")
+    expect(rows["contact tolerance 1e-6"]["verdict"] == "does not matter", f"{rows['contact tolerance 1e-6']}")
+    # Of separate runs over the same part of the motion
+    part = next(Path("out/motions").glob("????????????????.csv"))
+    same = ["scene.prm", "--set", f"Motion/File={part.resolve()}", "--set", "Motion/Unit=m/s^2", "--set", "Motion/Duration=-1"]
+    runs(*same, "--output", "base")
+    runs(*same, "--set", "Motion/Scale z=0", "--output", "flat")
+    before, after = (summary(d)["extremes"]["max_opening"]["value"] for d in ("base", "flat"))
+    told = rows["no vertical component"]["changes"]["opening"]
+    print(f"    no vertical component: {told}, separate runs {after / before - 1}")
+    expect(abs(told - (after / before - 1)) < 1e-6, "the change is not that of separate runs")
+    with open("out/needs.csv", newline="") as file:
+        lines = list(csv.DictReader(file))
+    expect(len(lines) == len(ROWS) and abs(float(lines[2]["change_opening"]) - told) < 1e-5 * abs(told) + 1e-9, f"{lines[2]}")
+    expect(Path("out/tornado_opening.png").stat().st_size > 5000, "the chart is empty")
+    # From Python, with fewer groups: the same rows, and no run is repeated.
+    stamps = {path: path.stat().st_mtime_ns for path in Path("out/runs").glob("*/summary.json")}
+    os.environ["VOUSSOIR_PROGRAM"] = str(Path("program").resolve())
+    again = package.needs("scene.prm", 0.05, 1., 2, only="numerics, motion", output="out", settings=["Motion/Duration=2"])
+    expect([row["group"] for row in again] == ["motion", "numerics"] and again[0]["changes"] == rows["no vertical component"]["changes"], f"{again}")
+    expect(len(stamps) >= 5 and stamps == {path: path.stat().st_mtime_ns for path in Path("out/runs").glob("*/summary.json")}, "runs are repeated")
+    report()
+
+
+def report():
+    """The report of a run of the same scene has the table; of another scene it has a remark."""
+    from voussoir import report_needs, runs as package_runs
+    os.rename("out", "scene-needs")
+    runs("scene.prm", *LONG, "--output", "run")
+    result = subprocess.run([sys.executable, ROOT / "scripts" / "report.py", "--", "run"], capture_output=True, text=True, timeout=100)
+    expect(result.returncode == 0, result.stderr)
+    page = Path("run/report.html").read_text()
+    expect("What the scene needs" in page and "no vertical component" in page, "the table is not in the report")
+    runs("scene.prm", *LONG, "--set", "Joints/Friction=0.7", "--output", "run")
+    try:
+        report_needs.needs_of(package_runs.Run("run"))
+        raise AssertionError("a run with another friction has the table of this scene")
+    except package_runs.Skip as reason:
+        expect("Joints/Friction differs" in str(reason), f"{reason}")
+
+
+def smallest():
+    """The smallest scene is written with a comment for each changed line; its comparison is that of its own run over the whole motion."""
+    write_scene()
+    finer = {"Dynamics/Steps per sample": "4", "Mesh/Arch210/Elements along": "12"}
+    rows = [{"group": "numerics", "name": "time step twice", "set": {"Dynamics/Steps per sample": "2"}, "simpler": True},
+            {"group": "numerics", "name": "elements along half", "set": {"Mesh/Arch210/Elements along": "6"}, "simpler": True}]
+    stand_in(rows)
+    settings = [word for entry, value in finer.items() for word in ("--set", f"{entry}={value}")]
+    text, _ = needs("--for", "90%", "--seconds", "1", "--output", "out", *LONG, *settings, "--", "scene.prm")
+    print(text)
+    found = json.loads(Path("out/needs.json").read_text())["smallest"]
+    expect(found["rows"] and found["holds"] is True, f"{found}")
+    lines = Path("out/smallest.prm").read_text().splitlines()
+    place = next(i for i, line in enumerate(lines) if "set Steps per sample" in line)
+    remark = " ".join(line.strip("# ") for line in lines[place - 3:place])
+    expect("= 2" in lines[place] and 'time step twice, instead of "4"' in remark and "cost x" in remark, f"{lines}")
+    # The file can be run as it is, and gives what the table says.
+    runs("out/smallest.prm", "--output", "again")
+    runs("scene.prm", *LONG, *settings, "--output", "full")
+    small, full = (summary(d)["extremes"]["max_opening"]["value"] for d in ("again", "full"))
+    expect(abs(small / full - 1 - found["changes"]["opening"]) < 1e-6, f"{small / full - 1}, {found['changes']}")
+
+
+def stopped():
+    """A command that is stopped goes on: finished runs stay, the others follow."""
+    write_scene()
+    stand_in(ROWS)
+    words = [sys.executable, ROOT / "scripts" / "needs.py", "--seconds", "1", "--jobs", "1", "--output", "out", *LONG, "--", "scene.prm"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          env={**os.environ, "VOUSSOIR_PROGRAM": str(Path("program").resolve())}) as process:
+        end = time.monotonic() + 60
+        while not list(Path("out/records").glob("joints-*.json")) and time.monotonic() < end:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        _, messages = process.communicate(timeout=60)
+    expect(process.returncode == 1 and "the same command goes on" in messages, messages)
+    stamps = {path: path.stat().st_mtime_ns for path in Path("out/runs").glob("*/summary.json")}
+    expect(0 < len(stamps) < 5, f"{list(stamps)}")
+    needs(*words[2:])
+    after = {path: path.stat().st_mtime_ns for path in Path("out/runs").glob("*/summary.json")}
+    finished = {path for path in stamps if "result" in json.loads(Path("out/records", f"{path.parent.name}.json").read_text())}
+    kept = [path for path in finished if stamps[path] == after[path]]
+    expect(len(after) >= 6 and kept == list(finished) and len(kept) >= len(stamps) - 1, f"kept {kept} of {list(stamps)}")
+
+
+def declared():
+    """`voussoir needs` with the rows that the program itself declares."""
+    write_scene()
+    result = voussoir("scene", "scene.prm", "--choices")
+    expect(result.returncode == 0, result.stderr)
+    rows = json.loads(result.stdout)
+    groups = {row["group"] for row in rows}
+    print(f"    {len(rows)} rows in the groups {', '.join(sorted(groups))}")
+    expect({"joints", "water", "numerics"} <= groups, f"{groups}")
+    text = runs("needs", "scene.prm", "--only", "joints", "--seconds", "0.5", "--output", "out", *LONG)
+    found = json.loads(Path("out/needs.json").read_text())
+    expect({row["group"] for row in found["rows"]} == {"joints"} and "tied" in text, text)
+    expect(found["total_cost"] <= 10, f"{found['total_cost']} times one run")
+
+
+def bad_input():
+    """One paragraph each."""
+    write_scene()
+    stand_in(ROWS)
+    for arguments, parts in ((["--only", "wood"], ("--only", "wood", "water")), (["--only", "water"], ("no choice", "water")),
+                             (["--for", "0%"], ("--for", "positive")), (["--for", "5"], ("--for", "with its %")), (["--seconds", "no"], ("--seconds", "no")),
+                             (["--jobs", "0"], ("--jobs", "0")), (["--mesh", "fine"], ("--mesh", "fine")),
+                             (["--set", "Motion/Source=none"], ("no motion", "Motion/Source")),
+                             (["--output", "scene.prm"], ("scene.prm", "--output")),
+                             (["--set", "Joints/Friction=-1"], ("Joints/Friction",)),
+                             (["--set", "Contact/Tolerance=1e-15", "--set", "Contact/Maximum iterations=1", "--set", "Contact/Method=proximal"],
+                              ("scene.prm failed", "static"))):
+        output = [] if "--output" in arguments else ["--output", "out"]
+        _, messages = needs("--seconds", "1", *LONG, *arguments, *output, "--", "scene.prm", status=1 if "static" in parts else 2)
+        lines = [line for line in messages.splitlines() if not line.startswith("voussoir: warning: ")]
+        expect(len(lines) == 1 and re.match("voussoir: (error|failed): ", lines[0]), f"{messages}")
+        for part in parts:
+            expect(part in lines[0], f"'{part}' is missing: {lines[0]}")
+        print("   ", lines[0])
+    _, messages = needs(status=2)
+    expect("one scene file" in messages, messages)
+
+
+if __name__ == "__main__":
+    run_cases(verdicts, table, smallest, stopped, declared, bad_input)
