@@ -29,7 +29,7 @@ LONG = ["--set", "Motion/Duration=2"]
 
 def stand_in(rows):
     """A program that declares these rows for every scene, and otherwise is the program under test."""
-    write("rows.json", json.dumps(rows))
+    write("rows.json", json.dumps({"choices": rows}))
     write("program", f"""#!/bin/sh
 if [ "$1" = scene ]; then
   for word in "$@"; do if [ "$word" = --choices ]; then cat "{Path.cwd()}/rows.json"; exit 0; fi; done
@@ -204,7 +204,7 @@ def declared():
     write_scene()
     result = voussoir("scene", "scene.prm", "--choices")
     expect(result.returncode == 0, result.stderr)
-    rows = json.loads(result.stdout)
+    rows = json.loads(result.stdout)["choices"]
     groups = {row["group"] for row in rows}
     print(f"    {len(rows)} rows in the groups {', '.join(sorted(groups))}")
     expect({"joints", "water", "numerics"} <= groups, f"{groups}")

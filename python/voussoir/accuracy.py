@@ -317,15 +317,20 @@ def number(text, what, unit=""):
     return value
 
 
+def expect_one_record(scene, entries):
+    """Throws InputError for a scene with other motions of the banks, whose strongest part is not cut."""
+    if entries["Motion/Abutments"]:
+        raise InputError(f"the scene {scene} has Motion/Abutments, but the strongest part of the motion is cut from one record. Use the same motion "
+                         "at all base nodes: --set Motion/Abutments=")
+
+
 def prepare(options, wish):
     """The scene's ladder, with the strongest part of its motion, and what it can refine."""
     seconds = number(options.seconds, "--seconds")
     entries = entries_of(options.scene, options.set)
     if entries["Motion/Source"] == "none":
         raise InputError(f"the scene {options.scene} has no motion (Motion/Source = none): there is no earthquake to chart.")
-    if entries["Motion/Abutments"]:
-        raise InputError(f"the scene {options.scene} has Motion/Abutments: the strongest part of the motion is cut from one record. Estimate the "
-                         "error with the same motion at all base nodes: --set Motion/Abutments=")
+    expect_one_record(options.scene, entries)
     if entries["Output/Envelope interval"] == "0":
         options.set.append("Output/Envelope interval=1")
     directory = Path(options.output or f"output/{Path(options.scene).stem}-accuracy")

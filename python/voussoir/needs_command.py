@@ -22,7 +22,7 @@ from typing import Any, Dict, Iterable, List, Mapping, Optional
 
 import numpy as np
 
-from .accuracy import ROCK_SHARE, height_of, n_monoliths, number
+from .accuracy import ROCK_SHARE, expect_one_record, height_of, n_monoliths, number
 from .command import Parser
 from .errors import ComputationError, InputError
 from .needs_output import draw, print_table, signed, smallest_text, value_text, write_json, write_table
@@ -78,6 +78,7 @@ class Needs:
         if entries["Motion/Source"] == "none":
             raise InputError(f"the scene {scene} has no motion (Motion/Source = none), so its choices have no effect on an earthquake. "
                              "Set Motion/Source to artificial or file.")
+        expect_one_record(scene, entries)
         self.rows = [row for row in self.declared() if row["group"] in self.groups]
         if not self.rows:
             raise InputError(f"the scene {scene} has no choice in the groups {', '.join(self.groups)}. Give other groups with --only.")
@@ -94,7 +95,7 @@ class Needs:
 
     def declared(self) -> List[Dict[str, Any]]:
         """Rows that the program declares for this scene."""
-        rows: List[Dict[str, Any]] = json.loads(call("scene", self.scene, "--choices", *set_options(self.settings)))
+        rows: List[Dict[str, Any]] = json.loads(call("scene", self.scene, "--choices", *set_options(self.settings)))["choices"]
         return rows
 
     def output_settings(self, entries: Mapping[str, str]) -> Dict[str, Any]:
