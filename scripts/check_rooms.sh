@@ -5,7 +5,7 @@
 # Usage: scripts/check_rooms.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-rooms=(base motion mesh contact solid joints dynamics rock foundation dam output app)
+rooms=(base motion mesh contact solid joints dynamics rock foundation water dam output app)
 
 # Edges "room/file room/file" of all sources and headers that include another file.
 edges=$(grep -rHo '#include <voussoir/[a-z]*/[a-z0-9_]*' source include/voussoir |

@@ -37,6 +37,20 @@ namespace Voussoir
                          ". Choose another one with --output.");
     }
 
+    /** Returns the modes of the dam, with the added mass or with incompressible water. */
+    std::vector<NaturalMode> modes_of(const Dam &dam, const unsigned int count)
+    {
+      if (!dam.water)
+        return natural_modes(dam.structure, count);
+      const WaterModel water = dam.water->model_for(0.);
+      std::cerr
+          << "voussoir: warning: the modes have incompressible water, which does not radiate. Effective masses "
+             "are those of the concrete.\n";
+      return natural_modes(dam.structure, count, 1000,
+                           [&](const Unknowns &x, Unknowns &y)
+                           { dam.water->add_incompressible_mass(water, x, y); });
+    }
+
     /** Returns the table of modes.csv. Participation factors are for modes with unit modal mass. */
     Table table_of(const std::vector<NaturalMode> &modes, const Structure &structure)
     {
@@ -135,6 +149,8 @@ namespace Voussoir
       throw InputError(
           "`voussoir modes` requires a rigid base or massless rock, because rock with mass "
           "radiates energy. Use --set Foundation/Model=massless or --set Foundation/Model=rigid.");
+    if (scene.reservoir.is_acoustic() && !spectrum_choice.empty())
+      throw InputError("--spectrum has no acoustic water. Use --set Reservoir/Model=Westergaard.");
     std::optional<ChosenSpectrum> spectrum;
     if (!spectrum_choice.empty())
       spectrum = choose_spectrum(scene, spectrum_choice);
@@ -143,7 +159,7 @@ namespace Voussoir
     const Dam dam(scene, true);
     for (const std::string &warning : dam.mesh_warnings)
       std::cerr << "voussoir: warning: " << warning << "\n";
-    const std::vector<NaturalMode> modes = natural_modes(dam.structure, count);
+    const std::vector<NaturalMode> modes = modes_of(dam, count);
     const Table                    table = table_of(modes, dam.structure);
     const ModesDamping             damping(scene.damping, modes, dam.structure);
     if (json)

@@ -11,6 +11,8 @@ namespace Voussoir
       list.push_back(&blocks.emplace(run));
     if (run.scene().error_estimate)
       list.push_back(&time_error.emplace(run, joints.joints, stresses, log));
+    if (run.dam->water && run.n_steps > 0)
+      list.push_back(&water.emplace(run));
     list.insert(list.end(), {&stresses, &fields, &frames});
   }
 } // namespace Voussoir

@@ -222,6 +222,8 @@ namespace Voussoir
     assessment.add_to(summary);
     if (run.motion.parts.size() > 1 && run.n_steps > 0)
       summary.add("motion_parts", observers.joints.json_of_parts());
+    if (observers.water)
+      summary.add("water", observers.water->json());
     if (observers.blocks)
       summary.add("blocks", observers.blocks->blocks.json());
     summary.add_texts("warnings", log.warnings());

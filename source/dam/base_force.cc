@@ -342,6 +342,9 @@ namespace Voussoir
       if (moves)
         add_product(result[b], held_mass[b], step.ground);
     }
+    for (unsigned int i = 0; i < step.water.size(); ++i)
+      if (const unsigned int b = block[i]; b != rigid_ground)
+        add_force(result[b], -1., to(of_block[b].centroid, model.points[i]), step.water[i]);
     for (std::size_t k = 0; k < lone.size(); ++k)
     {
       const Pair &pair = structure.pairs[lone[k].pair];

@@ -229,6 +229,14 @@ namespace Voussoir
           initial_stress[i][c] += load.stress[i][c];
     if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0.)
       added_mass = add_added_mass(*model, scene.reservoir, structure);
+    if (const ReservoirParameters &r = scene.reservoir; r.is_acoustic() && scene.loads.factor("water") != 0.)
+    {
+      water = std::make_unique<AcousticWater>(
+          *model, structure,
+          WaterProperties{r.density, r.sound_speed, r.reflection, 0., r.length, r.element_size}, r.level);
+      water->gravity = scene.statics.gravity;
+      neighbours.push_back(water.get());
+    }
     inertia = inertial_loads(structure);
   }
 

@@ -32,6 +32,26 @@ namespace Voussoir
         "Factor of the added mass [-]. 0.5 is common in Chinese practice, and closer to an incompressible "
         "reservoir.",
         {.1, 1.5, true}, Patterns::Double(0.));
+    prm.add_parameter(
+        "Model", model,
+        "Water in the earthquake. Westergaard: added mass, see Added mass. acoustic: compressible water "
+        "in a channel with the section of the upstream face, on a rigid base or massless rock.",
+        Patterns::Selection("Westergaard|acoustic"));
+    prm.add_parameter("Sound speed", sound_speed, "Model acoustic: speed of sound in the water [m/s].",
+                      {1300., 1550.}, Patterns::Double(1.));
+    prm.add_parameter(
+        "Reflection", reflection,
+        "Model acoustic: reflection coefficient of bed and banks [-]. 1: rigid. 0: absorbs all waves.",
+        Patterns::Double(0., 1.));
+    prm.add_parameter(
+        "Length", length,
+        "Model acoustic: length of the channel before its absorbing end [m], at least one depth. 0: two "
+        "depths.",
+        {50., 5000., true}, Patterns::Double(0.));
+    prm.add_parameter(
+        "Element size", element_size,
+        "Model acoustic: size of the water elements at the dam [m]. 0: a sixteenth of the depth.",
+        {1., 50., true}, Patterns::Double(0.));
     prm.leave_subsection();
   }
 
@@ -42,6 +62,16 @@ namespace Voussoir
     choices.add("water", "empty reservoir", "Reservoir/Density", 0., true);
     choices.add("water", "water level 10 % lower", "Reservoir/Water level",
                 level - .1 * (level - choices.bottom));
+    if (is_acoustic())
+    {
+      choices.add("water", "Westergaard", {{"Reservoir/Model", "Westergaard"}}, true);
+      for (const double alpha : {1., .75, .5})
+        if (alpha != reflection)
+          choices.add("water", "reflection of the banks " + number_text(alpha), "Reservoir/Reflection",
+                      alpha);
+      return;
+    }
+    choices.add("water", "compressible water", {{"Reservoir/Model", "acoustic"}});
     if (added_mass == "none" || factor == 0.)
       return choices.add("water", "Westergaard",
                          {{"Reservoir/Added mass", "Westergaard"}, {"Reservoir/Factor", "1"}});
@@ -260,7 +290,7 @@ namespace Voussoir
 
     const AddedMassRow &row_of_added_mass(const ReservoirParameters &reservoir)
     {
-      return row_of(added_masses, reservoir.added_mass, "is no added mass",
+      return row_of(added_masses, reservoir.is_acoustic() ? "none" : reservoir.added_mass, "is no added mass",
                     "Entry \"Reservoir/Added mass\" may be");
     }
   } // namespace

@@ -447,6 +447,15 @@ namespace Voussoir
                        foundation.model +
                        ": a rigid base moves as one body, and rock with mass receives the ground motion from "
                        "below. Set the model to massless, or remove the entry.");
+    if (reservoir.is_acoustic() && foundation.model == "rock")
+      throw InputError(
+          "\"Reservoir/Model\" = acoustic requires a rigid base or massless rock: the water does not act "
+          "on rock with mass. Set \"Foundation/Model\" to rigid or massless, or \"Reservoir/Model\" to "
+          "Westergaard.");
+    if (reservoir.is_acoustic() && error_estimate)
+      throw InputError(
+          "\"Dynamics/Error estimate\" has no acoustic water. Remove the entry, and use `voussoir "
+          "accuracy`, or set \"Reservoir/Model\" to Westergaard.");
     joints.check();
     loads.check();
     static_stages(statics.stages);

@@ -80,9 +80,14 @@ namespace Voussoir
       }
   }
 
-  const std::vector<Vector3> &Tractions::at(const Unknowns &force, const Unknowns &acceleration)
+  const std::vector<Vector3> &Tractions::at(const Unknowns &force, const Unknowns &acceleration,
+                                            const std::vector<double> &pressure)
   {
     traction = known;
+    for (std::size_t f = 0; f < faces.size() && !pressure.empty(); ++f)
+      if (faces[f].surface == PhysicalId::upstream)
+        for (unsigned int c = 0; c < 3; ++c)
+          traction[f][c] -= pressure[faces[f].node] * faces[f].normal[c];
     if (!acceleration.empty())
       add_moving_water(acceleration);
     const std::vector<Vector3> &of_pair = joints.at(force);

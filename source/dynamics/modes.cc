@@ -39,7 +39,7 @@ namespace Voussoir
   }
 
 #ifndef VOUSSOIR_WITH_ARPACK
-  std::vector<NaturalMode> natural_modes(const Structure &, unsigned int, unsigned int)
+  std::vector<NaturalMode> natural_modes(const Structure &, unsigned int, unsigned int, const AddMass &)
   {
     throw InputError(
         "This program was built without ARPACK, so it computes no natural frequencies. Build with a deal.II that "
@@ -76,7 +76,7 @@ namespace Voussoir
   } // namespace
 
   std::vector<NaturalMode> natural_modes(const Structure &structure, const unsigned int n_modes,
-                                         const unsigned int max_iterations)
+                                         const unsigned int max_iterations, const AddMass &add_mass)
   {
     const unsigned int n = 3 * structure.n_nodes();
     if (2 * n_modes + 2 > n)
@@ -84,16 +84,16 @@ namespace Voussoir
                        " unknowns. Reduce the number of modes (--count).");
     JointSystem    system(structure, JointLaws(), ContactParameters(), {});
     Unknowns       load(n), u;
-    const Operator mass{
-        [&](Vector<double> &y, const Vector<double> &x)
-        {
-          for (unsigned int i = 0; i < structure.n_nodes(); ++i)
-          {
-            const Vector3 Mx = structure.mass[i] * Vector3{{x[3 * i], x[3 * i + 1], x[3 * i + 2]}};
-            for (unsigned int c = 0; c < 3; ++c)
-              y[3 * i + c] = Mx[c];
-          }
-        }};
+    const Operator mass{[&](Vector<double> &y, const Vector<double> &x)
+                        {
+                          const Unknowns copy(x.begin(), x.end());
+                          Unknowns       Mx(n);
+                          for (unsigned int i = 0; i < structure.n_nodes(); ++i)
+                            set(Mx, i, structure.mass[i] * get(copy, i));
+                          if (add_mass)
+                            add_mass(copy, Mx);
+                          std::copy(Mx.begin(), Mx.end(), y.begin());
+                        }};
     const Operator inverse_stiffness{[&](Vector<double> &y, const Vector<double> &x)
                                      {
                                        std::copy(x.begin(), x.end(), load.begin());

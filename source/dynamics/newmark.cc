@@ -248,9 +248,12 @@ namespace Voussoir
    * correction. Computes the work of loads and damping. */
   void Newmark::move(const StepLoad &step, const Unknowns &u_new, Work &work)
   {
-    const double    dt = step.dt;
-    const Unknowns &load = step.load;
-    Unknowns        Ku;
+    const double dt = step.dt;
+    Unknowns     Ku, load = step.load;
+    Unknowns     change = u_new;
+    for (std::size_t k = 0; k < change.size(); ++k)
+      change[k] -= now.u[k];
+    structure.add_reaction(-1., change, load);
     structure.multiply_stiffness(u_new, Ku);
     equation->carry(now, dt, u_new, Ku);
     double  input = 0., damping = 0.;
@@ -281,7 +284,7 @@ namespace Voussoir
     work.input += input;
     work.damping = damping;
     now.Ku.swap(Ku);
-    now.load = load;
+    now.load.swap(load);
     now.base_velocity = step.base_velocity;
     now.time += dt;
   }

@@ -72,9 +72,14 @@ namespace Voussoir
     for (unsigned int c = 0; c < 3; ++c)
       middle_base[c] = fraction * base_velocity[c] + (1. - fraction) * now.base_velocity[c];
     const double   end = now.time + dt; // without the round-off of the reduced steps
+    const Unknowns start = now.u;
     ContactResult  result = advance({fraction * dt, n_first, size.halvings + 1}, middle, middle_base);
     const Unknowns first_half = impulse;
-    result += advance({(1. - fraction) * dt, n - n_first, size.halvings + 1}, load, base_velocity);
+    Unknowns       change = now.u, rest = load; // the water reacts to the whole step
+    for (std::size_t k = 0; k < change.size(); ++k)
+      change[k] -= start[k];
+    structure.add_reaction(-1., change, rest);
+    result += advance({(1. - fraction) * dt, n - n_first, size.halvings + 1}, rest, base_velocity);
     result.add_work(failed);
     result.path = ContactPath::smaller_step;
     now.time = end;

@@ -6,7 +6,7 @@ namespace Voussoir
   StepOperator trapezoidal_rule(const Structure &structure, const double dt, const double share)
   {
     return {4. / (dt * dt) + 2. / dt * structure.mass_damping, 1. + 2. / dt * structure.stiffness_damping,
-            2. / dt, share};
+            2. / dt, share, 1.};
   }
 
   Unknowns StepEquation::known_forces(const DynamicState &now, const StepLoad &step, const double c_m,
@@ -62,6 +62,7 @@ namespace Voussoir
                                         2. / dt * structure.stiffness_damping - 1.);
         for (std::size_t k = 0; k < structure.dashpots.size(); ++k)
           rhs[k] += 2. / dt * structure.dashpots[k] * now.u[k];
+        structure.add_reaction(1., now.u, rhs);
         return system.solve(rhs, joints.offset, joints.start, joints.memory, joints.force, joints.gap,
                             joints.u_new, &joints.base);
       }
@@ -129,9 +130,11 @@ namespace Voussoir
             if (!structure.dashpots.empty())
               carried.resisted[k] += A.dashpot * structure.dashpots[k] * du[c];
             carried.resisted[k] += A.mass * Md[c];
-            carried.residual[k] = .5 * dt * (rhs[k] - carried.resisted[k]);
           }
         }
+        structure.add_reaction(A.reaction, carried.moved, carried.resisted);
+        for (std::size_t k = 0; k < rhs.size(); ++k)
+          carried.residual[k] = .5 * dt * (rhs[k] - carried.resisted[k]);
       }
 
     private:

@@ -25,7 +25,8 @@ namespace Voussoir
       f /= run.motion.dt;
     const StaticState &statics = run.statics;
     blocks.follow({statics.elastic(run.u_before), statics.elastic(state.u), run.acceleration, force, ground,
-                   velocity, run.motion.dt});
+                   velocity, run.motion.dt,
+                   run.dam->water ? run.dam->water->mean_force() : std::vector<Vector3>()});
   }
 
   void BlockObserver::report(Log &log) const

@@ -47,8 +47,11 @@ namespace Voussoir
 
   std::vector<Vector3> StressObserver::tractions_now()
   {
-    return known_tractions() ? tractions.at(run.newmark->state().force, run.acceleration)
-                             : std::vector<Vector3>();
+    if (!known_tractions())
+      return {};
+    const AcousticWater *water = run.dam->water.get();
+    return tractions.at(run.newmark->state().force, run.acceleration,
+                        water ? water->pressure_at_dam() : std::vector<double>());
   }
 
   std::vector<Stress> StressObserver::now()

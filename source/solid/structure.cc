@@ -46,6 +46,18 @@ namespace Voussoir
     gather(Ku);
   }
 
+  void Structure::add_reaction(const double factor, const Unknowns &u, Unknowns &y) const
+  {
+    for (const Body &body : bodies)
+      for (unsigned int row = 0; row < body.n_nodes() && !body.reaction.empty(); ++row)
+        for (std::size_t e = body.stiffness.start[row]; e < body.stiffness.start[row + 1]; ++e)
+        {
+          const Vector3 force = body.reaction[e] * get(u, body.first_node + body.stiffness.column[e]);
+          for (unsigned int c = 0; c < 3; ++c)
+            y[3 * std::size_t(body.first_node + row) + c] += factor * force[c];
+        }
+  }
+
   void Structure::gather(Unknowns &u) const
   {
     if (share.are_trivial())

@@ -21,6 +21,7 @@ namespace Voussoir
     HistoryObserver                  history;
     JointObserver                    joints;
     StressObserver                   stresses;
+    std::optional<WaterObserver>     water;      ///< if the water is acoustic
     std::optional<BlockObserver>     blocks;     ///< if the scene requests it
     std::optional<TimeErrorObserver> time_error; ///< if the scene requests it
 

@@ -46,6 +46,9 @@ namespace Voussoir
     Vector3         ground{};        ///< mean acceleration of fixed nodes [m/s^2]
     Vector3         base_velocity{}; ///< mean of DynamicState::base_velocity [m/s]
     double          dt = 0.;         ///< length of the step [s]
+
+    /** Mean forces of acoustic water, per node of the model, or empty [N]. */
+    std::vector<Vector3> water = {};
   };
 
   /** Forces of the foundation on the bases of the monoliths. They are the residuals of the equations of

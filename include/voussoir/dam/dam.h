@@ -9,6 +9,7 @@
 #include <voussoir/joints/joint_system.h>
 #include <voussoir/solid/solid_model.h>
 #include <voussoir/solid/stress.h>
+#include <voussoir/water/acoustic_water.h>
 
 #include <set>
 
@@ -67,10 +68,11 @@ namespace Voussoir
      * base. */
     JointLaws laws;
 
-    std::unique_ptr<DamGeometry> geometry;   ///< crest, crown and upper ends of the joints
-    std::unique_ptr<Foundation>  foundation; ///< foundation under the base
-    std::vector<Neighbour *>     neighbours; ///< in the order of their calls; the first is the foundation
-    std::vector<StaticLoad>      loads;      ///< active static loads, with the factors of their combination
+    std::unique_ptr<DamGeometry>   geometry;   ///< crest, crown and upper ends of the joints
+    std::unique_ptr<Foundation>    foundation; ///< foundation under the base
+    std::unique_ptr<AcousticWater> water;      ///< compressible water, or null
+    std::vector<Neighbour *>       neighbours; ///< in the order of their calls; the first is the foundation
+    std::vector<StaticLoad>        loads;      ///< active static loads, with the factors of their combination
 
     /** Inertia loads per unit base acceleration in x, y and z: minus the mass matrix, with added mass and
      * without rock, times the unit vector. Three values per free node [N s^2/m]. */

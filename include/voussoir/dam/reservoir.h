@@ -21,9 +21,17 @@ namespace Voussoir
     std::string added_mass = "Westergaard"; ///< Westergaard, Westergaard-nodal or none
     std::string depth = "global";           ///< global or local
     double      factor = 1.;                ///< of the added mass [-]
+    std::string model = "Westergaard";      ///< Westergaard or acoustic
+    double      sound_speed = 1440.;        ///< [m/s]
+    double      reflection = 1.;            ///< of bed and banks [-]
+    double      length = 0.;                ///< of the channel without damping [m]; 0: two depths
+    double      element_size = 0.;          ///< [m]; 0: a sixteenth of the depth
 
     /** Declares the entries of the subsection. */
     void add_parameters(Entries &prm);
+
+    /** Returns true if the water is compressible. */
+    bool is_acoustic() const { return model == "acoustic" && density > 0.; }
 
     /** Adds the changes of water and added mass. */
     void add_choices(ModelChoices &choices) const;

@@ -48,8 +48,11 @@ namespace Voussoir
     /** Returns the traction of each face [Pa].
      *
      * @param force joint forces, three values per pair [N]
-     * @param acceleration absolute acceleration, three values per free node [m/s^2], or empty: none */
-    const std::vector<Vector3> &at(const Unknowns &force, const Unknowns &acceleration = {});
+     * @param acceleration absolute acceleration, three values per free node [m/s^2], or empty: none
+     * @param pressure dynamic pressure of acoustic water on the upstream face at each node of the model [Pa], or
+     * empty */
+    const std::vector<Vector3> &at(const Unknowns &force, const Unknowns &acceleration = {},
+                                   const std::vector<double> &pressure = {});
 
   private:
     struct Edge

@@ -4,6 +4,8 @@
 
 #include <voussoir/solid/structure.h>
 
+#include <functional>
+
 namespace Voussoir
 {
   /** Natural mode of vibration. */
@@ -20,12 +22,17 @@ namespace Voussoir
   /** Returns the mass of the free nodes along x, y and z, including the added mass: r^T M r [kg]. */
   Vector3 free_mass(const Structure &structure);
 
+  /** Adds the product of a further mass matrix, such as that of incompressible water, and a vector with three values
+   * per node: add_mass(x, y) computes y += M_w x. */
+  using AddMass = std::function<void(const Unknowns &x, Unknowns &y)>;
+
   /** Returns the @p n_modes lowest modes of a structure without pairs, by ascending frequency. Solves
    * K phi = omega^2 M phi by inverse iteration with ARPACK, on one MPI process. Of frequencies that are exactly
    * equal, some may be missing. Throws InputError if the structure has too few unknowns, and ComputationError
-   * if the iteration does not converge within @p max_iterations restarts. */
+   * if the iteration does not converge within @p max_iterations restarts. @p add_mass: symmetric further mass; empty:
+   * none. */
   std::vector<NaturalMode> natural_modes(const Structure &structure, unsigned int n_modes,
-                                         unsigned int max_iterations = 1000);
+                                         unsigned int max_iterations = 1000, const AddMass &add_mass = {});
 } // namespace Voussoir
 
 #endif

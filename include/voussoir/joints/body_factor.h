@@ -10,14 +10,16 @@
 
 namespace Voussoir
 {
-  /** Linear system of a step: A u = load + share G^T f with A = mass M + stiffness K + dashpot D + springs,
-   * and the joint forces f. A static system has the mass 0. */
+  /** Linear system of a step: A u = load + share G^T f with A = mass M + stiffness K + dashpot D + reaction E +
+   * springs, and the joint forces f. A static system has the mass 0. */
   struct StepOperator
   {
     double mass = 0.;      ///< factor of the mass matrix M [1/s^2]
     double stiffness = 1.; ///< factor of the stiffness matrix K [-]
     double dashpot = 0.;   ///< factor of the dashpots D [1/s]
     double share = 1.;     ///< 1: f are forces at the end of the step; 2: means over the step [-]
+
+    double reaction = 0.; ///< factor of the reaction E of the water, Body::reaction [-]
 
     bool has_mean_forces() const { return share != 1.; } ///< true if f are means over the step
   };

@@ -72,6 +72,34 @@ namespace Voussoir
     TableFile                 history_file, energy_file;
   };
 
+  /** Dynamic pressures of acoustic water on the upstream face (water_pressure.csv). */
+  class WaterObserver : public Observer
+  {
+  public:
+    /** @p run must outlive the observer; its dam has acoustic water. */
+    explicit WaterObserver(const RunState &run) : run(run), water(*run.dam->water) {}
+    void record() override;
+    void write_tables(const std::string &directory) override;
+    void report(Log &log) const override;
+    void save(boost::archive::binary_oarchive &archive) const override;
+    void load(boost::archive::binary_iarchive &archive) override;
+
+    /** Returns "water" of summary.json: largest and smallest dynamic pressure [Pa] with place [m] and time [s]. */
+    Json json() const;
+
+  private:
+    struct Extreme
+    {
+      double       value = 0., time = 0.;
+      unsigned int node = 0;
+    };
+    const RunState      &run;
+    const AcousticWater &water;
+    std::vector<double>  largest, smallest; ///< per node of the section [Pa]
+    Extreme              highest, lowest;   ///< dynamic pressure
+    Extreme              driest{1e300};     ///< absolute pressure
+  };
+
   /** Openings, slips and pressures of the joints. */
   class JointObserver : public Observer
   {

@@ -10,9 +10,13 @@ namespace Voussoir
   /** Linear elastic body: its stiffness and the position of its nodes in the numbering of the structure. */
   struct Body
   {
-    int               number = 0;        ///< monolith number in messages
-    unsigned int      first_node = 0;    ///< its nodes are first_node .. first_node + stiffness.n_rows() - 1
-    BlockSparseMatrix stiffness;         ///< [N/m], free nodes only
+    int               number = 0;     ///< monolith number in messages
+    unsigned int      first_node = 0; ///< its nodes are first_node .. first_node + stiffness.n_rows() - 1
+    BlockSparseMatrix stiffness;      ///< [N/m], free nodes only
+
+    /** Reaction of the water to a change of the displacement in a time step [N/m], on the pattern of the stiffness;
+     * empty: none. The force of the water at the end of the step is the load minus the reaction times the change. */
+    std::vector<Matrix3>      reaction;
     std::vector<unsigned int> interface; ///< local numbers of the nodes in pairs, ascending
 
     unsigned int n_nodes() const { return stiffness.n_rows(); }
@@ -61,6 +65,9 @@ namespace Voussoir
 
     /** Computes stiffness times displacement for all bodies [N]. */
     void multiply_stiffness(const Unknowns &u, Unknowns &Ku) const;
+
+    /** Adds @p factor times the reaction of the water (Body::reaction) to @p u, to y [N]. */
+    void add_reaction(double factor, const Unknowns &u, Unknowns &y) const;
 
     /** Distributes a vector of which each rank has computed the part of its bodies, three values per node. */
     void gather(Unknowns &u) const;

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_acoustic_water_h
+#define voussoir_acoustic_water_h
+
+#include <voussoir/foundation/foundation.h>
+#include <voussoir/water/water_coupling.h>
+
+#include <memory>
+
+namespace Voussoir
+{
+  /** Compressible water upstream of the dam, with explicit time integration: the pressure divided by the density,
+   * pi = dphi/dt, at whole steps, the potential phi at half steps. Bed, banks and wet face move with the ground.
+   *
+   * In a step from n to n + 1, with D = M/dt + C/2 and the mean ground velocity v_g,
+   *
+   *     D pi_hat = (M/dt - C/2) pi_n - K phi_n+1/2 + rho b.v_g
+   *     dam: nodal forces -rho A pi_n at the start, -rho A pi_n+1 at the end of the step, where
+   *     pi_n+1 = pi_hat + rho A.(u_n+1 - u_n) / (dt D)
+   *     phi_n+3/2 = phi_n+1/2 + dt pi_n+1
+   *
+   * pi_n+1 depends on the displacement of the dam: Body::reaction = rho^2 A A^T / (dt D). The scheme is stable for
+   * time steps below the critical one of the water, and conserves energy. */
+  class AcousticWater : public Neighbour
+  {
+  public:
+    /** Meshes the section of the reservoir.
+     * @param dam model of the dam; must outlive the object
+     * @param structure receives the reaction of the water at start(); must outlive the object
+     * @param properties water; depth is computed
+     * @param level water level [m]
+     *
+     * Throws InputError like WaterSection. */
+    AcousticWater(const SolidModel &dam, Structure &structure, const WaterProperties &properties,
+                  double level);
+
+    void   start(const GroundMotion &motion, const TimeGrid &grid, const Unknowns &u) override;
+    void   advance(Unknowns &load) override;
+    void   update_from_dam(const DynamicState &state) override;
+    double seconds() const override { return watch_total; }
+
+    /** Returns the energy of the water, the energies radiated at the end of the channel and absorbed at bed and
+     * banks, and the works of dam and ground on the water [J]. */
+    std::vector<std::pair<std::string, double>> energies() const override;
+    double                                      balance_error() const override;
+    void                                        report_balance(Log &log) const override;
+    std::vector<std::vector<double> *>          state() override;
+
+    /** Returns the finite elements for a time step [s]; 0: without increase of the mass. */
+    WaterModel model_for(const double dt) const { return WaterModel(section, properties, dt); }
+
+    /** Adds the mass of incompressible water times the accelerations @p x, three values per node, to y [N]:
+     * rho^2 A K^-1 A^T. Bed and banks are at rest. @p water: model_for(0). */
+    void add_incompressible_mass(const WaterModel &water, const Unknowns &x, Unknowns &y) const;
+
+    const WaterSection &mesh() const { return section; }
+
+    /** Returns the dynamic pressure at each node of the section [Pa]. */
+    std::vector<double> pressure() const;
+
+    /** Returns the dynamic pressure at each node of the model of the dam [Pa]; zero at dry nodes. */
+    std::vector<double> pressure_at_dam() const;
+
+    /** Returns the mean force of the moving water in the last step on each node of the model of the dam [N], also on
+     * fixed nodes. */
+    std::vector<Vector3> mean_force() const;
+
+    /** Returns the static pressure at a node of the section [Pa]. */
+    double static_pressure(unsigned int node) const;
+
+    /** Throws InputError if the mass of the water must be increased by more than 30 % for the time step [s]. */
+    void check(double dt) const;
+
+    /** Writes the properties to the log. @p dt: time step [s]. */
+    void report(Log &log, double dt) const;
+
+    const double level;          ///< of the water [m]
+    double       gravity = 9.81; ///< [m/s^2]
+
+  private:
+    void set_reaction();
+
+    const SolidModel           &dam;
+    Structure                  &structure;
+    WaterProperties             properties;
+    WaterSection                section;
+    WaterCoupling               coupling;
+    std::unique_ptr<WaterModel> model;
+    double                      dt = 0.;
+    std::vector<Vector3>        ground_velocity; ///< per step [m/s]
+    std::vector<double>         D, inverse;      ///< [kg s/m^2] and its reciprocal
+    std::vector<double>         pi, phi, K_phi, before;
+    std::vector<double>         u_wet;  ///< displacement of the dam at the last step, 3 per wet dam node [m]
+    std::vector<double>         record; ///< step, energies: see acoustic_water.cc
+    double                      watch_total = 0.;
+  };
+} // namespace Voussoir
+
+#endif

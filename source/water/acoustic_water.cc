@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
+#include <voussoir/base/log.h>
+#include <voussoir/base/number_text.h>
+#include <voussoir/motion/ground_motion.h>
+#include <voussoir/water/acoustic_water.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace Voussoir
+{
+  namespace
+  {
+    enum Record ///< AcousticWater::record
+    {
+      steps,
+      energy,
+      radiated,
+      absorbed,
+      work_of_dam,
+      work_of_ground,
+      largest,
+      n_records
+    };
+
+    constexpr double largest_mass_factor = 1.3, noticeable_mass_factor = 1.02;
+
+    double depth_below(const std::vector<WetQuad> &faces, const double level)
+    {
+      double low = level;
+      for (const WetQuad &face : faces)
+        for (const Vector3 &corner : face.corners)
+          low = std::min(low, corner[2]);
+      return level - low;
+    }
+
+    WaterProperties complete(WaterProperties properties, const double depth)
+    {
+      if (!(depth > 0.))
+        throw InputError(
+            "Reservoir/Model = acoustic: the water level is not above the lowest point of the upstream "
+            "face. Correct Reservoir/Water level.");
+      properties.depth = depth;
+      if (properties.length == 0.)
+        properties.length = 2. * depth;
+      if (properties.h == 0.)
+        properties.h = depth / 16.;
+      if (properties.length < depth)
+        throw InputError("Reservoir/Length is " + number_text(properties.length) +
+                         " m, shorter than the depth of " + number_text(depth) +
+                         " m. Set at least one depth, or 0 for two depths.");
+      return properties;
+    }
+
+    /** Adds zero blocks to a matrix, so that its pattern contains the pairs. */
+    void extend(BlockSparseMatrix &A, const std::set<std::pair<unsigned int, unsigned int>> &pairs)
+    {
+      std::vector<std::vector<unsigned int>> columns(A.n_rows());
+      for (unsigned int row = 0; row < A.n_rows(); ++row)
+        columns[row].assign(A.column.begin() + A.start[row], A.column.begin() + A.start[row + 1]);
+      for (const auto &[row, column] : pairs)
+        columns[row].push_back(column);
+      for (auto &row : columns)
+      {
+        std::sort(row.begin(), row.end());
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+      }
+      BlockSparseMatrix result(columns);
+      for (unsigned int row = 0; row < A.n_rows(); ++row)
+        for (std::size_t k = A.start[row]; k < A.start[row + 1]; ++k)
+          result.add(row, A.column[k], A.value[k]);
+      A = std::move(result);
+    }
+  } // namespace
+
+  AcousticWater::AcousticWater(const SolidModel &dam, Structure &structure, const WaterProperties &given,
+                               const double level)
+      : level(level), dam(dam), structure(structure),
+        properties(complete(given, depth_below(wet_quads(dam), level))),
+        section(wet_quads(dam), level, properties.h), coupling(dam, section, level, properties.h)
+  {
+  }
+
+  void AcousticWater::check(const double time_step) const
+  {
+    const WaterModel water = model_for(time_step);
+    if (water.mass_factor <= largest_mass_factor)
+      return;
+    throw InputError("Reservoir/Model = acoustic: the time step of " + number_text(time_step) +
+                     " s is above the critical time step of the water, " + number_text(water.critical_step) +
+                     " s. It would need " + number_text(std::round(100. * water.mass_factor) / 100.) +
+                     " times the mass of the water (limit 1.3). Increase Dynamics/Steps per sample, or "
+                     "Reservoir/Element size, which is " +
+                     number_text(properties.h) + " m.");
+  }
+
+  void AcousticWater::report(Log &log, const double time_step) const
+  {
+    const WaterModel water = model_for(time_step);
+    log.line(
+        "Water     acoustic: %u nodes, elements of %.3g m, %.3g m3; critical time step %.3g s; mass increased by "
+        "the factor %.3f",
+        water.n_nodes(), properties.h, water.volume, water.critical_step, water.mass_factor);
+    if (water.mass_factor > noticeable_mass_factor)
+      log.line(
+          "warning: the mass of the water is increased by %.1f %% for the time step of %g s. Frequencies change "
+          "by up to a third of this. Increase Dynamics/Steps per sample, or Reservoir/Element size.",
+          100. * (water.mass_factor - 1.), time_step);
+  }
+
+  void AcousticWater::start(const GroundMotion &motion, const TimeGrid &grid, const Unknowns &u)
+  {
+    dt = grid.dt;
+    model = std::make_unique<WaterModel>(section, properties, dt);
+    const std::size_t n = model->n_nodes();
+    for (const auto &v : motion.integrated().velocity)
+      ground_velocity.push_back({{v[0], v[1], v[2]}});
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      D.push_back(model->mass[i] / dt + .5 * (model->bed_damping[i] + model->end_damping[i]));
+      inverse.push_back(model->at_surface[i] ? 0. : 1. / D.back());
+    }
+    pi.assign(n, 0.);
+    phi = before = K_phi = pi;
+    for (const unsigned int node : coupling.dam_nodes)
+      for (unsigned int c = 0; c < 3; ++c)
+        u_wet.push_back(u[3 * std::size_t(node) + c]);
+    record.assign(n_records, 0.);
+    set_reaction();
+  }
+
+  /** Sets Body::reaction: rho^2 A A^T / (dt D). */
+  void AcousticWater::set_reaction()
+  {
+    const auto &shares = coupling.shares;
+    const auto  for_pairs = [&](const auto &action)
+    {
+      for (std::size_t first = 0, end; first < shares.size(); first = end)
+      {
+        for (end = first; end < shares.size() && shares[end].water == shares[first].water;)
+          ++end;
+        for (std::size_t i = first; i < end; ++i)
+          for (std::size_t j = first; j < end; ++j)
+            if (shares[i].wet != rigid_ground && shares[j].wet != rigid_ground)
+              action(shares[i], shares[j]);
+      }
+    };
+    std::vector<std::set<std::pair<unsigned int, unsigned int>>> pairs(structure.bodies.size());
+    for_pairs(
+        [&](const WaterCoupling::Share &a, const WaterCoupling::Share &b)
+        {
+          const unsigned int body = structure.body_of(coupling.dam_nodes[a.wet]),
+                             first = structure.bodies[body].first_node;
+          pairs[body].insert({coupling.dam_nodes[a.wet] - first, coupling.dam_nodes[b.wet] - first});
+        });
+    for (std::size_t b = 0; b < pairs.size(); ++b)
+    {
+      extend(structure.bodies[b].stiffness, pairs[b]);
+      structure.bodies[b].reaction.assign(structure.bodies[b].stiffness.value.size(), Matrix3{});
+    }
+    for_pairs(
+        [&](const WaterCoupling::Share &a, const WaterCoupling::Share &b)
+        {
+          Body              &body = structure.bodies[structure.body_of(coupling.dam_nodes[a.wet])];
+          const unsigned int row = coupling.dam_nodes[a.wet] - body.first_node,
+                             column = coupling.dam_nodes[b.wet] - body.first_node;
+          const auto from = body.stiffness.column.begin() + body.stiffness.start[row];
+          const auto at =
+              std::lower_bound(from, body.stiffness.column.begin() + body.stiffness.start[row + 1], column);
+          const double factor = properties.density * properties.density * inverse[a.water] / dt;
+          Matrix3     &block = body.reaction[at - body.stiffness.column.begin()];
+          for (unsigned int c = 0; c < 3; ++c)
+            for (unsigned int d = 0; d < 3; ++d)
+              block[3 * c + d] += factor * a.area[c] * b.area[d];
+        });
+  }
+
+  void AcousticWater::advance(Unknowns &load)
+  {
+    const Stopwatch   watch;
+    const std::size_t step = record[steps], last = ground_velocity.size() - 1;
+    Vector3           v_g;
+    for (unsigned int c = 0; c < 3; ++c)
+      v_g[c] = .5 * (ground_velocity[std::min(step, last)][c] + ground_velocity[std::min(step + 1, last)][c]);
+    model->multiply(phi, K_phi);
+    before = pi;
+    const double rho = properties.density;
+    for (std::size_t i = 0; i < pi.size(); ++i)
+    {
+      const double C = model->bed_damping[i] + model->end_damping[i];
+      double       source = dot(model->ground[i], v_g);
+      if (i < coupling.area.size()) // the displacements of the dam are relative to the ground
+        source += dot(coupling.area[i], v_g);
+      pi[i] = ((model->mass[i] / dt - .5 * C) * pi[i] - K_phi[i] + rho * source) * inverse[i];
+    }
+    for (const WaterCoupling::Share &share : coupling.shares)
+      for (unsigned int c = 0; c < 3 && share.wet != rigid_ground; ++c)
+        load[3 * std::size_t(coupling.dam_nodes[share.wet]) + c] -= rho * share.area[c] * pi[share.water];
+    watch_total += watch.seconds();
+  }
+
+  void AcousticWater::update_from_dam(const DynamicState &state)
+  {
+    const Stopwatch     watch;
+    const double        rho = properties.density;
+    std::vector<double> source(coupling.area.size(), 0.); // volume that the dam displaces [m^3]
+    std::vector<double> change;
+    for (std::size_t k = 0; k < coupling.dam_nodes.size(); ++k)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const double u = state.u[3 * std::size_t(coupling.dam_nodes[k]) + c];
+        change.push_back(u - u_wet[3 * k + c]);
+        u_wet[3 * k + c] = u;
+      }
+    for (const WaterCoupling::Share &share : coupling.shares)
+      for (unsigned int c = 0; c < 3 && share.wet != rigid_ground; ++c)
+        source[share.water] += share.area[c] * change[3 * share.wet + c];
+    for (std::size_t i = 0; i < source.size(); ++i)
+      pi[i] += rho * source[i] * inverse[i] / dt;
+
+    const std::size_t step = record[steps], last = ground_velocity.size() - 1;
+    double            stored = 0.;
+    for (std::size_t i = 0; i < pi.size(); ++i)
+    {
+      const double mean = .5 * (pi[i] + before[i]);
+      phi[i] += dt * pi[i];
+      stored += .5 * model->mass[i] * pi[i] * pi[i] + .5 * K_phi[i] * phi[i];
+      record[radiated] += dt * mean * model->end_damping[i] * mean;
+      record[absorbed] += dt * mean * model->bed_damping[i] * mean;
+      if (i < source.size())
+        record[work_of_dam] += rho * mean * source[i];
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const double v =
+            .5 * (ground_velocity[std::min(step, last)][c] + ground_velocity[std::min(step + 1, last)][c]);
+        record[work_of_ground] +=
+            dt * rho * mean * v * (model->ground[i][c] + (i < source.size() ? coupling.area[i][c] : 0.));
+      }
+    }
+    record[energy] = stored;
+    record[largest] = std::max({record[largest], stored, record[radiated], record[absorbed],
+                                std::abs(record[work_of_dam]), std::abs(record[work_of_ground])});
+    record[steps] += 1.;
+    watch_total += watch.seconds();
+  }
+
+  std::vector<std::pair<std::string, double>> AcousticWater::energies() const
+  {
+    if (record.empty())
+      return {};
+    return {{"water", record[energy]},
+            {"water_radiated", record[radiated]},
+            {"water_absorbed", record[absorbed]},
+            {"water_from_dam", record[work_of_dam]},
+            {"water_from_ground", record[work_of_ground]}};
+  }
+
+  double AcousticWater::balance_error() const
+  {
+    if (record.empty() || record[largest] == 0.)
+      return 0.;
+    return std::abs(record[energy] + record[radiated] + record[absorbed] - record[work_of_dam] -
+                    record[work_of_ground]) /
+           record[largest];
+  }
+
+  void AcousticWater::report_balance(Log &log) const
+  {
+    log.line("          error of the energy balance of the water %.1e (same limit)", balance_error());
+  }
+
+  std::vector<std::vector<double> *> AcousticWater::state()
+  {
+    if (record.empty())
+      return {};
+    return {&pi, &phi, &u_wet, &record};
+  }
+
+  void AcousticWater::add_incompressible_mass(const WaterModel &water, const Unknowns &x, Unknowns &y) const
+  {
+    std::vector<double> source(water.n_nodes(), 0.);
+    for (const WaterCoupling::Share &share : coupling.shares)
+      if (share.wet != rigid_ground)
+        source[share.water] += properties.density * dot(share.area, get(x, coupling.dam_nodes[share.wet]));
+    const std::vector<double> potential = water.solve(source);
+    for (const WaterCoupling::Share &share : coupling.shares)
+      for (unsigned int c = 0; c < 3 && share.wet != rigid_ground; ++c)
+        y[3 * std::size_t(coupling.dam_nodes[share.wet]) + c] +=
+            properties.density * share.area[c] * potential[share.water];
+  }
+
+  double AcousticWater::static_pressure(const unsigned int node) const
+  {
+    return properties.density * gravity * (level - section.points[node][1]);
+  }
+
+  std::vector<double> AcousticWater::pressure() const
+  {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < section.points.size(); ++i)
+      result.push_back(pi.empty() ? 0. : -properties.density * pi[i]);
+    return result;
+  }
+
+  std::vector<double> AcousticWater::pressure_at_dam() const
+  {
+    std::vector<double> result(dam.n_nodes(), 0.);
+    for (unsigned int i = 0; i < dam.n_nodes() && !pi.empty(); ++i)
+      if (const unsigned int water = coupling.nearest[i]; water != rigid_ground)
+        result[i] = -properties.density * pi[water];
+    return result;
+  }
+
+  std::vector<Vector3> AcousticWater::mean_force() const
+  {
+    std::vector<Vector3> result(dam.n_nodes(), Vector3{});
+    for (const WaterCoupling::Share &share : coupling.shares)
+      for (unsigned int c = 0; c < 3 && !pi.empty(); ++c)
+        result[share.node][c] -=
+            properties.density * share.area[c] * .5 * (pi[share.water] + before[share.water]);
+    return result;
+  }
+} // namespace Voussoir

@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tests of compressible water, Reservoir/Model = acoustic.
+
+    program_water.py VOUSSOIR CASE...     cases: see the functions with that name below
+"""
+
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+
+GOLDEN = Path(__file__).resolve().parent / "golden"
+sys.path.insert(0, str(GOLDEN))
+import meshes as golden  # noqa: E402
+from compare import scene  # noqa: E402
+from program_blocks import blocks, force  # noqa: E402
+from program_massless import stop_and_resume  # noqa: E402
+from program_physics import settings  # noqa: E402
+from run_program import expect, frequencies, refused, run_cases, runs, same, summary, table, write_scene  # noqa: E402
+
+RHO, C, H = 1000., 1440., 60.
+ACOUSTIC = settings("Reservoir/Model=acoustic")
+FDLV112 = Path(__file__).resolve().parents[2] / "shared" / "reference" / "data" / "water" / "fdlv112_dam_hex.msh"
+
+
+def bessel(x):
+    """J_0 by its integral."""
+    angles = (np.arange(400) + .5) * np.pi / 400
+    return np.cos(np.outer(x, np.sin(angles))).mean(axis=1)
+
+
+def wall_force(t, a, parts=8):
+    """Force per width on a rigid vertical wall of the depth H, infinite channel, 40 modes: F = 2 rho c/H sum I^2 int a J_0 [N/m]."""
+    dt = (t[1] - t[0]) / parts
+    fine = np.arange(len(t) * parts) * dt
+    a_fine, result = np.interp(fine, t, a, right=0), np.zeros(len(t))
+    for n in range(1, 41):
+        k = (2 * n - 1) * np.pi / 2 / H
+        result += 2 * RHO * C / H / k**2 * np.convolve(a_fine, bessel(C * k * fine))[:len(fine):parts] * dt
+    return result
+
+
+def base_force(directory):
+    """Downstream force of the ground on all bases over time [N]."""
+    names = {name: base for name, base in summary(directory)["blocks"].items()}
+    return np.array([sum(force(of[int(name.split()[1])], base)[0][0] for name, base in names.items()) for _, of in blocks(directory)])
+
+
+def pulse():
+    """A stiff wall under a pulse of 0.4 s: force of the water against the exact one of an infinite channel, with the absorbing end and with a
+    channel of 15 depths."""
+    dt = .00125
+    t = np.arange(0, 1 + dt / 2, dt)
+    a = np.where(t < .4, np.sin(2 * np.pi * t / .4), 0)
+    np.savetxt("pulse.txt", np.column_stack([t, a, 0 * t, 0 * t]))
+    golden.wall("wall.msh", n_up=24)
+    file = scene("stiff", "wall.msh", Concrete={"Young's modulus": 2e15, "Density": 2500}, Damping={"Ratio": 0})
+    common = settings("Motion/Source=file", "Motion/File=pulse.txt", "Motion/Unit=m/s^2", f"Motion/Time step={dt}", "Motion/Duration=1",
+                      "Reservoir/Water level=60", f"Reservoir/Density={RHO}", f"Reservoir/Sound speed={C}", "Reservoir/Element size=2.5",
+                      "Output/Figures=false", "Statics/Self-weight=none", "Joints/Model=tied")
+    exact = wall_force(t, a)
+    runs(file, "--output", "dry", *common, *settings("Reservoir/Added mass=none"))
+    for length, limit in ((0, .03), (900, .02)):
+        text = runs(file, "--output", "wet", "--overwrite", *common, *ACOUSTIC, *settings(f"Reservoir/Length={length}"))
+        found = (base_force("wet") - base_force("dry")) / 10
+        mean = np.concatenate([[0], .5 * (exact[1:] + exact[:-1])])  # forces are means over the steps
+        error = np.abs(found - mean).max() / np.abs(exact).max()
+        print(f"    length {length} m: largest error {100 * error:.2f} % of the largest force {exact.max():.4g} N/m")
+        expect(error < limit, f"error {error}")
+        energies(text, "wet")
+
+
+def energies(text, directory, limit=1e-11):
+    """The accounts of dam and water close. The table has fewer digits than the log."""
+    names, rows = table(f"{directory}/energy.csv")
+    column = {name: np.array([row[k] for row in rows]) for k, name in enumerate(names)}
+    balance = (column["water"] + column["water_radiated"] + column["water_absorbed"] - column["water_from_dam"] - column["water_from_ground"])
+    largest = max(np.abs(column[name]).max() for name in names if name.startswith("water"))
+    told = float(re.search(r"energy balance of the water (\S+)", text)[1])
+    print(f"    the water's account closes to {told:.1e}; of the dam: {summary(directory)['energy_balance_error']:.1e}")
+    expect(largest > 0 and told < limit and np.abs(balance).max() < 1e-6 * largest, f"water {told}")
+    expect(summary(directory)["energy_balance_error"] < 1e-9, "dam")
+
+
+def joints():
+    """A dam with joints: both accounts close with contact, an absorbing bed and motion in all directions; on massless rock, too. A killed run
+    goes on as if it had not been."""
+    write_scene()
+    common = [*ACOUSTIC, *settings("Motion/Duration=1", "Dynamics/Steps per sample=2", "Reservoir/Reflection=0.5", "Reservoir/Element size=25",
+                                   "Output/Checkpoint interval=20")]
+    text = runs("scene.prm", "--output", "rigid", *common)
+    energies(text, "rigid")
+    expect(summary("rigid")["water"]["max_dynamic_pressure"]["value"] > 1e4, "no pressure")
+    names, rows = table("rigid/water_pressure.csv")
+    largest = max(row[names.index("largest_pressure")] for row in rows)
+    expect(abs(largest - summary("rigid")["water"]["max_dynamic_pressure"]["value"]) < 1e-6 * largest, "pressures")
+    names, rows = table("rigid/energy.csv")
+    expect(rows[-1][names.index("water_absorbed")] > 0 and rows[-1][names.index("water_radiated")] > 0, "nothing is absorbed")
+    stop_and_resume("rigid", common)
+    runs("scene.prm", "--output", "single", *common, *settings("Dynamics/Factors=single"))
+    same("rigid", "single", 1e-4, ("history",))
+    rock = settings("Foundation/Model=massless", "Mesh/Arch210/Rock/Element size=60", "Output/Checkpoint interval=0")
+    energies(runs("scene.prm", "--output", "rock", *common, *rock), "rock")
+
+
+def modes():
+    """The arch dam of code_aster's test fdlv112, incompressible: the frequencies on a conforming water mesh (water cells of 4 to 10 m)."""
+    if not FDLV112.exists():
+        print(f"    SKIPPED: {FDLV112} is missing")
+        sys.exit(77)
+    common = settings("Mesh/Source=file", f"Mesh/File={FDLV112}", "Mesh/Axes=-x -y z", "Concrete/Young's modulus=36e9",
+                      "Concrete/Poisson's ratio=0.2", "Concrete/Density=2400", "Reservoir/Water level=0", "Reservoir/Sound speed=1500",
+                      "Statics/Self-weight=none", "Motion/Source=none")
+    write_scene("aster.prm")
+    Path("aster.prm").write_text("")
+    for size, limit in ((6, .01), (4.5, .006)):
+        found = frequencies(runs("modes", "aster.prm", "--count", "4", *common, *ACOUSTIC, *settings(f"Reservoir/Element size={size}")))
+        off = [f / g - 1 for f, g in zip(found, (3.50456, 3.61781, 4.82832, 5.85977))]
+        print(f"    elements of {size} m: {found} Hz, {', '.join(f'{100 * x:.2f} %' for x in off)}")
+        expect(max(map(abs, off)) < limit, f"{off}")
+
+
+def messages():
+    """Bad input ends with one paragraph."""
+    write_scene()
+    for entries, parts in ((["Foundation/Model=rock"], ("acoustic", "rigid or massless")), (["Reservoir/Length=50"], ("Reservoir/Length", "depth")),
+                           (["Reservoir/Element size=4"], ("critical time step of the water", "Steps per sample")),
+                           (["Reservoir/Element size=190"], ("Element size",)), (["Reservoir/Reflection=2"], ("Reflection",)),
+                           (["Reservoir/Water level=-5"], ("water level",)), (["Reservoir/Water level=300"], ("Water level", "above")),
+                           (["Dynamics/Error estimate=true"], ("Error estimate", "accuracy"))):
+        refused(["scene.prm", "--validate", *ACOUSTIC, *settings(*entries)], *parts)
+    refused(["modes", "scene.prm", *ACOUSTIC, "--spectrum", "design"], "Westergaard")
+    choices = runs("scene", "scene.prm", "--choices", *ACOUSTIC)
+    expect("reflection of the banks 0.5" in choices and "Westergaard" in choices, choices)
+
+
+if __name__ == "__main__":
+    run_cases(pulse, joints, modes, messages)
