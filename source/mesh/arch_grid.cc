@@ -215,14 +215,20 @@ namespace Voussoir
   void ArchGrid::add_choices(const std::string &section, ModelChoices &choices) const
   {
     const unsigned int monoliths = choices.n_joints + 1;
-    const auto         add =
-        [&](const char *name, const unsigned int now, const unsigned int unit, const unsigned int least)
+    const auto         add = [&](const std::string &name, const unsigned int now, const unsigned int unit,
+                         const unsigned int least)
     {
-      const unsigned int coarse = std::max<unsigned int>(least, now / 2), fine = (3 * now + 1) / 2;
-      const std::string  entry = section + "/Elements " + name;
-      if (coarse < now)
-        choices.add("numerics", std::string("fewer elements ") + name, entry, unit * coarse, true);
-      choices.add("numerics", std::string("more elements ") + name, entry, unit * fine);
+      const auto add_number = [&](const unsigned int n)
+      {
+        choices.add("numerics", std::to_string(unit * n) + " elements " + name, section + "/Elements " + name,
+                    unit * n, n < now);
+      };
+      const unsigned int half = std::max(least, now / 2), three_quarters = std::max(least, (3 * now + 1) / 4);
+      if (half < now)
+        add_number(half);
+      if (three_quarters > half && three_quarters < now)
+        add_number(three_quarters);
+      add_number((3 * now + 1) / 2);
     };
     add("along", std::max(1u, (elements_along + monoliths - 1) / monoliths), monoliths, 1);
     if (rows.empty())
