@@ -51,7 +51,7 @@ def base_force(directory):
 def pulse():
     """A stiff wall under a pulse of 0.4 s: force of the water against the exact one of an infinite channel, with the absorbing end and with a
     channel of 15 depths."""
-    dt = .00125
+    dt = .000625
     t = np.arange(0, 1 + dt / 2, dt)
     a = np.where(t < .4, np.sin(2 * np.pi * t / .4), 0)
     np.savetxt("pulse.txt", np.column_stack([t, a, 0 * t, 0 * t]))
@@ -62,7 +62,7 @@ def pulse():
                       "Output/Figures=false", "Statics/Self-weight=none", "Joints/Model=tied")
     exact = wall_force(t, a)
     runs(file, "--output", "dry", *common, *settings("Reservoir/Added mass=none"))
-    for length, limit in ((0, .03), (900, .02)):
+    for length, limit in ((0, .025), (900, .01)):
         text = runs(file, "--output", "wet", "--overwrite", *common, *ACOUSTIC, *settings(f"Reservoir/Length={length}"))
         found = (base_force("wet") - base_force("dry")) / 10
         mean = np.concatenate([[0], .5 * (exact[1:] + exact[:-1])])  # forces are means over the steps

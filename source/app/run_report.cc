@@ -135,7 +135,7 @@ namespace Voussoir
     if (!dam.has_water)
       log.line("Water     none: the reservoir is empty");
     else if (dam.water)
-      dam.water->report(log, run.n_steps > 0 ? run.motion.dt : 0.);
+      dam.water->report(log);
     else
       log.line("Water     level %g m; added mass %s x %g, %.4g kg along x", scene.reservoir.level,
                scene.reservoir.added_mass.c_str(), scene.reservoir.factor, dam.added_mass);

@@ -49,7 +49,7 @@ namespace Voussoir
   void Structure::add_reaction(const double factor, const Unknowns &u, Unknowns &y) const
   {
     for (const Body &body : bodies)
-      for (unsigned int row = 0; row < body.n_nodes() && !body.reaction.empty(); ++row)
+      for (const unsigned int row : body.reacting)
         for (std::size_t e = body.stiffness.start[row]; e < body.stiffness.start[row + 1]; ++e)
         {
           const Vector3 force = body.reaction[e] * get(u, body.first_node + body.stiffness.column[e]);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
+
 #include <voussoir/base/error.h>
 #include <voussoir/base/log.h>
 #include <voussoir/base/number_text.h>
@@ -83,37 +85,36 @@ namespace Voussoir
   {
   }
 
-  void AcousticWater::check(const double time_step) const
+  void AcousticWater::prepare(const double time_step)
   {
-    const WaterModel water = model_for(time_step);
-    if (water.mass_factor <= largest_mass_factor)
+    dt = time_step;
+    model = std::make_unique<WaterModel>(section, properties, dt);
+    if (model->mass_factor <= largest_mass_factor)
       return;
-    throw InputError("Reservoir/Model = acoustic: the time step of " + number_text(time_step) +
-                     " s is above the critical time step of the water, " + number_text(water.critical_step) +
-                     " s. It would need " + number_text(std::round(100. * water.mass_factor) / 100.) +
+    throw InputError("Reservoir/Model = acoustic: the time step of " + number_text(dt) +
+                     " s is above the critical time step of the water, " + number_text(model->critical_step) +
+                     " s. It would need " + number_text(std::round(100. * model->mass_factor) / 100.) +
                      " times the mass of the water (limit 1.3). Increase Dynamics/Steps per sample, or "
                      "Reservoir/Element size, which is " +
                      number_text(properties.h) + " m.");
   }
 
-  void AcousticWater::report(Log &log, const double time_step) const
+  void AcousticWater::report(Log &log) const
   {
-    const WaterModel water = model_for(time_step);
     log.line(
         "Water     acoustic: %u nodes, elements of %.3g m, %.3g m3; critical time step %.3g s; mass increased by "
         "the factor %.3f",
-        water.n_nodes(), properties.h, water.volume, water.critical_step, water.mass_factor);
-    if (water.mass_factor > noticeable_mass_factor)
+        model->n_nodes(), properties.h, model->volume, model->critical_step, model->mass_factor);
+    if (model->mass_factor > noticeable_mass_factor)
       log.line(
           "warning: the mass of the water is increased by %.1f %% for the time step of %g s. Frequencies change "
           "by up to a third of this. Increase Dynamics/Steps per sample, or Reservoir/Element size.",
-          100. * (water.mass_factor - 1.), time_step);
+          100. * (model->mass_factor - 1.), dt);
   }
 
   void AcousticWater::start(const GroundMotion &motion, const TimeGrid &grid, const Unknowns &u)
   {
-    dt = grid.dt;
-    model = std::make_unique<WaterModel>(section, properties, dt);
+    AssertThrow(model && dt == grid.dt, dealii::ExcMessage("prepare() comes first"));
     const std::size_t n = model->n_nodes();
     for (const auto &v : motion.integrated().velocity)
       ground_velocity.push_back({{v[0], v[1], v[2]}});
@@ -159,6 +160,9 @@ namespace Voussoir
     {
       extend(structure.bodies[b].stiffness, pairs[b]);
       structure.bodies[b].reaction.assign(structure.bodies[b].stiffness.value.size(), Matrix3{});
+      for (const auto &pair : pairs[b])
+        if (pair.first == pair.second)
+          structure.bodies[b].reacting.push_back(pair.first);
     }
     for_pairs(
         [&](const WaterCoupling::Share &a, const WaterCoupling::Share &b)
@@ -187,11 +191,13 @@ namespace Voussoir
     model->multiply(phi, K_phi);
     before = pi;
     const double rho = properties.density;
-    for (std::size_t i = 0; i < pi.size(); ++i)
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < static_cast<int>(pi.size()); ++i)
     {
       const double C = model->bed_damping[i] + model->end_damping[i];
       double       source = dot(model->ground[i], v_g);
-      if (i < coupling.area.size()) // the displacements of the dam are relative to the ground
+      if (i <
+          static_cast<int>(coupling.area.size())) // the displacements of the dam are relative to the ground
         source += dot(coupling.area[i], v_g);
       pi[i] = ((model->mass[i] / dt - .5 * C) * pi[i] - K_phi[i] + rho * source) * inverse[i];
     }

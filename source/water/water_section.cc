@@ -188,6 +188,37 @@ namespace Voussoir
         return inside;
       }
 
+      /** Returns n + 1 coordinates from end to end: the corners of the bank, where its direction changes by more than 25
+       * degrees, and points at equal distances between them. @p is_corner: receives which ones are corners. */
+      std::vector<double> spread(const std::size_t n, std::vector<bool> &is_corner) const
+      {
+        std::vector<double> result(n + 1, 0.);
+        is_corner.assign(n + 1, false);
+        result[n] = length();
+        std::size_t last = 0; // corner or end
+        const auto  fill = [&](const std::size_t next)
+        {
+          for (std::size_t k = last + 1; k < next; ++k)
+            result[k] = result[last] + (result[next] - result[last]) * (k - last) / double(next - last);
+          last = next;
+        };
+        for (std::size_t p = 1; p + 1 < points.size(); ++p)
+        {
+          const Point2 &a = points[p - 1], &b = points[p], &c = points[p + 1];
+          const double  along = (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1]);
+          if (std::abs(std::atan2(cross(a, b, c), along)) < 25. * M_PI / 180.)
+            continue;
+          const std::size_t k = std::lround(at_point[p] / length() * n);
+          if (k <= last || k >= n)
+            continue;
+          result[k] = at_point[p];
+          is_corner[k] = true;
+          fill(k);
+        }
+        fill(n);
+        return result;
+      }
+
       std::vector<Point2> points;
 
     private:
@@ -284,7 +315,8 @@ namespace Voussoir
   namespace
   {
     /** Smooths the nodes near the bank. */
-    void smooth(WaterSection &section, const Bank &bank, const std::vector<unsigned int> &stairs)
+    void smooth(WaterSection &section, const Bank &bank, const std::vector<unsigned int> &stairs,
+                const std::vector<bool> &is_corner)
     {
       constexpr unsigned int              sweeps = 60, rings = 2;
       std::vector<std::set<unsigned int>> neighbours(section.points.size());
@@ -320,6 +352,8 @@ namespace Voussoir
         }
         for (std::size_t k = 1; k + 1 < section.bank.size(); ++k)
         {
+          if (is_corner[k])
+            continue;
           const double room = .2 * (place[k + 1] - place[k - 1]);
           place[k] =
               std::clamp(bank.nearest(mean(section.bank[k])).first, place[k - 1] + room, place[k + 1] - room);
@@ -400,15 +434,17 @@ namespace Voussoir
     for (const auto &[i, j] : squares)
       cells.push_back({node(i, j + 1), node(i + 1, j + 1), node(i + 1, j), node(i, j)});
     const std::vector<unsigned int> stairs = staircase(cells, at_surface, h);
+    std::vector<bool>               is_corner;
+    const std::vector<double>       place = curve.spread(stairs.size() - 1, is_corner);
     for (std::size_t k = 0; k < stairs.size(); ++k)
     {
       bank.push_back(points.size());
-      points.push_back(curve.at(curve.length() * k / (stairs.size() - 1.)));
+      points.push_back(curve.at(place[k]));
       at_surface.push_back(k == 0 || k + 1 == stairs.size());
     }
     for (std::size_t k = 0; k + 1 < stairs.size(); ++k)
       cells.push_back({bank[k], bank[k + 1], stairs[k + 1], stairs[k]});
-    smooth(*this, curve, stairs);
+    smooth(*this, curve, stairs, is_corner);
     for (const auto &cell : cells)
       for (unsigned int k = 0; k < 4; ++k)
         if (!(cross(points[cell[k]], points[cell[(k + 1) % 4]], points[cell[(k + 3) % 4]]) > .02 * h * h))

@@ -17,6 +17,7 @@ namespace Voussoir
     /** Reaction of the water to a change of the displacement in a time step [N/m], on the pattern of the stiffness;
      * empty: none. The force of the water at the end of the step is the load minus the reaction times the change. */
     std::vector<Matrix3>      reaction;
+    std::vector<unsigned int> reacting;  ///< rows of the reaction that are not zero
     std::vector<unsigned int> interface; ///< local numbers of the nodes in pairs, ascending
 
     unsigned int n_nodes() const { return stiffness.n_rows(); }

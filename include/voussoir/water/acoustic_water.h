@@ -68,11 +68,12 @@ namespace Voussoir
     /** Returns the static pressure at a node of the section [Pa]. */
     double static_pressure(unsigned int node) const;
 
-    /** Throws InputError if the mass of the water must be increased by more than 30 % for the time step [s]. */
-    void check(double dt) const;
+    /** Assembles the matrices for a time step [s]; 0: no earthquake. Must be called before report() and start(). Throws
+     * InputError if the mass of the water must be increased by more than 30 %. */
+    void prepare(double dt);
 
-    /** Writes the properties to the log. @p dt: time step [s]. */
-    void report(Log &log, double dt) const;
+    /** Writes the properties to the log. */
+    void report(Log &log) const;
 
     const double level;          ///< of the water [m]
     double       gravity = 9.81; ///< [m/s^2]

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tests of the mesh and the matrices of compressible water.
+#include "testing.h"
+
+#include <voussoir/base/error.h>
+#include <voussoir/water/water_model.h>
+
+#include <cmath>
+
+using namespace Voussoir;
+using namespace Testing;
+
+namespace
+{
+  constexpr double height = 60.;
+
+  /** Faces of a wall x = slope (height - z) + bend y^2 over a valley with the half width at the height z. */
+  template <class Width>
+  std::vector<WetQuad> valley(const Width &half_width, const double slope = 0., const double bend = 0.)
+  {
+    constexpr unsigned int n_y = 24, n_z = 12;
+    const auto             place = [&](const unsigned int i, const unsigned int k)
+    {
+      const double z = height * k / n_z, y = half_width(z) * (2. * i / n_y - 1.);
+      return Vector3{{slope * (height - z) + bend * y * y, y, z}};
+    };
+    std::vector<WetQuad> faces;
+    for (unsigned int i = 0; i < n_y; ++i)
+      for (unsigned int k = 0; k < n_z; ++k)
+        faces.push_back({{{place(i, k), place(i + 1, k), place(i + 1, k + 1), place(i, k + 1)}},
+                         1 + static_cast<int>(i) / 8});
+    return faces;
+  }
+
+  double area_of(const WaterSection &section)
+  {
+    double sum = 0.;
+    for (const auto &cell : section.cells)
+      for (unsigned int k = 0; k < 4; ++k)
+      {
+        const Point2 &a = section.points[cell[k]], &b = section.points[cell[(k + 1) % 4]];
+        sum += .5 * (a[0] * b[1] - a[1] * b[0]);
+      }
+    return sum;
+  }
+
+  /** Sections of a box and of a trapezoid: area, nodes on bank and water line, x of the face, monoliths. */
+  void sections()
+  {
+    const WaterSection box(valley([](double) { return 30.; }), height, 5.);
+    expect_close(area_of(box), 60. * height, 1e-12, "area of a box");
+    const auto         half = [](const double z) { return 20. + .7 * z; };
+    const WaterSection section(valley(half, .2, .004), 45., 4.);
+    expect_close(area_of(section), 45. * (40. + .7 * 45.), 3e-3, "area of a trapezoid below the water level");
+    double off_bank = 0., off_face = 0., off_line = 0.;
+    for (const unsigned int node : section.bank)
+    {
+      const auto [y, z] = section.points[node];
+      off_bank = std::max(off_bank, z < 1e-9 ? 0. : std::abs(std::abs(y) - half(z)));
+    }
+    for (std::size_t i = 0; i < section.points.size(); ++i)
+    {
+      const auto [y, z] = section.points[i];
+      off_face = std::max(off_face, std::abs(section.face_x[i] - .2 * (height - z) - .004 * y * y));
+      off_line = std::max(off_line, section.at_surface[i] ? std::abs(z - 45.) : 0.);
+      const double along = 12. * (1. + y / half(z)) / 8.;
+      if (std::abs(along - std::round(along)) > 1e-3)
+        expect(section.monolith[i] == 1 + static_cast<int>(along), "monolith of a node");
+    }
+    expect_within(off_bank, 0., 1e-9, "bank nodes on the bank");
+    expect_within(off_line, 0., 1e-9, "nodes of the water line");
+    // The faces are up to 4.3 m wide, and their columns diverge by 3.5 m: sags of .004 (4.3/2)^2 and .004 (3.5/2)^2.
+    expect_within(off_face, 0., .031, "x of the bilinear faces");
+  }
+
+  /** Channel of a box: volume, closed surface, masses, stiffness, critical time step, increase of the mass. */
+  void channel()
+  {
+    const WaterSection    section(valley([](double) { return 30.; }), height, 5.);
+    const WaterProperties water{1000., 1440., .5, height, 120., 5.};
+    const WaterModel      model(section, water, 0.);
+    const double          length = -model.points.back()[0];
+    expect_close(model.volume, 60. * height * length, 1e-12, "volume");
+    const double of_cubes = 5. / 1440.; // the elements at the corners of the bank are distorted
+    expect(model.critical_step > .6 * of_cubes && model.critical_step < of_cubes, "critical time step");
+    expect_close(model.mass_factor, 1., 1e-12, "no increase of the mass");
+    double  mass = 0., bed = 0.;
+    Vector3 ground{};
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+    {
+      mass += model.mass[i];
+      bed += model.bed_damping[i];
+      add(ground, model.ground[i]);
+    }
+    expect_close(mass, 1000. / 1440. / 1440. * model.volume, 1e-12, "mass");
+    expect_close(bed, 1000. / 1440. / 3. * length * (60. + 2. * height), 1e-12,
+                 "absorption by bed and banks");
+    expect_close(ground[2], -60. * length, 1e-12, "area of the bed");
+    expect_within(ground[0], 0., 1e-6, "areas along the channel");
+    expect_within(ground[1], 0., 1e-6, "areas of both banks");
+    std::vector<double> phi, K_phi;
+    for (const Vector3 &x : model.points)
+      phi.push_back(x[0] - 2. * x[1] + 3. * x[2]);
+    model.multiply(phi, K_phi);
+    double energy = 0.;
+    for (std::size_t i = 0; i < phi.size(); ++i)
+      energy += phi[i] * K_phi[i];
+    expect_close(energy, 1000. * 14. * model.volume, 1e-12, "stiffness of a linear potential");
+    const WaterModel increased(section, water, 5e-3);
+    expect(increased.mass_factor > 1.05 && increased.mass_factor < 3.,
+           "increase of the mass for a large step");
+  }
+
+  /** Potential of incompressible water: a wall that moves with the velocity 1 in an infinite channel, added mass
+   * 0.542755 rho H^2 per width. */
+  void incompressible()
+  {
+    const WaterSection  section(valley([](double) { return 10.; }), height, 2.5);
+    const WaterModel    model(section, {1000., 1440., 1., height, 180., 2.5}, 0.);
+    std::vector<double> source(model.n_nodes(), 0.);
+    for (const auto &cell : section.cells)
+      for (unsigned int k = 0; k < 4; ++k)
+      {
+        const Point2 &a = section.points[cell[k]], &b = section.points[cell[(k + 1) % 4]],
+                     &c = section.points[cell[(k + 3) % 4]];
+        source[cell[k]] += 1000. * .25 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+      }
+    const std::vector<double> phi = model.solve(source);
+    double                    added = 0.;
+    for (std::size_t i = 0; i < phi.size(); ++i)
+      added += phi[i] * source[i];
+    expect_close(added / 20., .542755 * 1000. * height * height, 2e-3, "added mass of a wall");
+  }
+
+  void wrong_sections()
+  {
+    auto faces = valley([](double) { return 30.; });
+    throws<InputError>("level above", [&] { WaterSection(faces, 61., 5.); }, {"above", "61"});
+    throws<InputError>("level below", [&] { WaterSection(faces, -1., 5.); }, {"level"});
+    throws<InputError>("too coarse", [&] { WaterSection(faces, height, 40.); }, {"Element size", "28"});
+    faces[40].corners[0][1] += 20.;
+    throws<InputError>("folded", [&] { WaterSection(faces, height, 5.); }, {"folded", "Westergaard"});
+  }
+} // namespace
+
+int main()
+{
+  return run({{"sections", sections},
+              {"channel", channel},
+              {"incompressible", incompressible},
+              {"wrong sections", wrong_sections}});
+}
