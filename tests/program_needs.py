@@ -75,9 +75,11 @@ def verdicts():
     expect(d["reason"] == "crest displacement" and failed["reason"] == "no", f"{d['reason']}")
     candidates = n.candidates_of(rows)
     expect([r["name"] for r in candidates] == ["a", "b", "c"], f"{[r['name'] for r in candidates]}")
-    # 3 + 3 % of the opening are above 5 %, though the signs differ: a and c cost 0.4, b and c 0.48.
-    expect([r["name"] for r in n.cheapest(candidates, 0.05)] == ["a", "c"], "cheapest at 5 %")
-    expect([r["name"] for r in n.cheapest(candidates, 0.0601)] == ["a", "b", "c"], "cheapest at 6 %")
+    # a and b: the sum of the openings is 0, half of the root of the sum of squares 2.12 %. a, b and c: crest 1 %, half of the root 1.12 %.
+    expect(abs(n.together([a, b], "opening") - 0.5 * 0.03 * 2**0.5) < 1e-12 and abs(n.together([a, c], "crest") - 0.01118) < 1e-5, "together")
+    expect([r["name"] for r in n.cheapest(candidates, 0.05)] == ["a", "b", "c"], "cheapest at 5 %")
+    expect([r["name"] for r in n.cheapest(candidates, 0.021)] == ["c"], "cheapest at 2.1 %")
+    expect(abs(n.together([a, row("h", 0.5, opening=1.01)], "opening") - 0.04) < 1e-12, "equal signs add up")
     expect(n.cheapest(candidates, 0.001) == [], "nothing at 0.1 %")
     d["verdict"] = n.UNIMPORTANT
     expect([r["name"] for r in n.cheapest(n.candidates_of(rows), 0.1)] == ["d", "b"], "of two rows with the same entry only one")

@@ -14,7 +14,7 @@ import numpy as np
 GOLDEN = Path(__file__).resolve().parent / "golden"
 sys.path.insert(0, str(GOLDEN))
 import meshes as golden  # noqa: E402
-from compare import scene  # noqa: E402
+from compare import read_vtu, scene  # noqa: E402
 from program_blocks import blocks, force  # noqa: E402
 from program_massless import stop_and_resume  # noqa: E402
 from program_physics import settings  # noqa: E402
@@ -84,6 +84,37 @@ def energies(text, directory, limit=1e-11):
     expect(summary(directory)["energy_balance_error"] < 1e-9, "dam")
 
 
+def face():
+    """The stress normal to the wet face of a stiff wall changes by the dynamic pressure: its smallest value has the largest one of
+    water_pressure.csv, at the nearest water node."""
+    dt = .005
+    t = np.arange(0, .5 + dt / 2, dt)
+    np.savetxt("slow.txt", np.column_stack([t, -np.sin(np.pi * t / .5)**2, 0 * t, 0 * t]))
+    golden.wall("face.msh", n_up=24)
+    file = scene("face", "face.msh", Concrete={"Young's modulus": 2e15, "Density": 2500}, Damping={"Ratio": 0})
+    runs(file, "--output", "face", *ACOUSTIC, *settings(
+        "Motion/Source=file", "Motion/File=slow.txt", "Motion/Unit=m/s^2", f"Motion/Time step={dt}", "Motion/Duration=0.5",
+        "Reservoir/Water level=60", f"Reservoir/Density={RHO}", "Reservoir/Element size=2.5", "Output/Figures=false",
+        "Dynamics/Steps per sample=5", "Output/Solution interval=5", "Statics/Self-weight=none", "Joints/Model=tied"))
+    names, rows = table("face/water_pressure.csv")
+    at = {name: k for k, name in enumerate(names)}
+    first, lowest, checked, off = {}, {}, 0, 0.
+    for path in sorted(Path("face").glob("**/*.vtu")):
+        fields = read_vtu(str(path))
+        if "stress_xx" not in fields:
+            continue
+        for (x, y, z), stress in zip(fields["points"], fields["stress_xx"]):
+            if abs(x) < 1e-9 and 10 < z < 50:
+                first.setdefault((y, z), stress)  # at rest
+                lowest[(y, z)] = min(lowest.get((y, z), 0.), stress - first[(y, z)])
+    most = max(row[at["largest_pressure"]] for row in rows)
+    for (y, z), stress in lowest.items():
+        row = min(rows, key=lambda r: (r[at["y"]] - y)**2 + (r[at["z"]] - z)**2)
+        off, checked = max(off, abs(stress + row[at["largest_pressure"]]) / most), checked + 1
+    print(f"    {checked} nodes: normal stress and pressure differ by {100 * off:.2f} % of the largest dynamic pressure {most:.4g} Pa")
+    expect(checked > 20 and off < .04, f"{checked} nodes, {off}")
+
+
 def joints():
     """A dam with joints: both accounts close with contact, an absorbing bed and motion in all directions; on massless rock, too. A killed run
     goes on as if it had not been."""
@@ -137,4 +168,4 @@ def messages():
 
 
 if __name__ == "__main__":
-    run_cases(pulse, joints, modes, messages)
+    run_cases(pulse, face, joints, modes, messages)

@@ -153,28 +153,31 @@ def candidates_of(rows: List[Dict[str, Any]]) -> List[Dict[str, Any]]:
     return sorted((row for row in rows if row["simpler"] and row["verdict"] == UNIMPORTANT and row["cost"] < CHEAPER), key=lambda row: row["cost"])
 
 
+def together(rows: List[Dict[str, Any]], name: str) -> float:
+    """Expected change of a column by several rows: the sum with signs, but at least half of the root of the sum of squares."""
+    changes = [row["changes"][name] or 0. for row in rows if row["counts"][name]]
+    return max(abs(sum(changes)), .5 * math.sqrt(sum(change ** 2 for change in changes)))
+
+
 def cheapest(candidates: List[Dict[str, Any]], target: float) -> List[Dict[str, Any]]:
-    """Rows with the smallest product of cost ratios, such that the magnitudes of their changes add up to at most the target in each column.
+    """Rows with the smallest product of cost ratios whose changes together are at most the target in each column.
 
     Two rows that set the same entry exclude each other."""
     best: Tuple[float, List[Dict[str, Any]]] = (1., [])
     remaining = [math.prod(row["cost"] for row in candidates[k:]) for k in range(len(candidates) + 1)]
 
-    def extend(k: int, chosen: List[Dict[str, Any]], sums: Dict[str, float], cost: float) -> None:
+    def extend(k: int, chosen: List[Dict[str, Any]], cost: float) -> None:
         nonlocal best
-        if cost < best[0]:
+        if cost < best[0] and all(together(chosen, name) <= target for name in COLUMNS):
             best = (cost, chosen)
         for j in range(k, len(candidates)):
             row = candidates[j]
             if cost * remaining[j] >= best[0]:
                 return
-            if any(set(row["set"]) & set(other["set"]) for other in chosen):
-                continue
-            added = {name: sums[name] + (abs(row["changes"][name] or 0.) if row["counts"][name] else 0.) for name in COLUMNS}
-            if max(added.values()) <= target:
-                extend(j + 1, [*chosen, row], added, cost * row["cost"])
+            if not any(set(row["set"]) & set(other["set"]) for other in chosen):
+                extend(j + 1, [*chosen, row], cost * row["cost"])
 
-    extend(0, [], dict.fromkeys(COLUMNS, 0.), 1.)
+    extend(0, [], 1.)
     return best[1]
 
 
