@@ -220,7 +220,7 @@ def of_run():
             raise AssertionError(f"{bars_found}, although {words}")
 
     refused_for("no error bar: run voussoir accuracy scene.prm")
-    text = runs("accuracy", "scene.prm", "--seconds", "0.3", "--output", "scene-accuracy", "--for", "900%")
+    text = runs("accuracy", "scene.prm", "--seconds", "0.5", "--output", "scene-accuracy", "--for", "900%")
     of_window, found, extremes = json.loads(Path("scene-accuracy/accuracy.json").read_text())["error_bars"], load("scene").error_bars, summary("scene")["extremes"]
     base = summary("scene-accuracy/runs/base")["extremes"]
     expect(f"largest opening      {1e3 * extremes['max_opening']['value']:.4g} mm" in text.partition("Run   ")[2], f"the bars of the run are not printed: {text}")
@@ -230,6 +230,14 @@ def of_run():
         for end in ("low", "high"):
             expect(abs(found[name][end] / found[name]["value"] - of_window[name][end] / of_window[name]["value"]) < 1e-12, f"{name}, {end}")
         expect(abs(of_window[name]["value"] + sum(of_window[name]["parts"].values()) - of_window[name]["combined"]) < 1e-9 * of_window[name]["value"], name)
+    told = Path("scene-accuracy/accuracy.json").read_text()
+    changed = json.loads(told)
+    changed["error_bars"]["max_slip"]["value"] = 0.4 * extremes["max_slip"]["value"]  # the window does not show the slip of the run
+    Path("scene-accuracy/accuracy.json").write_text(json.dumps(changed))
+    expect(set(load("scene").error_bars) == set(found) - {"max_slip"}, "a bar of a value that the window does not show")
+    Path("scene-accuracy/accuracy.json").write_text(told)
+    runs("scene.prm", "--output", "scene", "--overwrite", "--set", "Output/Stress recovery=elements")
+    refused_for("is of another scene", "Output/Stress recovery")
     runs("scene.prm", "--output", "scene", "--overwrite", "--set", "Joints/Friction=0.7")
     refused_for("is of another scene", "Joints/Friction = 0.6, here 0.7")
     Path("scene-accuracy/accuracy.json").write_text("{}")

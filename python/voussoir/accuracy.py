@@ -94,7 +94,8 @@ def choices_of(entries, directory=Path(".")):
     result = []
     steps = int(entries[STEPS])
     on_rock = entries["Foundation/Model"] == "rock"
-    counts = ([steps // 2] if steps % 2 == 0 and not on_rock else []) + [steps, 2 * steps] + ([] if on_rock else [4 * steps])
+    limited = on_rock or entries.get("Reservoir/Model") == "acoustic"  # by a critical time step
+    counts = ([steps // 2] if steps % 2 == 0 and not limited else []) + [steps, 2 * steps] + ([] if on_rock else [4 * steps])
     result.append(Choice("time step", [{STEPS: n} for n in counts], [1 / n for n in counts], counts.index(steps)))
     section = {"arch210": "Mesh/Arch210/", "arcs": "Mesh/Arcs/"}.get(entries["Mesh/Source"])
     if section:

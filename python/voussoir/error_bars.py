@@ -26,6 +26,9 @@ HEADLINES = {  # quantity -> title, unit, least value that has a bar
 MARGIN = 1.25
 UNRELATED = ("Output/", "Dynamics/Error estimate", "Contact/Write")  # beginnings of entries that do not change the results
 
+OF_STRESSES = ("Output/Stress recovery", "Output/Envelope interval")
+SMALLEST_SHARE = 0.5  # of a value in the window, relative to that of the run: below, the window does not show this value
+
 
 def headlines(summary, history):
     """Largest values of a run from summary.json and history.csv: {quantity: value [m, Pa]}, of those with a bar.
@@ -87,7 +90,7 @@ def bars_of_choices(values, choices):
 
 def relevant(entries):
     """The entries of a scene that change its results: {"Section/Entry": value}."""
-    return {entry: value for entry, value in entries.items() if not entry.startswith(UNRELATED)}
+    return {entry: value for entry, value in entries.items() if not entry.startswith(UNRELATED) or entry in OF_STRESSES}
 
 
 def beside(directory, scene, command, file):
@@ -111,7 +114,8 @@ def scene_name(directory, summary):
 def bars_of_run(directory, summary, history):
     """Error bars of the largest values of a run: {quantity: {"value", "combined", "low", "high", "parts", "unit"}} [m, Pa].
 
-    The bars of `voussoir accuracy` are of the strongest seconds; their relative errors apply to the values of the run.
+    The bars of `voussoir accuracy` are of the strongest seconds; their relative errors apply to the values of the run. A value that is below half
+    of the one of the run in these seconds has no bar.
     Throws InputError if there is no accuracy.json of the same scene."""
     scene = scene_name(directory, summary)
     file = beside(directory, scene, "accuracy", "accuracy.json")
@@ -125,8 +129,9 @@ def bars_of_run(directory, summary, history):
         if differs:
             raise InputError(f"no error bar: {file} is of another scene ({differs} = {entries.get(differs)}, here {mine.get(differs)}): "
                              f"run voussoir accuracy {scene}.prm")
-        return {name: scaled(bars[name], value) for name, value in headlines(summary, history).items() if name in bars}
-    except (AttributeError, KeyError, OSError, RecursionError, TypeError, ValueError) as error:
+        return {name: scaled(bars[name], value) for name, value in headlines(summary, history).items()
+                if name in bars and float(bars[name]["value"]) >= SMALLEST_SHARE * value}
+    except (ArithmeticError, AttributeError, KeyError, OSError, RecursionError, TypeError, ValueError) as error:
         raise InputError(f"no error bar: {file} is not of this version of voussoir accuracy ({type(error).__name__}): "
                          f"run voussoir accuracy {scene}.prm") from error
 

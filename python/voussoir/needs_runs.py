@@ -21,7 +21,7 @@ from .accuracy import SUBSTEPS, strongest
 from .errors import VoussoirError
 from .needs_verdicts import measures_of
 from .program import call, find_program, message_of, set_options
-from .study_file import is_file_entry
+from .study_file import with_paths
 from .study_scene import write_whole
 
 VERSION = b"needs 1"  # of what this module reads of a run: other runs are made again
@@ -40,8 +40,9 @@ def digest_of(scene: Path, entries: Mapping[str, str]) -> str:
     """Returns a digest of entries and of the files that they name."""
     digest = hashlib.sha256(VERSION + json.dumps(dict(entries)).encode())
     for entry, value in entries.items():
-        if is_file_entry(entry) and value and (scene.parent / value).is_file():
-            digest.update((scene.parent / value).read_bytes())
+        for file in with_paths(entry, value, scene.parent)[1]:
+            if Path(file).is_file():
+                digest.update(Path(file).read_bytes())
     return digest.hexdigest()
 
 

@@ -3,18 +3,23 @@
 
 import json
 from html import escape
+from pathlib import Path
 
+from .error_bars import relevant
 from .needs_verdicts import COLUMNS
 from .report_answers import beside
 from .report_tables import MINUS, html_table
 from .runs import Skip
+from .study_file import is_file_entry
 
 
 def differs(run, entries):
-    """First entry with another value in the run than in needs.json, None if there is none. Output and paths do not count."""
-    for entry, (value, _) in run.entries.items():
-        known = entries.get(entry)
-        if not entry.startswith("Output/") and "File" not in entry and known not in (None, value) and "/" not in f"{known}{value}":
+    """First entry with another value in the run than in needs.json, None if there is none. Of files only the names count."""
+    def value_of(entry, value):
+        return Path(value).name if is_file_entry(entry) or entry in ("Motion/Sequence", "Motion/Abutments") else value
+
+    for entry, value in relevant({name: text for name, (text, _) in run.entries.items()}).items():
+        if entry in entries and value_of(entry, value) != value_of(entry, entries[entry]):
             return entry
     return None
 

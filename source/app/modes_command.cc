@@ -110,7 +110,7 @@ namespace Voussoir
 
     void print_masses(const Table &table)
     {
-      std::printf("\nEffective mass, of dam and water [%%]\nmode       x       y       z\n");
+      std::printf("\nEffective mass [%%]\nmode       x       y       z\n");
       for (const auto &row : table.rows)
         std::printf("%4.0f  %6.2f  %6.2f  %6.2f\n", row[0], 100. * row[8], 100. * row[9], 100. * row[10]);
       std::fflush(stdout);

@@ -119,7 +119,7 @@ namespace Voussoir
       dam.foundation->check_stations(motion);
     }
     if (dam.water)
-      dam.water->prepare(n_steps > 0 ? motion.dt : 0.);
+      dam.water->prepare(n_steps > 0 ? motion.dt : 0., scene.steps_per_sample);
     if (checkpoint.provenance_now() != checkpoint.provenance)
       throw InputError("An input file of the scene changed while the program read it. Start the run again.");
     counters.setup = counters.clock.seconds();

@@ -234,7 +234,7 @@ namespace Voussoir
       water = std::make_unique<AcousticWater>(
           *model, structure,
           WaterProperties{r.density, r.sound_speed, r.reflection, 0., r.length, r.element_size}, r.level);
-      water->gravity = scene.statics.gravity;
+      water->gravity = scene.statics.gravity * scene.loads.factor("water");
       neighbours.push_back(water.get());
     }
     inertia = inertial_loads(structure);

@@ -71,7 +71,10 @@ namespace Voussoir
                       alpha);
       return;
     }
-    choices.add("water", "compressible water", {{"Reservoir/Model", "acoustic"}});
+    // Elements whose critical time step fits that of the dam: the mass increases by 11 % at most.
+    const double size = std::max((level - choices.bottom) / 16., 1.1 * choices.time_step * sound_speed);
+    choices.add("water", "compressible water",
+                {{"Reservoir/Model", "acoustic"}, {"Reservoir/Element size", number_text(size)}});
     if (added_mass == "none" || factor == 0.)
       return choices.add("water", "Westergaard",
                          {{"Reservoir/Added mass", "Westergaard"}, {"Reservoir/Factor", "1"}});

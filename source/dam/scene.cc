@@ -321,6 +321,7 @@ namespace Voussoir
     const HexMesh hexes = hex_mesh();
     choices.bottom = 1e300, choices.top = -1e300;
     choices.has_rock = mesh.source != "file";
+    choices.time_step = motion.time_step / steps_per_sample;
     for (const HexMesh::Cell &cell : hexes.cells)
       if (is_monolith(cell.volume))
       {
@@ -351,11 +352,14 @@ namespace Voussoir
     if (!has_single_factors())
       choices.add("numerics", "factors in single precision", {{"Dynamics/Factors", "single"}}, true);
     contact.add_choices(choices);
-    if (!motion.abutments.empty()) // requires massless rock
-      choices.list.erase(std::remove_if(choices.list.begin(), choices.list.end(),
-                                        [](const ModelChoice &choice)
-                                        { return choice.entries.count("Foundation/Model") > 0; }),
-                         choices.list.end());
+    const auto refused = [&](const ModelChoice &choice) // by check()
+    {
+      const bool moves = !motion.abutments.empty(); // requires massless rock
+      return (moves && choice.entries.count("Foundation/Model") > 0) ||
+             ((moves || foundation.model == "rock") && choice.entries.count("Reservoir/Model") > 0) ||
+             (reservoir.is_acoustic() && (choice.name == "rock" || choice.name == "twice the time step"));
+    };
+    choices.list.erase(std::remove_if(choices.list.begin(), choices.list.end(), refused), choices.list.end());
     return choices.list;
   }
 
@@ -452,6 +456,10 @@ namespace Voussoir
           "\"Reservoir/Model\" = acoustic requires a rigid base or massless rock: the water does not act "
           "on rock with mass. Set \"Foundation/Model\" to rigid or massless, or \"Reservoir/Model\" to "
           "Westergaard.");
+    if (reservoir.is_acoustic() && !motion.abutments.empty())
+      throw InputError(
+          "\"Motion/Abutments\" has no acoustic water: its bed and banks move as one. Remove the entry, or set "
+          "\"Reservoir/Model\" to Westergaard.");
     if (reservoir.is_acoustic() && error_estimate)
       throw InputError(
           "\"Dynamics/Error estimate\" has no acoustic water. Remove the entry, and use `voussoir "

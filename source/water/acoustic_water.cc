@@ -85,18 +85,22 @@ namespace Voussoir
   {
   }
 
-  void AcousticWater::prepare(const double time_step)
+  void AcousticWater::prepare(const double time_step, const unsigned int steps_per_sample)
   {
     dt = time_step;
     model = std::make_unique<WaterModel>(section, properties, dt);
     if (model->mass_factor <= largest_mass_factor)
       return;
+    const double factor = model->mass_factor;
+    unsigned int more = 2;
+    while (more < 64 && WaterModel(section, properties, dt / more).mass_factor > largest_mass_factor)
+      more *= 2;
     throw InputError("Reservoir/Model = acoustic: the time step of " + number_text(dt) +
                      " s is above the critical time step of the water, " + number_text(model->critical_step) +
-                     " s. It would need " + number_text(std::round(100. * model->mass_factor) / 100.) +
-                     " times the mass of the water (limit 1.3). Increase Dynamics/Steps per sample, or "
-                     "Reservoir/Element size, which is " +
-                     number_text(properties.h) + " m.");
+                     " s. It would need " + number_text(std::round(100. * factor) / 100.) +
+                     " times the mass of the water (limit 1.3). Set \"Dynamics/Steps per sample\" to " +
+                     std::to_string(more * steps_per_sample) +
+                     ", or increase Reservoir/Element size, which is " + number_text(properties.h) + " m.");
   }
 
   void AcousticWater::report(Log &log) const

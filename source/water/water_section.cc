@@ -106,12 +106,18 @@ namespace Voussoir
 
     /** Returns the part of the outline below the level, from one end of the water line to the other: the end with the
      * larger y is the last one. */
-    std::vector<Point2> bank_of(const std::vector<Point2> &closed, const double level)
+    std::vector<Point2> bank_of(std::vector<Point2> closed, const double level)
     {
-      const std::size_t                n = closed.size();
+      const std::size_t n = closed.size();
+      double            low = closed[0][1], high = low;
+      for (const Point2 &point : closed)
+        low = std::min(low, point[1]), high = std::max(high, point[1]);
+      for (Point2 &point : closed) // a full reservoir, without the round-off of the mesh
+        if (std::abs(point[1] - level) < 2e-6 * (high - low))
+          point[1] = level;
       std::vector<std::vector<Point2>> parts;
       std::size_t                      first = 0; // a point above the level
-      while (first < n && closed[first][1] < level - 1e-9 * std::abs(level))
+      while (first < n && closed[first][1] < level)
         ++first;
       if (first == n)
         throw InputError("Reservoir/Model = acoustic: the water level of " + number_text(level) +

@@ -24,6 +24,7 @@ namespace Voussoir
   {
     double       bottom = 0., top = 0.; ///< heights of the dam [m]
     unsigned int n_joints = 0;          ///< contraction joints
+    double       time_step = 0.;        ///< of the dam [s]
     bool         has_rock = false;      ///< true: the mesh has rock, or can have it
 
     std::vector<ModelChoice> list;

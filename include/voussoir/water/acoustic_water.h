@@ -69,8 +69,9 @@ namespace Voussoir
     double static_pressure(unsigned int node) const;
 
     /** Assembles the matrices for a time step [s]; 0: no earthquake. Must be called before report() and start(). Throws
-     * InputError if the mass of the water must be increased by more than 30 %. */
-    void prepare(double dt);
+     * InputError if the mass of the water must be increased by more than 30 %. @p steps_per_sample: entry of the input
+     * file, for the message. */
+    void prepare(double dt, unsigned int steps_per_sample);
 
     /** Writes the properties to the log. */
     void report(Log &log) const;
