@@ -318,17 +318,23 @@ def content():
     runs("modes", "scene.prm", "--output", "run/modes", "--count", "4")
     Path("scene-accuracy").mkdir()
     Path("scene-accuracy/accuracy.json").write_text(json.dumps({"error": {"openings": .0123, "tension": .034}, "wish": .02}))
+    changes = dict.fromkeys(("opening", "slip", "tension_upstream", "tension_downstream", "base_shear", "sliding_safety", "crest"), .07)
+    row = {"group": "water", "name": "empty reservoir", "changes": changes, "counts": dict.fromkeys(changes, True), "cost": .9, "verdict": "matters", "reason": ""}
+    Path("scene-needs").mkdir()
+    Path("scene-needs/needs.json").write_text(json.dumps({"rows": [row], "smallest": {"rows": []}, "target": .05, "seconds": 5, "entries": {}}))
     added_columns("run")
     runs("report", "run")
     full = Reader("run/report.html")
     frequency = [float(row["frequency"]) for row in table("run/modes/modes.csv")]
     expect("Natural modes" in full.text and all(f"{k + 1}: {f:.3g} Hz" in full.text for k, f in enumerate(frequency)), "the modes are not on the page")
     expect("1.2 % for the openings and 3.4 % for the zone means of tension, above its target of 2.0 %" in full.text, full.text[:3000])
+    expect("What the scene needs" in full.text and "empty reservoir" in full.text and "+7.0" in full.text, "the table of needs is not on the page")
     for words in ("Absolute accelerations", "Floor spectra", "Largest arch stress", "Largest cantilever stress"):
         expect(words in full.text and words in bare.text, f"'{words}'")
     expect(len(full.images) == len(bare.images) + 4, f"{len(full.images)} images, {len(bare.images)} without")
     expect("Further content" not in full.text and "Not shown" not in full.text, full.text[-1500:])
-    for name, said in (("run/modes/modes.csv", "is not of voussoir modes"), ("scene-accuracy/accuracy.json", "is not of voussoir accuracy")):
+    for name, said in (("run/modes/modes.csv", "is not of voussoir modes"), ("scene-accuracy/accuracy.json", "is not of voussoir accuracy"),
+                       ("scene-needs/needs.json", "is not of voussoir needs")):
         Path(name).write_text("mode,frequency\n1,x\n")
         runs("report", "run")
         expect(said in Reader("run/report.html").text, f"damaged {name}")
