@@ -158,7 +158,8 @@ def messages():
     write_scene()
     for entries, parts in ((["Foundation/Model=rock"], ("acoustic", "rigid or massless")), (["Reservoir/Length=50"], ("Reservoir/Length", "depth")),
                            (["Reservoir/Element size=4"], ("critical time step of the water", "Steps per sample")),
-                           (["Reservoir/Element size=190"], ("Element size",)), (["Motion/Abutments=left 9: motion.txt", "Foundation/Model=massless"], ("Abutments", "Westergaard")), (["Reservoir/Reflection=2"], ("Reflection",)),
+                           (["Reservoir/Element size=190"], ("Element size",)), (["Reservoir/Reflection=2"], ("Reflection",)),
+                           (["Motion/Abutments=left 9: motion.txt", "Foundation/Model=massless"], ("Abutments", "Westergaard")),
                            (["Reservoir/Water level=-5"], ("water level",)), (["Reservoir/Water level=300"], ("Water level", "above")),
                            (["Dynamics/Error estimate=true"], ("Error estimate", "accuracy"))):
         refused(["scene.prm", "--validate", *ACOUSTIC, *settings(*entries)], *parts)
