@@ -167,7 +167,7 @@ def history():
     step-by-step integration.
 
     The maxima scatter by 13 % (base force x, 12 seeds), so their mean has a standard error of up to 4 %. The base
-    force is 0.89 to 1.03 of the mean (without rigid shares of the modes 0.83 to 0.96), the crown 0.94 to 0.98.
+    force is 0.89 to 1.03 of the mean, the crown 0.94 to 0.98.
     """
     write("scene.prm", ARTIFICIAL)
     runs("modes", "scene.prm", "--count", "30", *DRY, "--output", "modes")

@@ -136,21 +136,51 @@ def joints():
     energies(runs("scene.prm", "--output", "rock", *common, *rock), "rock")
 
 
+def works():
+    """Without static loads and with the ground at rest again, the work of the loads on the dam is that of the water: the opposite of the work of the
+    dam on the water, in each step, also with contact."""
+    write_scene()
+    t = np.arange(0, .5 + .005, .01)
+    np.savetxt("kick.txt", np.column_stack([t, *(np.where(t < .2, 2 * np.sin(w * t), 0) for w in (31.4, 62.8, 31.4))]))
+    runs("scene.prm", "--output", "works", *ACOUSTIC, *settings(
+        "Statics/Gravity=0", "Motion/File=kick.txt", "Motion/Unit=m/s^2", "Dynamics/Steps per sample=2", "Reservoir/Element size=25"))
+    names, rows = table("works/energy.csv")
+    column = {name: np.array([row[k] for row in rows]) for k, name in enumerate(names)}
+    rest = column["time"] > .215
+    of_dam, of_water = np.diff(column["input"][rest]), np.diff(column["water_from_dam"][rest])
+    largest = np.abs(of_water).max()
+    off = np.abs(of_dam + of_water).max() / np.abs(column["input"]).max()
+    print(f"    works in a step up to {largest:.4g} J; sum {off:.1e} of the largest work")
+    expect(largest > 1e-3 * np.abs(column["input"]).max() and off < 1e-6, f"{off}")
+    moved = [abs(x) for name in ("joint_history",) for row in table(f"works/{name}.csv")[1] for x in row[1:]]
+    expect(max(moved) > 1e-4, "the joints do not move")
+
+
 def modes():
-    """The arch dam of code_aster's test fdlv112, incompressible: the frequencies on a conforming water mesh (water cells of 4 to 10 m)."""
+    """A cantilever wall in incompressible water: the ratio of the wet and the dry frequency is that of beam theory, 0.37615/0.53212 (H = 100 m,
+    thickness 10 m, 26.04 GPa, 2400 kg/m3). Then the arch dam of code_aster's test fdlv112: the frequencies on a conforming water mesh."""
+    golden.wall("wall.msh", width=40., height=100., n_up=20)
+    file = scene("cantilever", "wall.msh", Concrete={"Young's modulus": 25e9 / .96, "Poisson's ratio": 0, "Density": 2400})
+    wet = settings("Reservoir/Water level=100", f"Reservoir/Density={RHO}", "Statics/Self-weight=none")
+    dry = frequencies(runs("modes", file, "--count", "2", *wet, *settings("Reservoir/Added mass=none")))[0]
+    ratio = frequencies(runs("modes", file, "--count", "2", *wet, *ACOUSTIC))[0] / dry
+    print(f"    wall: {dry} Hz dry, ratio {ratio:.5f}, beam theory {.37615 / .53212:.5f}")
+    expect(abs(dry / .53212 - 1) < .02 and abs(ratio / (.37615 / .53212) - 1) < .01, f"{dry}, {ratio}")
     if not FDLV112.exists():
         print(f"    SKIPPED: {FDLV112} is missing")
         sys.exit(77)
     common = settings("Mesh/Source=file", f"Mesh/File={FDLV112}", "Mesh/Axes=-x -y z", "Concrete/Young's modulus=36e9",
-                      "Concrete/Poisson's ratio=0.2", "Concrete/Density=2400", "Reservoir/Water level=0", "Reservoir/Sound speed=1500",
-                      "Statics/Self-weight=none", "Motion/Source=none")
-    write_scene("aster.prm")
+                      "Concrete/Poisson's ratio=0.2", "Concrete/Density=2400", "Reservoir/Water level=0", "Statics/Self-weight=none",
+                      "Motion/Source=none")
     Path("aster.prm").write_text("")
+    reference = (3.50456, 3.61781, 4.82832, 5.85977)
     for size, limit in ((6, .01), (4.5, .006)):
         found = frequencies(runs("modes", "aster.prm", "--count", "4", *common, *ACOUSTIC, *settings(f"Reservoir/Element size={size}")))
-        off = [f / g - 1 for f, g in zip(found, (3.50456, 3.61781, 4.82832, 5.85977))]
+        off = [f / g - 1 for f, g in zip(found, reference)]
         print(f"    elements of {size} m: {found} Hz, {', '.join(f'{100 * x:.2f} %' for x in off)}")
         expect(max(map(abs, off)) < limit, f"{off}")
+    found = frequencies(runs("modes", "aster.prm", "--count", "4", *common))
+    print(f"    Westergaard: {found} Hz, {', '.join(f'{100 * (f / g - 1):.1f} %' for f, g in zip(found, reference))}")
 
 
 def messages():
@@ -164,10 +194,13 @@ def messages():
                            (["Dynamics/Error estimate=true"], ("Error estimate", "accuracy"))):
         refused(["scene.prm", "--validate", *ACOUSTIC, *settings(*entries)], *parts)
     runs("scene.prm", "--validate", *ACOUSTIC, *settings("Reservoir/Water level=210.0000001", "Reservoir/Element size=25", "Dynamics/Steps per sample=2"))
+    for entries, part in ((["Reservoir/Sound speed=1500"], "Sound speed"), ([*("Reservoir/Model=acoustic", "Reservoir/Factor=0.5")], "Factor")):
+        text = runs("scene.prm", "--validate", *settings("Dynamics/Steps per sample=2", "Reservoir/Element size=25", *entries))
+        expect(re.search(rf"warning: .*Reservoir/{part}.* no effect", text), f"{part}: {text}")
     refused(["modes", "scene.prm", *ACOUSTIC, "--spectrum", "design"], "Westergaard")
     choices = runs("scene", "scene.prm", "--choices", *ACOUSTIC)
     expect("reflection of the banks 0.5" in choices and "Westergaard" in choices, choices)
 
 
 if __name__ == "__main__":
-    run_cases(pulse, face, joints, modes, messages)
+    run_cases(pulse, face, joints, works, modes, messages)

@@ -43,13 +43,20 @@ namespace Voussoir
       { add_water_pressure(site.model, scene.reservoir, scene.statics.gravity, load.force); };
       row.traction = water_traction;
       row.surface = PhysicalId::upstream;
-      row.idle = {{"Reservoir/Density is 0",
-                   [](const Scene &scene) { return scene.reservoir.density == 0.; },
-                   {"Reservoir/", "Loads/Uplift/Joints"},
-                   {"Reservoir/Density"}},
-                  {"Reservoir/Added mass is none",
-                   [](const Scene &scene) { return scene.reservoir.added_mass == "none"; },
-                   {"Reservoir/Factor", "Reservoir/Depth"}}};
+      row.idle = {
+          {"Reservoir/Density is 0",
+           [](const Scene &scene) { return scene.reservoir.density == 0.; },
+           {"Reservoir/", "Loads/Uplift/Joints"},
+           {"Reservoir/Density"}},
+          {"Reservoir/Model is acoustic",
+           [](const Scene &scene) { return scene.reservoir.is_acoustic(); },
+           {"Reservoir/Added mass", "Reservoir/Factor", "Reservoir/Depth"}},
+          {"Reservoir/Model is Westergaard",
+           [](const Scene &scene) { return !scene.reservoir.is_acoustic(); },
+           {"Reservoir/Sound speed", "Reservoir/Reflection", "Reservoir/Length", "Reservoir/Element size"}},
+          {"Reservoir/Added mass is none",
+           [](const Scene &scene) { return scene.reservoir.added_mass == "none"; },
+           {"Reservoir/Factor", "Reservoir/Depth"}}};
       return row;
     }
 

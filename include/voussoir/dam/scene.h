@@ -142,8 +142,8 @@ namespace Voussoir
     /** Declares all entries. */
     void add_parameters(Entries &prm);
 
-    /** Returns changes of modelling and numerical choices. Only changes that have an effect are listed. Throws InputError
-     * like hex_mesh(). */
+    /** Returns changes of modelling and numerical choices, without those that have no effect. Throws
+     * InputError like hex_mesh(). */
     std::vector<ModelChoice> model_choices() const;
 
     /** Generates or reads the mesh. A generated mesh has rock if the foundation needs it. Throws InputError like

@@ -15,8 +15,8 @@ namespace Voussoir
    *
    * with the mean force of the step. With a sustained modulus E_s of the rock, u is the displacement minus
    * (1 - E_s/E) times the static one. With different motions of the banks, u is also relative to the
-   * displacement of the rock without the dam (BaseMotion). Up to round-off the result is that of dam and rock as one body. A time
-   * step can be halved three times. */
+   * displacement of the rock without the dam (BaseMotion). Up to round-off the result is that of dam and rock
+   * as one body. A time step can be halved three times. */
   class MasslessSupport : public Support
   {
   public:

@@ -39,7 +39,8 @@ namespace Voussoir
     /** Computes K times phi [kg m/s^2]. */
     void multiply(const std::vector<double> &phi, std::vector<double> &K_phi) const;
 
-    /** Solves K phi = source with phi = 0 at the surface. Throws ComputationError if the iteration does not converge. */
+    /** Solves K phi = source with phi = 0 at the surface. Throws ComputationError if the iteration does not
+     * converge. */
     std::vector<double> solve(const std::vector<double> &source) const;
 
     std::vector<Vector3> points;          ///< [m]
