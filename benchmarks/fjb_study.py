@@ -159,7 +159,7 @@ VARIANTS = {
     "4 elements through": (one(MESH + "Elements through", 4), None),
     "18 x 8 x 1 elements": ({"both": {MESH + "Elements along": 18, MESH + "Elements up": 8, MESH + "Elements through": 1}}, None),
     "plain trilinear elements": (one("Elements/Incompatible modes", "false"), None),
-    "no added mass": (one("Reservoir/Added mass", "none"), None),
+    "no added mass": (one("Reservoir/Model", "none"), None),
     "half of the added mass": (one("Reservoir/Factor", 0.5), None),
     "damping 2 %": (one("Damping/Ratio", 0.02), None),
     "damping 10 %": (one("Damping/Ratio", 0.1), None),

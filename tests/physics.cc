@@ -81,7 +81,7 @@ namespace
 
     // Westergaard: the integral of 7/8 rho sqrt(H h).
     water.level = 30.;
-    const double expected = add_westergaard_mass(model, water, structure);
+    const double expected = add_added_mass(model, water, structure);
     expect_close(expected, .875 * 1000. * wide * 2. / 3. * 900., 1e-3, "added mass, integral");
     const Matrix3 total = sum(structure.mass), added = sum(structure.added_mass);
     for (unsigned int k = 0; k < 9; ++k)
@@ -112,7 +112,7 @@ namespace
         const auto          concrete = structure.mass;
         ReservoirParameters water;
         water.level = level;
-        const double total = add_westergaard_mass(model, water, structure), area = .875 * 1000. * wide;
+        const double total = add_added_mass(model, water, structure), area = .875 * 1000. * wide;
         expect_close(total, area * 2. / 3. * level * level, 2e-3, "added mass");
         expect_close(sum(structure.added_mass)[0], total, 1e-12, "added mass of the nodes");
         double moment = 0.;
@@ -134,8 +134,24 @@ namespace
     double nodal = 0.; // the nodes' part of the height is 5 m, at the bottom 2.5
     for (unsigned int k = 0; k < 6; ++k)
       nodal += .875 * 1000. * std::sqrt(30. * (30. - 5. * k)) * wide * (k == 0 ? 2.5 : 5.);
-    expect_close(add_nodal_westergaard_mass(model, water, structure), nodal, 1e-12,
-                 "added mass at the nodes");
+    water.model = "Westergaard-nodal";
+    expect_close(add_added_mass(model, water, structure), nodal, 1e-12, "added mass at the nodes");
+    std::ofstream("mass.csv") << "depth,mass\n0,1000\n20,5000\n30,5000\n";
+    water.model = "added mass table";
+    water.table = "mass.csv";
+    expect_close(add_added_mass(model, water, structure), (20. * 3000. + 10. * 5000.) * wide, 1e-3,
+                 "added mass of a table");
+    const std::vector<double> per_area = added_mass_per_area(model, water);
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      expect_close(per_area[i],
+                   model.points[i][0] > 0. ? 0. : std::min(5000., 1000. + 200. * (30. - model.points[i][2])),
+                   1e-12, "added mass per area of a table");
+    water.level = 31.;
+    throws<InputError>("short table", [&] { add_added_mass(model, water, structure); },
+                       {"mass.csv", "ends at the depth 30 m", "31 m", "Extend"});
+    water.table = "nothing.csv";
+    throws<InputError>("no table", [&] { add_added_mass(model, water, structure); },
+                       {"nothing.csv", "cannot be read", "depth [m]", "kg/m^2"});
   }
 
   /** The valley's bottom rises by 1 m in 2 m from the middle to the banks, and the upstream face leans. */
@@ -156,7 +172,8 @@ namespace
       water.depth = local ? "local" : "global";
       structure[local] = assemble_structure(model, {Material()}, true);
       const double mass = sum(structure[local].mass)[8];
-      add_nodal_westergaard_mass(model, water, structure[local]);
+      water.model = "Westergaard-nodal";
+      add_added_mass(model, water, structure[local]);
       expect(sum(structure[local].added_mass)[8] > 1e-3 * mass, "added mass for vertical motion");
       Unknowns load(3 * structure[local].n_nodes(), 0.);
       add_weight(structure[local], 9.81, load);

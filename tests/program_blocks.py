@@ -139,7 +139,7 @@ def shaken():
     write("shake.txt", "".join(" ".join(f"{x:.12g}" for x in row) + "\n" for row in a))
     wall("stiff", monoliths=(1, 1), Concrete={"Young's modulus": 2e19, "Poisson's ratio": 0, "Density": 2500},
          Motion={"Source": "file", "File": "shake.txt", "Unit": "m/s^2", "Duration": steps * dt, "Time step": dt},
-         Reservoir={"Density": 1000, "Water level": 50, "Added mass": "none"})
+         Reservoir={"Density": 1000, "Water level": 50, "Model": "none"})
     found = blocks("stiff")
     expect(len(found) == steps + 1 and found[-1][0] == steps * dt, f"{len(found)} rows")
     mass, push = 2500 * 6000, 1e4 * 10 * 50**2 / 2

@@ -22,6 +22,7 @@ ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "O
 SHORT = settings("Motion/Duration=0.3", "Output/Solution interval=10")
 ROCK = settings("Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
                 "Dynamics/Steps per sample=5", "Motion/Duration=0.3", "Output/Envelope interval=0")
+WATER = settings("Reservoir/Model=acoustic", "Reservoir/Element size=25", "Reservoir/Reflection=0.5", "Dynamics/Steps per sample=4")
 OWN = settings("Foundation/Substeps=4", "Dynamics/Steps per sample=2")
 
 
@@ -87,6 +88,7 @@ def rigid():
     any_number("tied", (2,), *SHORT, *settings("Joints/Model=tied"))
     any_number("single", (2,), *SHORT, *five, *settings("Dynamics/Factors=single"))
     any_number("estimate", (2,), *SHORT, *settings("Dynamics/Error estimate=true"))
+    any_number("water", (2,), *SHORT, *WATER)
     any_number("sweeps", (2,), *SHORT, *five, *settings("Contact/Method=sweeps", "Contact/Maximum iterations=2000"))
     any_number("massless", (2,), *SHORT, *settings("Foundation/Model=massless", "Mesh/Arch210/Rock/Enabled=true",
                                                    "Mesh/Arch210/Rock/Element size=60", "Concrete/Sustained modulus=14e9",
@@ -117,6 +119,8 @@ def rock():
         any_number(boundary, (2,), *ROCK, *settings(f"Foundation/Boundary={boundary}"))
     any_number("single", (2,), *ROCK, *settings("Dynamics/Factors=single"))
     any_number("sections", (3,), *ROCK, *settings("Foundation/Free field=sections"))
+    any_number("water", (3,), *ROCK, *WATER, *settings("Foundation/Free field=sections"))
+    any_number("water_columns", (2,), *ROCK, *WATER, *settings("Foundation/Free field=columns"))
     any_number("gauss", (2,), *ROCK, *settings("Foundation/Nodal quadrature everywhere=false",
                                                "Foundation/Stiffness damping=6e-4"))
     any_number("wide", (3,), *ROCK, *settings("Foundation/Layers at the dam=4", "Foundation/Nodal layers=3", "Foundation/Boundary=viscous-spring"))

@@ -153,7 +153,7 @@ def stiff():
     foot = printed(text)["cantilever (across it in the face)"]
     expect(max(abs(s - 1e-6 * 2500 * 3 * 50) for s in foot) < 6e-4, f"cantilever stress away from the base {foot}")
     # Westergaard's pressure 7/8 rho sqrt(H h) a on the upstream face.
-    wet = settings("Motion/Scale y=0", "Motion/Scale z=0", "Reservoir/Density=1000", "Reservoir/Added mass=Westergaard")
+    wet = settings("Motion/Scale y=0", "Motion/Scale z=0", "Reservoir/Density=1000", "Reservoir/Model=Westergaard")
     runs("modes", file, "--count", "4", "--spectrum", "spectrum.csv", "--output", "wet", *wet)
     fields = read_vtu("wet/response_spectrum.vtu")
     face = [(p[2], s) for p, s in zip(fields["points"], fields["stress_xx"]) if p[0] == 0 and 10 < p[2] < 50]

@@ -243,7 +243,7 @@ def moving_water():
     for recovery in ("tractions", "elements"):
         file = scene("squat", "squat.msh", Concrete={"Young's modulus": 21e9, "Poisson's ratio": .3, "Density": 2400},
                      Damping={"Ratio": .05}, Elements={"Degree": 2},
-                     Reservoir={"Density": 1000, "Water level": water, "Added mass": "Westergaard"},
+                     Reservoir={"Density": 1000, "Water level": water, "Model": "Westergaard"},
                      Motion={"Source": "file", "File": "motion.txt", "Unit": "g", "Duration": .35, "Time step": .005},
                      Output={"Stress recovery": recovery, "Solution interval": 64})
         runs(file, "--output", recovery)

@@ -112,8 +112,8 @@ def difference(a, b):
 
 def frequencies(text):
     """Natural frequencies [Hz] of the table that `voussoir modes` prints: mode, frequency, damping."""
-    rows = [line.split() for line in text.splitlines()]
-    return [float(row[1]) for row in rows if len(row) == 3 and row[0].isdigit()]
+    rows, n = [line.split() for line in text.splitlines()], 4 if "of it by the water" in text else 3
+    return [float(row[1]) for row in rows if len(row) == n and row[0].isdigit()]
 
 
 def summary(directory):

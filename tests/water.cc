@@ -5,6 +5,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/water/water_model.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace Voussoir;
@@ -111,6 +112,43 @@ namespace
            "increase of the mass for a large step");
   }
 
+  /** The far channel of a trapezoidal section: one layer as long as the last one of the channel. Between two layers a
+   * potential that does not depend on x has the same product with K, and the same masses. */
+  void far_channel()
+  {
+    const auto            half = [](const double z) { return 20. + .7 * z; };
+    const WaterSection    section(valley(half), 50., 5.);
+    const WaterProperties water{1000., 1440., .5, 50., 100., 5.};
+    for (const double dt : {0., 2.6e-3})
+    {
+      const WaterModel   model(section, water, dt), far = model.far_channel(section, water, dt);
+      const unsigned int n = model.n_section, last = model.n_nodes() - n;
+      expect(far.n_nodes() == 2 * n && far.n_section == n, "nodes");
+      expect_close(-far.points[n][0], model.points[last - n][0] - model.points[last][0], 1e-9,
+                   "length of the layer");
+      std::vector<double> phi, of_far, K_phi, K_far;
+      for (unsigned int i = 0; i < model.n_nodes(); ++i)
+        phi.push_back(std::sin(.1 * model.points[i][1]) * model.points[i][2] * model.points[i][2]);
+      of_far.assign(phi.begin(), phi.begin() + 2 * n);
+      model.multiply(phi, K_phi);
+      far.multiply(of_far, K_far);
+      double size = 0., off = 0., off_mass = 0., off_ground = 0., off_bed = 0.;
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        size = std::max(size, std::abs(K_far[n + j]));
+        off = std::max(off, std::abs(K_far[n + j] - K_phi[last + j]) + std::abs(K_far[j] - K_phi[last + j]));
+        off_mass = std::max(off_mass, std::abs(far.mass[n + j] / model.mass[last + j] - 1.));
+        off_ground = std::max(off_ground, norm(far.ground[n + j] - model.ground[last + j]));
+        off_bed = std::max(off_bed, std::abs(far.bed_damping[n + j] - model.bed_damping[last + j]));
+      }
+      expect_within(off / size, 0., 1e-9, "stiffness of a layer");
+      expect_within(off_mass, 0., 1e-9, "mass of a layer, with its increase");
+      expect_within(off_ground, 0., 1e-6, "bed and banks of a layer");
+      expect_within(off_bed, 0., 1e-9, "absorption of a layer");
+      expect_within(*std::max_element(far.end_damping.begin(), far.end_damping.end()), 0., 0., "free ends");
+    }
+  }
+
   /** Potential of incompressible water: a wall that moves with the velocity 1 in an infinite channel, added mass
    * 0.542755 rho H^2 per width. */
   void incompressible()
@@ -147,6 +185,7 @@ int main()
 {
   return run({{"sections", sections},
               {"channel", channel},
+              {"far channel", far_channel},
               {"incompressible", incompressible},
               {"wrong sections", wrong_sections}});
 }

@@ -7,6 +7,7 @@
 #include <voussoir/dynamics/modes.h>
 #include <voussoir/output/figures.h>
 #include <voussoir/output/recorders.h>
+#include <voussoir/water/water_modes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,18 +38,32 @@ namespace Voussoir
                          ". Choose another one with --output.");
     }
 
-    /** Returns the modes of the dam, with the added mass or with incompressible water. */
-    std::vector<NaturalMode> modes_of(const Dam &dam, const unsigned int count)
+    /** Returns the modes of the dam, with its added mass, incompressible or compressible water. @p radiation: receives
+     * the damping ratios by compressible water [-]. */
+    std::vector<NaturalMode> modes_of(const Dam &dam, const unsigned int count,
+                                      std::vector<double> &radiation)
     {
       if (!dam.water)
         return natural_modes(dam.structure, count);
       const WaterModel water = dam.water->model_for(0.);
-      std::cerr
-          << "voussoir: warning: the modes have incompressible water, which does not radiate. Effective masses "
-             "are those of the concrete.\n";
-      return natural_modes(dam.structure, count, 1000,
-                           [&](const Unknowns &x, Unknowns &y)
-                           { dam.water->add_incompressible_mass(water, x, y); });
+      std::cerr << "voussoir: warning: effective masses are those of the concrete, without the water.\n";
+      const bool is_compressible = dam.scene.reservoir.is_acoustic();
+      auto       modes = natural_modes(dam.structure, is_compressible ? count + 4 : count, 1000,
+                                       [&](const Unknowns &x, Unknowns &y)
+                                       { dam.water->add_incompressible_mass(water, x, y); });
+      if (is_compressible)
+        radiation = make_compressible(*dam.water, water, modes, count);
+      std::string missing;
+      for (std::size_t k = 0; k < radiation.size(); ++k)
+        if (std::isnan(radiation[k]))
+          missing += (missing.empty() ? "" : ", ") + std::to_string(k + 1);
+      if (!missing.empty())
+        std::cerr
+            << "voussoir: warning: these modes were not found with compressible water, and have the frequencies "
+               "with incompressible water: "
+            << missing
+            << ". Above the first frequency of the reservoir dam and water have common modes. Reduce --count.\n";
+      return modes;
     }
 
     /** Returns the table of modes.csv. Participation factors are for modes with unit modal mass. */
@@ -117,7 +132,8 @@ namespace Voussoir
     }
 
     /** Returns the rows of the table as objects, with the names of the columns as keys, and the damping ratios. */
-    Json json_of(const Dam &dam, const Table &table, const ModesDamping &damping)
+    Json json_of(const Dam &dam, const Table &table, const ModesDamping &damping,
+                 const std::vector<double> &radiation)
     {
       std::vector<Json> modes(table.rows.size());
       for (std::size_t k = 0; k < modes.size(); ++k)
@@ -125,6 +141,8 @@ namespace Voussoir
           modes[k].add(table.columns[i], table.rows[k][i]);
       for (std::size_t k = 0; k < modes.size(); ++k)
         modes[k].add("damping", damping.ratio(k));
+      for (std::size_t k = 0; k < radiation.size(); ++k)
+        modes[k].add("radiation_damping", radiation[k]);
       std::vector<std::string> warnings = dam.mesh_warnings;
       warnings.insert(warnings.end(), dam.scene.warnings.begin(), dam.scene.warnings.end());
       if (const std::string warning = damping.warning(); !warning.empty())
@@ -149,8 +167,9 @@ namespace Voussoir
       throw InputError(
           "`voussoir modes` requires a rigid base or massless rock, because rock with mass "
           "radiates energy. Use --set Foundation/Model=massless or --set Foundation/Model=rigid.");
-    if (scene.reservoir.is_acoustic() && !spectrum_choice.empty())
-      throw InputError("--spectrum has no acoustic water. Use --set Reservoir/Model=Westergaard.");
+    if (scene.reservoir.is_meshed() && !spectrum_choice.empty())
+      throw InputError("--spectrum has no " + scene.reservoir.model +
+                       " water. Use --set Reservoir/Model=Westergaard.");
     std::optional<ChosenSpectrum> spectrum;
     if (!spectrum_choice.empty())
       spectrum = choose_spectrum(scene, spectrum_choice);
@@ -159,16 +178,22 @@ namespace Voussoir
     const Dam dam(scene, true);
     for (const std::string &warning : dam.mesh_warnings)
       std::cerr << "voussoir: warning: " << warning << "\n";
-    const std::vector<NaturalMode> modes = modes_of(dam, count);
+    std::vector<double>            radiation;
+    const std::vector<NaturalMode> modes = modes_of(dam, count, radiation);
     const Table                    table = table_of(modes, dam.structure);
     const ModesDamping             damping(scene.damping, modes, dam.structure);
     if (json)
-      std::printf("%s\n", json_of(dam, table, damping).text().c_str());
+      std::printf("%s\n", json_of(dam, table, damping, radiation).text().c_str());
     else
     {
-      std::printf("mode  frequency [Hz]  damping [%%]\n");
+      std::printf("mode  frequency [Hz]  damping [%%]%s\n",
+                  radiation.empty() ? "" : "  of it by the water [%]");
       for (std::size_t i = 0; i < modes.size(); ++i)
-        std::printf("%4zu  %10.5f  %16.3f\n", i + 1, modes[i].frequency, 100. * damping.ratio(i));
+      {
+        const double of_water = radiation.empty() || std::isnan(radiation[i]) ? 0. : radiation[i];
+        std::printf("%4zu  %10.5f  %16.3f", i + 1, modes[i].frequency, 100. * (damping.ratio(i) + of_water));
+        radiation.empty() ? std::printf("\n") : std::printf("  %20.3f\n", 100. * of_water);
+      }
       std::printf("Damping   %s\n", damping.in_words().c_str());
       if (!directory.empty())
         print_masses(table);

@@ -12,7 +12,10 @@ namespace Voussoir
     if (run.scene().error_estimate)
       list.push_back(&time_error.emplace(run, joints.joints, stresses, log));
     if (run.dam->water && run.n_steps > 0)
+    {
       list.push_back(&water.emplace(run));
+      stresses.water = &*water;
+    }
     list.insert(list.end(), {&stresses, &fields, &frames});
   }
 } // namespace Voussoir

@@ -137,8 +137,8 @@ namespace Voussoir
     else if (dam.water)
       dam.water->report(log);
     else
-      log.line("Water     level %g m; added mass %s x %g, %.4g kg along x", scene.reservoir.level,
-               scene.reservoir.added_mass.c_str(), scene.reservoir.factor, dam.added_mass);
+      log.line("Water     level %g m; added mass %s, %.4g kg along x", scene.reservoir.level,
+               scene.reservoir.name_of_mass().c_str(), dam.added_mass);
     report_loads(dam, log);
     report_motion_and_warnings(run, log);
     report_motion_notes(run, log);

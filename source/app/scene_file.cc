@@ -165,7 +165,7 @@ namespace Voussoir
         opened(file, "The scene file " + file + " cannot be read. Check the path of the .prm file.");
     const std::filesystem::path path(file);
     scene.name = path.stem().string();
-    scene.directory = path.parent_path().string();
+    scene.directory = scene.reservoir.directory = path.parent_path().string();
     parse(in, file, scene.directory, entries, section, scene.sources);
     for (const std::string &override : overrides)
     {

@@ -42,7 +42,7 @@ namespace Voussoir
     scene.add_parameters(prm);
     known = declared_entries(prm);
     scene.name = fs::path(file).stem().string();
-    scene.directory = fs::path(file).parent_path().string();
+    scene.directory = scene.reservoir.directory = fs::path(file).parent_path().string();
   }
 
   const DeclaredEntry *SceneText::find(const std::string &name) const

@@ -118,6 +118,11 @@ namespace Voussoir
       dam.foundation->check(state.grid(), scene.steps_per_sample);
       dam.foundation->check_stations(motion);
     }
+    if (n_steps > 0 && scene.reservoir.model == "incompressible")
+      throw InputError(
+          "\"Reservoir/Model\" = incompressible has no earthquake: the mass of incompressible water "
+          "couples all monoliths. Set the model to acoustic, whose water is compressible, or use "
+          "`voussoir modes`.");
     if (dam.water)
       dam.water->prepare(n_steps > 0 ? motion.dt : 0., scene.steps_per_sample);
     if (checkpoint.provenance_now() != checkpoint.provenance)

@@ -221,7 +221,7 @@ namespace Voussoir
                   const double a = table.at(period);
                   return Vector3{{a, a, a}};
                 },
-                std::min(table.period.back(), MotionCriteria::last_period)};
+                std::min(table.curve.x.back(), MotionCriteria::last_period)};
       }
       const MotionParameters &motion = scene.motion;
       if (motion.source != "artificial")

@@ -106,11 +106,13 @@ namespace Voussoir
     {
       const ReservoirParameters &reservoir = dam.scene.reservoir;
       Json                       json;
-      json.add_flag("reaches_dam", dam.has_water).add("level", reservoir.level).add("model", reservoir.model);
+      json.add_flag("reaches_dam", dam.has_water)
+          .add("level", reservoir.level)
+          .add("model", reservoir.kind());
       if (dam.water)
         json.add("sound_speed", reservoir.sound_speed).add("reflection", reservoir.reflection);
       else
-        json.add("added_mass", reservoir.added_mass)
+        json.add("added_mass", reservoir.kind())
             .add("factor", reservoir.factor)
             .add("added_mass_x", dam.added_mass);
       return json;

@@ -229,10 +229,10 @@ namespace Voussoir
           initial_stress[i][c] += load.stress[i][c];
     if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0.)
       added_mass = add_added_mass(*model, scene.reservoir, structure);
-    if (const ReservoirParameters &r = scene.reservoir; r.is_acoustic() && scene.loads.factor("water") != 0.)
+    if (const ReservoirParameters &r = scene.reservoir; r.is_meshed() && scene.loads.factor("water") != 0.)
     {
       water = std::make_unique<AcousticWater>(
-          *model, structure,
+          *model, structure, *foundation,
           WaterProperties{r.density, r.sound_speed, r.reflection, 0., r.length, r.element_size}, r.level);
       water->gravity = scene.statics.gravity * scene.loads.factor("water");
       neighbours.push_back(water.get());

@@ -43,20 +43,25 @@ namespace Voussoir
       { add_water_pressure(site.model, scene.reservoir, scene.statics.gravity, load.force); };
       row.traction = water_traction;
       row.surface = PhysicalId::upstream;
-      row.idle = {
-          {"Reservoir/Density is 0",
-           [](const Scene &scene) { return scene.reservoir.density == 0.; },
-           {"Reservoir/", "Loads/Uplift/Joints"},
-           {"Reservoir/Density"}},
-          {"Reservoir/Model is acoustic",
-           [](const Scene &scene) { return scene.reservoir.is_acoustic(); },
-           {"Reservoir/Added mass", "Reservoir/Factor", "Reservoir/Depth"}},
-          {"Reservoir/Model is Westergaard",
-           [](const Scene &scene) { return !scene.reservoir.is_acoustic(); },
-           {"Reservoir/Sound speed", "Reservoir/Reflection", "Reservoir/Length", "Reservoir/Element size"}},
-          {"Reservoir/Added mass is none",
-           [](const Scene &scene) { return scene.reservoir.added_mass == "none"; },
-           {"Reservoir/Factor", "Reservoir/Depth"}}};
+      row.idle = {{"Reservoir/Density is 0",
+                   [](const Scene &scene) { return scene.reservoir.density == 0.; },
+                   {"Reservoir/", "Loads/Uplift/Joints"},
+                   {"Reservoir/Density"}},
+                  {"Reservoir/Model is not Westergaard",
+                   [](const Scene &scene) { return scene.reservoir.model != "Westergaard"; },
+                   {"Reservoir/Added mass"}},
+                  {"the added mass is not by Westergaard's formula (Reservoir/Model)",
+                   [](const Scene &scene) { return scene.reservoir.kind().rfind("Westergaard", 0) != 0; },
+                   {"Reservoir/Factor", "Reservoir/Depth"}},
+                  {"Reservoir/Model is not acoustic",
+                   [](const Scene &scene) { return !scene.reservoir.is_acoustic(); },
+                   {"Reservoir/Sound speed", "Reservoir/Reflection", "Output/Pressure depths"}},
+                  {"Reservoir/Model is neither acoustic nor incompressible",
+                   [](const Scene &scene) { return !scene.reservoir.is_meshed(); },
+                   {"Reservoir/Length", "Reservoir/Element size"}},
+                  {"Reservoir/Model is not added mass table",
+                   [](const Scene &scene) { return scene.reservoir.model != "added mass table"; },
+                   {"Reservoir/Table"}}};
       return row;
     }
 

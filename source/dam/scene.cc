@@ -188,6 +188,12 @@ namespace Voussoir
         "Points whose displacement and absolute acceleration are written to history.csv, as \"name: x y z; name: x y z\" [m]. The "
         "nearest node is used.",
         Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
+    prm.add_parameter(
+        "Pressure depths", pressure_depths,
+        "Depths below the water level whose dynamic pressure is written to history.csv, such as \"20, "
+        "50\" [m]. Reservoir/Model acoustic only. The water node nearest to the vertical line above "
+        "the deepest point is used.",
+        Patterns::List(Patterns::Double(0.)));
     prm.add_parameter("Envelope interval", envelope_interval,
                       "Number of steps between two evaluations of the stress envelopes [-]. 0: no envelopes.",
                       Patterns::Integer(0));
@@ -232,7 +238,7 @@ namespace Voussoir
     {
       const bool taken = probe.first == "crest" || probe.first == "crest_left" || probe.first == "base" ||
                          probe.first == "ground" ||
-                         std::regex_match(probe.first, std::regex(".*_acceleration"));
+                         std::regex_match(probe.first, std::regex(".*_acceleration|pressure_.*"));
       const std::string entry = "Entry \"Output/Probes\": ";
       const std::string example = " Separate probes by semicolons, as in \"name: x y z; name: x y z\".";
       if (probe.first.empty())
@@ -356,8 +362,7 @@ namespace Voussoir
     {
       const bool moves = !motion.abutments.empty(); // requires massless rock
       return (moves && choice.entries.count("Foundation/Model") > 0) ||
-             ((moves || foundation.model == "rock") && choice.entries.count("Reservoir/Model") > 0) ||
-             (reservoir.is_acoustic() && (choice.name == "rock" || choice.name == "twice the time step"));
+             (reservoir.is_acoustic() && choice.name == "twice the time step");
     };
     choices.list.erase(std::remove_if(choices.list.begin(), choices.list.end(), refused), choices.list.end());
     return choices.list;
@@ -384,6 +389,8 @@ namespace Voussoir
     if (mesh.source == "arcs")
       add("Mesh/Arcs/Table", mesh.arcs.table);
     add("Loads/Temperature/Table", loads.temperature.table);
+    if (reservoir.model == "added mass table")
+      add("Reservoir/Table", reservoir.table);
     if (motion.source == "file")
     {
       constexpr const char *entries[3] = {"Motion/File x", "Motion/File y", "Motion/File z"};
@@ -451,15 +458,6 @@ namespace Voussoir
                        foundation.model +
                        ": a rigid base moves as one body, and rock with mass receives the ground motion from "
                        "below. Set the model to massless, or remove the entry.");
-    if (reservoir.is_acoustic() && foundation.model == "rock")
-      throw InputError(
-          "\"Reservoir/Model\" = acoustic requires a rigid base or massless rock: the water does not act "
-          "on rock with mass. Set \"Foundation/Model\" to rigid or massless, or \"Reservoir/Model\" to "
-          "Westergaard.");
-    if (reservoir.is_acoustic() && !motion.abutments.empty())
-      throw InputError(
-          "\"Motion/Abutments\" has no acoustic water: its bed and banks move as one. Remove the entry, or set "
-          "\"Reservoir/Model\" to Westergaard.");
     if (reservoir.is_acoustic() && error_estimate)
       throw InputError(
           "\"Dynamics/Error estimate\" has no acoustic water. Remove the entry, and use `voussoir "

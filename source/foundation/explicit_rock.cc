@@ -134,11 +134,16 @@ namespace Voussoir
       return Vector3{{s[0], s[1], p[2]}};
     };
     if (grid.n > 0) // 0: no earthquake
-      shake(*region, model, p, rising, grid.n_substeps() + 2);
+      free_field = &shake(*region, model, p, rising, grid.n_substeps() + 2);
     model.stiffness = BlockSparseMatrix(); // frees memory; not used by the region
     region->keep_energy();
     balance = std::make_unique<RockBalance>(*region, base() == Base::coupled);
     rock_monitor = std::make_unique<RockMonitor>(parameters, model, *region, *balance);
+  }
+
+  ValleyMotion ExplicitRock::valley(const std::vector<Vector3> &places)
+  {
+    return [this, places] { return std::make_pair(free_field->upstream(places), lead); };
   }
 
   void ExplicitRock::finish_step(const double time)

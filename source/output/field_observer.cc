@@ -89,6 +89,11 @@ namespace Voussoir
     std::vector<FieldWriter::NodalField> fields;
     add_stresses(fields);
     add_joints(fields);
+    if (const AcousticWater *water = run.dam->water.get())
+    {
+      const std::vector<double> pressure = water->at_dam(water->pressure());
+      fields.push_back({"water_pressure", {pressure.begin(), pressure.end()}});
+    }
     char name[40];
     std::snprintf(name, sizeof(name), "solution-%05u.vtu", run.step);
     const Dam &dam = *run.dam;

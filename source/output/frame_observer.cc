@@ -144,16 +144,32 @@ namespace Voussoir
         points.push_back(static_cast<float>(run.dam->model->points[node][c]));
     const std::string stress = stresses.is_recording() ? "true" : "false";
     return "{\"format\": \"voussoir frames 1\", \"nodes\": " + std::to_string(nodes.size()) +
-           ", \"quads\": " + std::to_string(quads.size() / 6) + ", \"stress\": " + stress + "}\n" +
-           bytes_of(points) + bytes_of(quads);
+           ", \"quads\": " + std::to_string(quads.size() / 6) + ", \"stress\": " + stress +
+           (run.dam->water ? ", \"pressure\": true}\n" : "}\n") + bytes_of(points) + bytes_of(quads);
   }
 
-  /** Returns the present state: time [s], three units, and numbers of displacement, stress and opening. */
+  /** Returns the dynamic pressure of the water at each node of the surface [Pa]; 0 at dry nodes. */
+  std::vector<float> FrameObserver::pressures() const
+  {
+    const std::vector<double> all = run.dam->water->at_dam(run.dam->water->pressure());
+    std::vector<float>        values;
+    for (const unsigned int node : nodes)
+      values.push_back(static_cast<float>(all[node]));
+    return values;
+  }
+
+  /** Returns the present state: time [s], three units, and numbers of displacement, stress and opening; with acoustic
+   * water also unit and numbers of the pressure. */
   std::string FrameObserver::frame() const
   {
-    const Quantized u(displacements()), s(stresses_now()), d(openings());
-    return bytes_of(run.newmark->state().time) + bytes_of(u.unit) + bytes_of(s.unit) + bytes_of(d.unit) +
-           bytes_of(u.numbers) + bytes_of(s.numbers) + bytes_of(d.numbers);
+    const Quantized   u(displacements()), s(stresses_now()), d(openings());
+    const std::string text = bytes_of(run.newmark->state().time) + bytes_of(u.unit) + bytes_of(s.unit) +
+                             bytes_of(d.unit) + bytes_of(u.numbers) + bytes_of(s.numbers) +
+                             bytes_of(d.numbers);
+    if (!run.dam->water)
+      return text;
+    const Quantized p(pressures());
+    return text + bytes_of(p.unit) + bytes_of(p.numbers);
   }
 
   void FrameObserver::flush()
@@ -168,10 +184,12 @@ namespace Voussoir
   /** Shortens the file of the previous process to the frames up to the present time. */
   void FrameObserver::keep_frames_so_far(const std::string &name, const std::string &head)
   {
+    const bool    water = run.dam->water != nullptr;
     std::ifstream in(name, std::ios::binary);
-    std::string   old(head.size(), ' '), text(sizeof(double) + 3 * sizeof(float) + 10 * nodes.size(), ' ');
-    std::size_t   size = 0;
-    double        time = 0.;
+    std::string   old(head.size(), ' '),
+        text(sizeof(double) + (water ? 4 : 3) * sizeof(float) + (water ? 12 : 10) * nodes.size(), ' ');
+    std::size_t size = 0;
+    double      time = 0.;
     if (!in.read(&old[0], old.size()) || old != head)
       return;
     for (size = head.size(); in.read(&text[0], text.size()); size += text.size())

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/number_text.h>
 #include <voussoir/output/archive.h>
 #include <voussoir/output/observers.h>
 
@@ -31,6 +32,10 @@ namespace Voussoir
       declare_point(probe.first, probe_node(model, probe.first, dealii::Point<3>(p[0], p[1], p[2])));
     }
     declare_accelerations();
+    for (const double depth : run.scene().output.pressure_depths)
+      if (const AcousticWater *water = run.dam->water.get())
+        table.add("pressure_" + number_text(depth),
+                  [water, node = water->node_at(depth)] { return water->pressure()[node]; });
   }
 
   void HistoryObserver::declare_point(const std::string &name, const unsigned int node)

@@ -51,7 +51,7 @@ namespace Voussoir
       return {};
     const AcousticWater *water = run.dam->water.get();
     return tractions.at(run.newmark->state().force, run.acceleration,
-                        water ? water->pressure_at_dam() : std::vector<double>());
+                        water ? water->at_dam(water->pressure()) : std::vector<double>());
   }
 
   std::vector<Stress> StressObserver::now()
@@ -75,6 +75,9 @@ namespace Voussoir
     for (unsigned int k = 0; k < FaceDirections::n_stresses; ++k)
       for (const bool largest : {true, false})
         fields.push_back({FaceEnvelope::name(k, largest), envelope.faces.field(model.n_nodes(), k, largest)});
+    if (water != nullptr)
+      for (const FieldWriter::NodalField &field : water->fields())
+        fields.push_back(field);
     writer.write_faces(directory, *run.dam->geometry, fields);
     fields.push_back({"max_joint_pressure", joints.largest_pressure(model)});
     writer.write_vtu(directory + "/envelope.vtu", {}, fields);

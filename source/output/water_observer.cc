@@ -63,6 +63,13 @@ namespace Voussoir
           1e-6 * driest.value, q[0], q[1], q[2], driest.time);
   }
 
+  std::vector<FieldWriter::NodalField> WaterObserver::fields() const
+  {
+    const std::vector<double> high = water.at_dam(largest), low = water.at_dam(smallest);
+    return {{"max_water_pressure", {high.begin(), high.end()}},
+            {"min_water_pressure", {low.begin(), low.end()}}};
+  }
+
   Json WaterObserver::json() const
   {
     const auto of = [&](const Extreme &extreme)

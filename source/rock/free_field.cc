@@ -290,6 +290,45 @@ namespace Voussoir
       }
   }
 
+  Unknowns FreeField::upstream(const std::vector<Vector3> &places)
+  {
+    Section *section = nullptr;
+    for (const auto &other : sections)
+      if (other->direction == 0 && (section == nullptr || other->plane < section->plane))
+        section = other.get();
+    if (section != nullptr)
+      section->region->gather_motion();
+    else if (is_split)
+    {
+      Unknowns &motion = columns[highest]->motion();
+      Ranks::broadcast(motion.data(), motion.size(), share.owner(highest));
+    }
+    if (section != nullptr && upstream_nodes.empty())
+      for (const Vector3 &place : places)
+      {
+        const auto distance = [&](const std::array<double, 3> &p)
+        { return std::hypot(p[1] - place[1], p[2] - place[2]); };
+        const auto &points = section->model.points;
+        upstream_nodes.push_back(std::min_element(points.begin(), points.end(),
+                                                  [&](const auto &a, const auto &b)
+                                                  { return distance(a) < distance(b); }) -
+                                 points.begin());
+      }
+    Unknowns result;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+        if (section != nullptr)
+          result.push_back(section->region->displacement()[3 * std::size_t(upstream_nodes[i]) + c]);
+        else
+        {
+          const Point point = in_column(highest, places[i][2]);
+          result.push_back(0.);
+          for (unsigned int j = 0; j < 4; ++j)
+            result.back() += point.weight[j] * point.value[j][c];
+        }
+    return result;
+  }
+
   void FreeField::gather_on_root()
   {
     for (unsigned int c = 0; is_split && c < columns.size(); ++c)

@@ -77,9 +77,9 @@ namespace Voussoir
     }
   } // namespace
 
-  AcousticWater::AcousticWater(const SolidModel &dam, Structure &structure, const WaterProperties &given,
-                               const double level)
-      : level(level), dam(dam), structure(structure),
+  AcousticWater::AcousticWater(const SolidModel &dam, Structure &structure, Foundation &foundation,
+                               const WaterProperties &given, const double level)
+      : level(level), dam(dam), structure(structure), foundation(foundation),
         properties(complete(given, depth_below(wet_quads(dam), level))),
         section(wet_quads(dam), level, properties.h), coupling(dam, section, level, properties.h)
   {
@@ -89,6 +89,7 @@ namespace Voussoir
   {
     dt = time_step;
     model = std::make_unique<WaterModel>(section, properties, dt);
+    far = std::make_unique<WaterModel>(model->far_channel(section, properties, dt));
     if (model->mass_factor <= largest_mass_factor)
       return;
     const double factor = model->mass_factor;
@@ -105,10 +106,16 @@ namespace Voussoir
 
   void AcousticWater::report(Log &log) const
   {
-    log.line(
-        "Water     acoustic: %u nodes, elements of %.3g m, %.3g m3; critical time step %.3g s; mass increased by "
-        "the factor %.3f",
-        model->n_nodes(), properties.h, model->volume, model->critical_step, model->mass_factor);
+    log.line("Water     level %g m; %u nodes, elements of %.3g m, %.3g m3", level, model->n_nodes(),
+             properties.h, model->volume);
+    if (dt == 0.)
+      return;
+    log.line("          compressible; critical time step %.3g s; mass increased by the factor %.3f",
+             model->critical_step, model->mass_factor);
+    if (!foundation.moves_base())
+      log.line(
+          "          bed and banks move with the free field of the rock; the water does not act on the rock "
+          "upstream of the dam");
     if (model->mass_factor > noticeable_mass_factor)
       log.line(
           "warning: the mass of the water is increased by %.1f %% for the time step of %g s. Frequencies change "
@@ -129,6 +136,19 @@ namespace Voussoir
     }
     pi.assign(n, 0.);
     phi = before = K_phi = pi;
+    for (std::size_t i = 0; i < far->n_nodes(); ++i)
+      far_inverse.push_back(far->at_surface[i] ? 0. : 1. / (far->mass[i] / dt + .5 * far->bed_damping[i]));
+    far_pi.assign(far->n_nodes(), 0.);
+    far_phi = far_mean = far_pi;
+    bed_velocity.assign(model->n_section, Vector3{});
+    std::vector<Vector3> places;
+    for (unsigned int j = 0; j < model->n_section; ++j)
+      places.push_back({{section.face_x[j], section.points[j][0], section.points[j][1]}});
+    valley = foundation.valley(places);
+    valley_place.assign(valley ? 3 * places.size() : 0, 0.);
+    valley_velocity = valley_place;
+    if (!motion.stations.empty())
+      banks = std::make_unique<BaseMotion>(motion, places);
     for (const unsigned int node : coupling.dam_nodes)
       for (unsigned int c = 0; c < 3; ++c)
         u_wet.push_back(u[3 * std::size_t(node) + c]);
@@ -185,13 +205,54 @@ namespace Voussoir
         });
   }
 
-  void AcousticWater::advance(Unknowns &load)
+  /** Computes the mean velocities of bed and banks in the step. */
+  void AcousticWater::find_bed_velocity()
   {
-    const Stopwatch   watch;
     const std::size_t step = record[steps], last = ground_velocity.size() - 1;
     Vector3           v_g;
     for (unsigned int c = 0; c < 3; ++c)
       v_g[c] = .5 * (ground_velocity[std::min(step, last)][c] + ground_velocity[std::min(step + 1, last)][c]);
+    base_velocity = foundation.moves_base() ? v_g : Vector3{};
+    std::fill(bed_velocity.begin(), bed_velocity.end(), v_g);
+    if (banks)
+    {
+      const Unknowns now = banks->displacement(step * dt), then = banks->displacement((step + 1) * dt);
+      for (std::size_t k = 0; k < now.size(); ++k)
+        bed_velocity[k / 3][k % 3] += (then[k] - now[k]) / dt;
+    }
+    if (!valley)
+      return;
+    const auto [place, lead] = valley();
+    for (std::size_t k = 0; k < place.size(); ++k)
+    {
+      const double velocity = (place[k] - valley_place[k]) / dt; // extrapolated linearly
+      bed_velocity[k / 3][k % 3] = velocity + lead / dt * (velocity - valley_velocity[k]);
+      valley_velocity[k] = velocity;
+    }
+    valley_place = place;
+  }
+
+  void AcousticWater::advance_far_channel()
+  {
+    std::vector<double> K_phi;
+    far->multiply(far_phi, K_phi);
+    for (std::size_t i = 0; i < far_pi.size(); ++i)
+    {
+      const double C = far->bed_damping[i],
+                   pi = ((far->mass[i] / dt - .5 * C) * far_pi[i] - K_phi[i] +
+                         properties.density * dot(far->ground[i], bed_velocity[i % model->n_section])) *
+                        far_inverse[i];
+      far_mean[i] = .5 * (far_pi[i] + pi);
+      far_pi[i] = pi;
+      far_phi[i] += dt * pi;
+    }
+  }
+
+  void AcousticWater::advance(Unknowns &load)
+  {
+    const Stopwatch watch;
+    find_bed_velocity();
+    advance_far_channel();
     model->multiply(phi, K_phi);
     before = pi;
     const double rho = properties.density;
@@ -199,11 +260,12 @@ namespace Voussoir
     for (int i = 0; i < static_cast<int>(pi.size()); ++i)
     {
       const double C = model->bed_damping[i] + model->end_damping[i];
-      double       source = dot(model->ground[i], v_g);
-      if (i <
-          static_cast<int>(coupling.area.size())) // the displacements of the dam are relative to the ground
-        source += dot(coupling.area[i], v_g);
-      pi[i] = ((model->mass[i] / dt - .5 * C) * pi[i] - K_phi[i] + rho * source) * inverse[i];
+      double       source = dot(model->ground[i], bed_velocity[i % model->n_section]);
+      if (i < static_cast<int>(coupling.area.size()))
+        source += dot(coupling.area[i], base_velocity);
+      pi[i] = ((model->mass[i] / dt - .5 * C) * pi[i] - K_phi[i] + rho * source +
+               model->end_damping[i] * far_mean[i % model->n_section]) *
+              inverse[i];
     }
     for (const WaterCoupling::Share &share : coupling.shares)
       for (unsigned int c = 0; c < 3 && share.wet != rigid_ground; ++c)
@@ -230,27 +292,22 @@ namespace Voussoir
     for (std::size_t i = 0; i < source.size(); ++i)
       pi[i] += rho * source[i] * inverse[i] / dt;
 
-    const std::size_t step = record[steps], last = ground_velocity.size() - 1;
-    double            stored = 0.;
+    double stored = 0.;
     for (std::size_t i = 0; i < pi.size(); ++i)
     {
       const double mean = .5 * (pi[i] + before[i]);
       phi[i] += dt * pi[i];
       stored += .5 * model->mass[i] * pi[i] * pi[i] + .5 * K_phi[i] * phi[i];
-      record[radiated] += dt * mean * model->end_damping[i] * mean;
+      record[radiated] += dt * mean * model->end_damping[i] * (mean - far_mean[i % model->n_section]);
       record[absorbed] += dt * mean * model->bed_damping[i] * mean;
       if (i < source.size())
         record[work_of_dam] += rho * mean * source[i];
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        const double v =
-            .5 * (ground_velocity[std::min(step, last)][c] + ground_velocity[std::min(step + 1, last)][c]);
-        record[work_of_ground] +=
-            dt * rho * mean * v * (model->ground[i][c] + (i < source.size() ? coupling.area[i][c] : 0.));
-      }
+      record[work_of_ground] += dt * rho * mean * dot(model->ground[i], bed_velocity[i % model->n_section]);
+      if (i < source.size())
+        record[work_of_ground] += dt * rho * mean * dot(coupling.area[i], base_velocity);
     }
     record[energy] = stored;
-    record[largest] = std::max({record[largest], stored, record[radiated], record[absorbed],
+    record[largest] = std::max({record[largest], stored, std::abs(record[radiated]), record[absorbed],
                                 std::abs(record[work_of_dam]), std::abs(record[work_of_ground])});
     record[steps] += 1.;
     watch_total += watch.seconds();
@@ -285,16 +342,21 @@ namespace Voussoir
   {
     if (record.empty())
       return {};
-    return {&pi, &phi, &u_wet, &record};
+    return {&pi, &phi, &u_wet, &record, &far_pi, &far_phi, &valley_place, &valley_velocity};
+  }
+
+  std::vector<double> AcousticWater::source(const WaterModel &water, const Unknowns &x) const
+  {
+    std::vector<double> result(water.n_nodes(), 0.);
+    for (const WaterCoupling::Share &share : coupling.shares)
+      if (share.wet != rigid_ground)
+        result[share.water] += properties.density * dot(share.area, get(x, coupling.dam_nodes[share.wet]));
+    return result;
   }
 
   void AcousticWater::add_incompressible_mass(const WaterModel &water, const Unknowns &x, Unknowns &y) const
   {
-    std::vector<double> source(water.n_nodes(), 0.);
-    for (const WaterCoupling::Share &share : coupling.shares)
-      if (share.wet != rigid_ground)
-        source[share.water] += properties.density * dot(share.area, get(x, coupling.dam_nodes[share.wet]));
-    const std::vector<double> potential = water.solve(source);
+    const std::vector<double> potential = water.solve(source(water, x));
     for (const WaterCoupling::Share &share : coupling.shares)
       for (unsigned int c = 0; c < 3 && share.wet != rigid_ground; ++c)
         y[3 * std::size_t(coupling.dam_nodes[share.wet]) + c] +=
@@ -314,12 +376,24 @@ namespace Voussoir
     return result;
   }
 
-  std::vector<double> AcousticWater::pressure_at_dam() const
+  unsigned int AcousticWater::node_at(const double depth) const
+  {
+    const auto  &points = section.points;
+    const Point2 deepest = *std::min_element(points.begin(), points.end(),
+                                             [](const Point2 &a, const Point2 &b) { return a[1] < b[1]; });
+    const auto   distance = [&](const Point2 &p)
+    { return std::hypot(p[0] - deepest[0], p[1] - level + depth); };
+    return std::min_element(points.begin(), points.end(),
+                            [&](const Point2 &a, const Point2 &b) { return distance(a) < distance(b); }) -
+           points.begin();
+  }
+
+  std::vector<double> AcousticWater::at_dam(const std::vector<double> &values) const
   {
     std::vector<double> result(dam.n_nodes(), 0.);
-    for (unsigned int i = 0; i < dam.n_nodes() && !pi.empty(); ++i)
+    for (unsigned int i = 0; i < dam.n_nodes() && !values.empty(); ++i)
       if (const unsigned int water = coupling.nearest[i]; water != rigid_ground)
-        result[i] = -properties.density * pi[water];
+        result[i] = values[water];
     return result;
   }
 

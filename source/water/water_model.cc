@@ -122,7 +122,23 @@ namespace Voussoir
     add_layers(section, properties);
     make_pattern(section);
     assemble_cells(section, properties, dt);
-    add_boundaries(section, properties);
+    add_bed(section, properties);
+    add_end(section, properties);
+  }
+
+  WaterModel WaterModel::far_channel(WaterSection section, const WaterProperties &properties,
+                                     const double dt) const
+  {
+    section.face_x.assign(n_section, 0.);
+    WaterModel far(n_section);
+    far.layers = {0., 1.};
+    far.first_damped = 1;
+    far.place_nodes(section, last_length);
+    far.make_pattern(section);
+    far.assemble_cells(section, properties, dt);
+    far.end_damping.assign(far.n_nodes(), 0.);
+    far.add_bed(section, properties);
+    return far;
   }
 
   /** Places the layers: lengths of the elements from h to 2 h in an arithmetic progression, then the damped layers. */
@@ -141,7 +157,14 @@ namespace Voussoir
     const double whole = layers.back();
     for (double &place : layers)
       place /= whole;
-    const double end = *std::min_element(section.face_x.begin(), section.face_x.end()) - whole;
+    last_length = lengths.back();
+    place_nodes(section, whole);
+  }
+
+  /** Places the nodes of the layers between the dam and the flat end. @p length: smallest one of the channel [m]. */
+  void WaterModel::place_nodes(const WaterSection &section, const double length)
+  {
+    const double end = *std::min_element(section.face_x.begin(), section.face_x.end()) - length;
     for (const double t : layers)
       for (unsigned int j = 0; j < n_section; ++j)
       {
@@ -218,15 +241,15 @@ namespace Voussoir
     critical_step = 2. / fastest;
     end_damping.assign(points.size(), 0.);
     const double from = layers[first_damped];
-    for (std::size_t i = first_damped * n_section; i < points.size(); ++i)
+    for (std::size_t i = first_damped * n_section; i < points.size() && from < 1.; ++i)
       end_damping[i] =
           c / properties.depth * std::pow((layers[i / n_section] - from) / (1. - from), 2) * unscaled[i];
   }
 
-  void WaterModel::add_boundaries(const WaterSection &section, const WaterProperties &properties)
+  void WaterModel::add_bed(const WaterSection &section, const WaterProperties &properties)
   {
-    const double rho = properties.density, c = properties.sound_speed,
-                 q = (1. - properties.reflection) / (1. + properties.reflection) / c;
+    const double rho = properties.density,
+                 q = (1. - properties.reflection) / (1. + properties.reflection) / properties.sound_speed;
     bed_damping.assign(points.size(), 0.);
     ground.assign(points.size(), Vector3{});
     for (std::size_t k = 0; k + 1 < layers.size(); ++k)
@@ -252,6 +275,10 @@ namespace Voussoir
                      }
                    });
       }
+  }
+
+  void WaterModel::add_end(const WaterSection &section, const WaterProperties &properties)
+  {
     const std::size_t last = (layers.size() - 1) * n_section;
     for (const auto &cell : section.cells)
     {
@@ -262,66 +289,93 @@ namespace Voussoir
                  [&](const Vector3 &area, const std::array<double, 4> &N)
                  {
                    for (unsigned int i = 0; i < 4; ++i)
-                     end_damping[last + cell[i]] += rho / c * N[i] * norm(area);
+                     end_damping[last + cell[i]] +=
+                         properties.density / properties.sound_speed * N[i] * norm(area);
                  });
     }
   }
 
-  void WaterModel::multiply(const std::vector<double> &phi, std::vector<double> &K_phi) const
+  template <class Number>
+  void WaterModel::multiply(const std::vector<Number> &phi, std::vector<Number> &K_phi) const
   {
     K_phi.resize(phi.size());
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < static_cast<int>(phi.size()); ++i)
     {
-      double sum = 0.;
+      Number sum = 0.;
       for (std::size_t k = start[i]; k < start[i + 1]; ++k)
         sum += value[k] * phi[column[k]];
       K_phi[i] = sum;
     }
   }
 
-  std::vector<double> WaterModel::solve(const std::vector<double> &source) const
+  template void WaterModel::multiply(const std::vector<double> &, std::vector<double> &) const;
+
+  template <class Number>
+  std::vector<Number> WaterModel::solve_diagonal_plus(const std::vector<Number> &diagonal,
+                                                      std::vector<Number>        r) const
   {
-    std::vector<double> phi(n_nodes(), 0.), r = source, z(n_nodes()), p, Kp, inverse(n_nodes(), 0.);
-    for (unsigned int i = 0; i < n_nodes(); ++i)
+    const unsigned int  n = n_nodes();
+    std::vector<Number> phi(n, 0.), z(n, 0.), p, Ap, inverse(n, 0.);
+    for (unsigned int i = 0; i < n; ++i)
       for (std::size_t k = start[i]; k < start[i + 1] && !at_surface[i]; ++k)
         if (column[k] == i)
-          inverse[i] = 1. / value[k];
+          inverse[i] = 1. / (value[k] + diagonal[i]);
+    double     size = 0.;
     const auto precondition = [&]
     {
-      double product = 0.;
-      for (unsigned int i = 0; i < n_nodes(); ++i)
+      Number product = 0.;
+      size = 0.;
+      for (unsigned int i = 0; i < n; ++i)
       {
-        r[i] = at_surface[i] ? 0. : r[i];
+        r[i] = at_surface[i] ? Number(0.) : r[i];
         z[i] = inverse[i] * r[i];
         product += r[i] * z[i];
+        size += std::abs(r[i]) * std::abs(z[i]);
       }
       return product;
     };
-    double       rz = precondition();
-    const double first = rz;
+    Number       rz = precondition();
+    const double first = size;
     p = z;
     constexpr unsigned int most = 5000;
-    for (unsigned int iteration = 0; rz > 1e-24 * first; ++iteration)
+    for (unsigned int iteration = 0; size > 1e-24 * first; ++iteration)
     {
       if (iteration == most)
-        throw ComputationError("The potential of the incompressible water did not converge in " +
-                               std::to_string(most) + " iterations. Increase Reservoir/Element size.");
-      multiply(p, Kp);
-      double pKp = 0.;
-      for (unsigned int i = 0; i < n_nodes(); ++i)
-        pKp += p[i] * Kp[i];
-      const double step = rz / pKp;
-      for (unsigned int i = 0; i < n_nodes(); ++i)
+        throw ComputationError("The potential of the water did not converge in " + std::to_string(most) +
+                               " iterations. Increase Reservoir/Element size.");
+      multiply(p, Ap);
+      Number pAp = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        Ap[i] += diagonal[i] * p[i];
+        pAp += p[i] * Ap[i];
+      }
+      const Number step = rz / pAp;
+      for (unsigned int i = 0; i < n; ++i)
       {
         phi[i] += step * p[i];
-        r[i] -= step * Kp[i];
+        r[i] -= step * Ap[i];
       }
-      const double before = rz;
+      const Number before = rz;
       rz = precondition();
-      for (unsigned int i = 0; i < n_nodes(); ++i)
+      for (unsigned int i = 0; i < n; ++i)
         p[i] = z[i] + rz / before * p[i];
     }
     return phi;
+  }
+
+  std::vector<double> WaterModel::solve(const std::vector<double> &source) const
+  {
+    return solve_diagonal_plus(std::vector<double>(n_nodes(), 0.), source);
+  }
+
+  std::vector<std::complex<double>> WaterModel::solve(const std::complex<double>               s,
+                                                      const std::vector<std::complex<double>> &source) const
+  {
+    std::vector<std::complex<double>> diagonal;
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+      diagonal.push_back(s * (bed_damping[i] + end_damping[i]) + s * s * mass[i]);
+    return solve_diagonal_plus(diagonal, source);
   }
 } // namespace Voussoir

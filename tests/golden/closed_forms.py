@@ -128,7 +128,7 @@ def added_mass():
     everywhere; over a valley with the local depth H(y) it is the integral of 7/12 rho H(y)^2, with the greatest H0 everywhere
     that of 7/12 rho sqrt(H0) H(y)^1.5; both kinds. By the nodes' areas (trapezoids in sqrt(h)) a little less."""
     check = Worst("added mass")
-    westergaard = {"Density": 1000, "Added mass": "Westergaard"}
+    westergaard = {"Density": 1000, "Model": "Westergaard"}
 
     def total(name, mesh, **entries):
         shown = runs(scene(name, mesh, Reservoir={**westergaard, **entries}), "--validate")
@@ -138,7 +138,7 @@ def added_mass():
     n, H, b = 60, 60., 10.
     nodal = 7 / 8 * 1000 * b * H / n * (H / 2 + sum(math.sqrt(H * (H - H * k / n)) for k in range(1, n)))
     for depth in ("global", "local"):
-        check.close("wall, by its nodes", total("wall", "wall.msh", Depth=depth, **{"Added mass": "Westergaard-nodal"}),
+        check.close("wall, by its nodes", total("wall", "wall.msh", Depth=depth, **{"Model": "Westergaard-nodal"}),
                     nodal, 5e-4)
         check.close("wall", total("wall", "wall.msh", Depth=depth), 7 / 12 * 1000 * b * H**2, 5e-4)
     check.close("wall, factor 0.5", total("wall", "wall.msh", Factor=.5), 7 / 24 * 1000 * b * H**2, 5e-4)

@@ -121,7 +121,7 @@ def scene(name, mesh, **sections):
         "Mesh": {"Source": "file", "File": mesh},
         "Concrete": {"Young's modulus": E, "Poisson's ratio": 0, "Density": DENSITY},
         "Damping": {"Ratio": 0}, "Joints": {"Model": "tied"}, "Motion": {"Source": "none"},
-        "Reservoir": {"Water level": 60, "Density": 0, "Added mass": "none"},
+        "Reservoir": {"Water level": 60, "Density": 0, "Model": "none"},
         "Statics": {"Self-weight": "none", "Gravity": GRAVITY}, "Elements": {}, "Foundation": {}, "Dynamics": {},
         "Output": {"Figures": "false", "Checkpoint interval": 0, "Solution interval": 1000000}}
     for section, values in sections.items():

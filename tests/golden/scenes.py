@@ -101,9 +101,9 @@ def prm(scene, directory):
         "Elements": {"Degree": scene.get("degree", 1), "Incompatible modes": str(scene.get("modes", False)).lower()},
         "Concrete": {"Young's modulus": 21e9, "Poisson's ratio": .17, "Density": 2400},
         "Damping": dict(zip(("Ratio", "Frequency 1", "Frequency 2"), scene["damping"])),
-        "Reservoir": {"Water level": scene["level"], "Density": 1000, "Added mass": "Westergaard-nodal", "Depth": scene.get("depth"),
+        "Reservoir": {"Water level": scene["level"], "Density": 1000, "Model": "Westergaard-nodal", "Depth": scene.get("depth"),
                       "Factor": scene.get("factor")} if "depth" in scene else
-                     {"Water level": scene["level"], "Density": 1000, "Added mass": "none"},
+                     {"Water level": scene["level"], "Density": 1000, "Model": "none"},
         "Joints": {"Model": scene["law"], **({"Friction": scene["friction"]} if "friction" in scene else {})},
         "Statics": {"Self-weight": "staged" if scene["staged"] else "monolithic", "Gravity": 9.81},
         "Motion": write_motion(scene, directory),
@@ -149,7 +149,7 @@ subsection Damping # proportional to stiffness alone
 end
 subsection Reservoir
   set Water level = {c["level"]}
-  set Added mass  = none
+  set Model       = none
 end
 subsection Joints
   set Model = tied

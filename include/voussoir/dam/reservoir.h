@@ -18,10 +18,12 @@ namespace Voussoir
   {
     double      level = 195.;               ///< height z of the water surface [m]
     double      density = 1000.;            ///< 0: empty reservoir [kg/m^3]
-    std::string added_mass = "Westergaard"; ///< Westergaard, Westergaard-nodal or none
+    std::string model = "Westergaard";      ///< row of the table of models: water_model_names()
+    std::string added_mass = "Westergaard"; ///< old entry for the model Westergaard
+    std::string table;                      ///< file of the model "added mass table"
+    std::string directory = ".";            ///< of the input file
     std::string depth = "global";           ///< global or local
     double      factor = 1.;                ///< of the added mass [-]
-    std::string model = "Westergaard";      ///< Westergaard or acoustic
     double      sound_speed = 1440.;        ///< [m/s]
     double      reflection = 1.;            ///< of bed and banks [-]
     double      length = 0.;                ///< of the channel without damping [m]; 0: two depths
@@ -30,10 +32,19 @@ namespace Voussoir
     /** Declares the entries of the subsection. */
     void add_parameters(Entries &prm);
 
+    /** Returns the model, also of older scenes with the entry "Added mass". */
+    const std::string &kind() const { return model == "Westergaard" ? added_mass : model; }
+
+    /** Returns the model of the added mass for the log, with its factor. */
+    std::string name_of_mass() const;
+
     /** Returns true if the water is compressible. */
     bool is_acoustic() const { return model == "acoustic" && density > 0.; }
 
-    /** Adds the changes of water and added mass. */
+    /** Returns true if the water has a mesh. */
+    bool is_meshed() const { return (model == "acoustic" || model == "incompressible") && density > 0.; }
+
+    /** Adds the changes of the water. */
     void add_choices(ModelChoices &choices) const;
   };
 
@@ -41,30 +52,25 @@ namespace Voussoir
   void add_water_pressure(const SolidModel &model, const ReservoirParameters &reservoir, double gravity,
                           Unknowns &load);
 
-  /** Adds Westergaard's added mass to structure.mass and structure.added_mass. Per area of the surface
-   * "upstream" it is 7/8 rho sqrt(H h) n n^T. h is the depth below the water level. H is the depth of the
-   * reservoir, global at its deepest point, or local in the same vertical section (Kuo 1982). The mass is
-   * integrated over the submerged part and lumped to the nodes by the shape functions. Returns the total for
-   * motion along x [kg]. */
-  double add_westergaard_mass(const SolidModel &model, const ReservoirParameters &reservoir,
-                              Structure &structure);
-
-  /** Adds Westergaard's added mass, evaluated at the nodes and multiplied by their areas. Returns the total
-   * for motion along x [kg]. */
-  double add_nodal_westergaard_mass(const SolidModel &model, const ReservoirParameters &reservoir,
-                                    Structure &structure);
-
-  /** Adds the added mass of ReservoirParameters::added_mass. Returns the total for motion along x [kg]. */
+  /** Adds the added mass of the model to structure.mass and structure.added_mass.
+   *
+   * Westergaard: per area of the surface "upstream" it is 7/8 rho sqrt(H h) n n^T. h is the depth below the water
+   * level. H is the depth of the reservoir, global at its deepest point, or local in the same vertical section
+   * (Kuo 1982). The mass of this model and of a table is integrated over the submerged part and lumped to the nodes
+   * by the shape functions. Westergaard-nodal: the formula at the nodes times their areas.
+   *
+   * Returns the total for motion along x, with that of fixed nodes [kg]. Throws InputError for a
+   * wrong table. */
   double add_added_mass(const SolidModel &model, const ReservoirParameters &reservoir, Structure &structure);
 
   /** Returns the added mass per area of the surface "upstream" per node of the model [kg/m^2], or empty. */
   std::vector<double> added_mass_per_area(const SolidModel &model, const ReservoirParameters &reservoir);
 
-  /** Returns the options as a selection of ParameterHandler: "Westergaard|Westergaard-nodal|none". */
-  std::string added_mass_names();
+  /** Returns the models as a selection of ParameterHandler: "none|Westergaard|...". */
+  std::string water_model_names();
 
-  /** Returns the help texts of the options. */
-  std::string added_mass_docs();
+  /** Returns the help texts of the models. */
+  std::string water_model_docs();
 } // namespace Voussoir
 
 #endif

@@ -80,6 +80,7 @@ namespace Voussoir
   struct OutputParameters
   {
     std::map<std::string, std::string> probes;                        ///< positions "x y z" [m] by name
+    std::vector<double>                pressure_depths;               ///< below the water level [m]
     unsigned int                       envelope_interval = 1;         ///< [steps], 0: none
     unsigned int                       solution_interval = 0;         ///< [steps], 0: none
     unsigned int                       frames = 200;                  ///< largest number, 0: none

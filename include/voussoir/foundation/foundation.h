@@ -39,6 +39,11 @@ namespace Voussoir
   /** Solves for the static state of the dam under nodal loads, three values per node of the dam [N]. */
   using DamSolve = std::function<ContactResult(const Unknowns &load)>;
 
+  /** Returns the displacement of the ground without the dam at places of the valley, three values per place [m], from
+   * the start of the earthquake, and the time from this displacement to the end of the coming time step of the dam [s].
+   * Must be called once in each step, by all ranks, after Neighbour::advance() of the foundation. */
+  using ValleyMotion = std::function<std::pair<Unknowns, double>()>;
+
   /** Part of a foundation that is known before a run: what it requires of mesh and time step, and its
    * description. */
   class FoundationSetup
@@ -102,6 +107,10 @@ namespace Voussoir
     /** Returns true if displacements are relative to the ground and the ground motion acts as an inertia load
      * on the dam. Returns false if displacements are absolute. */
     virtual bool moves_base() const { return true; }
+
+    /** Returns the motion of the valley upstream of the dam at the given places [m], or null if it is the ground
+     * motion. The x coordinate of a place does not count. Must be called after Neighbour::start(). */
+    virtual ValleyMotion valley(const std::vector<Vector3> & /*places*/) { return nullptr; }
 
     /** Adds the stiffness of the foundation to the structure and stores the base nodes. The nodes of the dam
      * are final and treated according to base(). */

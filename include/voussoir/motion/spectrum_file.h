@@ -2,8 +2,7 @@
 #ifndef voussoir_spectrum_file_h
 #define voussoir_spectrum_file_h
 
-#include <string>
-#include <vector>
+#include <voussoir/base/curve_file.h>
 
 namespace Voussoir
 {
@@ -14,19 +13,16 @@ namespace Voussoir
      * Regulatory Guide 1.60. */
     static constexpr double rigid_period = 1. / 33.;
 
-    std::string         file;
-    std::vector<double> period;       ///< ascending [s]; the first is at most rigid_period
-    std::vector<double> acceleration; ///< [m/s^2]
+    std::string file;
+    Curve       curve; ///< pseudo-acceleration [m/s^2] over the period [s]; the first is at most rigid_period
 
     /** Returns the acceleration at a period [m/s^2]: linear between the rows, constant before the first.
      * Throws InputError if the table ends at a shorter period. */
     double at(double period) const;
   };
 
-  /** Reads a table with the columns period [s], acceleration [m/s^2]. Blanks, tabs, commas or semicolons
-   * separate the numbers. The text after # is a comment. The first line may have headings. Throws InputError
-   * with file and line if a line is wrong, and if the table has fewer than two rows or begins at a period above
-   * SpectrumTable::rigid_period. */
+  /** Reads a table with the columns period [s], acceleration [m/s^2]. Throws InputError like read_curve(), and if
+   * the table begins at a period above SpectrumTable::rigid_period. */
   SpectrumTable read_spectrum(const std::string &file);
 } // namespace Voussoir
 

@@ -57,6 +57,7 @@ namespace Voussoir
     std::vector<float> displacements() const;
     std::vector<float> stresses_now() const;
     std::vector<float> openings() const;
+    std::vector<float> pressures() const;
     void               keep_frames_so_far(const std::string &name, const std::string &head);
 
     const RunState             &run;

@@ -84,6 +84,9 @@ namespace Voussoir
     void save(boost::archive::binary_oarchive &archive) const override;
     void load(boost::archive::binary_iarchive &archive) override;
 
+    /** Returns the largest and smallest dynamic pressure at the nodes of the model of the dam [Pa]. */
+    std::vector<FieldWriter::NodalField> fields() const;
+
     /** Returns "water" of summary.json: largest and smallest dynamic pressure [Pa] with place [m] and time [s]. */
     Json json() const;
 
@@ -135,6 +138,9 @@ namespace Voussoir
   public:
     /** @p joints: recorder of the contact pressures for envelope.vtu. Both arguments must outlive the observer. */
     StressObserver(const RunState &run, const JointRecorder &joints);
+
+    const WaterObserver *water = nullptr; ///< recorder of the dynamic pressures for the envelope; null: none
+
     void start() override { follow(); }
     void follow() override;
     void gather_on_root() override { envelope.gather(); }

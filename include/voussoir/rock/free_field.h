@@ -48,6 +48,12 @@ namespace Voussoir
     void end_step() override;
     void evaluate(Unknowns &u) const override;
 
+    /** Returns the displacement of the ground at places of the valley upstream, one step ahead of the region, three
+     * values per place [m]:
+     * of the nearest node of the section with the smallest x, or without sections of the highest column. All processes
+     * must call it. @p places: the x coordinate does not count. */
+    Unknowns upstream(const std::vector<Vector3> &places);
+
     unsigned int n_columns() const { return static_cast<unsigned int>(columns.size()); }
 
     std::vector<std::vector<double> *> state() override;
@@ -80,6 +86,7 @@ namespace Voussoir
     unsigned int                          highest = 0;
     std::vector<std::unique_ptr<Section>> sections;
     std::vector<Point>                    points;
+    std::vector<unsigned int>             upstream_nodes; ///< of the section upstream: upstream()
     std::vector<unsigned int>             kept; ///< indices of the points that this process requires
     bool                                  is_split = false;
     Shares                                share; ///< distribution of the columns, if is_split

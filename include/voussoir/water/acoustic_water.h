@@ -2,6 +2,7 @@
 #ifndef voussoir_acoustic_water_h
 #define voussoir_acoustic_water_h
 
+#include <voussoir/foundation/base_motion.h>
 #include <voussoir/foundation/foundation.h>
 #include <voussoir/water/water_coupling.h>
 
@@ -20,27 +21,33 @@ namespace Voussoir
    *     phi_n+3/2 = phi_n+1/2 + dt pi_n+1
    *
    * pi_n+1 depends on the displacement of the dam: Body::reaction = rho^2 A A^T / (dt D). The scheme is stable for
-   * time steps below the critical one of the water, and conserves energy. */
+   * time steps below the critical one of the water, and conserves energy.
+   *
+   * Far upstream the motion does not depend on x. Its potential is that of WaterModel::far_channel(). The damping of the
+   * end of the channel acts on the difference to it. The velocity v_g of bed and banks is one of the valley in each
+   * section: the ground motion, with the motions of the banks (Motion/Abutments), or the free field of rock with mass
+   * (BaseSupport::valley()). */
   class AcousticWater : public Neighbour
   {
   public:
     /** Meshes the section of the reservoir.
      * @param dam model of the dam; must outlive the object
      * @param structure receives the reaction of the water at start(); must outlive the object
+     * @param foundation moves bed and banks; must outlive the object
      * @param properties water; depth is computed
      * @param level water level [m]
      *
      * Throws InputError like WaterSection. */
-    AcousticWater(const SolidModel &dam, Structure &structure, const WaterProperties &properties,
-                  double level);
+    AcousticWater(const SolidModel &dam, Structure &structure, Foundation &foundation,
+                  const WaterProperties &properties, double level);
 
     void   start(const GroundMotion &motion, const TimeGrid &grid, const Unknowns &u) override;
     void   advance(Unknowns &load) override;
     void   update_from_dam(const DynamicState &state) override;
     double seconds() const override { return watch_total; }
 
-    /** Returns the energy of the water, the energies radiated at the end of the channel and absorbed at bed and
-     * banks, and the works of dam and ground on the water [J]. */
+    /** Returns the energy of the water, the energies radiated at the end of the channel (negative: it entered with the
+     * motion of the far water) and absorbed at bed and banks, and the works of dam and ground on the water [J]. */
     std::vector<std::pair<std::string, double>> energies() const override;
     double                                      balance_error() const override;
     void                                        report_balance(Log &log) const override;
@@ -53,13 +60,21 @@ namespace Voussoir
      * rho^2 A K^-1 A^T. Bed and banks are at rest. @p water: model_for(0). */
     void add_incompressible_mass(const WaterModel &water, const Unknowns &x, Unknowns &y) const;
 
+    /** Returns the source of the water for a displacement @p x of the dam, three values per node: rho A^T x, one value
+     * per node of @p water. */
+    std::vector<double> source(const WaterModel &water, const Unknowns &x) const;
+
     const WaterSection &mesh() const { return section; }
 
     /** Returns the dynamic pressure at each node of the section [Pa]. */
     std::vector<double> pressure() const;
 
-    /** Returns the dynamic pressure at each node of the model of the dam [Pa]; zero at dry nodes. */
-    std::vector<double> pressure_at_dam() const;
+    /** Returns the node of the section nearest to the vertical line above the deepest point, at a depth [m]. */
+    unsigned int node_at(double depth) const;
+
+    /** Returns the values of the nearest water nodes at each node of the model of the dam; zero at dry nodes. @p values:
+     * one per node of the section. */
+    std::vector<double> at_dam(const std::vector<double> &values) const;
 
     /** Returns the mean force of the moving water in the last step on each node of the model of the dam [N], also on
      * fixed nodes. */
@@ -81,20 +96,30 @@ namespace Voussoir
 
   private:
     void set_reaction();
+    void find_bed_velocity();
+    void advance_far_channel();
 
     const SolidModel           &dam;
     Structure                  &structure;
+    Foundation                 &foundation;
     WaterProperties             properties;
     WaterSection                section;
     WaterCoupling               coupling;
     std::unique_ptr<WaterModel> model;
     double                      dt = 0.;
+    std::unique_ptr<WaterModel> far;    ///< section of the far channel
+    std::unique_ptr<BaseMotion> banks;  ///< motion of the banks relative to the ground motion, or null
+    ValleyMotion                valley; ///< displacement of bed and banks, or null
     std::vector<Vector3>        ground_velocity; ///< per step [m/s]
-    std::vector<double>         D, inverse;      ///< [kg s/m^2] and its reciprocal
-    std::vector<double>         pi, phi, K_phi, before;
-    std::vector<double>         u_wet;  ///< displacement of the dam at the last step, 3 per wet dam node [m]
-    std::vector<double>         record; ///< step, energies: see acoustic_water.cc
-    double                      watch_total = 0.;
+    Vector3              base_velocity; ///< mean in the step of the axes of the dam's displacements [m/s]
+    std::vector<Vector3> bed_velocity;  ///< per node of the section: mean in the step [m/s]
+    std::vector<double>  D, inverse;    ///< [kg s/m^2] and its reciprocal
+    std::vector<double>  far_inverse, far_pi, far_phi, far_mean; ///< as pi and phi; mean of pi in the step
+    std::vector<double>  valley_place, valley_velocity; ///< last displacement [m] and mean velocity [m/s]
+    std::vector<double>  pi, phi, K_phi, before;
+    std::vector<double>  u_wet;  ///< displacement of the dam at the last step, 3 per wet dam node [m]
+    std::vector<double>  record; ///< step, energies: see acoustic_water.cc
+    double               watch_total = 0.;
   };
 } // namespace Voussoir
 

@@ -4,6 +4,8 @@
 
 #include <voussoir/water/water_section.h>
 
+#include <complex>
+
 namespace Voussoir
 {
   /** Properties of compressible water. */
@@ -34,14 +36,23 @@ namespace Voussoir
      * @param dt time step [s]; 0: none. The mass of elements with a critical time step below 1.02 dt is increased. */
     WaterModel(const WaterSection &section, const WaterProperties &properties, double dt);
 
+    /** Returns the model of the far channel: one straight layer, as long as the last one of this model, with free
+     * ends. If bed and banks have the same motion on both sides of the layer, phi does not depend on x. */
+    WaterModel far_channel(WaterSection section, const WaterProperties &properties, double dt) const;
+
     unsigned int n_nodes() const { return static_cast<unsigned int>(mass.size()); }
 
-    /** Computes K times phi [kg m/s^2]. */
-    void multiply(const std::vector<double> &phi, std::vector<double> &K_phi) const;
+    /** Computes K times phi [kg m/s^2]. Number: double or std::complex<double>. */
+    template <class Number> void multiply(const std::vector<Number> &phi, std::vector<Number> &K_phi) const;
 
     /** Solves K phi = source with phi = 0 at the surface. Throws ComputationError if the iteration does not
      * converge. */
     std::vector<double> solve(const std::vector<double> &source) const;
+
+    /** Solves (K + s C + s^2 M) phi = source with phi = 0 at the surface, by conjugate gradients for complex symmetric
+     * matrices. @p s: complex circular frequency [1/s]. Throws ComputationError if the iteration does not converge. */
+    std::vector<std::complex<double>> solve(std::complex<double>                     s,
+                                            const std::vector<std::complex<double>> &source) const;
 
     std::vector<Vector3> points;          ///< [m]
     std::vector<double>  mass;            ///< M [kg s^2/m^2], with the increase for the time step
@@ -55,13 +66,21 @@ namespace Voussoir
     double               critical_step;   ///< lower bound, without increase of the mass [s]
 
   private:
+    explicit WaterModel(unsigned int n_section) : n_section(n_section) {}
+    void                        place_nodes(const WaterSection &section, double length);
     void                        add_layers(const WaterSection &section, const WaterProperties &properties);
     void                        make_pattern(const WaterSection &section);
     std::array<unsigned int, 8> nodes_of(std::size_t layer, const std::array<unsigned int, 4> &cell) const;
     void assemble_cells(const WaterSection &section, const WaterProperties &properties, double dt);
-    void add_boundaries(const WaterSection &section, const WaterProperties &properties);
+    void add_bed(const WaterSection &section, const WaterProperties &properties);
+    void add_end(const WaterSection &section, const WaterProperties &properties);
+
+    template <class Number>
+    std::vector<Number> solve_diagonal_plus(const std::vector<Number> &diagonal,
+                                            std::vector<Number>        source) const;
 
     std::vector<double>       layers; ///< distances of the layers from the dam, relative to the length [-]
+    double                    last_length = 0.; ///< of the last layer [m]
     unsigned int              first_damped = 0;
     std::vector<std::size_t>  start; ///< rows of K
     std::vector<unsigned int> column;
