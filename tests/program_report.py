@@ -317,7 +317,12 @@ def content():
     expect(f"{edges[0]} m, {edges[1]} m" in text and abs(float(jacobian) - float(mesh.partition("Jacobian ")[2].partition(",")[0])) < .0051, f"{mesh}")
     runs("modes", "scene.prm", "--output", "run/modes", "--count", "4")
     Path("scene-accuracy").mkdir()
-    Path("scene-accuracy/accuracy.json").write_text(json.dumps({"error": {"openings": .0123, "tension": .034}, "wish": .02}))
+    entries = of_scene("run")
+    told = {"error": {"openings": .0123, "tension": .034}, "wish": .02, "error_bars": {}}
+    Path("scene-accuracy/accuracy.json").write_text(json.dumps({**told, "entries": {**entries, "Joints/Friction": "0.6"}}))
+    runs("report", "run")
+    expect("is of another scene (Joints/Friction = 0.6, here 0.3)" in Reader("run/report.html").text, "the error of another scene is on the page")
+    Path("scene-accuracy/accuracy.json").write_text(json.dumps({**told, "entries": entries}))
     changes = dict.fromkeys(("opening", "slip", "tension_upstream", "tension_downstream", "base_shear", "sliding_safety", "crest"), .07)
     row = {"group": "water", "name": "empty reservoir", "changes": changes, "counts": dict.fromkeys(changes, True), "cost": .9, "verdict": "matters", "reason": ""}
     Path("scene-needs").mkdir()
@@ -333,11 +338,18 @@ def content():
         expect(words in full.text and words in bare.text, f"'{words}'")
     expect(len(full.images) == len(bare.images) + 4, f"{len(full.images)} images, {len(bare.images)} without")
     expect("Further content" not in full.text and "Not shown" not in full.text, full.text[-1500:])
-    for name, said in (("run/modes/modes.csv", "is not of voussoir modes"), ("scene-accuracy/accuracy.json", "is not of voussoir accuracy"),
+    for name, said in (("run/modes/modes.csv", "is not of voussoir modes"), ("scene-accuracy/accuracy.json", "is not of this version of voussoir accuracy"),
                        ("scene-needs/needs.json", "is not of voussoir needs")):
         Path(name).write_text("mode,frequency\n1,x\n")
         runs("report", "run")
         expect(said in Reader("run/report.html").text, f"damaged {name}")
+
+
+def of_scene(directory):
+    """Entries of a run's scene, as accuracy.json has them."""
+    from voussoir.error_bars import relevant
+    from voussoir.prm import read_entries
+    return relevant({entry: value for entry, (value, _) in read_entries(Path(directory, "scene.prm").read_text()).items()})
 
 
 def added_columns(directory):
@@ -529,17 +541,14 @@ def undecided():
     runs("scene.prm", "--output", "run")
     runs("report", "run")
     expect("no error bar: run voussoir accuracy scene.prm" in Reader("run/report.html").text, "the command is not on the page")
-    from voussoir.error_bars import relevant
-    from voussoir.prm import read_entries
     from voussoir.report_tables import items, verdict
     from voussoir.runs import Run
-    found, entries = summary("run"), read_entries(Path("run/scene.prm").read_text())
+    found, entries = summary("run"), of_scene("run")
     value = found["extremes"]["max_opening"]["value"]
     Path("scene-accuracy").mkdir(exist_ok=True)
     for low, high, limit, state in ((.9, 1.2, 1.3, "satisfied"), (.9, 1.2, 1.1, "undecided"), (.9, 1.2, .95, "undecided"), (.9, 1.2, .8, "exceeded")):
         bar = {"value": 2., "combined": 2., "low": 2. * low, "high": 2. * high, "parts": {"up": .1}, "unit": "m"}  # of other seconds
-        Path("scene-accuracy/accuracy.json").write_text(json.dumps({"error": {"openings": .01, "tension": .01}, "wish": .02, "error_bars": {"max_opening": bar},
-                                                                    "entries": relevant({entry: text for entry, (text, _) in entries.items()})}))
+        Path("scene-accuracy/accuracy.json").write_text(json.dumps({"error": {"openings": .01, "tension": .01}, "wish": .02, "error_bars": {"max_opening": bar}, "entries": entries}))
         found["limits"] = {"opening": {"value": value, "limit": limit * value, "unit": "m", "satisfied": limit >= 1.}}
         Path("run/summary.json").write_text(json.dumps(found))
         run = Run("run")

@@ -111,29 +111,41 @@ def scene_name(directory, summary):
     return Path(scene).stem if scene.endswith(".prm") else scene
 
 
+def accuracy_of_scene(directory, scene, file, read):
+    """What read() returns of an accuracy.json, for the scene of a run in this directory. Throws InputError if the file is of another scene, or of
+    another version of the command."""
+    again = f"run voussoir accuracy {scene}.prm"
+    try:
+        found = json.loads(file.read_text(encoding="utf-8"))
+        entries, result = found["entries"], read(found)
+        mine = relevant({entry: value for entry, (value, _) in read_entries((Path(directory) / "scene.prm").read_text(encoding="utf-8")).items()})
+        differs = next((entry for entry in sorted({*entries, *mine}) if entries.get(entry) != mine.get(entry)), None)
+    except (ArithmeticError, AttributeError, KeyError, OSError, RecursionError, TypeError, ValueError) as error:
+        raise InputError(f"{file} is not of this version of voussoir accuracy ({type(error).__name__}): {again}") from error
+    if differs:
+        raise InputError(f"{file} is of another scene ({differs} = {entries.get(differs)}, here {mine.get(differs)}): {again}")
+    return result
+
+
 def bars_of_run(directory, summary, history):
     """Error bars of the largest values of a run: {quantity: {"value", "combined", "low", "high", "parts", "unit"}} [m, Pa].
 
     The bars of `voussoir accuracy` are of the strongest seconds; their relative errors apply to the values of the run. A value that is below half
     of the one of the run in these seconds has no bar.
     Throws InputError if there is no accuracy.json of the same scene."""
+    def bars_in(found):
+        bars = {name: found["error_bars"][name] for name in HEADLINES if name in found["error_bars"]}
+        return {name: scaled(bars[name], value) for name, value in headlines(summary, history).items()
+                if name in bars and float(bars[name]["value"]) >= SMALLEST_SHARE * value}
+
     scene = scene_name(directory, summary)
     file = beside(directory, scene, "accuracy", "accuracy.json")
     if file is None:
         raise InputError(f"no error bar: run voussoir accuracy {scene}.prm")
     try:
-        found = json.loads(file.read_text(encoding="utf-8"))
-        entries, bars = found["entries"], {name: found["error_bars"][name] for name in HEADLINES if name in found["error_bars"]}
-        mine = relevant({entry: value for entry, (value, _) in read_entries((Path(directory) / "scene.prm").read_text(encoding="utf-8")).items()})
-        differs = next((entry for entry in sorted({*entries, *mine}) if entries.get(entry) != mine.get(entry)), None)
-        if differs:
-            raise InputError(f"no error bar: {file} is of another scene ({differs} = {entries.get(differs)}, here {mine.get(differs)}): "
-                             f"run voussoir accuracy {scene}.prm")
-        return {name: scaled(bars[name], value) for name, value in headlines(summary, history).items()
-                if name in bars and float(bars[name]["value"]) >= SMALLEST_SHARE * value}
-    except (ArithmeticError, AttributeError, KeyError, OSError, RecursionError, TypeError, ValueError) as error:
-        raise InputError(f"no error bar: {file} is not of this version of voussoir accuracy ({type(error).__name__}): "
-                         f"run voussoir accuracy {scene}.prm") from error
+        return accuracy_of_scene(directory, scene, file, bars_in)
+    except InputError as error:
+        raise InputError(f"no error bar: {error}") from error
 
 
 def scaled(bar_of_window, value):

@@ -2,7 +2,6 @@
 """The first page of a report in words: how far the joints open, whether they close again, stresses, limits, validity. And what other
 commands computed for the same scene: natural modes and the error of mesh and time step."""
 
-import json
 import re
 from html import escape
 
@@ -163,13 +162,13 @@ def beside(run, command, file):
 
 
 def accuracy_of(run):
-    """accuracy.json: errors of openings and tension [-], and the target. Throws Skip."""
+    """accuracy.json of the run's scene: errors of openings and tension [-], and the target. Throws Skip."""
     file = beside(run, "accuracy", "accuracy.json")
     try:
-        found = json.loads(file.read_text(encoding="utf-8"))
-        return float(found["error"]["openings"]), float(found["error"]["tension"]), float(found["wish"])
-    except (KeyError, OSError, RecursionError, TypeError, ValueError) as error:
-        raise Skip(f"{file} is not of voussoir accuracy ({type(error).__name__})") from error
+        return error_bars.accuracy_of_scene(run.directory, run.scene, file, lambda found: (
+            float(found["error"]["openings"]), float(found["error"]["tension"]), float(found["wish"])))
+    except InputError as error:
+        raise Skip(error) from error
 
 
 def accuracy_sentence(run):
