@@ -125,6 +125,32 @@ def on_rock():
     expect(finer and "Foundation/Substeps" not in runs_of["base"], f"{runs_of}: {text}")
 
 
+def water():
+    """Compressible water: size of its elements and length of the channel are choices with error bars. The size is refined if the time step suffices,
+    and coarsened elsewhere; the default size is a sixteenth of the depth."""
+    sys.path.insert(0, str(SCRIPTS.parent / "python"))
+    from voussoir import accuracy
+    entries = {"Reservoir/Element size": "0", "Reservoir/Length": "0"}
+    for given, factors, sizes, current in (({}, {5: 1.02}, [10., 7.143, 5.], 0), ({}, {5: 1.03, 20: 1., 14: 1.}, [20., 14., 10.], 2),
+                                           ({}, {14: 1.}, [14., 10.], 1), ({}, {}, [10., 7.143, 5.], 0),
+                                           ({"Reservoir/Element size": "8", "Reservoir/Length": "200"}, {4: 1.}, [8., 5.714, 4.], 0)):
+        size, length = accuracy.water_choices({**entries, **given}, 160., lambda h: factors.get(h, float("inf")))
+        expect([level["Reservoir/Element size"] for level in size.levels] == sizes == size.sizes and size.current == current, f"{factors}: {size.levels}")
+        first = float(given.get("Reservoir/Length", 320))
+        expect([level["Reservoir/Length"] for level in length.levels] == [first, 2 * first, 4 * first] and length.current == 0, f"{length.levels}")
+    write_scene()
+    acoustic = [word for entry in ("Reservoir/Model=acoustic", "Dynamics/Steps per sample=2") for word in ("--set", entry)]
+    os.environ["VOUSSOIR_PROGRAM"] = VOUSSOIR
+    expect(accuracy.water_depth("scene.prm", acoustic[1::2]) == 195., "depth")
+    expect(1. <= accuracy.water_mass_factor("scene.prm", dict(word.split("=") for word in acoustic[1::2])) < 1.01, "mass factor of 12.2 m at 5 ms")
+    expect(accuracy.water_mass_factor("scene.prm", {"Reservoir/Model": "acoustic", "Reservoir/Element size": 5}) == float("inf"), "5 m at 10 ms")
+    text = runs("accuracy", "scene.prm", *acoustic, "--set", "Reservoir/Element size=40", "--set", "Reservoir/Length=195", "--seconds", "0.1", "--output", "out", "--for", "900%")
+    for bar in json.loads(Path("out/accuracy.json").read_text())["error_bars"].values():
+        expect(set(bar["parts"]) == {"time step", "along", "up", "through", "water size", "water length"}, f"{bar}")
+    openings_of = [summary(f"out/runs/{name}")["extremes"]["max_opening"]["value"] for name in ("base", "water_size_20.0", "water_length_780.0")]
+    expect(len(set(openings_of)) == 3 and "Element size = 40.0 (now)" in text, f"{openings_of}: {text}")
+
+
 def maths():
     """Orders and limits of known series; a retry that the program asks for; what several errors come to."""
     os.environ["VOUSSOIR_PROGRAM"] = VOUSSOIR
@@ -335,4 +361,4 @@ def table_of_text(name):
 
 
 if __name__ == "__main__":
-    run_cases(estimate, command, on_rock, maths, bars)
+    run_cases(estimate, command, on_rock, water, maths, bars)

@@ -3,7 +3,7 @@
 
     voussoir accuracy SCENE.prm [--for 1%] [--seconds 5] [--output DIR] [--set 'Section/Entry=value']...
 
-Each choice of a scene (time step, elements along, up and through, degree, rock) is refined separately, over the
+Each choice of a scene (time step, elements along, up and through, degree, rock, compressible water) is refined separately, over the
 strongest seconds of the scene's motion. The other choices are those of the scene.
 
 There are two relative measures. The first is the largest openings of every joint at the crest, upstream and downstream.
@@ -45,7 +45,9 @@ from .zone_tension import zone_means
 
 STEPS, SUBSTEPS, DEGREE = "Dynamics/Steps per sample", "Foundation/Substeps", "Elements/Degree"
 SUBDIVIDE = "Mesh/Subdivide"
+WATER_SIZE, WATER_LENGTH, WATER_LEVEL = "Reservoir/Element size", "Reservoir/Length", "Reservoir/Water level"
 ROCK_SHARE = 22 / 210  # default size of rock elements in a dam of arcs, as a share of the height
+UNCHANGED_MASS = 1.02  # factor of the mass of the water: above, the program prints a warning
 TAPER = 0.2  # of the motion's beginning [s]
 RUNS = b"2"  # what this script reads of a run: those of another kind are made again
 UNITS = {"m": (1e3, "mm"), "Pa": (1e-6, "MPa")}  # of printed values
@@ -116,6 +118,36 @@ def choices_of(entries, directory=Path(".")):
     elif entries[SUBDIVIDE] == "false":
         result.append(Choice("mesh", [{SUBDIVIDE: "false"}, {SUBDIVIDE: "true"}], [1, 0.5], 0))
     return result
+
+
+def water_choices(entries, depth, mass_factor):
+    """Choices of the compressible water: size of its elements, and length of the channel. depth [m]; mass_factor(size): factor of the whole mass of
+    the water that the time step of the scene requires, infinity if the program refuses the size.
+
+    The size is refined if the time step of the scene suffices for half of it. Otherwise it is coarsened, so that time step and mass are those of the
+    scene in all levels. If a monolith has no water node with coarser elements, the size is refined with smaller time steps."""
+    size, length = float(entries[WATER_SIZE]) or depth / 16, float(entries[WATER_LENGTH]) or 2 * depth
+    finer, coarser = ([round(size * factor, 3) for factor in factors] for factors in ((1 / 1.4, 1 / 2), (2, 1.4)))
+    if mass_factor(finer[-1]) > UNCHANGED_MASS and (coarser := [h for h in coarser if mass_factor(h) < math.inf]):
+        sizes = [*coarser, size]
+    else:
+        sizes = [size, *finer]
+    return [Choice("water size", [{WATER_SIZE: h} for h in sizes], sizes, sizes.index(size)),
+            Choice("water length", [{WATER_LENGTH: factor * length} for factor in (1, 2, 4)], [1, 1 / 2, 1 / 4], 0)]
+
+
+def water_mass_factor(scene, settings):
+    """Factor of the mass of the water that the time step requires, from --validate; infinity for a scene that the program refuses."""
+    result = start(scene, "--validate", *set_options(settings))
+    found = re.search(r"mass increased by the factor ([0-9.]+)", result.stdout.replace("\n", " "))
+    return float(found[1]) if result.returncode == 0 and found else math.inf
+
+
+def water_depth(scene, settings):
+    """Depth of the water at the dam [m], from the row of a water level that is 10 % lower; 0 if there is no water in the earthquake."""
+    rows = json.loads(call("scene", scene, "--choices", *set_options(settings)))["choices"]
+    lower = next((float(row["set"][WATER_LEVEL]) for row in rows if list(row["set"]) == [WATER_LEVEL]), None)
+    return 0. if lower is None else 10 * (float(entries_of(scene, settings)[WATER_LEVEL]) - lower)
 
 
 def strongest(motion, seconds):
@@ -340,7 +372,7 @@ def prepare(options, wish):
     except OSError as error:
         raise InputError(f"The directory {directory} cannot be written to: {error.strerror}. Choose another with --output.") from None
     call("motion", options.scene, "--output", directory / "whole.csv", *set_options(options.set))
-    part, start = strongest(np.loadtxt(directory / "whole.csv", delimiter=",", skiprows=1), seconds)
+    part, begin = strongest(np.loadtxt(directory / "whole.csv", delimiter=",", skiprows=1), seconds)
     motion = (directory / "motion.csv").resolve()
     np.savetxt(motion, part, delimiter=",", header="t,a_x,a_y,a_z", comments="# ")
     common = dict(entry.split("=", 1) for entry in options.set)
@@ -349,9 +381,12 @@ def prepare(options, wish):
                    "Motion/Scale z": 1, "Motion/Sequence": "", "Motion/Rest": 0, "Motion/Target spectrum": "",
                    "Motion/Baseline": "none", "Motion/Match": "false", "Output/Figures": "false", "Output/Solution interval": 0})
     choices = choices_of(entries, Path(options.scene).parent)
+    if entries["Reservoir/Model"] == "acoustic" and (depth := water_depth(options.scene, options.set)) > 0:
+        choices += water_choices(entries, depth, lambda size: water_mass_factor(options.scene, {**common, WATER_SIZE: size}))
     n_runs = 2 + sum(len(choice.levels) - 1 for choice in choices)
-    print(f"{options.scene}: the strongest {part[-1, 0]:.4g} s, from {start:.4g} s on; {n_runs} runs; wish: {percent(wish)}")
-    return choices, Ladder(Path(options.scene).resolve(), common, directory, n_runs, float(part[-1, 0])), entries
+    print(f"{options.scene}: the strongest {part[-1, 0]:.4g} s, from {begin:.4g} s on; {n_runs} runs; wish: {percent(wish)}")
+    ladder = Ladder(Path(options.scene).resolve(), common, directory, n_runs, float(part[-1, 0]))
+    return choices, ladder, entries
 
 
 def about_choices(choices, ladder, wish):
@@ -426,7 +461,7 @@ def main():
         choice.fit([ladder.measures(choice.key(k)) for k in range(len(choice.levels))])
     total = combined(ladder, [ladder.measures(FIRST) - choice.limit for choice in choices])
     small = about_choices(choices, ladder, wish)
-    if len(choices) == 1:
+    if all(choice.name.startswith(("time", "water")) for choice in choices):
         print("\n  The mesh cannot be refined from here (degree 2, already subdivided): its error is in none of these numbers.")
     print(f"\nThe scene as it is: error {percent(total[0])} of the openings, {percent(total[1])} of the zone means of tension, "
           f"at {ladder.cost[FIRST]:.3g} s of processor time (of each thread) per second of earthquake.")
