@@ -5,6 +5,7 @@
     program_accuracy.py VOUSSOIR CASE...     cases: see the functions with that name below
 """
 
+import fcntl
 import json
 import os
 import signal
@@ -108,6 +109,9 @@ def command():
     refused([*arguments[:-1], "1"], "--for", "1%")
     refused([*arguments[:-1], "x%"], "--for", "1%")
     refused([*arguments[:-3], "scene.prm"], "scene.prm", "--output")
+    with open("out/.lock", "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        refused(arguments, "Another `voussoir accuracy` is running in out", "--output")
     refused(["accuracy"], "one scene file")
     refused(["accuracy", "nothing.prm"], "nothing.prm")
     refused(["accuracy", "scene.prm", "--set", "Motion/Source=none"], "has no motion")
@@ -323,6 +327,24 @@ def digests(accuracy):
     expect(ladder.key_of({}) == first, "the same scene has another digest")
     Path("motion.csv").write_text("0 0 0 1\n")
     expect(ladder.key_of({}) != first, "the motion is not in the digest")
+    first = ladder.key_of({})
+    accuracy.program_key = lambda: "Voussoir of tomorrow"
+    expect(ladder.key_of({}) != first, "the program is not in the digest")
+    from voussoir import needs_runs
+    scene, first = Path("scene.prm").resolve(), needs_runs.digest_of(Path("scene.prm").resolve(), {"Joints/Friction": ".7"})
+    expect(first == needs_runs.digest_of(scene, {"Joints/Friction": ".7"}), "needs: the same run has another digest")
+    needs_runs.program_key = accuracy.program_key
+    expect(first != needs_runs.digest_of(scene, {"Joints/Friction": ".7"}), "needs: the program is not in the digest")
+    from voussoir.program import program_key
+    keys = []
+    for version, remark in (("1 (abc)", ""), ("1 (abc)", "# other bytes"), ("1 (abd)", ""), ("1 (abd-dirty)", ""), ("1 (abd-dirty)", "# other bytes")):
+        Path("other").write_text(f"#!/bin/sh\necho 'Voussoir {version}'\n{remark}\n")
+        os.chmod("other", 0o755)
+        os.environ["VOUSSOIR_PROGRAM"] = str(Path("other").resolve())
+        program_key.cache_clear()
+        keys.append(program_key())
+    os.environ["VOUSSOIR_PROGRAM"] = VOUSSOIR
+    expect(keys[0] == keys[1] and len(set(keys)) == 4, f"a revision without changes identifies the program, else its file: {keys}")
 
 
 def asked_for(accuracy, np):

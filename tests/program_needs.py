@@ -6,6 +6,7 @@
 """
 
 import csv
+import fcntl
 import json
 import os
 import re
@@ -237,6 +238,11 @@ def bad_input():
         print("   ", lines[0])
     _, messages = needs(status=2)
     expect("one scene file" in messages, messages)
+    Path("taken").mkdir()
+    with open("taken/.lock", "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        _, messages = needs("--output", "taken", "--", "scene.prm", status=2)
+    expect("Another `voussoir needs` is running in" in messages and "--output" in messages and not Path("taken/runs/the-scene-strongest-seconds").exists(), messages)
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ to the limit. Errors of several choices are added as vectors, joint by joint and
 The largest opening, slip, tensions and crest displacement get error bars (error_bars.py). `voussoir report` applies their
 relative width to the whole run. The geometry of a mesh file is taken as given.
 
-Existing runs are not repeated. Cost: CPU time of each thread per second of earthquake, without setup. accuracy.csv,
+Existing runs of this version of the program are not repeated. Cost: CPU time of each thread per second of earthquake, without setup. accuracy.csv,
 accuracy.json, accuracy.png and the runs are written to DIR.
 """
 
@@ -34,10 +34,10 @@ from pathlib import Path
 
 import numpy as np
 
-from .command import Parser
+from .command import Parser, lock_directory
 from .error_bars import HEADLINES, bars_of_choices, beside, headlines, relevant, solve_order
 from .errors import ComputationError, InputError
-from .program import call, entries_of, message_of, set_options, start
+from .program import call, entries_of, message_of, program_key, set_options, start
 from .results import Results, read_summary
 from .study_file import is_file_entry
 from .tables import read_table
@@ -214,9 +214,9 @@ class Ladder:
         return tried
 
     def key_of(self, changes):
-        """A digest of all that a run reads: every entry of the scene, and the contents of its files."""
+        """A digest of the program and of all that a run reads: every entry of the scene, and the contents of its files."""
         entries = entries_of(self.scene, {**self.common, **changes})
-        digest = hashlib.sha256(RUNS + json.dumps(entries).encode() + self.common["Motion/File"].read_bytes())
+        digest = hashlib.sha256(RUNS + program_key().encode() + json.dumps(entries).encode() + self.common["Motion/File"].read_bytes())
         for entry, value in entries.items():
             file = self.scene.parent / value
             digest.update(file.read_bytes() if is_file_entry(entry) and file.is_file() else b"")
@@ -367,10 +367,7 @@ def prepare(options, wish):
     if entries["Output/Envelope interval"] == "0":
         options.set.append("Output/Envelope interval=1")
     directory = Path(options.output or f"output/{Path(options.scene).stem}-accuracy")
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"The directory {directory} cannot be written to: {error.strerror}. Choose another with --output.") from None
+    lock = lock_directory(directory, "`voussoir accuracy`")
     call("motion", options.scene, "--output", directory / "whole.csv", *set_options(options.set))
     part, begin = strongest(np.loadtxt(directory / "whole.csv", delimiter=",", skiprows=1), seconds)
     motion = (directory / "motion.csv").resolve()
@@ -386,6 +383,7 @@ def prepare(options, wish):
     n_runs = 2 + sum(len(choice.levels) - 1 for choice in choices)
     print(f"{options.scene}: the strongest {part[-1, 0]:.4g} s, from {begin:.4g} s on; {n_runs} runs; wish: {percent(wish)}")
     ladder = Ladder(Path(options.scene).resolve(), common, directory, n_runs, float(part[-1, 0]))
+    ladder.lock = lock  # until the command ends
     return choices, ladder, entries
 
 

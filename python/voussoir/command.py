@@ -6,8 +6,10 @@ names the program. Bad input ends with status 2, a failed computation with 1.
 """
 
 import argparse
+import fcntl
 import re
 import sys
+from pathlib import Path
 
 from .errors import ComputationError, InputError
 
@@ -23,6 +25,25 @@ class Parser(argparse.ArgumentParser):
         if found := re.fullmatch(r"(\S+): invalid (int|float|Path) value: (.*)", message, re.S):
             message = f"{found[1]} must be a {'whole ' if found[2] == 'int' else ''}number, not {found[3]}"
         raise InputError(f"{message}. `{self.prog} --help` shows how.")
+
+
+def lock_directory(directory, what, folders=()):
+    """Creates an output directory with folders, and returns its lock: a file that is open as long as the command writes there.
+
+    what: name of the command in the message. Throws InputError if the directory cannot be written to, or another command has its lock."""
+    directory = Path(directory)
+    try:
+        for folder in ("", *folders):
+            (directory / folder).mkdir(parents=True, exist_ok=True)
+        lock = open(directory / ".lock", "w", encoding="utf-8")  # pylint: disable=consider-using-with
+    except OSError as error:
+        raise InputError(f"The directory {directory} cannot be written to: {error.strerror}. Choose another with --output.") from None
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        lock.close()
+        raise InputError(f"Another {what} is running in {directory}. Wait until it has ended, or choose another with --output.") from None
+    return lock
 
 
 def end_with(main):

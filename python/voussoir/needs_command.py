@@ -6,7 +6,8 @@
 
 The program declares the rows of a scene (`voussoir scene SCENE.prm --choices`). Each row is run over the strongest seconds of the motion.
 Rows of the mesh and of cheaper numerics are relative to the mesh of the scene, other rows to a coarse mesh. The smallest scene is run over the
-whole motion. The command takes at most ten times the processor time of the scene. Existing runs are not repeated.
+whole motion. The command takes at most ten times the processor time of the scene. Existing runs of this version are not
+repeated.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from typing import Any, Dict, Iterable, List, Mapping, Optional
 import numpy as np
 
 from .accuracy import ROCK_SHARE, expect_one_record, height_of, n_monoliths, number
-from .command import Parser
+from .command import Parser, lock_directory
 from .errors import ComputationError, InputError
 from .needs_output import draw, print_table, signed, smallest_text, value_text, write_json, write_table
 from .needs_runs import Runs
@@ -85,10 +86,7 @@ class Needs:
         self.directory = Path(options.get("output") or f"output/{self.scene.stem}-needs").resolve()
         given = os.environ.get("OMP_NUM_THREADS", "")
         threads = int(given) if given.isdecimal() and int(given) > 0 else max(1, len(os.sched_getaffinity(0)) // jobs)
-        try:
-            self.runs = Runs(self.scene.resolve(), entries, self.directory, self.output_settings(entries), threads)
-        except OSError as error:
-            raise InputError(f"The directory {self.directory} cannot be written to: {error.strerror}. Choose another with --output.") from None
+        self.runs = Runs(self.scene.resolve(), entries, self.directory, self.output_settings(entries), threads)
         self.runs.seconds = seconds
         self.entries, self.began, self.done, self.expected = entries, time.monotonic(), 0, 0
         self.coarse = coarse_mesh(entries, self.scene.resolve().parent) if self.mesh == "coarse" else {}
@@ -234,6 +232,11 @@ class Needs:
                 "holds": len(within) == len(COLUMNS), "within": len(within), "of": len(COLUMNS)}, (changes, counts)
 
     def compute(self) -> Dict[str, Any]:
+        """As compute_alone(), with the lock of the directory."""
+        with lock_directory(self.directory, "`voussoir needs`", ("runs", "records", "motions")):
+            return self.compute_alone()
+
+    def compute_alone(self) -> Dict[str, Any]:
         """All runs; prints and writes the results, and returns what needs.json has."""
         print(f"{self.scene}: {len(self.rows)} rows, {self.jobs} runs at a time; target {100 * self.target:g} %")
         references = self.references()

@@ -20,7 +20,7 @@ import numpy as np
 from .accuracy import SUBSTEPS, strongest
 from .errors import VoussoirError
 from .needs_verdicts import measures_of
-from .program import call, find_program, message_of, set_options
+from .program import call, find_program, message_of, program_key, set_options
 from .study_file import with_paths
 from .study_scene import write_whole
 
@@ -37,8 +37,8 @@ def slug(name: str) -> str:
 
 
 def digest_of(scene: Path, entries: Mapping[str, str]) -> str:
-    """Returns a digest of entries and of the files that they name."""
-    digest = hashlib.sha256(VERSION + json.dumps(dict(entries)).encode())
+    """Returns a digest of the program, of entries and of the files that they name."""
+    digest = hashlib.sha256(VERSION + program_key().encode() + json.dumps(dict(entries)).encode())
     for entry, value in entries.items():
         for file in with_paths(entry, value, scene.parent)[1]:
             if Path(file).is_file():
@@ -79,8 +79,6 @@ class Runs:
         self.seconds = 0.  # of the strongest part
         self.limit, self.spent, self.stopped = Limit(), 0., False
         self.processes: Set[subprocess.Popen[str]] = set()
-        for name in ("runs", "records", "motions"):
-            (directory / name).mkdir(parents=True, exist_ok=True)
 
     def motion(self, settings: Mapping[str, Any]) -> Path:
         """Returns the file of the strongest seconds of the scene's motion with these settings."""

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import shutil
 import subprocess
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Dict, Iterable, Iterator, Mapping, Optional, Union
 
@@ -60,6 +62,15 @@ def call(*arguments: Any, program: Optional[PathLike] = None, threads: Optional[
     if result.returncode != 0:
         raise (InputError if result.returncode == 2 else ComputationError)(message_of(result.stderr, result.returncode))
     return result.stdout
+
+
+@lru_cache(maxsize=None)
+def program_key() -> str:
+    """Returns what identifies the program, for digests of runs: version and revision, of uncommitted sources also a digest of its file."""
+    version = call("--version").strip()
+    if "unknown" in version or "dirty" in version:
+        version += hashlib.sha256(Path(find_program()).resolve().read_bytes()).hexdigest()
+    return version
 
 
 def run(scene: PathLike, output: PathLike, settings: Settings = None, *, resume: bool = False, overwrite: bool = False,

@@ -4,7 +4,6 @@
     study.py [--jobs N] [--output DIR] [--profile PROFILE] [--keep-going] [--dry-run] [--set ENTRY=VALUE]... -- STUDY.prm
 """
 
-import fcntl
 import hashlib
 import json
 import os
@@ -19,7 +18,7 @@ from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from .command import Parser
+from .command import Parser, lock_directory
 from .errors import ComputationError, InputError
 from .prm import prm_text
 from .program import entries_of, find_program, message_of, start
@@ -213,17 +212,7 @@ def open_directory(options, study):
     directory = Path(options.output or Path("output") / study.file.stem).resolve()
     if directory.exists() and not (directory / "scenes").is_dir() and (not directory.is_dir() or any(directory.iterdir())):
         raise InputError(f"{directory} has files that no study wrote. Choose another directory with --output.")
-    try:
-        for folder in ("scenes", "runs", "records", "done", "logs"):
-            (directory / folder).mkdir(parents=True, exist_ok=True)
-        lock = open(directory / ".lock", "w", encoding="utf-8")  # pylint: disable=consider-using-with
-    except OSError as error:
-        raise InputError(f"The directory {directory} cannot be written to: {error.strerror}. Choose another with --output.") from None
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        raise InputError(f"Another study is running in {directory}. Wait until it has ended, or choose another with --output.") from None
-    return directory, lock
+    return directory, lock_directory(directory, "study", ("scenes", "runs", "records", "done", "logs"))
 
 
 def is_done(directory, name, scene):
