@@ -67,8 +67,8 @@ def verdicts():
     expect(abs(changes["opening"] - 0.15) < 1e-12 and changes["slip"] == -1. and changes["crest"] == 0. and not counts["crest"], f"{changes}")
     changes, counts = n.changes_of({"opening": 9e-5}, {"opening": 1e-5})  # relative to 0.1 mm, and negligible
     expect(abs(changes["opening"] - 0.8) < 1e-12 and not counts["opening"] and changes["slip"] is None and not counts["slip"], f"{changes}, {counts}")
-    a, b, c, d = (row("a", 0.5, opening=1.03, crest=0.99), row("b", 0.6, opening=0.97), row("c", 0.8, crest=1.02), row("d", 0.4, entry="a", crest=1.09))
-    e, f = row("e", 0.1, simpler=False), row("f", 0.99)
+    a, b, c, d = (row("a", 0.52, opening=1.03, crest=0.99), row("b", 0.6, opening=0.97), row("c", 0.79, crest=1.02), row("d", 0.4, entry="a", crest=1.09))
+    e, f = row("e", 0.1, simpler=False), row("f", 0.82)  # within the scatter of processor times
     failed = {**row("g", 0.1), "failure": "no"}
     rows = [a, b, c, d, e, f, failed]
     n.judge(rows, {}, 0.05)
@@ -160,8 +160,8 @@ def report():
 def smallest():
     """The smallest scene is written with a comment for each changed line; its comparison is that of its own run over the whole motion."""
     write_scene()
-    finer = {"Dynamics/Steps per sample": "4", "Mesh/Arch210/Elements along": "12"}
-    rows = [{"group": "numerics", "name": "time step twice", "set": {"Dynamics/Steps per sample": "2"}, "simpler": True},
+    finer = {"Dynamics/Steps per sample": "16", "Mesh/Arch210/Elements along": "12"}
+    rows = [{"group": "numerics", "name": "longer time step", "set": {"Dynamics/Steps per sample": "4"}, "simpler": True},
             {"group": "numerics", "name": "elements along half", "set": {"Mesh/Arch210/Elements along": "6"}, "simpler": True}]
     stand_in(rows)
     settings = [word for entry, value in finer.items() for word in ("--set", f"{entry}={value}")]
@@ -172,7 +172,7 @@ def smallest():
     lines = Path("out/smallest.prm").read_text().splitlines()
     place = next(i for i, line in enumerate(lines) if "set Steps per sample" in line)
     remark = " ".join(line.strip("# ") for line in lines[place - 3:place])
-    expect("= 2" in lines[place] and 'time step twice, instead of "4"' in remark and "cost x" in remark, f"{lines}")
+    expect("= 4" in lines[place] and 'longer time step, instead of "16"' in remark and "cost x" in remark, f"{lines}")
     # The file can be run as it is, and gives what the table says.
     runs("out/smallest.prm", "--output", "again")
     runs("scene.prm", *LONG, *settings, "--output", "full")
@@ -217,6 +217,29 @@ def declared():
     expect(found["total_cost"] <= 10, f"{found['total_cost']} times one run")
 
 
+def on_rock():
+    """Scenes on massless rock and on rock with mass: rows of the foundation and of cheaper numerics. A row has the substeps that it requires."""
+    write_scene()
+    rows = {"massless": [{"group": "foundation", "name": "rigid", "set": {"Foundation/Model": "rigid"}, "simpler": True},
+                         {"group": "numerics", "name": "larger rock elements", "set": {"Mesh/Arch210/Rock/Element size": "84"}, "simpler": True}],
+            "rock": [{"group": "foundation", "name": "massless", "set": {"Foundation/Model": "massless"}, "simpler": True},
+                     {"group": "foundation", "name": "stiffer rock", "set": {"Foundation/Young's modulus": "6e10"}, "simpler": False}]}
+    changes = {}
+    for model, declared_rows in rows.items():
+        stand_in([*declared_rows, {"group": "joints", "name": "tied", "set": {"Joints/Model": "tied"}, "simpler": True}])
+        settings = [word for entry in (f"Foundation/Model={model}", "Mesh/Arch210/Rock/Element size=60", "Motion/Duration=0.5",
+                                       "Dynamics/Steps per sample=4", "Foundation/Substeps=1") for word in ("--set", entry)]
+        text, _ = needs("--only", "rock, numerics", "--seconds", "0.3", "--output", model, *settings, "--", "scene.prm")
+        print(text)
+        found = rows_of(model)
+        expect(list(found) == [row["name"] for row in declared_rows], f"{list(found)}")
+        expect(all(row["verdict"] != "not known" and row["cost"] > 0. for row in found.values()), f"{found}")
+        changes[model] = {name: row["changes"]["slip"] for name, row in found.items()}
+    expect(abs(changes["massless"]["rigid"]) > 0.05 and abs(changes["rock"]["massless"]) > 0.05, f"{changes}")
+    extra = rows_of("rock")["stiffer rock"]["extra"]
+    expect(int(extra.get("Foundation/Substeps", 0)) > 1, f"{extra}")
+
+
 def bad_input():
     """One paragraph each."""
     write_scene()
@@ -242,8 +265,8 @@ def bad_input():
     with open("taken/.lock", "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         _, messages = needs("--output", "taken", "--", "scene.prm", status=2)
-    expect("Another `voussoir needs` is running in" in messages and "--output" in messages and not Path("taken/runs/the-scene-strongest-seconds").exists(), messages)
+    expect("Another `voussoir needs` is running in" in messages and "--output" in messages and not list(Path("taken/runs").glob("*")), messages)
 
 
 if __name__ == "__main__":
-    run_cases(verdicts, table, smallest, stopped, declared, bad_input)
+    run_cases(verdicts, table, smallest, stopped, declared, on_rock, bad_input)

@@ -50,6 +50,7 @@ ROCK_SHARE = 22 / 210  # default size of rock elements in a dam of arcs, as a sh
 UNCHANGED_MASS = 1.02  # factor of the mass of the water: above, the program prints a warning
 TAPER = 0.2  # of the motion's beginning [s]
 RUNS = b"2"  # what this script reads of a run: those of another kind are made again
+CLOCK = 0.01  # shortest processor time of a run [s]
 UNITS = {"m": (1e3, "mm"), "Pa": (1e-6, "MPa")}  # of printed values
 FIRST, LAST = "base", "wish"  # names of the runs of the scene as it is, and of what is proposed
 
@@ -190,7 +191,7 @@ class Ladder:
         self.headlines[name] = headlines(summary, Results(directory).history)
         seconds = summary["seconds"]
         # Processor time, not wall time: what else the machine does should not decide.
-        self.cost[name] = seconds["per_second_of_earthquake"] * seconds["shaking_cpu"] / seconds["shaking"] / summary["threads"]
+        self.cost[name] = seconds["per_second_of_earthquake"] * max(seconds["shaking_cpu"], CLOCK) / seconds["shaking"] / summary["threads"]
         done = len(self.cost)
         left = (time.monotonic() - self.began) / done * max(0, self.n_expected - done)
         opening = f"largest opening {1e3 * self.openings[name].max():7.2f} mm" if self.openings[name].size else "no joints"

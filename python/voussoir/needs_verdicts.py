@@ -13,7 +13,8 @@ from .zone_tension import zone_means
 
 Values = Dict[str, Optional[float]]
 MATTERS, UNIMPORTANT, UNKNOWN = "matters", "does not matter", "not known"
-CHEAPER = 0.9  # of the cost: a row with a higher ratio is no simplification; processor times scatter by some percent
+CHEAPER = 0.8  # of the cost: a row with a higher ratio is no simplification, since the processor times of equal runs scatter by up to 20 %
+CLOCK = 0.05  # shortest processor time [s] that is distinguished from a shorter one
 
 
 class Column(NamedTuple):
@@ -68,7 +69,7 @@ def measures_of(directory: Any) -> Dict[str, Any]:
                        "tension_downstream": float(zones[half:].max()), "base_shear": shear[0], "sliding_safety": safety[0],
                        "crest": float(max(crest))},
             "where": {"opening": opening[1], "slip": slip[1], "base_shear": shear[1], "sliding_safety": safety[1]},
-            "cost": seconds["shaking_cpu"] / length, "cpu": seconds["cpu"], "setup": seconds["cpu"] - seconds["shaking_cpu"], "seconds": length}
+            "cost": max(seconds["shaking_cpu"], CLOCK) / length, "cpu": seconds["cpu"], "setup": seconds["cpu"] - seconds["shaking_cpu"], "seconds": length}
 
 
 def changes_of(values: Values, reference: Values) -> Tuple[Values, Dict[str, bool]]:
