@@ -4,7 +4,8 @@
 
 Usage: benchmarks/speed.py [--voussoir build/voussoir] [SCENE.prm ...]     (default: rigid28 with FJA, FJB, tied)
        benchmarks/speed.py --before OTHER/voussoir [--repeat 3] [--duration 1.28] SCENE.prm ...
-Prints a table for doc/performance.md; with --before the medians of both programs, run in turn, and their ratios.
+Prints a table for doc/performance.md; with --before the medians of both programs, run in turn, and their ratios with the range of the pairs.
+Two settings of one program: --before build/voussoir --set-now Reservoir/Model=acoustic --set-now "Reservoir/Element size=16" prm/rigid28.prm
 Take a quiet machine: stages are wall times.
 """
 import argparse
@@ -44,7 +45,10 @@ def compare(programs, scene, settings, now, repeat):
     name = os.path.splitext(os.path.basename(scene))[0]
     for label, row in zip(("before", "now"), medians):
         print(f"| {name}, {label} | " + " | ".join(f"{x:.2f}" for x in row) + " |")
-    print(f"| {name}, ratio | " + " | ".join(f"{b / a:.2f}" if a else "" for a, b in zip(*medians)) + " |", flush=True)
+    print(f"| {name}, ratio | " + " | ".join(f"{b / a:.2f}" if a else "" for a, b in zip(*medians)) + " |")
+    columns = [zip(*runs) for runs in measured]
+    pairs = [[b / a if a else None for a, b in zip(before, after)] for before, after in zip(*columns)]
+    print(f"| {name}, ratio of each pair | " + " | ".join("" if None in pair else f"{min(pair):.2f} to {max(pair):.2f}" for pair in pairs) + " |", flush=True)
 
 
 def main():
