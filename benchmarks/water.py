@@ -5,8 +5,7 @@
     benchmarks/water.py [--scenes quickstart rigid28 ...] [--seconds 5] [--seeds 1 2 3] [--output output/water] [--figure FILE.png] [--voussoir PROGRAM]
 
 Each row is a run over the strongest seconds of the motion of the scene, as in `voussoir needs`. Tension: largest mean of the envelope in a zone of the
-face, away from the base. Frequencies: `voussoir modes` of the tied dam, on massless rock for scenes on rock; acoustic water counts as incompressible
-there. Cost: CPU seconds per second of earthquake. The elements of acoustic water fit the time step of the dam: the larger one of a sixteenth of the
+face, away from the base. Frequencies: `voussoir modes` of the tied dam, on massless rock for scenes on rock. Cost: CPU seconds per second of earthquake. The elements of acoustic water fit the time step of the dam: the larger one of a sixteenth of the
 depth and 1.1 dt c. A model that the program refuses is a row with the reason.
 
 Prints a Markdown table: means over the motions (seeds), and the smallest and largest change against Westergaard under the same motion. Existing runs
@@ -39,7 +38,7 @@ SCENES = {"quickstart": ("quickstart", {}), "quickstart, tied": ("quickstart", T
 ACOUSTIC = {"Reservoir/Model": "acoustic"}
 REFERENCE = "Westergaard"
 MODELS = {REFERENCE: {},
-          "none": {"Reservoir/Added mass": "none"},
+          "none": {"Reservoir/Model": "none"},
           "half of Westergaard": {"Reservoir/Factor": 0.5},
           "incompressible": {"Reservoir/Model": "incompressible"},
           "acoustic": ACOUSTIC,
@@ -74,6 +73,8 @@ def results_of(name, seed, options):
     file, given = ROOT / "prm" / f"{stem}.prm", {**given, "Motion/Seed": seed}
     entries = entries_of(file, given)
     directory = options.output.resolve() / f"{slug(name)}-{seed}"
+    for folder in ("runs", "records", "motions"):
+        (directory / folder).mkdir(parents=True, exist_ok=True)
     runs = Runs(file, entries, directory, {**given, "Output/Figures": "false", "Output/Frames": 0, "Output/Solution interval": 0}, 1)
     runs.seconds = options.seconds
     rows = {}

@@ -7,6 +7,7 @@
 
 import fcntl
 import json
+import re
 import os
 import signal
 import sys
@@ -95,7 +96,7 @@ def command():
     result = json.loads(Path("out/accuracy.json").read_text())
     bar = result["error_bars"]["max_opening"]
     expect(set(bar["parts"]) == {"time step", "along", "up", "through"} and bar["low"] <= bar["value"] <= bar["high"] and bar["unit"] == "m", f"{bar}")
-    expect(f"largest opening      {1e3 * bar['value']:.4g} mm" in text and f"combined {1e3 * bar['combined']:.4g} mm" in text, text)
+    expect(f"largest opening {1e3 * bar['value']:.4g} mm" in text and f"combined {1e3 * bar['combined']:.4g} mm" in text, text)
     proposal = result["proposal"]  # which of several settings is the cheapest depends on the machine; was it tried, and told as it is?
     expect(proposal["predicted"] <= 0.6 and 0. < proposal["error"] < 1.2, f"{result}")
     expect(proposal["meets"] == (proposal["error"] <= 0.6) and ("For 60 %" in text) == proposal["meets"], f"{proposal}: {text}")
@@ -239,7 +240,8 @@ def of_run():
     from voussoir.errors import InputError
     from voussoir.results import load
     write_scene()
-    runs("scene.prm", "--output", "scene", "--set", "Output/Solution interval=10")
+    text = runs("scene.prm", "--output", "scene", "--set", "Output/Solution interval=10")
+    expect("Errors    no error bar: run voussoir accuracy scene.prm" in text and "error_bars" not in summary("scene"), text)
 
     def refused_for(*words):
         try:
@@ -253,13 +255,16 @@ def of_run():
     text = runs("accuracy", "scene.prm", "--seconds", "0.5", "--output", "scene-accuracy", "--for", "900%")
     of_window, found, extremes = json.loads(Path("scene-accuracy/accuracy.json").read_text())["error_bars"], load("scene").error_bars, summary("scene")["extremes"]
     base = summary("scene-accuracy/runs/base")["extremes"]
-    expect(f"largest opening      {1e3 * extremes['max_opening']['value']:.4g} mm" in text.partition("Run   ")[2], f"the bars of the run are not printed: {text}")
+    expect(f"largest opening {1e3 * extremes['max_opening']['value']:.4g} mm" in text.partition("Run   ")[2], f"the bars of the run are not printed: {text}")
     expect(set(found) == set(of_window) and {"max_opening", "max_slip", "crest_displacement"} <= set(found), f"{set(found)}, {set(of_window)}")
     for name in set(found) - {"crest_displacement"}:
         expect(of_window[name]["value"] == base[name]["value"] and found[name]["value"] == extremes[name]["value"], name)
         for end in ("low", "high"):
             expect(abs(found[name][end] / found[name]["value"] - of_window[name][end] / of_window[name]["value"]) < 1e-12, f"{name}, {end}")
         expect(abs(of_window[name]["value"] + sum(of_window[name]["parts"].values()) - of_window[name]["combined"]) < 1e-9 * of_window[name]["value"], name)
+    text = runs("scene.prm", "--output", "scene", "--overwrite", "--set", "Output/Solution interval=10")
+    expect(re.search(rf"Errors    largest opening {1e3 * extremes['max_opening']['value']:.4g} mm, \S+ to \S+ mm\n {{10}}largest slip", text), text)
+    expect(summary("scene")["error_bars"] == found and not Path("scene/error_bars.log").exists(), "error bars of summary.json")
     told = Path("scene-accuracy/accuracy.json").read_text()
     changed = json.loads(told)
     changed["error_bars"]["max_slip"]["value"] = 0.4 * extremes["max_slip"]["value"]  # the window does not show the slip of the run
@@ -268,7 +273,8 @@ def of_run():
     Path("scene-accuracy/accuracy.json").write_text(told)
     runs("scene.prm", "--output", "scene", "--overwrite", "--set", "Output/Stress recovery=elements")
     refused_for("is of another scene", "Output/Stress recovery")
-    runs("scene.prm", "--output", "scene", "--overwrite", "--set", "Joints/Friction=0.7")
+    text = runs("scene.prm", "--output", "scene", "--overwrite", "--set", "Joints/Friction=0.7")
+    expect("Errors    no error bar: " in text and "is of another scene" in text and "error_bars" not in summary("scene"), text)
     refused_for("is of another scene", "Joints/Friction = 0.6, here 0.7")
     Path("scene-accuracy/accuracy.json").write_text("{}")
     refused_for("is not of this version of voussoir accuracy")

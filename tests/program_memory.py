@@ -56,6 +56,7 @@ def estimates():
     for name, file in (("joints", scene("joints", 5, 60, 16, 2)), ("tied", scene("tied", 0, 60, 16, 3)),
                        ("single", scene("single", 0, 110, 40, 6, more="subsection Dynamics\n set Factors = single\n end")),
                        ("quadratic", scene("quadratic", 5, 30, 8, 1, more="subsection Elements\n set Degree = 2\n end")),
+                       ("water", scene("water", 5, 60, 16, 2, more="subsection Reservoir\n set Model = acoustic\n set Element size = 16\n end")),
                        ("rock", scene("rock", 5, 30, 10, 1, ROCK, ON_ROCK)),
                        ("massless", scene("massless", 5, 20, 6, 1, ROCK.replace("30", "100"), MASSLESS))):
         run, halved = estimate(runs(file, "--validate"))

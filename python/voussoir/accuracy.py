@@ -35,7 +35,7 @@ from pathlib import Path
 import numpy as np
 
 from .command import Parser, lock_directory
-from .error_bars import HEADLINES, bars_of_choices, beside, headlines, relevant, solve_order
+from .error_bars import UNITS, bar_text, bars_of_choices, beside, headlines, relevant, signed, solve_order
 from .errors import ComputationError, InputError
 from .program import call, entries_of, message_of, program_key, set_options, start
 from .results import Results, read_summary
@@ -51,7 +51,6 @@ UNCHANGED_MASS = 1.02  # factor of the mass of the water: above, the program pri
 TAPER = 0.2  # of the motion's beginning [s]
 RUNS = b"2"  # what this script reads of a run: those of another kind are made again
 CLOCK = 0.01  # shortest processor time of a run [s]
-UNITS = {"m": (1e3, "mm"), "Pa": (1e-6, "MPa")}  # of printed values
 FIRST, LAST = "base", "wish"  # names of the runs of the scene as it is, and of what is proposed
 
 
@@ -290,18 +289,6 @@ def about_run(scene, directory):
     print(f"Run       {run}; with the relative errors of these seconds:")
     for name, found in bars.items():
         print(f"          {bar_text(name, found)}")
-
-
-def bar_text(name, found):
-    """Error bar of a quantity, such as "largest opening 57.1 mm, -0.4 to +1.6 mm"."""
-    scale, unit = UNITS[found["unit"]]
-    below, above = (signed(scale * (found[end] - found["value"])) for end in ("low", "high"))
-    return f"{HEADLINES[name][0]:20s} {scale * found['value']:.4g} {unit}, {below} to {above} {unit}"
-
-
-def signed(x):
-    """A number with its sign and two digits, without an exponent."""
-    return f"{x:+.{max(0, min(4, 1 - math.floor(math.log10(abs(x)))))}f}" if abs(x) >= 1e-4 else "0"
 
 
 def percent(x):

@@ -23,6 +23,7 @@ HEADLINES = {  # quantity -> title, unit, least value that has a bar
     "max_opening": ("largest opening", "m", 1e-5), "max_slip": ("largest slip", "m", 1e-5),
     f"max_tension_upstream{AWAY}": ("tension upstream", "Pa", 1e3), f"max_tension_downstream{AWAY}": ("tension downstream", "Pa", 1e3),
     "crest_displacement": ("crest displacement", "m", 1e-5)}
+UNITS = {"m": (1e3, "mm"), "Pa": (1e-6, "MPa")}  # of printed values
 MARGIN = 1.25
 UNRELATED = ("Output/", "Dynamics/Error estimate", "Contact/Write")  # beginnings of entries that do not change the results
 
@@ -155,3 +156,15 @@ def scaled(bar_of_window, value):
     if not all(math.isfinite(x) for x in numbers.values()):
         raise ValueError("a number is not finite")
     return {"value": value, **numbers, "parts": {choice: factor * error for choice, error in bar_of_window["parts"].items()}, "unit": bar_of_window["unit"]}
+
+
+def bar_text(name, found):
+    """Error bar of a quantity, such as "largest opening 57.1 mm, -0.4 to +1.6 mm"."""
+    scale, unit = UNITS[found["unit"]]
+    below, above = (signed(scale * (found[end] - found["value"])) for end in ("low", "high"))
+    return f"{HEADLINES[name][0]} {scale * found['value']:.4g} {unit}, {below} to {above} {unit}"
+
+
+def signed(x):
+    """A number with its sign and two digits, without an exponent."""
+    return f"{x:+.{max(0, min(4, 1 - math.floor(math.log10(abs(x)))))}f}" if abs(x) >= 1e-4 else "0"

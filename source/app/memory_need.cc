@@ -192,6 +192,37 @@ namespace Voussoir
       return sum > 0. ? *std::max_element(of_rank.begin(), of_rank.end()) / sum : 1.;
     }
 
+    /** Acoustic water: its nodes, and the reaction in the stiffness of the bodies. @p n_blocks: of the stiffness. */
+    double of_water(const ReservoirParameters &reservoir, const HexMesh &mesh, const double n_blocks)
+    {
+      double area = 0., bottom = reservoir.level; // of the section below the water level
+      for (const HexMesh::Face &face : mesh.faces)
+        if (face.surface == PhysicalId::upstream)
+        {
+          const auto  &x = mesh.nodes;
+          const auto  &n = face.nodes;
+          const double whole = .5 * std::abs((x[n[2]][1] - x[n[0]][1]) * (x[n[3]][2] - x[n[1]][2]) -
+                                             (x[n[2]][2] - x[n[0]][2]) * (x[n[3]][1] - x[n[1]][1]));
+          double       low = 1e300, high = -1e300;
+          for (const unsigned int node : n)
+          {
+            low = std::min(low, x[node][2]);
+            high = std::max(high, x[node][2]);
+          }
+          area += whole * std::clamp((reservoir.level - low) / std::max(high - low, 1e-9), 0., 1.);
+          bottom = std::min(bottom, low);
+        }
+      const double depth = reservoir.level - bottom;
+      if (!(depth > 0.))
+        return 0.;
+      const double h = reservoir.element_size > 0. ? reservoir.element_size : depth / 16.,
+                   length = reservoir.length > 0. ? reservoir.length : 2. * depth;
+      constexpr double growth = .05, damped = 5., per_water_node = 850.; // see WaterModel
+      const double     layers =
+          length / (1.5 * h) + std::log1p(growth * damped * depth / (1.4 * h)) / std::log1p(growth);
+      return per_water_node * (layers + 2.) * (area / (h * h) + 3. * std::sqrt(area) / h) + block * n_blocks;
+    }
+
     /** Returns the memory of the matrices of the dam [bytes]. @p factors: receives the memory of its factors. */
     double of_dam(const Scene &scene, const HexMesh &mesh, Factors &factors)
     {
@@ -224,7 +255,9 @@ namespace Voussoir
             held, in_pair);
         if (massless && one_body)
           couple(on_base, graph);
-        const FactorSize size = factor_size(graph.neighbours, graph.is_interface, single);
+        FactorSize size = factor_size(graph.neighbours, graph.is_interface, single);
+        if (scene.reservoir.is_acoustic())
+          size.entries *= 1.2; // the water couples nodes of the upstream face
         factors.entries += growth.entries * size.entries;
         largest_factor = std::max(largest_factor, growth.entries * size.entries);
         factors.dense += growth.surface * size.interface;
@@ -246,7 +279,9 @@ namespace Voussoir
       factors.diagonal *= growth.surface;
       if (coupled && !tied)
         factors.base += factors.operators; // a second one during the elimination
-      return 2. * block * n_blocks + per_cell * dam.cells.size() + per_node * n_nodes; // stiffness, stress
+      const double water = scene.reservoir.is_acoustic() ? of_water(scene.reservoir, dam, n_blocks) : 0.;
+      return 2. * block * n_blocks + per_cell * dam.cells.size() + per_node * n_nodes +
+             water; // stiffness, stress
     }
 
     /** Massless rock, while it is condensed: its stiffness, its factor, and what is dense at the base. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/memory_need.h>
 #include <voussoir/app/run_report.h>
+#include <voussoir/base/python_script.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
 #include <voussoir/output/figures.h>
@@ -8,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 
 namespace Voussoir
@@ -173,6 +176,30 @@ namespace Voussoir
       table.rows.push_back({double(s.stage), s.share, s.level, s.crown[0], s.crown[1], s.crown[2],
                             double(s.n_open), double(s.n_slip), double(s.n_wet), s.opening, s.overlap});
     table.write(directory + "/stages.csv");
+  }
+
+  void report_error_bars(const Scene &scene, const std::string &directory, Log &log)
+  {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::path  run = fs::absolute(directory, error), script = find_script("error_bars.py");
+    if (script.empty() ||
+        (!fs::exists(run / "accuracy" / "accuracy.json", error) &&
+         !fs::exists(run.parent_path() / (scene.name + "-accuracy") / "accuracy.json", error)))
+    {
+      log.line("Errors    no error bar: run voussoir accuracy %s.prm", scene.name.c_str());
+      return;
+    }
+    const fs::path file = run / "error_bars.log";
+    for (const std::string &python : python_interpreters())
+      if (run_process({python, script.string(), run.string()}, file.string()) != 3) // 3: no numpy
+        break;
+    std::ifstream in(file);
+    const char   *title = "Errors";
+    for (std::string line; std::getline(in, line); title = "")
+      log.line("%-9s %s", title, line.c_str());
+    in.close();
+    fs::remove(file, error);
   }
 
   void report_figures(const std::string &directory, Log &log)

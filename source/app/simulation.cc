@@ -345,6 +345,8 @@ namespace Voussoir
     for (const Neighbour *neighbour : state.dam->neighbours)
       neighbour->report_balance(log);
     checkpoint.remove(); // the run is complete
+    if (state.n_steps > 0)
+      report_error_bars(scene, directory, log);
     if (scene.output.figures)
       report_figures(directory, log);
     log.line("Results   %s", directory.c_str());
