@@ -64,27 +64,28 @@ namespace Voussoir
     choices.add("water", "empty reservoir", "Reservoir/Density", 0., true);
     choices.add("water", "water level 10 % lower", "Reservoir/Water level",
                 level - .1 * (level - choices.bottom));
-    const std::map<std::string, std::string> westergaard = {{"Reservoir/Model", "Westergaard"},
-                                                            {"Reservoir/Added mass", "Westergaard"},
-                                                            {"Reservoir/Factor", "1"}};
     if (kind() != "none")
       choices.add("water", "no added mass", {{"Reservoir/Model", "none"}}, true);
-    if (kind() != "Westergaard" || factor != 1.)
-      choices.add("water", "Westergaard", westergaard, is_acoustic());
-    if (is_acoustic())
-    {
-      for (const double alpha : {1., .75, .5})
-        if (alpha != reflection)
-          choices.add("water", "reflection of the banks " + number_text(alpha), "Reservoir/Reflection",
-                      alpha);
-      return;
-    }
-    if (kind() == "Westergaard" && factor != .5)
-      choices.add("water", "half of Westergaard", "Reservoir/Factor", .5);
-    // Elements whose critical time step fits that of the dam: the mass increases by 11 % at most.
+    for (const double share : {1., .5})
+      if (kind() != "Westergaard" || factor != share)
+      {
+        std::map<std::string, std::string> entries = {{"Reservoir/Model", "Westergaard"},
+                                                      {"Reservoir/Factor", number_text(share)}};
+        if (added_mass != "Westergaard")
+          entries["Reservoir/Added mass"] = "Westergaard";
+        choices.add("water", share == 1. ? "Westergaard" : "half of Westergaard", entries, is_acoustic());
+      }
+    // Elements whose critical time step fits that of the dam: the mass increases little.
     const double size = std::max((level - choices.bottom) / 16., 1.1 * choices.time_step * sound_speed);
-    choices.add("water", "compressible water",
-                {{"Reservoir/Model", "acoustic"}, {"Reservoir/Element size", number_text(size)}});
+    for (const double alpha : {1., .75, .5})
+      if (!is_acoustic() || alpha != reflection)
+      {
+        std::map<std::string, std::string> entries = {{"Reservoir/Model", "acoustic"},
+                                                      {"Reservoir/Reflection", number_text(alpha)}};
+        if (!is_acoustic())
+          entries["Reservoir/Element size"] = number_text(size);
+        choices.add("water", "compressible, reflection " + number_text(alpha), entries);
+      }
   }
 
   void add_water_pressure(const SolidModel &model, const ReservoirParameters &reservoir, const double gravity,
