@@ -333,6 +333,7 @@ def messages():
     for entries, parts in ((["Reservoir/Length=50"], ("Reservoir/Length", "depth")),
                            (["Reservoir/Element size=4"], ("critical time step of the water", "Steps per sample")),
                            (["Reservoir/Element size=190"], ("Element size",)), (["Reservoir/Reflection=2"], ("Reflection",)),
+                           (["Output/Pressure depths=20,300", "Reservoir/Element size=25", "Dynamics/Steps per sample=2"], ("Pressure depths", "300 m", "195 m")),
                            (["Reservoir/Model=incompressible"], ("incompressible", "acoustic", "modes")),
                            (["Reservoir/Model=added mass table"], ("Reservoir/Table",)),
                            (["Reservoir/Water level=-5"], ("water level",)), (["Reservoir/Water level=300"], ("Water level", "above")),

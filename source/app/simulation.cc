@@ -124,7 +124,11 @@ namespace Voussoir
           "couples all monoliths. Set the model to acoustic, whose water is compressible, or use "
           "`voussoir modes`.");
     if (dam.water)
+    {
       dam.water->prepare(n_steps > 0 ? motion.dt : 0., scene.steps_per_sample);
+      for (const double depth : scene.output.pressure_depths)
+        dam.water->node_at(depth); // throws InputError
+    }
     if (checkpoint.provenance_now() != checkpoint.provenance)
       throw InputError("An input file of the scene changed while the program read it. Start the run again.");
     counters.setup = counters.clock.seconds();

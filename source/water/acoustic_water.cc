@@ -381,7 +381,11 @@ namespace Voussoir
     const auto  &points = section.points;
     const Point2 deepest = *std::min_element(points.begin(), points.end(),
                                              [](const Point2 &a, const Point2 &b) { return a[1] < b[1]; });
-    const auto   distance = [&](const Point2 &p)
+    if (depth > level - deepest[1])
+      throw InputError("Output/Pressure depths contains " + number_text(depth) +
+                       " m, but the depth of the reservoir is " + number_text(level - deepest[1]) +
+                       " m. Reduce it.");
+    const auto distance = [&](const Point2 &p)
     { return std::hypot(p[0] - deepest[0], p[1] - level + depth); };
     return std::min_element(points.begin(), points.end(),
                             [&](const Point2 &a, const Point2 &b) { return distance(a) < distance(b); }) -

@@ -69,7 +69,8 @@ namespace Voussoir
     /** Returns the dynamic pressure at each node of the section [Pa]. */
     std::vector<double> pressure() const;
 
-    /** Returns the node of the section nearest to the vertical line above the deepest point, at a depth [m]. */
+    /** Returns the node of the section nearest to the vertical line above the deepest point, at a depth [m]. Throws
+     * InputError if the depth is too large. */
     unsigned int node_at(double depth) const;
 
     /** Returns the values of the nearest water nodes at each node of the model of the dam; zero at dry nodes. @p values:
