@@ -381,9 +381,9 @@ namespace Voussoir
     const auto  &points = section.points;
     const Point2 deepest = *std::min_element(points.begin(), points.end(),
                                              [](const Point2 &a, const Point2 &b) { return a[1] < b[1]; });
-    if (depth > level - deepest[1])
+    if (depth > properties.depth)
       throw InputError("Output/Pressure depths contains " + number_text(depth) +
-                       " m, but the depth of the reservoir is " + number_text(level - deepest[1]) +
+                       " m, but the depth of the reservoir is " + number_text(properties.depth) +
                        " m. Reduce it.");
     const auto distance = [&](const Point2 &p)
     { return std::hypot(p[0] - deepest[0], p[1] - level + depth); };
