@@ -136,7 +136,8 @@ namespace
       nodal += .875 * 1000. * std::sqrt(30. * (30. - 5. * k)) * wide * (k == 0 ? 2.5 : 5.);
     water.model = "Westergaard-nodal";
     expect_close(add_added_mass(model, water, structure), nodal, 1e-12, "added mass at the nodes");
-    std::ofstream("mass.csv") << "depth,mass\n0,1000\n20,5000\n30,5000\n";
+    std::ofstream("mass.csv") << "\xEF\xBB\xBF"
+                                 "depth,mass\n0,1000\n20,5000\n30,5000\n";
     water.model = "added mass table";
     water.table = "mass.csv";
     expect_close(add_added_mass(model, water, structure), (20. * 3000. + 10. * 5000.) * wide, 1e-3,

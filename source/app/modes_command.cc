@@ -67,7 +67,8 @@ namespace Voussoir
     }
 
     /** Returns the table of modes.csv. Participation factors are for modes with unit modal mass. */
-    Table table_of(const std::vector<NaturalMode> &modes, const Structure &structure)
+    Table table_of(const std::vector<NaturalMode> &modes, const std::vector<double> &radiation,
+                   const Structure &structure)
     {
       const Vector3 whole = free_mass(structure);
       Table         table;
@@ -82,6 +83,8 @@ namespace Voussoir
                        "share_x",
                        "share_y",
                        "share_z"};
+      if (!radiation.empty())
+        table.columns.push_back("radiation_damping");
       for (std::size_t k = 0; k < modes.size(); ++k)
       {
         const Vector3       factor = modes[k].participation(structure);
@@ -91,6 +94,8 @@ namespace Voussoir
           row.push_back(factor[d] * factor[d]);
         for (unsigned int d = 0; d < 3; ++d)
           row.push_back(factor[d] * factor[d] / whole[d]);
+        if (!radiation.empty())
+          row.push_back(radiation[k]);
         table.rows.push_back(row);
       }
       return table;
@@ -140,9 +145,8 @@ namespace Voussoir
         for (std::size_t i = 0; i < table.columns.size(); ++i)
           modes[k].add(table.columns[i], table.rows[k][i]);
       for (std::size_t k = 0; k < modes.size(); ++k)
-        modes[k].add("damping", damping.ratio(k));
-      for (std::size_t k = 0; k < radiation.size(); ++k)
-        modes[k].add("radiation_damping", radiation[k]);
+        modes[k].add("damping",
+                     damping.ratio(k) + (radiation.empty() || std::isnan(radiation[k]) ? 0. : radiation[k]));
       std::vector<std::string> warnings = dam.mesh_warnings;
       warnings.insert(warnings.end(), dam.scene.warnings.begin(), dam.scene.warnings.end());
       if (const std::string warning = damping.warning(); !warning.empty())
@@ -180,7 +184,7 @@ namespace Voussoir
       std::cerr << "voussoir: warning: " << warning << "\n";
     std::vector<double>            radiation;
     const std::vector<NaturalMode> modes = modes_of(dam, count, radiation);
-    const Table                    table = table_of(modes, dam.structure);
+    const Table                    table = table_of(modes, radiation, dam.structure);
     const ModesDamping             damping(scene.damping, modes, dam.structure);
     if (json)
       std::printf("%s\n", json_of(dam, table, damping, radiation).text().c_str());
@@ -192,7 +196,11 @@ namespace Voussoir
       {
         const double of_water = radiation.empty() || std::isnan(radiation[i]) ? 0. : radiation[i];
         std::printf("%4zu  %10.5f  %16.3f", i + 1, modes[i].frequency, 100. * (damping.ratio(i) + of_water));
-        radiation.empty() ? std::printf("\n") : std::printf("  %20.3f\n", 100. * of_water);
+        if (!radiation.empty() && std::isnan(radiation[i]))
+          std::printf("  %20s", "not found");
+        else if (!radiation.empty())
+          std::printf("  %20.3f", 100. * of_water);
+        std::printf("\n");
       }
       std::printf("Damping   %s\n", damping.in_words().c_str());
       if (!directory.empty())

@@ -56,6 +56,8 @@ namespace Voussoir
     std::string line;
     for (unsigned int number = 1; std::getline(in, line); ++number)
     {
+      if (number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) // byte order mark of UTF-8
+        line.erase(0, 3);
       line = line.substr(0, line.find('#'));
       std::replace_if(
           line.begin(), line.end(), [](const char c) { return c == ',' || c == ';' || c == '\r'; }, ' ');

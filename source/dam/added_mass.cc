@@ -69,22 +69,25 @@ namespace Voussoir
       };
     }
 
-    MassPerArea table_of_mass(const SolidModel &, const ReservoirParameters &reservoir)
+    MassPerArea table_of_mass(const SolidModel &model, const ReservoirParameters &reservoir)
     {
       if (reservoir.table.empty())
         throw InputError("\"Reservoir/Model\" = added mass table requires a file. Set \"Reservoir/Table\".");
       const std::string file = (std::filesystem::path(reservoir.directory) / reservoir.table).string();
-      return [&reservoir, file,
-              curve = read_curve(file, {"The table of Reservoir/Table, ", "depth", "depths", "[m]",
-                                        "added mass per area [kg/m^2]",
-                                        "Its path is relative to the directory of the scene file."})](
-                 const Point<3> &x)
+      const Curve       curve = read_curve(file, {"The table of Reservoir/Table, ", "depth", "depths", "[m]",
+                                                  "added mass per area [kg/m^2]",
+                                                  "Its path is relative to the directory of the scene file."});
+      double            deepest = 0.;
+      for (unsigned int i = 0; i < model.n_nodes(); ++i)
+        if (model.on_surface(i, PhysicalId::upstream))
+          deepest = std::max(deepest, reservoir.level - model.points[i][2]);
+      if (deepest > curve.x.back() * (1. + 1e-9))
+        throw InputError("The table of Reservoir/Table, " + file + ", ends at the depth " +
+                         number_text(curve.x.back()) + " m, but the upstream face has " +
+                         number_text(deepest) + " m. Extend the table, or correct Reservoir/Water level.");
+      return [&reservoir, curve](const Point<3> &x)
       {
         const double depth = reservoir.level - x[2];
-        if (depth > curve.x.back() * (1. + 1e-9))
-          throw InputError("The table of Reservoir/Table, " + file + ", ends at the depth " +
-                           number_text(curve.x.back()) + " m, but the upstream face has " +
-                           number_text(depth) + " m. Extend the table, or correct Reservoir/Water level.");
         return depth <= 0. ? 0. : curve.at(depth);
       };
     }

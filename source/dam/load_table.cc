@@ -54,10 +54,12 @@ namespace Voussoir
                    [](const Scene &scene) { return scene.reservoir.kind().rfind("Westergaard", 0) != 0; },
                    {"Reservoir/Factor", "Reservoir/Depth"}},
                   {"Reservoir/Model is not acoustic",
-                   [](const Scene &scene) { return !scene.reservoir.is_acoustic(); },
+                   [](const Scene &scene) { return scene.reservoir.model != "acoustic"; },
                    {"Reservoir/Sound speed", "Reservoir/Reflection", "Output/Pressure depths"}},
                   {"Reservoir/Model is neither acoustic nor incompressible",
-                   [](const Scene &scene) { return !scene.reservoir.is_meshed(); },
+                   [](const Scene &scene) {
+                     return scene.reservoir.model != "acoustic" && scene.reservoir.model != "incompressible";
+                   },
                    {"Reservoir/Length", "Reservoir/Element size"}},
                   {"Reservoir/Model is not added mass table",
                    [](const Scene &scene) { return scene.reservoir.model != "added mass table"; },

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace Voussoir
@@ -229,6 +230,8 @@ namespace Voussoir
   void OutputParameters::check() const
   {
     probe_places();
+    if (std::set<double>(pressure_depths.begin(), pressure_depths.end()).size() < pressure_depths.size())
+      throw InputError("Entry \"Output/Pressure depths\" has a depth twice. Remove one.");
   }
 
   std::map<std::string, Vector3> OutputParameters::probe_places() const

@@ -113,6 +113,7 @@ namespace Voussoir
     static_state.reset();
     release_free_memory();
     grid = steps;
+    delay_of_region = delay;
     const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
     RockSplit                  split(work_of_nodes(model, near_base));
     split.step_everywhere(rock_nodes(at_base));
@@ -128,22 +129,58 @@ namespace Voussoir
     const IncidentWave wave = incident_wave(outcrop);
     const Vector3      arrives = arrival();
     const double       wait = delay + arrives[0] - arrives[2];
-    const IncidentWave rising = [wave, delay, wait](const double t)
+    rising = [wave, delay, wait](const double t)
     {
       const Vector3 s = wave(t - delay), p = wave(t - wait);
       return Vector3{{s[0], s[1], p[2]}};
     };
     if (grid.n > 0) // 0: no earthquake
-      free_field = &shake(*region, model, p, rising, grid.n_substeps() + 2);
+      shake(*region, model, p, rising, grid.n_substeps() + 2);
     model.stiffness = BlockSparseMatrix(); // frees memory; not used by the region
     region->keep_energy();
     balance = std::make_unique<RockBalance>(*region, base() == Base::coupled);
     rock_monitor = std::make_unique<RockMonitor>(parameters, model, *region, *balance);
   }
 
-  ValleyMotion ExplicitRock::valley(const std::vector<Vector3> &places)
+  namespace
   {
-    return [this, places] { return std::make_pair(free_field->upstream(places), lead); };
+    class ValleyOnRock : public ValleyMotion
+    {
+    public:
+      /** @p delay: shift of the incident waves relative to the time of the field [s]. */
+      ValleyOnRock(std::unique_ptr<FreeField> field, const std::vector<Vector3> &places, const TimeGrid &grid,
+                   const double delay)
+          : field(std::move(field)), places(places), grid(grid), delay(delay)
+      {
+        if (delay > 0.) // else the field has the time of the dam
+          this->field->advance();
+      }
+
+      Unknowns advance() override
+      {
+        for (unsigned int j = 0; j < grid.substeps; ++j)
+          field->advance();
+        return field->upstream(places);
+      }
+
+      double lead() const override { return delay > 0. ? grid.substep() - delay : 0.; }
+
+      std::vector<std::vector<double> *> state() override { return field->state(); }
+
+    private:
+      std::unique_ptr<FreeField> field;
+      const std::vector<Vector3> places;
+      const TimeGrid             grid;
+      const double               delay;
+    };
+  } // namespace
+
+  std::unique_ptr<ValleyMotion> ExplicitRock::valley(const std::vector<Vector3> &places)
+  {
+    return std::make_unique<ValleyOnRock>(
+        make_free_field(model, region_parameters(parameters, centre, grid.substep()), rising,
+                        grid.n_substeps() + 3),
+        places, grid, delay_of_region);
   }
 
   void ExplicitRock::finish_step(const double time)

@@ -25,7 +25,6 @@ namespace Voussoir
 
   void PartitionedRock::start(const GroundMotion &outcrop, const TimeGrid &steps, const Unknowns &u)
   {
-    lead = -steps.substep();
     make_rock(outcrop, steps, 0., {});
     region->set_prescribed(rock_nodes(at_base));
     const std::size_t n = 3 * at_base.size();

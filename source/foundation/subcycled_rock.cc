@@ -40,7 +40,6 @@ namespace Voussoir
   {
     patch =
         std::make_unique<RockPatch>(model, damping(), steps.substep(), rock_nodes(at_base), steps.substeps);
-    lead = steps.dt - .5 * steps.substep();
     make_rock(outcrop, steps, .5 * steps.substep(), patch->nodes());
     region->force.assign(3 * model.points.size(), 0.);
     dam_nodes = DamNodes(at_base);

@@ -296,13 +296,6 @@ namespace Voussoir
     for (const auto &other : sections)
       if (other->direction == 0 && (section == nullptr || other->plane < section->plane))
         section = other.get();
-    if (section != nullptr)
-      section->region->gather_motion();
-    else if (is_split)
-    {
-      Unknowns &motion = columns[highest]->motion();
-      Ranks::broadcast(motion.data(), motion.size(), share.owner(highest));
-    }
     if (section != nullptr && upstream_nodes.empty())
       for (const Vector3 &place : places)
       {

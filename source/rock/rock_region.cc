@@ -134,15 +134,13 @@ namespace Voussoir
     return field;
   }
 
-  FreeField &shake(ExplicitRegion &region, const RockModel &model, const RockRegionParameters &parameters,
-                   const IncidentWave &wave, const unsigned int n_steps)
+  void shake(ExplicitRegion &region, const RockModel &model, const RockRegionParameters &parameters,
+             const IncidentWave &wave, const unsigned int n_steps)
   {
     auto field = make_free_field(model, parameters, wave, n_steps, region.parts());
     add_points(*field, *region.artificial_boundary(), model);
     if (region.is_split())
       field->split_up(region.artificial_boundary()->kept_points());
-    FreeField &result = *field;
     region.set_free_field(std::move(field));
-    return result;
   }
 } // namespace Voussoir

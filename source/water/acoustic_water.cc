@@ -41,9 +41,8 @@ namespace Voussoir
     WaterProperties complete(WaterProperties properties, const double depth)
     {
       if (!(depth > 0.))
-        throw InputError(
-            "Reservoir/Model = acoustic: the water level is not above the lowest point of the upstream "
-            "face. Correct Reservoir/Water level.");
+        throw InputError("Mesh of the water: the water level is not above the lowest point of the upstream "
+                         "face. Correct Reservoir/Water level.");
       properties.depth = depth;
       if (properties.length == 0.)
         properties.length = 2. * depth;
@@ -96,7 +95,7 @@ namespace Voussoir
     unsigned int more = 2;
     while (more < 64 && WaterModel(section, properties, dt / more).mass_factor > largest_mass_factor)
       more *= 2;
-    throw InputError("Reservoir/Model = acoustic: the time step of " + number_text(dt) +
+    throw InputError("Compressible water: the time step of " + number_text(dt) +
                      " s is above the critical time step of the water, " + number_text(model->critical_step) +
                      " s. It would need " + number_text(std::round(100. * factor) / 100.) +
                      " times the mass of the water (limit 1.3). Set \"Dynamics/Steps per sample\" to " +
@@ -222,11 +221,12 @@ namespace Voussoir
     }
     if (!valley)
       return;
-    const auto [place, lead] = valley();
+    const Unknowns place = valley->advance();
+    const double   lead = valley->lead();
     for (std::size_t k = 0; k < place.size(); ++k)
     {
-      const double velocity = (place[k] - valley_place[k]) / dt; // extrapolated linearly
-      bed_velocity[k / 3][k % 3] = velocity + lead / dt * (velocity - valley_velocity[k]);
+      const double velocity = (place[k] - valley_place[k]) / dt; // interpolated linearly
+      bed_velocity[k / 3][k % 3] = velocity - lead / dt * (velocity - valley_velocity[k]);
       valley_velocity[k] = velocity;
     }
     valley_place = place;
@@ -335,14 +335,20 @@ namespace Voussoir
 
   void AcousticWater::report_balance(Log &log) const
   {
-    log.line("          error of the energy balance of the water %.1e (same limit)", balance_error());
+    if (!record.empty())
+      log.line("          error of the energy balance of the water %.1e (same limit)", balance_error());
   }
 
   std::vector<std::vector<double> *> AcousticWater::state()
   {
     if (record.empty())
       return {};
-    return {&pi, &phi, &u_wet, &record, &far_pi, &far_phi, &valley_place, &valley_velocity};
+    std::vector<std::vector<double> *> arrays = {&pi,     &phi,     &u_wet,        &record,
+                                                 &far_pi, &far_phi, &valley_place, &valley_velocity};
+    if (valley)
+      for (std::vector<double> *array : valley->state())
+        arrays.push_back(array);
+    return arrays;
   }
 
   std::vector<double> AcousticWater::source(const WaterModel &water, const Unknowns &x) const

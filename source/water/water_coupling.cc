@@ -126,7 +126,7 @@ namespace Voussoir
           const unsigned int water = finder.find({p[1], p[2]}, wet[f].monolith);
           if (water == rigid_ground)
             throw InputError(
-                "Reservoir/Model = acoustic: monolith " + std::to_string(wet[f].monolith) +
+                "Mesh of the water: monolith " + std::to_string(wet[f].monolith) +
                 " has no water node near y = " + number_text(p[1]) + " m, z = " + number_text(p[2]) +
                 " m. Reduce Reservoir/Element size, for example to " + number_text(.7 * h) + " m.");
           add(area[water], part);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
 #include <voussoir/water/water_modes.h>
 
 #include <algorithm>
@@ -161,7 +162,14 @@ namespace Voussoir
       for (unsigned int pass = 0; pass < 20; ++pass)
       {
         const Complex before = s;
-        water.add_solution(Complex(0., std::abs(s)), q);
+        try
+        {
+          water.add_solution(Complex(0., std::abs(s)), q);
+        }
+        catch (const ComputationError &)
+        {
+          return 0.;
+        }
         if (!iterate(water, Lambda, rest, s, q))
           return 0.;
         if (std::abs(s - before) < 1e-6 * std::abs(s))

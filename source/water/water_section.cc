@@ -46,7 +46,7 @@ namespace Voussoir
           const int    of_corner = area > 0. ? 1 : -1;
           if (sign != 0 && of_corner != sign)
             throw InputError(
-                "Reservoir/Model = acoustic: the upstream face is folded as seen along the river, near y = " +
+                "Mesh of the water: the upstream face is folded as seen along the river, near y = " +
                 number_text(face.corners[k][1]) + " m, z = " + number_text(face.corners[k][2]) +
                 " m. The water mesh is extruded from this face. Set Reservoir/Model to Westergaard.");
           sign = of_corner;
@@ -98,9 +98,8 @@ namespace Voussoir
         at = next.at(at);
       } while (at != next.begin()->first && chain.size() <= next.size());
       if (chain.size() != next.size())
-        throw InputError(
-            "Reservoir/Model = acoustic: the upstream face has more than one outline. Make the surface "
-            "\"upstream\" one connected face without holes.");
+        throw InputError("Mesh of the water: the upstream face has more than one outline. Make the surface "
+                         "\"upstream\" one connected face without holes.");
       return chain;
     }
 
@@ -120,7 +119,7 @@ namespace Voussoir
       while (first < n && closed[first][1] < level)
         ++first;
       if (first == n)
-        throw InputError("Reservoir/Model = acoustic: the water level of " + number_text(level) +
+        throw InputError("Mesh of the water: the water level of " + number_text(level) +
                          " m is above the upstream face of the dam. Lower Reservoir/Water level.");
       for (std::size_t k = 0; k < n; ++k)
       {
@@ -134,7 +133,7 @@ namespace Voussoir
           parts.back().push_back(between(a, b, (level - a[1]) / (b[1] - a[1])));
       }
       if (parts.size() != 1)
-        throw InputError("Reservoir/Model = acoustic: the water level of " + number_text(level) +
+        throw InputError("Mesh of the water: the water level of " + number_text(level) +
                          (parts.empty() ? " m is below the upstream face of the dam."
                                         : " m divides the upstream face into several parts.") +
                          " Correct Reservoir/Water level.");
@@ -239,7 +238,7 @@ namespace Voussoir
 
     [[noreturn]] void too_coarse(const std::string &why, const double h)
     {
-      throw InputError("Reservoir/Model = acoustic: " + why + " with water elements of " + number_text(h) +
+      throw InputError("Mesh of the water: " + why + " with water elements of " + number_text(h) +
                        " m. Reduce Reservoir/Element size, for example to " + number_text(.7 * h) + " m.");
     }
 

@@ -52,8 +52,9 @@ namespace Voussoir
     /** Returns the number of steps within the critical time step, at most 100 (check() refuses larger steps). */
     unsigned int needed_substeps(double dt) const override;
 
-    /** Returns the free field of the section upstream, or of the highest column. */
-    ValleyMotion valley(const std::vector<Vector3> &places) override;
+    /** Returns the free field of the section upstream, or of the highest column. It has its own integration, ahead of the
+     * rock. */
+    std::unique_ptr<ValleyMotion> valley(const std::vector<Vector3> &places) override;
 
     // Static state by RockStaticState. Must be called after add_stiffness() and before start().
     Unknowns      static_springs(const Structure &structure) const override;
@@ -121,11 +122,10 @@ namespace Voussoir
     // From start() on.
     TimeGrid                        grid;                 ///< time steps of the run
     std::unique_ptr<ExplicitRegion> region;               ///< time integration of the rock
-    FreeField                      *free_field = nullptr; ///< of the region; null: no earthquake
-    double                          lead =
-        0.; ///< from the displacements of the rock to the end of the coming step, after advance() [s]
-    std::unique_ptr<RockBalance> balance;      ///< energies of the rock and of its coupling with the dam
-    std::unique_ptr<RockMonitor> rock_monitor; ///< monitor of the instability
+    IncidentWave                    rising;               ///< incident wave
+    double                          delay_of_region = 0.; ///< argument delay of make_rock() [s]
+    std::unique_ptr<RockBalance>    balance;      ///< energies of the rock and of its coupling with the dam
+    std::unique_ptr<RockMonitor>    rock_monitor; ///< monitor of the instability
 
     /** Rank that owns most nodes near the base. It computes the nodes near the base of the other ranks, too,
      * so that it can compute SubcycledRock::predict() without messages. */

@@ -39,10 +39,22 @@ namespace Voussoir
   /** Solves for the static state of the dam under nodal loads, three values per node of the dam [N]. */
   using DamSolve = std::function<ContactResult(const Unknowns &load)>;
 
-  /** Returns the displacement of the ground without the dam at places of the valley, three values per place [m], from
-   * the start of the earthquake, and the time from this displacement to the end of the coming time step of the dam [s].
-   * Must be called once in each step, by all ranks, after Neighbour::advance() of the foundation. */
-  using ValleyMotion = std::function<std::pair<Unknowns, double>()>;
+  /** Motion of the ground without the dam at places of the valley, integrated in step with the dam. */
+  class ValleyMotion
+  {
+  public:
+    virtual ~ValleyMotion() = default;
+
+    /** Advances by one time step of the dam. Returns the displacement from the start of the earthquake, three values per
+     * place [m]. Must be called by all ranks. */
+    virtual Unknowns advance() = 0;
+
+    /** Returns the time of the displacement relative to the end of the time step of the dam [s]. */
+    virtual double lead() const = 0;
+
+    /** Returns all state variables, as Neighbour::state(). */
+    virtual std::vector<std::vector<double> *> state() = 0;
+  };
 
   /** Part of a foundation that is known before a run: what it requires of mesh and time step, and its
    * description. */
@@ -110,7 +122,7 @@ namespace Voussoir
 
     /** Returns the motion of the valley upstream of the dam at the given places [m], or null if it is the ground
      * motion. The x coordinate of a place does not count. Must be called after Neighbour::start(). */
-    virtual ValleyMotion valley(const std::vector<Vector3> & /*places*/) { return nullptr; }
+    virtual std::unique_ptr<ValleyMotion> valley(const std::vector<Vector3> & /*places*/) { return nullptr; }
 
     /** Adds the stiffness of the foundation to the structure and stores the base nodes. The nodes of the dam
      * are final and treated according to base(). */

@@ -26,10 +26,10 @@ namespace Voussoir
                                              const IncidentWave &wave, unsigned int n_steps,
                                              const RockSplit &split = RockSplit());
 
-  /** Sets the free field of @p region for the incident @p wave, and returns it. @p n_steps: largest number of steps
+  /** Sets the free field of @p region for the incident @p wave. @p n_steps: largest number of steps
    * of the run. */
-  FreeField &shake(ExplicitRegion &region, const RockModel &model, const RockRegionParameters &parameters,
-                   const IncidentWave &wave, unsigned int n_steps);
+  void shake(ExplicitRegion &region, const RockModel &model, const RockRegionParameters &parameters,
+             const IncidentWave &wave, unsigned int n_steps);
 } // namespace Voussoir
 
 #endif

@@ -100,18 +100,18 @@ namespace Voussoir
     void find_bed_velocity();
     void advance_far_channel();
 
-    const SolidModel           &dam;
-    Structure                  &structure;
-    Foundation                 &foundation;
-    WaterProperties             properties;
-    WaterSection                section;
-    WaterCoupling               coupling;
-    std::unique_ptr<WaterModel> model;
-    double                      dt = 0.;
-    std::unique_ptr<WaterModel> far;    ///< section of the far channel
-    std::unique_ptr<BaseMotion> banks;  ///< motion of the banks relative to the ground motion, or null
-    ValleyMotion                valley; ///< displacement of bed and banks, or null
-    std::vector<Vector3>        ground_velocity; ///< per step [m/s]
+    const SolidModel             &dam;
+    Structure                    &structure;
+    Foundation                   &foundation;
+    WaterProperties               properties;
+    WaterSection                  section;
+    WaterCoupling                 coupling;
+    std::unique_ptr<WaterModel>   model;
+    double                        dt = 0.;
+    std::unique_ptr<WaterModel>   far;    ///< section of the far channel
+    std::unique_ptr<BaseMotion>   banks;  ///< motion of the banks relative to the ground motion, or null
+    std::unique_ptr<ValleyMotion> valley; ///< displacement of bed and banks, or null
+    std::vector<Vector3>          ground_velocity; ///< per step [m/s]
     Vector3              base_velocity; ///< mean in the step of the axes of the dam's displacements [m/s]
     std::vector<Vector3> bed_velocity;  ///< per node of the section: mean in the step [m/s]
     std::vector<double>  D, inverse;    ///< [kg s/m^2] and its reciprocal
