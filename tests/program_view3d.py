@@ -29,6 +29,7 @@ from voussoir.runs import Run
 from voussoir.tables import read_table
 
 MOVING = settings("Joints/Friction=0.3")
+WATER = settings("Reservoir/Model=acoustic", "Reservoir/Element size=25")
 
 
 def nodes_of(monolith, points):
@@ -37,23 +38,30 @@ def nodes_of(monolith, points):
 
 
 def frames():
-    """Displacement, stress and opening of every frame are those of the solution at its time; the quadrilaterals enclose the dam."""
+    """Displacement, stress, opening and pressure of the water of every frame are those of the solution at its time; the quadrilaterals enclose
+    the dam."""
     write_scene()
-    runs("scene.prm", "--output", "run", *MOVING, *settings("Output/Solution interval=1", "Output/Frames=1000"))
+    runs("scene.prm", "--output", "dry", *MOVING, *settings("Output/Frames=4"))
+    expect(not Frames("dry").has_pressure and Frames("dry").units.shape[1] == 3, "a pressure without compressible water")
+    runs("scene.prm", "--output", "run", *MOVING, *WATER, *settings("Output/Solution interval=1", "Output/Frames=1000"))
     found = Frames("run")
     step = np.rint(found.times / .01).astype(int)
     expect(len(step) > 40 and step[0] == 0 and (np.diff(step)[1:] == 1).all(), f"steps of the frames: {step}")
     monolith = np.zeros(len(found.points))
     monolith[found.quads] = found.monolith[:, None]
     for k in (0, 1, len(step) // 2, len(step) - 1):
-        data = read_solution(Path(f"run/solution-{step[k]:05d}.vtu"), displacement=3, max_principal=1, opening=1, monolith=1)
+        data = read_solution(Path(f"run/solution-{step[k]:05d}.vtu"), displacement=3, max_principal=1, opening=1, water_pressure=1, monolith=1)
         at = {name: i for i, name in enumerate(nodes_of(data["monolith"], data["Points"]))}
         rows = [at[name] for name in nodes_of(monolith, found.points)]
-        for c, (name, column) in enumerate((("displacement", "displacement"), ("stress", "max_principal"), ("opening", "opening"))):
+        for c, (name, column) in enumerate({"displacement": "displacement", "stress": "max_principal", "opening": "opening",
+                                            "pressure": "water_pressure"}.items()):
             error = np.abs(found.values(name, [k])[0] - data[column][rows]).max()
             unit, largest = found.units[k][c], np.abs(data[column][rows]).max()
             print(f"    frame {k}: {name} up to {largest:.4g}, error {error:.2g}, unit {unit:.2g}")
             expect(error <= .51 * unit + 1e-6 * largest, f"frame {k}: {name} has an error of {error}, unit {unit}")
+            if (k, name) == (0, "pressure"):  # of the static state
+                expect(largest == 0., f"dynamic pressure of {largest} Pa at the start")
+                continue
             expect(largest > 0. and unit < largest / 32766., f"frame {k}: {name} up to {largest}, unit {unit}")
     x = found.points.astype(float)[found.quads]
     volume = sum(np.einsum("ij,ij->i", x[:, 0], np.cross(x[:, a], x[:, b])).sum() / 6. for a, b in ((1, 2), (2, 3)))
@@ -207,7 +215,7 @@ def view():
         print("SKIPPED: no Chromium, libjs-three or libjs-dygraphs (on Debian: apt-get install chromium libjs-three libjs-dygraphs)")
         sys.exit(77)
     write_scene()
-    runs("scene.prm", "--output", "run", *MOVING)
+    runs("scene.prm", "--output", "run", *MOVING, *WATER)
     runs("report", "run", "--pdf")
     html = Path("run/report.html").read_text(encoding="utf-8")
     policy = re.search(r'Content-Security-Policy" content="([^"]*)"', html)[1]
@@ -313,9 +321,28 @@ def colours(chromium):
     for mode in chromium.value(f"[...{VIEW}.modes.options].map(o => o.value)"):
         chromium.value(f"({VIEW}.modes.value = '{mode}', {VIEW}.modes.dispatchEvent(new Event('change')))")
         seen.add((chromium.value(f"Array.from({VIEW}.model.colour.array).join()"), chromium.value("document.querySelector('.view3d-bar').textContent")))
-    expect(len(seen) == 3 and len({colour for colour, _ in seen}) == 3, f"{len(seen)} choices of colour")
+    expect(len(seen) == 4 and len({colour for colour, _ in seen}) == 4, f"{len(seen)} choices of colour")
+    pressure(chromium)
+    chromium.value(f"({VIEW}.modes.value = 'stress', {VIEW}.modes.dispatchEvent(new Event('change')))")
     factor = chromium.value(f"({VIEW}.factor.value = 1, {VIEW}.factor.dispatchEvent(new Event('input')), {VIEW}.model.factor)")
     expect(factor == 10. and "10" in chromium.value(f"{VIEW}.times.textContent"), f"displacements × {factor}")
+
+
+def pressure(chromium):
+    """The dynamic pressure has its limits in MPa in the bar, the colours of its numbers, and the camera upstream. The last choice shows it."""
+    found, at = Frames("run"), chromium.value(f"Math.round({VIEW}.model.at)")
+    chromium.value(f"{VIEW}.show({at})")
+    values = found.values("pressure", found.strongest(len(found.times)))
+    top = float(f"{1e-6 * np.abs(values).max():.2g}")
+    bar = chromium.value("document.querySelector('.view3d-bar').textContent")
+    digits = 2 if top >= .1 else 4
+    expect(bar == f"dynamic water pressure [MPa]\u2212{top:.{digits}f}0{top:.{digits}f}", f"{bar}, largest {top} MPa")
+    n = len(found.points)
+    numbers = np.array(chromium.value(f"Array.from({VIEW}.model.pressure.subarray({at * n}, {(at + 1) * n}))"))
+    error = np.abs((numbers / 127.5 - 1.) * top - np.clip(1e-6 * values[at], -top, top)).max()
+    expect(error < .51 / 127.5 * top and np.ptp(numbers) > 20, f"pressures of frame {at} have an error of {error} MPa")
+    camera = chromium.value(f"{VIEW}.model.camera.position.x - {VIEW}.model.controls.target.x")
+    expect(camera < 0., "the camera is downstream of the wet face")
 
 
 def paper(chromium):

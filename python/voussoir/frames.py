@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads frames.bin of a run: displacements, stresses and openings at the surface of the dam over time."""
+"""Reads frames.bin of a run: displacements, stresses, openings and water pressures at the surface of the dam over time."""
 
 import json
 from pathlib import Path
@@ -10,13 +10,14 @@ from .errors import InputError
 from .runs import Skip
 
 FORMAT = "voussoir frames 1"
-UNITS = ("displacement", "stress", "opening")
+UNITS = ("displacement", "stress", "opening", "pressure")
 
 
 class Frames:
     """`points` [m]; `surface`, `monolith` and `quads` (four indices into points, counter-clockwise from outside) of each quadrilateral;
-    `times` [s]; and numbers of frame k: displacement (n, 3), stress and opening (n), times `units[k]` [m, Pa, m]. Throws Skip for a
-    run without the file, and InputError for a damaged one. An incomplete last frame of an interrupted run is left out."""
+    `times` [s]; and numbers of frame k: displacement (n, 3), stress and opening (n), times `units[k]` [m, Pa, m]; with `has_pressure`
+    (compressible water) also the dynamic pressure (n) [Pa], 0 at dry nodes. Throws Skip for a run without the file, and InputError for a
+    damaged one. An incomplete last frame of an interrupted run is left out."""
 
     def __init__(self, directory):
         path = Path(directory) / "frames.bin"
@@ -30,19 +31,24 @@ class Frames:
             n, m, self.has_stress = int(head["nodes"]), int(head["quads"]), bool(head["stress"])
             self.points = np.frombuffer(data, "<f4", 3 * n, begin).reshape(n, 3)
             cells = np.frombuffer(data, "<i4", 6 * m, begin + 12 * n).reshape(m, 6)
-            kind = np.dtype([("time", "<f8"), ("units", "<f4", 3), ("displacement", "<i2", (n, 3)), ("stress", "<i2", n), ("opening", "<i2", n)])
+            self.has_pressure = bool(head.get("pressure"))
+            kind = np.dtype([("time", "<f8"), ("units", "<f4", 3), ("displacement", "<i2", (n, 3)), ("stress", "<i2", n), ("opening", "<i2", n)]
+                            + [("pressure_unit", "<f4"), ("pressure", "<i2", n)] * self.has_pressure)
             begin += 12 * n + 24 * m
             frames = np.frombuffer(data, kind, (len(data) - begin) // kind.itemsize, begin)
+            units = frames["units"].astype(float)
+            if self.has_pressure:
+                units = np.column_stack([units, frames["pressure_unit"].astype(float)])
             self.surface, self.monolith, self.quads = cells[:, 0], cells[:, 1], cells[:, 2:]
             if not (n > 0 and m > 0 and len(frames) and self.quads.min() >= 0 and self.quads.max() < n and np.isfinite(self.points).all()
-                    and np.isfinite(frames["units"]).all() and np.isfinite(frames["time"]).all()):
+                    and np.isfinite(units).all() and np.isfinite(frames["time"]).all()):
                 raise ValueError("its numbers are not possible")
         except (ValueError, LookupError, TypeError, OverflowError, RecursionError) as error:
             raise InputError(f"{path} is damaged: it cannot be decoded ({error}). Repeat the run.") from error
-        self.times, self.units, self.numbers = frames["time"], frames["units"].astype(float), frames
+        self.times, self.units, self.numbers = frames["time"], units, frames
 
     def values(self, what, chosen):
-        """Displacement [m], stress [Pa] or opening [m] of these frames: (frame, node, ...)."""
+        """Displacement [m], stress [Pa], opening [m] or pressure [Pa] of these frames: (frame, node, ...)."""
         numbers = self.numbers[what][chosen].astype(np.float32)
         units = self.units[chosen, UNITS.index(what)].astype(np.float32)
         return numbers * units.reshape(-1, *(1,) * (numbers.ndim - 1))

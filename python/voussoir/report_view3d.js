@@ -8,6 +8,7 @@
   const UPSTREAM = "#0b5394", DOWNSTREAM = "#cc4125", INK = "#1b1f24";
   const CONCRETE = [0xde, 0xda, 0xd2];
   const STRESS = [[0x05, 0x30, 0x61], [0x43, 0x93, 0xc3], [0xd1, 0xe5, 0xf0], [0xf7, 0xf7, 0xf7], [0xfd, 0xdb, 0xc7], [0xd6, 0x60, 0x4d], [0x67, 0, 0x1f]];
+  const PRESSURE = [[0x54, 0x30, 0x05], [0xbf, 0x81, 0x2d], [0xf6, 0xe8, 0xc3], [0xf5, 0xf5, 0xf5], [0xc7, 0xea, 0xe5], [0x35, 0x97, 0x8f], [0, 0x3c, 0x30]];
   const OPENING = [CONCRETE, [0xf0, 0xc2, 0x7b], [0xdd, 0x7a, 0x3b], [0xa9, 0x2b, 0x1f], [0x5a, 0x0d, 0x12]];
 
   // All texts of the data are compressed bytes in base64.
@@ -52,7 +53,7 @@
     }
     return colours;
   };
-  const STRESS_COLOURS = table(STRESS), OPENING_COLOURS = table(OPENING);
+  const STRESS_COLOURS = table(STRESS), PRESSURE_COLOURS = table(PRESSURE), OPENING_COLOURS = table(OPENING);
 
   const shown = (value, digits) => value.toFixed(digits).replace("-", "\u2212");
   const digitsOf = (top) => top >= 100 ? 0 : top >= 10 ? 1 : 2;
@@ -68,6 +69,7 @@
       this.edges = numbers(data.edges, "u4");
       this.edgeJoints = numbers(data.edgeJoints, "u2");
       this.stress = data.stress && overTime(data.stress, "u1", this.n);
+      this.pressure = data.pressure && overTime(data.pressure, "u1", this.n);
       this.envelope = data.envelope && numbers(data.envelope, "u1");
       this.jointNodes = numbers(data.jointNodes, "u4");
       this.nodeJoints = numbers(data.nodeJoints, "u2");
@@ -141,9 +143,9 @@
       this.look();
     }
 
-    // The camera at the start: from downstream, above, as in the picture.
+    // The camera at the start: from downstream, above, as in the picture; for the pressure of the water from upstream.
     look() {
-      const azimuth = -12 * Math.PI / 180, elevation = 30 * Math.PI / 180;
+      const azimuth = (this.mode === "pressure" ? 168 : -12) * Math.PI / 180, elevation = (this.mode === "pressure" ? 15 : 30) * Math.PI / 180;
       const back = new THREE.Vector3(Math.cos(elevation) * Math.cos(azimuth), Math.cos(elevation) * Math.sin(azimuth), Math.sin(elevation));
       const centre = this.middle.clone(), point = new THREE.Vector3(), x = this.points;
       let distance = 2 * this.size;
@@ -196,9 +198,9 @@
         for (let j = 0; j < m; ++j)
           set(this.jointNodes[j], OPENING_COLOURS, Math.round((1 - w) * this.opening[m * k + j] + w * this.opening[m * (k + next) + j]));
       } else {
-        const now = this.mode === "envelope" ? this.envelope : this.stress, a = this.mode === "envelope" ? 0 : this.n * k;
-        const b = this.mode === "envelope" ? 0 : a + this.n * next;
-        for (let i = 0; i < this.n; ++i) set(i, STRESS_COLOURS, Math.round((1 - w) * now[a + i] + w * now[b + i]));
+        const now = this[this.mode], a = this.mode === "envelope" ? 0 : this.n * k, b = this.mode === "envelope" ? 0 : a + this.n * next;
+        const values = this.mode === "pressure" ? PRESSURE_COLOURS : STRESS_COLOURS;
+        for (let i = 0; i < this.n; ++i) set(i, values, Math.round((1 - w) * now[a + i] + w * now[b + i]));
       }
       this.colour.needsUpdate = true;
     }
@@ -358,9 +360,12 @@
         made.addEventListener("change", () => action(made.value));
         return made;
       };
-      const modes = [["stress", "principal stress"], ["envelope", "largest stress over time"], ["opening", "opening of the joints"]];
+      const modes = [["stress", "principal stress"], ["envelope", "largest stress over time"], ["opening", "opening of the joints"],
+        ["pressure", "dynamic water pressure"]];
       this.modes = select("colour", modes.filter(([key]) => model[key] && (key !== "opening" || data.openingTop > 0)), model.mode, (mode) => {
+        const turns = (mode === "pressure") !== (model.mode === "pressure");
         model.mode = mode;
+        if (turns) model.look();
         this.colourBar();
         model.update();
       });
@@ -488,10 +493,12 @@
     }
 
     colourBar() {
-      const {mode} = this.model, {data} = this, opening = mode === "opening", colours = opening ? OPENING_COLOURS : STRESS_COLOURS;
+      const {data} = this, opening = this.model.mode === "opening";
+      const [name, colours, top, digits] = opening ? ["opening [mm]", OPENING_COLOURS, data.openingTop, digitsOf(data.openingTop)]
+        : this.model.mode === "pressure" ? ["dynamic water pressure [MPa]", PRESSURE_COLOURS, data.pressureTop, data.pressureTop < 0.1 ? 4 : 2]
+        : ["maximum principal stress [MPa]", STRESS_COLOURS, data.stressTop, digitsOf(data.stressTop) - 1];
       this.bar.textContent = "";
-      const top = opening ? data.openingTop : data.stressTop, digits = digitsOf(top) - (opening ? 0 : 1);
-      element(this.bar, "span", "view3d-unit", opening ? "opening [mm]" : "maximum principal stress [MPa]");
+      element(this.bar, "span", "view3d-unit", name);
       const strip = element(this.bar, "canvas", "");
       strip.width = 256;
       strip.height = 1;

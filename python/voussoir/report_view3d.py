@@ -107,7 +107,7 @@ def figure_of(run, frames, has_scripts, length):
 
 
 class Shown:
-    """The chosen frames: displacements [m], openings [mm], stresses [MPa] or None, and the largest stress of the colours."""
+    """The chosen frames: displacements [m], openings [mm], stresses and pressures of the water [MPa] or None, and the largest ones of the colours."""
 
     def __init__(self, run, frames, chosen):
         self.run, self.frames, self.times = run, frames, frames.times[chosen]
@@ -116,6 +116,7 @@ class Shown:
         self.factor = magnification(frames.points, self.moved)
         self.widest = int(np.argmax(self.opening.max(axis=1) if self.opening.max() > 0. else (self.moved**2).sum(axis=(1, 2))))
         self.stress = 1e-6 * frames.values("stress", chosen) if frames.has_stress else None
+        self.pressure = 1e-6 * frames.values("pressure", chosen) if frames.has_pressure else None
         self.envelope = envelope_of(run, frames) if frames.has_stress else None
         top = 0. if self.stress is None else float(np.quantile(np.abs(self.stress if self.envelope is None else self.envelope), .995))
         self.top = float(np.ceil(top)) if top > 1. else float(f"{max(.1, top):.1g}")
@@ -133,11 +134,13 @@ class Shown:
         unit, widest = float(np.abs(self.moved).max()) / 32767. or 1., float(self.opening.max())
         to_byte = lambda values, low, high: np.clip(np.rint(255. * (values - low) / (high - low)), 0, 255).astype(np.uint8)
         stresses = lambda values: None if values is None else to_byte(values, -self.top, self.top)
+        pressure_top = 0. if self.pressure is None else float(f"{np.abs(self.pressure).max():.2g}")
         return {"points": packed(self.frames.points, "<f4"), "quads": packed(self.frames.quads, "<u4"), "edges": packed(edges, "<u4"),
                 "edgeJoints": packed(of_edges, "<u2"), "times": [round(float(t), 6) for t in self.times], "unit": unit,
                 "moved": packed_over_time(np.rint(self.moved / unit).astype(np.int16)), "factor": self.factor, "start": self.widest,
                 "stress": self.stress is not None and packed_over_time(stresses(self.stress)), "stressTop": self.top,
                 "envelope": self.envelope is not None and packed(stresses(self.envelope), "u1"),
+                "pressure": pressure_top > 0. and packed_over_time(to_byte(self.pressure, -pressure_top, pressure_top)), "pressureTop": pressure_top,
                 "jointNodes": packed(nodes, "<u4"), "nodeJoints": packed(joints, "<u2"),
                 "opening": packed_over_time(to_byte(self.opening[:, nodes], 0., max(widest, 1e-9))), "openingTop": widest if widest > .05 else 0.,
                 "history": history_of(self.run)}
