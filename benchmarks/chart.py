@@ -79,7 +79,7 @@ def name_of(choice, entry, value, entries):
         return f"time step {1e3 * float(entries['Motion/Time step']) / float(value):.3g} ms"
     if choice in ("along", "up", "through"):
         return f"{value} element{'s' * (int(value) > 1)} {choice}"
-    return f"{entry.split('/')[-1].lower()} {value}"
+    return f"{choice} {value}"
 
 
 def numerical_points(accuracy, levels, needs):
@@ -100,8 +100,8 @@ def numerical_points(accuracy, levels, needs):
         if row["group"] == "numerics" and row["simpler"] and not known and change_of(row) is not None and entry_of[entry] in now:
             present = now[entry_of[entry]]
             ratio = float(dict(part.split(" = ") for part in present["setting"].split("; "))[entry]) / float(value)
-            errors = {m: max(float(present[f"error_{m}"]) + change_of(row, columns), float(present[f"error_{m}"]) * ratio**float(present["order"]))
-                      for m, columns in MEASURES.items()}
+            growth, error = max(ratio, 1 / ratio)**float(present["order"]), {m: float(present[f"error_{m}"]) for m in MEASURES}
+            errors = {m: max(error[m] + change_of(row, columns), error[m] * growth) for m, columns in MEASURES.items()}
             found.append((entry_of[entry], entry, value, cost * row["cost"], errors))
     for choice, entry, value, of_level, errors in found:
         own = {m: float(now[choice][f"error_{m}"]) if choice in now else 0. for m in MEASURES}
