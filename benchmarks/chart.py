@@ -101,7 +101,7 @@ def numerical_points(accuracy, levels, needs):
             present = now[entry_of[entry]]
             ratio = float(dict(part.split(" = ") for part in present["setting"].split("; "))[entry]) / float(value)
             growth, error = max(ratio, 1 / ratio)**float(present["order"]), {m: float(present[f"error_{m}"]) for m in MEASURES}
-            errors = {m: max(error[m] + change_of(row, columns), error[m] * growth) for m, columns in MEASURES.items()}
+            errors = {m: max(error[m] + (change_of(row, columns) or 0.), error[m] * growth) for m, columns in MEASURES.items()}
             found.append((entry_of[entry], entry, value, cost * row["cost"], errors))
     for choice, entry, value, of_level, errors in found:
         own = {m: float(now[choice][f"error_{m}"]) if choice in now else 0. for m in MEASURES}
