@@ -5,8 +5,9 @@
     benchmarks/water.py [--scenes quickstart rigid28 ...] [--seconds 5] [--seeds 1 2 3] [--output output/water] [--figure FILE.png] [--voussoir PROGRAM]
 
 Each row is a run over the strongest seconds of the motion of the scene, as in `voussoir needs`. Tension: largest mean of the envelope in a zone of the
-face, away from the base. Frequencies: `voussoir modes` of the tied dam, on massless rock for scenes on rock. Cost: CPU seconds per second of earthquake. The elements of acoustic water fit the time step of the dam: the larger one of a sixteenth of the
-depth and 1.1 dt c. A model that the program refuses is a row with the reason.
+face, away from the base. Frequencies: `voussoir modes` of the tied dam, on massless rock for scenes on rock. Cost: CPU seconds per second of earthquake.
+The elements of acoustic water fit the time step of the dam: the larger one of a sixteenth of the depth and 1.1 dt c. A model that the program refuses
+is a row with the reason.
 
 Prints a Markdown table: means over the motions (seeds), and the smallest and largest change against Westergaard under the same motion. Existing runs
 are not repeated; refused ones are. After a change of the program choose another --output.
@@ -40,7 +41,6 @@ REFERENCE = "Westergaard"
 MODELS = {REFERENCE: {},
           "none": {"Reservoir/Model": "none"},
           "half of Westergaard": {"Reservoir/Factor": 0.5},
-          "incompressible": {"Reservoir/Model": "incompressible"},
           "acoustic": ACOUSTIC,
           "acoustic, reflection 0.75": {**ACOUSTIC, "Reservoir/Reflection": 0.75}}
 RESULTS = {"opening": "opening", "slip": "slip", "tension_upstream": "tension upstream", "tension_downstream": "tension downstream",

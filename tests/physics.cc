@@ -145,7 +145,9 @@ namespace
     const std::vector<double> per_area = added_mass_per_area(model, water);
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
       expect_close(per_area[i],
-                   model.points[i][0] > 0. || model.points[i][2] >= 30. ? 0. : std::min(5000., 1000. + 200. * (30. - model.points[i][2])),
+                   model.points[i][0] > 0. || model.points[i][2] >= 30.
+                       ? 0.
+                       : std::min(5000., 1000. + 200. * (30. - model.points[i][2])),
                    1e-12, "added mass per area of a table");
     water.level = 31.;
     throws<InputError>("short table", [&] { add_added_mass(model, water, structure); },
