@@ -141,7 +141,7 @@ namespace Voussoir
         rare_envelopes(scene),    level_of_another_dam(scene, entries), other_day(scene),
         odd_factors(scene.loads), undefined_loads(scene, entries),      stiff_sustained(scene)};
     add_levels_above_the_reservoir(scene, warnings);
-    if (is_written(entries, "Reservoir/Added mass"))
+    if (scene.reservoir.kind() != scene.reservoir.model)
       warnings.push_back(
           "Reservoir/Added mass is an entry of older versions. Replace it by Reservoir/Model = " +
           scene.reservoir.kind() + ".");
