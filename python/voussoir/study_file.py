@@ -215,8 +215,8 @@ def path_of(value, study):
 
 
 def is_file_entry(entry):
-    """Mesh/File, Motion/File, Motion/File x..., the target spectrum, and the tables of arcs and of temperatures."""
-    return entry.split("/")[-1].split(" ")[0] == "File" or entry in ("Mesh/Arcs/Table", "Motion/Target spectrum", "Loads/Temperature/Table")
+    """Mesh/File, Motion/File, Motion/File x..., the target spectrum, and the tables of arcs, temperatures and added masses."""
+    return entry.split("/")[-1].split(" ")[0] == "File" or entry in ("Mesh/Arcs/Table", "Motion/Target spectrum", "Loads/Temperature/Table", "Reservoir/Table")
 
 
 def with_paths(entry, text, directory):
