@@ -343,7 +343,8 @@ namespace Voussoir
   {
     if (record.empty())
       return {};
-    std::vector<std::vector<double> *> arrays = {&pi, &phi, &u_wet, &record};
+    std::vector<std::vector<double> *> arrays;
+    arrays = {&pi, &phi, &u_wet, &record};
     arrays.insert(arrays.end(), {&far_pi, &far_phi, &valley_place, &valley_velocity});
     if (valley)
       for (std::vector<double> *array : valley->state())
