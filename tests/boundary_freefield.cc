@@ -312,6 +312,48 @@ namespace
       note(what + ": variation along the valley / peak", error / peak);
   }
 
+  /** A valley that changes along x: FreeField::upstream() has the motion of the free field at the nodes with the smallest
+   * x. */
+  void varying_valley()
+  {
+    auto p = parameters("mtf2", true);
+    p.dt = .13;
+    p.free_field = "sections";
+    const auto shallower = [](const double i, const double j, const double k)
+    {
+      const Vector3 deep = valley(i, j, k);
+      return Vector3{{deep[0], deep[1], deep[2] + i / 12. * .5 * (k - deep[2])}};
+    };
+    const RockModel           model = make_rock_model(box({12, 20, 14}, open_box, shallower), p.rock);
+    const auto                field = make_free_field(model, p, pulse, 900);
+    std::vector<unsigned int> first, last;
+    std::vector<Vector3>      places;
+    for (unsigned int i = 0; i < model.points.size(); i += 13)
+    {
+      first.push_back(i);
+      last.push_back(i + 12);
+      places.push_back(model.points[i]);
+    }
+    field->add_nodes(model, first);
+    field->add_nodes(model, last);
+    double   error = 0., other = 0., peak = 0.;
+    Unknowns u;
+    for (unsigned int i = 0; i < 900; ++i)
+    {
+      field->advance();
+      field->evaluate(u);
+      const Unknowns upstream = field->upstream(places);
+      for (std::size_t k = 0; k < upstream.size(); ++k)
+      {
+        error = larger(error, std::abs(upstream[k] - u[k]));
+        other = larger(other, std::abs(u[upstream.size() + k] - u[k]));
+        peak = larger(peak, std::abs(u[k]));
+      }
+    }
+    below("varying valley: upstream - its section / peak", error / peak, 1e-12);
+    Columns::between("  section downstream - section upstream / peak", other / peak, .01, 10.);
+  }
+
   void refuses()
   {
     auto            p = parameters("mtf2", true);
@@ -337,16 +379,16 @@ namespace
 
 int main()
 {
-  return Columns::run_all({refuses, surface_factor, layer_on_half_space, stepped_bottom, arrival,
-                           [] { flat_layers("mtf3"); }, [] { flat_layers("viscous-spring"); },
-                           [] { flat("mtf2", true, {}); }, [] { flat("mtf2", false, {}); },
-                           [] { flat("mtf3", true, {}); },
-                           [] {
-                             flat("mtf2", true, {.01, .05});
-                           },
-                           [] {
-                             flat("viscous", true, {.01, .05});
-                           },
-                           [] { flat("viscous-spring", true, {}); }, [] { prismatic("sections", true); },
-                           [] { prismatic("sections", false); }, [] { prismatic("columns", true); }});
+  return Columns::run_all(
+      {refuses, surface_factor, layer_on_half_space, stepped_bottom, arrival, [] { flat_layers("mtf3"); },
+       [] { flat_layers("viscous-spring"); }, [] { flat("mtf2", true, {}); }, [] { flat("mtf2", false, {}); },
+       [] { flat("mtf3", true, {}); },
+       [] {
+         flat("mtf2", true, {.01, .05});
+       },
+       [] {
+         flat("viscous", true, {.01, .05});
+       },
+       [] { flat("viscous-spring", true, {}); }, [] { prismatic("sections", true); },
+       [] { prismatic("sections", false); }, [] { prismatic("columns", true); }, varying_valley});
 }

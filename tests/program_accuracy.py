@@ -262,7 +262,7 @@ def of_run():
         for end in ("low", "high"):
             expect(abs(found[name][end] / found[name]["value"] - of_window[name][end] / of_window[name]["value"]) < 1e-12, f"{name}, {end}")
         expect(abs(of_window[name]["value"] + sum(of_window[name]["parts"].values()) - of_window[name]["combined"]) < 1e-9 * of_window[name]["value"], name)
-    text = runs("scene.prm", "--output", "scene", "--overwrite", "--set", "Output/Solution interval=10")
+    text = runs("scene.prm", "--output", "scene/", "--overwrite", "--set", "Output/Solution interval=10")
     expect(re.search(rf"Errors    largest opening {1e3 * extremes['max_opening']['value']:.4g} mm, \S+ to \S+ mm\n {{10}}largest slip", text), text)
     expect(summary("scene")["error_bars"] == found and not Path("scene/error_bars.log").exists(), "error bars of summary.json")
     told = Path("scene-accuracy/accuracy.json").read_text()

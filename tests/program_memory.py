@@ -5,6 +5,7 @@
     program_memory.py VOUSSOIR CASE...     cases: see the functions with that name below
 """
 
+import json
 import re
 import resource
 import subprocess
@@ -66,6 +67,18 @@ def estimates():
         expect(.8 < run / taken < 1.2, f"{name}: estimate {run}, taken {taken}")
 
 
+def water():
+    """The part of compressible water in the estimate is between half and twice the part that it takes."""
+    sizes = []
+    for model in ("Westergaard", "acoustic"):
+        file = scene(model, 5, 60, 16, 2, more=f"subsection Reservoir\n set Model = {model}\n set Element size = 7\n end\n"
+                                               "subsection Dynamics\n set Steps per sample = 5\n end")
+        sizes.append((json.loads(runs(file, "--validate", "--json"))["memory_bytes"]["run"], (runs(file, "--output", model), summary(model)["memory_bytes"])[1]))
+    (run, taken), (wet_run, wet_taken) = sizes
+    print(f"    compressible water: estimate {(wet_run - run) / 2**20:.0f} MiB, taken {(wet_taken - taken) / 2**20:.0f} MiB")
+    expect(wet_taken - taken > 2e7 and .5 < (wet_run - run) / (wet_taken - taken) < 2, f"{sizes}")
+
+
 def shortage():
     """Too little memory ends the run with status 1 and the estimate."""
     file = scene("large", 5, 120, 60, 4)
@@ -81,4 +94,4 @@ def shortage():
 
 
 if __name__ == "__main__":
-    run_cases(estimates, shortage)
+    run_cases(estimates, water, shortage)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tests of the mesh and the matrices of compressible water.
+#include "grids.h"
 #include "testing.h"
 
 #include <voussoir/base/error.h>
-#include <voussoir/water/water_model.h>
+#include <voussoir/water/acoustic_water.h>
 
 #include <algorithm>
 #include <cmath>
@@ -170,6 +171,60 @@ namespace
     expect_close(added / 20., .542755 * 1000. * height * height, 2e-3, "added mass of a wall");
   }
 
+  /** Dynamic pressures of the wet face of a wall at rest over time, without gravity [Pa]. */
+  std::vector<double> pressures(const GroundMotion &motion)
+  {
+    SolidModel    model(Grids::wall({{10., 20., 30.}}, {{1, 4, 6}}, 4, nullptr), 1);
+    Structure     structure = assemble_structure(model, {Material()}, true);
+    Foundation    rigid;
+    AcousticWater water(model, structure, rigid, {1000., 1440., .8, 0., 0., 5.}, 30.);
+    DynamicState  at_rest;
+    at_rest.u.assign(3 * structure.n_nodes(), 0.);
+    const TimeGrid grid{motion.dt, 1, static_cast<unsigned int>(motion.acceleration.size()) - 1};
+    water.prepare(grid.dt, 1);
+    water.start(motion, grid, at_rest.u);
+    std::vector<double> result;
+    Unknowns            load(at_rest.u.size());
+    for (unsigned int i = 0; i < grid.n; ++i)
+    {
+      water.advance(load);
+      water.update_from_dam(at_rest);
+      const std::vector<double> now = water.pressure();
+      result.insert(result.end(), now.begin(), now.end());
+    }
+    expect_within(water.balance_error(), 0., 1e-11, "energy balance");
+    return result;
+  }
+
+  /** Both banks have the motion r across the valley and upward, and the ground is at rest. The pressures are those of
+   * the ground motion r, because the wet face is normal to x. Then the left bank alone moves. */
+  void banks()
+  {
+    GroundMotion moving, banked;
+    moving.dt = banked.dt = 1e-3;
+    for (unsigned int k = 0; k < 200; ++k)
+    {
+      const double s = std::sin(.05 * k);
+      moving.acceleration.push_back({0., s, .7 * s * s});
+    }
+    banked.acceleration.assign(200, {0., 0., 0.});
+    for (const bool is_left : {false, true})
+      banked.stations.push_back({is_left, 0., moving.acceleration});
+    const std::vector<double> expected = pressures(moving), found = pressures(banked);
+    banked.stations.erase(banked.stations.begin());
+    const std::vector<double> of_left = pressures(banked);
+    double                    size = 0., off = 0., other = 0.;
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      size = std::max(size, std::abs(expected[i]));
+      off = std::max(off, std::abs(found[i] - expected[i]));
+      other = std::max(other, std::abs(of_left[i] - expected[i]));
+    }
+    expect(size > 1e3, "the banks press the water");
+    expect_within(off / size, 0., 1e-3, "motion of both banks against ground motion");
+    expect(other > .2 * size, "the left bank alone");
+  }
+
   void wrong_sections()
   {
     auto faces = valley([](double) { return 30.; });
@@ -187,5 +242,6 @@ int main()
               {"channel", channel},
               {"far channel", far_channel},
               {"incompressible", incompressible},
+              {"banks", banks},
               {"wrong sections", wrong_sections}});
 }

@@ -182,7 +182,7 @@ namespace Voussoir
   {
     namespace fs = std::filesystem;
     std::error_code error;
-    const fs::path  run = fs::absolute(directory, error), script = find_script("error_bars.py");
+    const fs::path  run = fs::canonical(directory, error), script = find_script("error_bars.py");
     if (script.empty() ||
         (!fs::exists(run / "accuracy" / "accuracy.json", error) &&
          !fs::exists(run.parent_path() / (scene.name + "-accuracy") / "accuracy.json", error)))
@@ -198,6 +198,9 @@ namespace Voussoir
     const char   *title = "Errors";
     for (std::string line; std::getline(in, line); title = "")
       log.line("%-9s %s", title, line.c_str());
+    if (*title != '\0')
+      log.line(
+          "Errors    no error bar: no python3 with numpy was found. Install it, or set VOUSSOIR_PYTHON.");
     in.close();
     fs::remove(file, error);
   }

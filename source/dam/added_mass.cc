@@ -51,10 +51,7 @@ namespace Voussoir
     private:
       std::vector<std::pair<double, double>> heel;
     };
-  } // namespace
 
-  namespace
-  {
     /** Added mass per area of the upstream face at a place [kg/m^2]. */
     using MassPerArea = std::function<double(const Point<3> &)>;
 

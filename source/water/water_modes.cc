@@ -120,8 +120,8 @@ namespace Voussoir
 
   namespace
   {
-    /** Solves (Lambda + s^2 (rest + B(i |s|))) q = 0 by inverse iteration with the Rayleigh quotient. Begins with s and q.
-     * Returns false if the iteration does not converge. */
+    /** Solves (Lambda + s^2 (rest + B(i |s|))) q = 0 by inverse iteration with the Rayleigh quotient, from the given s
+     * and q. Returns false if the iteration does not converge. */
     bool iterate(const ReducedWater &water, const ComplexMatrix &Lambda, const ComplexMatrix &rest,
                  Complex &s, ComplexMatrix &q)
     {
@@ -151,8 +151,8 @@ namespace Voussoir
       return true;
     }
 
-    /** Returns the complex circular frequency of the mode that begins as mode k; zero: not converged. The basis of the water
-     * receives the potential of the whole model for each iterate, until the frequency does not change. */
+    /** Returns the complex circular frequency of the mode that begins as mode k; zero: not converged. The basis of the
+     * water receives the potential of the whole model for each iterate, until the frequency does not change. */
     Complex frequency_of(ReducedWater &water, const ComplexMatrix &Lambda, const ComplexMatrix &rest,
                          const std::size_t k)
     {

@@ -23,8 +23,8 @@ namespace Voussoir
   /** Writes spectrum.csv of the ground motion and stages.csv of the static state. Throws WriteError. */
   void write_tables_of_start(const RunState &run, const std::string &directory);
 
-  /** Prints the error bars of a completed run, and adds them to its summary.json, if `voussoir accuracy` has computed them
-   * for the scene: in directory/accuracy, or in SCENE-accuracy beside it. */
+  /** Prints the error bars of a completed run, and adds the bars to summary.json. `voussoir accuracy` has computed the
+   * bars in directory/accuracy, or in SCENE-accuracy next to the directory; otherwise a line names this command. */
   void report_error_bars(const Scene &scene, const std::string &directory, Log &log);
 
   /** Draws the figures of a completed run. Prints a warning if this fails. */

@@ -45,11 +45,11 @@ namespace Voussoir
   public:
     virtual ~ValleyMotion() = default;
 
-    /** Advances by one time step of the dam. Returns the displacement from the start of the earthquake, three values per
-     * place [m]. Must be called by all ranks. */
+    /** Advances by one time step of the dam. Returns the displacement since the start of the earthquake, three values
+     * per place [m]. Must be called by all ranks. */
     virtual Unknowns advance() = 0;
 
-    /** Returns the time of the displacement relative to the end of the time step of the dam [s]. */
+    /** Returns the time of the displacement minus the time at which the step of the dam ends [s]. */
     virtual double lead() const = 0;
 
     /** Returns all state variables, as Neighbour::state(). */

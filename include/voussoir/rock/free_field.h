@@ -48,9 +48,9 @@ namespace Voussoir
     void end_step() override;
     void evaluate(Unknowns &u) const override;
 
-    /** Returns the current displacement of the ground at places of the valley upstream, three values per place [m]: of the
-     * nearest node of the section with the smallest x, or without sections of the highest column. @p places: the x
-     * coordinate does not count; the same in all calls. Not after split_up(). */
+    /** Returns the current displacement of the ground at places of the valley upstream, three values per place [m]. The
+     * nearest node of the section with the smallest x is used; without sections, the highest column.
+     * @p places: the same in all calls; the x coordinate does not count. Not after split_up(). */
     Unknowns upstream(const std::vector<Vector3> &places);
 
     unsigned int n_columns() const { return static_cast<unsigned int>(columns.size()); }

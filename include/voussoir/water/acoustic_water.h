@@ -23,9 +23,9 @@ namespace Voussoir
    * pi_n+1 depends on the displacement of the dam: Body::reaction = rho^2 A A^T / (dt D). The scheme is stable for
    * time steps below the critical one of the water, and conserves energy.
    *
-   * Far upstream the motion does not depend on x. Its potential is that of WaterModel::far_channel(). The damping of the
-   * end of the channel acts on the difference to it. The velocity v_g of bed and banks is one of the valley in each
-   * section: the ground motion, with the motions of the banks (Motion/Abutments), or the free field of rock with mass
+   * Far upstream the motion does not depend on x. WaterModel::far_channel() computes this motion, and the damping of
+   * the end of the channel acts on the difference to it. Bed and banks have the same velocity v_g in all sections of
+   * the channel: the ground motion, the motions of the banks (Motion/Abutments), or on rock with mass its free field
    * (BaseSupport::valley()). */
   class AcousticWater : public Neighbour
   {
@@ -46,8 +46,9 @@ namespace Voussoir
     void   update_from_dam(const DynamicState &state) override;
     double seconds() const override { return watch_total; }
 
-    /** Returns the energy of the water, the energies radiated at the end of the channel (negative: it entered with the
-     * motion of the far water) and absorbed at bed and banks, and the works of dam and ground on the water [J]. */
+    /** Returns the energy of the water, the energies radiated at the end of the channel and absorbed at bed and banks,
+     * and the works of dam and ground on the water [J]. The radiated energy is negative if more energy enters with the
+     * motion of the far water. */
     std::vector<std::pair<std::string, double>> energies() const override;
     double                                      balance_error() const override;
     void                                        report_balance(Log &log) const override;
@@ -73,7 +74,7 @@ namespace Voussoir
      * InputError if the depth is too large. */
     unsigned int node_at(double depth) const;
 
-    /** Returns the values of the nearest water nodes at each node of the model of the dam; zero at dry nodes. @p values:
+    /** Returns the value of the nearest water node at each node of the model of the dam; zero at dry nodes. @p values:
      * one per node of the section. */
     std::vector<double> at_dam(const std::vector<double> &values) const;
 
