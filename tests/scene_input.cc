@@ -360,7 +360,7 @@ namespace
     scene.joints.model = "FJB";
     expect(scene_warnings(scene, entries, prm.usual_ranges()).size() == 2,
            "two entries without effect, of different laws");
-    scene.joints.overrides[2] = "no such law";
+    scene.joints.overrides["2"] = "no such law";
     expect(scene_warnings(scene, entries, prm.usual_ranges()).empty(), "a law of one's own in one joint");
   }
 

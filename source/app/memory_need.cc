@@ -149,15 +149,15 @@ namespace Voussoir
         for (std::size_t k = j; k < joints.size(); ++k)
         {
           const Joint &a = joints[j], &b = joints[k];
-          if (a.monolith_1 == b.monolith_1 || a.monolith_1 == b.monolith_2 || a.monolith_2 == b.monolith_1 ||
-              a.monolith_2 == b.monolith_2)
+          if ((a.monolith_1 == b.monolith_1 && !a.is_base()) || a.monolith_1 == b.monolith_2 ||
+              a.monolith_2 == b.monolith_1 || a.monolith_2 == b.monolith_2)
             factors.operators += m[j] * m[k];
           if (j == k)
             factors.diagonal += m[j] * m[k];
         }
     }
 
-    /** Unknowns of each joint: three for each node on its side 1. */
+    /** Unknowns of each joint: three for each node on its side 1, or on side 2 of a base joint. */
     std::vector<double> joint_unknowns(const HexMesh &opened, const std::vector<Joint> &joints,
                                        const std::vector<bool> &held)
     {
@@ -166,7 +166,8 @@ namespace Voussoir
       {
         std::set<unsigned int> nodes;
         for (const HexMesh::Face &face : opened.faces)
-          if (face.surface == PhysicalId::joint_side_1 + joint.number)
+          if (face.surface ==
+              (joint.is_base() ? PhysicalId::joint_side_2 : PhysicalId::joint_side_1) + joint.number)
             for (const unsigned int node : face.nodes)
               if (!held[node])
                 nodes.insert(node);
@@ -178,7 +179,7 @@ namespace Voussoir
     bool all_tied(const Scene &scene, const std::vector<Joint> &joints)
     {
       return std::all_of(joints.begin(), joints.end(),
-                         [&](const Joint &joint) { return scene.joints.model_of(joint.number) == "tied"; });
+                         [&](const Joint &joint) { return scene.joints.model_of(joint) == "tied"; });
     }
 
     /** Returns the largest sum of a rank divided by the sum of all ranks [-]. */

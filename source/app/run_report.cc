@@ -76,7 +76,7 @@ namespace Voussoir
             "face. Increase the level, in the axes of the scene, or set Reservoir/Density to 0.",
             scene.reservoir.level);
       const auto &crest = dam.geometry->joints;
-      if (crest.size() > 1 && crest.front().arc_length > crest.back().arc_length)
+      if (dam.n_joints > 1 && crest.front().arc_length > crest[dam.n_joints - 1].arc_length)
         log.line("warning: the joints are numbered from the left bank (y > 0) to the right bank, also in "
                  "Joints/Overrides and in all results. Usually the numbers begin at the right bank.");
       if (scene.mesh.source == "file" && !dam.ungrouped.empty())
@@ -120,14 +120,17 @@ namespace Voussoir
     {
       std::string laws = scene.joints.model;
       for (const auto &entry : scene.joints.overrides)
-        laws += ", joint " + std::to_string(entry.first) + ": " + entry.second;
+        laws += (std::isdigit(entry.first[0]) ? ", joint " : ", ") + entry.first + ": " + entry.second;
       if (scene.joints.any_reads("Joints/Friction"))
       {
         std::ostringstream friction;
         friction << " (friction " << scene.joints.friction << ")";
         laws += friction.str();
       }
-      log.line("Joints    %u joint%s, %zu pairs, law %s", dam.n_joints, dam.n_joints == 1 ? "" : "s",
+      const std::size_t n_base = dam.joints.size() - dam.n_joints;
+      log.line("Joints    %u joint%s%s, %zu pairs, law %s", dam.n_joints, dam.n_joints == 1 ? "" : "s",
+               n_base > 0 ? (", " + std::to_string(n_base) + " base joint" + (n_base == 1 ? "" : "s")).c_str()
+                          : "",
                dam.structure.pairs.size(), laws.c_str());
     }
     dam.foundation->report(log, run.grid());

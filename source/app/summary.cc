@@ -143,7 +143,7 @@ namespace Voussoir
     {
       Json json, overrides;
       for (const auto &[joint, model] : scene.joints.overrides)
-        overrides.add(std::to_string(joint), model);
+        overrides.add(joint, model);
       json.add("model", scene.joints.model).add("overrides", overrides);
       if (scene.joints.any_reads("Joints/Friction"))
         json.add("friction", scene.joints.friction);

@@ -3,6 +3,7 @@
 #include <voussoir/base/model_choices.h>
 #include <voussoir/base/names.h>
 #include <voussoir/contact/cohesive_law.h>
+#include <voussoir/contact/elastic_law.h>
 #include <voussoir/contact/fja_law.h>
 #include <voussoir/contact/fjb_law.h>
 #include <voussoir/contact/key_law.h>
@@ -32,8 +33,17 @@ namespace Voussoir
      * from these rows. */
     const LawRow laws[] = {
         {"tied", "no opening and no slip (monolithic dam)", make_tied_law, {}},
-        {"FJA", "opening, and slip with friction", make_fja_law, {"Joints/Friction", "Joints/Equations"}},
-        {"FJB", "opening, no slip", make_fjb_law, {"Joints/Equations"}},
+        {"FJA",
+         "opening, and slip with friction",
+         make_fja_law,
+         {"Joints/Friction", "Joints/Equations", "Joints/Normal stiffness", "Joints/Tangential stiffness",
+          "Joints/Adhesion"},
+         " with a stiffness or adhesion"},
+        {"FJB",
+         "opening, no slip",
+         make_fjb_law,
+         {"Joints/Equations", "Joints/Normal stiffness", "Joints/Tangential stiffness"},
+         " with a stiffness"},
         {"KSM",
          "FJA with shear keys (Joints/Keys)",
          make_key_law,
@@ -43,7 +53,8 @@ namespace Voussoir
         {"cohesive",
          "FJA with a tensile strength (Joints/Strength)",
          make_cohesive_law,
-         {"Joints/Friction", "Joints/Equations", "Joints/Strength", "Joints/Fracture energy"},
+         {"Joints/Friction", "Joints/Equations", "Joints/Strength", "Joints/Fracture energy",
+          "Joints/Normal stiffness", "Joints/Tangential stiffness"},
          "",
          cohesive_law_warning}};
 
@@ -66,11 +77,28 @@ namespace Voussoir
                       "Fracture energy of the joint per area [N/m]. Model cohesive only. 0: the strength is "
                       "lost immediately.",
                       {10., 1000., true}, Double(0.));
+    prm.add_parameter("Normal stiffness", normal_stiffness,
+                      "Stiffness of the joint itself under compression, per area [Pa/m]. 0: rigid.",
+                      {1e8, 1e13, true}, Double(0.));
+    prm.add_parameter("Tangential stiffness", tangential_stiffness,
+                      "Stiffness of the joint itself against slip, per area [Pa/m]. 0: rigid.",
+                      {1e8, 1e13, true}, Double(0.));
+    prm.add_parameter(
+        "Adhesion", adhesion,
+        "Shear strength of the joint without pressure [Pa]. A pair that opens loses it. Model FJA only.",
+        {1e3, 5e6, true}, Double(0.));
   }
 
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters)
   {
-    return row_of(laws, name, "is no joint law", "The laws are:").make(parameters);
+    const LawRow             &row = row_of(laws, name, "is no joint law", "The laws are:");
+    std::unique_ptr<JointLaw> law = row.make(parameters);
+    if (!includes(row.entries, "Joints/Normal stiffness"))
+      return law;
+    LawParameters read = parameters;
+    if (!includes(row.entries, "Joints/Adhesion"))
+      read.adhesion = 0.;
+    return make_elastic_law(std::move(law), read);
   }
 
   bool joint_law_reads(const std::string &name, const std::string &entry)

@@ -26,7 +26,8 @@ namespace Voussoir
     {
       std::set<int> numbers, monoliths;
       for (const Joint &joint : joints_of(opened))
-        numbers.insert(joint.number);
+        if (!joint.is_base())
+          numbers.insert(joint.number);
       for (const HexMesh::Cell &cell : opened.cells)
         monoliths.insert(cell.volume);
       const int n_joints = std::max(numbers.empty() ? 0 : *numbers.rbegin(),
@@ -42,9 +43,13 @@ namespace Voussoir
     /** Throws InputError for a monolith without base nodes. */
     void check_base(const HexMesh &opened, const std::string &source)
     {
+      std::set<int> base_joints;
+      for (const Joint &joint : joints_of(opened))
+        if (joint.is_base())
+          base_joints.insert(PhysicalId::joint_side_2 + joint.number);
       std::set<unsigned int> base;
       for (const HexMesh::Face &face : opened.faces)
-        if (face.surface == PhysicalId::base)
+        if (face.surface == PhysicalId::base || base_joints.count(face.surface) > 0)
           base.insert(face.nodes.begin(), face.nodes.end());
       std::map<int, bool> stands;
       for (const HexMesh::Cell &cell : opened.cells)
@@ -106,7 +111,13 @@ namespace Voussoir
     n_monoliths = Voussoir::n_monoliths(concrete);
     HexMesh opened = open_joints(concrete);
     for (const Joint &joint : joints_of(opened))
-      n_joints = std::max<unsigned int>(n_joints, joint.number);
+    {
+      while (static_cast<int>(joints.size()) + 1 < joint.number)
+        joints.push_back({static_cast<int>(joints.size()) + 1, -1, 0});
+      joints.push_back(joint);
+      if (!joint.is_base())
+        n_joints = joint.number;
+    }
     check_joint_numbers(opened, source);
     return opened;
   }
@@ -114,17 +125,20 @@ namespace Voussoir
   void Dam::choose_laws(const bool tie_all)
   {
     tied = true;
-    for (unsigned int j = 1; j <= n_joints; ++j)
+    std::set<std::string> known = {"contraction"};
+    for (const Joint &joint : joints)
     {
-      const std::string &law = tie_all ? "tied" : scene.joints.model_of(j);
-      tied = tied && law == "tied";
-      laws.of_joint.push_back(make_joint_law(law, scene.joints.law(scene.concrete.young)));
+      joint_models.push_back(tie_all ? "tied" : scene.joints.model_of(joint));
+      tied = tied && joint_models.back() == "tied";
+      laws.of_joint.push_back(make_joint_law(joint_models.back(), scene.joints.law(scene.concrete.young)));
+      known.insert({std::to_string(joint.number), joint.name(), joint.kind()});
     }
     for (const auto &entry : scene.joints.overrides)
-      if (entry.first > n_joints)
-        throw InputError("Entry \"Joints/Overrides\" names joint " + std::to_string(entry.first) +
-                         ", but the dam has " + std::to_string(n_joints) +
-                         " joints. Correct the number, or remove it.");
+      if (known.count(entry.first) == 0)
+        throw InputError("Entry \"Joints/Overrides\" names the joint \"" + entry.first +
+                         "\", but the dam has " + std::to_string(joints.size()) +
+                         " joints, and no such name or kind (contraction" +
+                         (joints.size() > n_joints ? ", base" : "") + "). Correct or remove it.");
   }
 
   bool Dam::is_one_body(const Scene &scene, const bool tied)
@@ -137,9 +151,10 @@ namespace Voussoir
   {
     model = std::make_unique<SolidModel>(opened, scene.elements.degree);
     const bool        incompatible_modes = scene.elements.incompatible_modes;
-    std::vector<Pair> pairs = find_pairs(*model, n_joints);
+    const auto        n_all = static_cast<unsigned int>(joints.size());
+    std::vector<Pair> pairs = find_pairs(*model, n_all);
     structure = assemble_structure(*model, materials, incompatible_modes);
-    geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints, source);
+    geometry = std::make_unique<DamGeometry>(*model, pairs, n_all, source);
     initial_stress.assign(model->n_nodes(), Stress{});
     if (scene.statics.self_weight == "staged")
       stage_self_weight(); // on a rigid base; later displacements are relative to this state
@@ -147,25 +162,89 @@ namespace Voussoir
     {
       model->free_base();
       if (foundation->base() == Foundation::Base::merged)
-        tie_joints(*model, n_joints, true); // the monoliths share their base nodes
+        tie_joints(*model, n_all, true); // the monoliths share their base nodes
       structure = assemble_structure(*model, materials, incompatible_modes);
-      pairs = find_pairs(*model, n_joints);
+      pairs = find_pairs(*model, n_all);
       if (foundation->base() == Foundation::Base::coupled)
         remove_base_pairs(pairs);
-      geometry = std::make_unique<DamGeometry>(*model, pairs, n_joints, source);
+      geometry = std::make_unique<DamGeometry>(*model, pairs, n_all, source);
     }
     if (tied && n_joints > 0)
     {
-      tie_joints(*model, n_joints);
+      tie_joints(*model, n_all);
       structure = assemble_structure(*model, materials, incompatible_modes);
     }
-    else
+    else if (!tied)
+    {
       structure.pairs = std::move(pairs);
+      open_base_joints();
+      geometry = std::make_unique<DamGeometry>(*model, structure.pairs, n_all, source);
+    }
     structure.mass_damping = scene.damping.mass_factor();
     structure.stiffness_damping = scene.damping.stiffness_factor();
     foundation->add_stiffness(*model, structure);
-    structure.n_joints = tied ? 0 : n_joints;
+    structure.n_joints = tied ? 0 : n_all;
     structure.collect_interfaces();
+  }
+
+  /** Frees the nodes of base joints that are not tied, and finds their pairs. At the foot of a contraction joint the two
+   * nodes have pairs with the ground only, so that no node belongs to two pairs. */
+  void Dam::open_base_joints()
+  {
+    std::set<int> sides;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      if (joints[j].is_base() && joint_models[j] != "tied")
+        sides.insert(PhysicalId::joint_side_2 + joints[j].number);
+    if (sides.empty())
+      return;
+    if (foundation->uses_rock())
+      throw InputError(
+          "The mesh has base joints (surface \"base joint\"), which require a rigid foundation. Set "
+          "\"Foundation/Model\" to rigid, or \"Joints/Overrides\" to \"base: tied\".");
+    if (scene.loads.uplift.joints && scene.loads.uplift.base)
+      throw InputError(
+          "With base joints, either \"Loads/Uplift/Joints\" or \"Loads/Uplift/Base\" can be true: the "
+          "full pressure in open pairs of the base, or the pressure below the whole base. Set one of "
+          "them to false.");
+    model->free_base_joints(sides);
+    structure = assemble_structure(*model, materials, scene.elements.incompatible_modes);
+    std::vector<Pair>     &pairs = structure.pairs = find_pairs(*model, joints.size());
+    std::set<unsigned int> standing;
+    for (const Pair &pair : pairs)
+      if (joints[pair.joint].is_base())
+        standing.insert(pair.node_2);
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                               [&](const Pair &pair) {
+                                 return !joints[pair.joint].is_base() &&
+                                        standing.count(pair.node_1) + standing.count(pair.node_2) > 0;
+                               }),
+                pairs.end());
+    structure.group_of_joint.resize(joints.size());
+    for (std::size_t j = 0; j < joints.size(); ++j) // the base joint of monolith m belongs to joint m - 1
+      structure.group_of_joint[j] = joints[j].is_base() ? std::max(0, joints[j].monolith_2 - 2) : j;
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [&](const Pair &a, const Pair &b) { return structure.group(a) < structure.group(b); });
+    find_weight_on_base();
+  }
+
+  /** Finds the load of the staged weight on free base nodes. Displacements are relative to the state after the
+   * self-weight, in which the base joints already carry it. */
+  void Dam::find_weight_on_base()
+  {
+    weight_on_base.assign(3 * std::size_t(structure.n_nodes()), 0.);
+    if (staged_weight.empty())
+      return;
+    Unknowns u(weight_on_base.size(), 0.), Ku;
+    for (unsigned int i = 0; i < model->n_nodes(); ++i)
+      if (const unsigned int e = model->equation[i]; e != rigid_ground)
+        set(u, e, staged_weight[i]);
+    add_weight(structure, scene.loads.factor("weight") * scene.statics.gravity, weight_on_base);
+    structure.multiply_stiffness(u, Ku);
+    const std::set<unsigned int> base = nodes_of_base();
+    for (unsigned int e = 0; e < structure.n_nodes(); ++e)
+      for (unsigned int c = 0; c < 3; ++c)
+        weight_on_base[3 * e + c] =
+            base.count(e) > 0 ? weight_on_base[3 * e + c] - scene.sustained_ratio() * Ku[3 * e + c] : 0.;
   }
 
   bool Dam::has_sustained_moduli() const
@@ -227,6 +306,8 @@ namespace Voussoir
       for (std::size_t i = 0; i < load.stress.size(); ++i)
         for (unsigned int c = 0; c < 6; ++c)
           initial_stress[i][c] += load.stress[i][c];
+    if (has_base_joints() && !staged_weight.empty())
+      loads.push_back({"self-weight at the base", false, 1., weight_on_base, {}});
     if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0.)
       added_mass = add_added_mass(*model, scene.reservoir, structure);
     if (const ReservoirParameters &r = scene.reservoir; r.is_meshed() && scene.loads.factor("water") != 0.)
@@ -265,6 +346,8 @@ namespace Voussoir
   void Dam::find_lowest_base()
   {
     double bottom = 1e300;
+    if (model->base_is_fixed) // nodes of base joints move relative to the ground
+      return;
     for (unsigned int i = 0; i < model->n_nodes(); ++i)
       if (model->on_surface(i, PhysicalId::base))
         bottom = std::min(bottom, model->points[i][2]);
@@ -295,6 +378,10 @@ namespace Voussoir
                    scene.output.knows_tractions() ? faces_at_nodes(*model) : std::vector<NodeFace>(),
                    scene.output.knows_tractions())
         .apply(u, {}, initial_stress);
+    staged_weight.assign(model->n_nodes(), Vector3{});
+    for (unsigned int i = 0; i < model->n_nodes(); ++i)
+      if (const unsigned int e = model->equation[i]; e != rigid_ground)
+        staged_weight[i] = get(u, e);
     if (const unsigned int e = model->equation[geometry->crown]; e != rigid_ground)
       self_weight_crown = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};
   }

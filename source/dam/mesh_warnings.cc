@@ -37,7 +37,7 @@ namespace Voussoir
       double longest = 0.;
       for (const HexMesh::Face &face : opened.faces)
         if (face.surface > PhysicalId::joint_side_1 && face.surface < PhysicalId::joint_side_2 &&
-            joint_law_reads(scene.joints.model_of(face.surface - PhysicalId::joint_side_1),
+            joint_law_reads(scene.joints.model_of({face.surface - PhysicalId::joint_side_1, 1, 2}),
                             "Joints/Fracture energy"))
           for (unsigned int v = 0; v < 4; ++v)
           {

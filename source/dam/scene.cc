@@ -75,10 +75,12 @@ namespace Voussoir
     prm.add_parameter("Model", model, "Joint law. " + joint_law_docs() + ".",
                       Patterns::Selection(joint_law_names()));
     LawParameters::add_parameters(prm);
-    prm.add_parameter("Overrides", overrides,
-                      "Models of single joints, as \"number: model, number: model\". Joints are numbered "
-                      "from the right bank.",
-                      Patterns::Map(Patterns::Integer(1), Patterns::Selection(joint_law_names())));
+    prm.add_parameter(
+        "Overrides", overrides,
+        "Models of single joints, as \"3: tied, base: cohesive, base 2: FJB\": number, kind (contraction, "
+        "base) or name (base 2: the base joint of monolith 2) of the joints. Joints are numbered from "
+        "the right bank.",
+        Patterns::Map(Patterns::Anything(), Patterns::Selection(joint_law_names())));
     prm.add_parameter(
         "Equations", equations_name,
         "Form of the joint equations. alart-curnier: slip angle of the trial force, always converges. paper: "
@@ -96,6 +98,14 @@ namespace Voussoir
     if (keys.seat_compliance < 0.)
       result.keys.seat_compliance = 20. * keys.height / young;
     return result;
+  }
+
+  const std::string &JointParameters::model_of(const Joint &joint) const
+  {
+    for (const std::string &key : {std::to_string(joint.number), joint.name(), joint.kind()})
+      if (const auto found = overrides.find(key); found != overrides.end())
+        return found->second;
+    return model;
   }
 
   bool JointParameters::any_reads(const std::string &entry) const

@@ -148,7 +148,8 @@ namespace Voussoir
     PairLaws laws = dam.laws;
     for (std::size_t p = 0; p < laws.of_pair.size(); ++p)
       if (dam.structure.pairs[p].place[2] > grouted &&
-          dam.scene.joints.model_of(dam.structure.pairs[p].joint + 1) != "tied" &&
+          dam.joint_models[dam.structure.pairs[p].joint] != "tied" &&
+          !dam.joints[dam.structure.pairs[p].joint].is_base() && // cast, not grouted
           laws.of_pair[p] != dam.laws.of_joint.back().get())
         laws.of_pair[p] = &free;
     return laws;

@@ -15,14 +15,22 @@ namespace Voussoir
 {
   namespace
   {
+    constexpr double stiffest =
+        4e10; // Young's modulus of concrete [Pa]; larger ones are those of rigid blocks
     constexpr double usual_gap = 5e-3; // usual gap of joints before grouting [m]
+
+    /** Returns true for pairs with the ground, which are cast and need no grout. */
+    bool is_base(const Pair &pair)
+    {
+      return pair.node_1 == rigid_ground;
+    }
 
     /** Grouts the pairs between two heights: their gap is zero in the current state. */
     void close_pairs(const Structure &structure, const double from, const double to, const Unknowns &u,
                      Unknowns &closed, Unknowns &gap)
     {
       for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-        if (const double z = structure.pairs[p].place[2]; z > from && z <= to)
+        if (const double z = structure.pairs[p].place[2]; z > from && z <= to && !is_base(structure.pairs[p]))
         {
           set(closed, p, structure.jump(structure.pairs[p], u));
           set(gap, p, {});
@@ -42,6 +50,9 @@ namespace Voussoir
             path(dam), free(make_free_law())
       {
         const Scene &scene = dam.scene;
+        if (dam.has_base_joints())
+          least_proximal = 1e-3 * (proximal = .3 * std::min(scene.concrete.young, stiffest) /
+                                              (scene.concrete.density * dam.size * dam.size));
         state.force.assign(3 * dam.structure.pairs.size(), 0.);
         state.closed = gap = state.force;
         state.u.assign(3 * dam.structure.n_nodes(), 0.);
@@ -56,9 +67,9 @@ namespace Voussoir
         for (unsigned int i = 0; i < path.n_steps(); ++i)
         {
           stop_if_asked();
-          const double grouted = path.part(i).grouted, before = i == 0 ? -INFINITY : path.part(i - 1).grouted;
-          if (i == 0 || grouted > before)
-            grout(before, grouted);
+          const double up_to = path.part(i).grouted, before = i == 0 ? -INFINITY : path.part(i - 1).grouted;
+          if (i == 0 || up_to > before)
+            grout(before, up_to);
           state.contact += solve_step(i);
           record(i);
         }
@@ -93,13 +104,103 @@ namespace Voussoir
         state.modulus_share = 1. - dam.scene.sustained_ratio();
       }
 
-      void grout(const double before, const double grouted)
+      void grout(const double before, const double up_to)
       {
-        close_pairs(dam.structure, before, grouted, state.u, state.closed, gap);
+        close_pairs(dam.structure, before, up_to, state.u, state.closed, gap);
+        grouted = up_to;
+        make_system();
+      }
+
+      void make_system()
+      {
         ContactParameters of_system = parameters;
         of_system.write_problems = parameters.write_problems && grouted == INFINITY;
+        StepOperator operation;
+        operation.proximal = proximal;
         system = std::make_unique<JointSystem>(structure, laws_up_to(grouted, dam, *free), of_system,
-                                               StepOperator(), springs, base.get());
+                                               operation, springs, base.get());
+      }
+
+      /** Solves with the load f, and with base joints in rounds: (K + eps M) u = f + eps M u_k, where u_k is the
+       * displacement of the previous round. The rounds end when the force eps M (u - u_k) is negligible, or no longer
+       * falls. If it falls slowly, eps is reduced. */
+      ContactResult solve_rounds(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
+                                 const Unknowns &committed)
+      {
+        constexpr unsigned int most = 100;                         // rounds
+        constexpr double       negligible = 1e-11, allowed = 1e-7; // of the sum of all nodal loads
+        ContactResult          total;
+        double                 before = INFINITY;
+        for (unsigned int round = 0;; ++round)
+        {
+          stop_if_asked();
+          state.memory = committed; // crack events of previous iterations are discarded
+          const Unknowns last = state.u;
+          Unknowns       of_round = load;
+          add_proximal(last, of_round);
+          const ContactResult result =
+              system->solve(of_round, offset, start, state.memory, state.force, gap, state.u);
+          if (proximal == 0.)
+            return result;
+          total += result;
+          total.converged = result.converged;
+          if (!result.converged)
+            return total;
+          Unknowns moved = state.u, held(load.size(), 0.);
+          for (std::size_t k = 0; k < moved.size(); ++k)
+            moved[k] -= last[k];
+          add_proximal(moved, held);
+          const double sum = norm_1(held), of_load = norm_1(load);
+          if (sum <= negligible * of_load || (sum > .5 * before && sum <= allowed * of_load))
+            return total;
+          const bool is_slow = sum > .5 * before && round > 2;
+          if (is_slow && proximal > 1.5 * least_proximal)
+          {
+            proximal *= .1;
+            make_system();
+          }
+          else if ((is_slow && sum > .9 * before) || round == most)
+            throw ComputationError("The static state has no equilibrium: " + fastest_body(held) +
+                                   " moves without limit on its base joint. Check the friction "
+                                   "(\"Joints/Friction\"), the water level and the uplift.");
+          before = sum;
+        }
+      }
+
+      static double norm_1(const Unknowns &x)
+      {
+        double sum = 0.;
+        for (const double value : x)
+          sum += std::abs(value);
+        return sum;
+      }
+
+      /** Adds eps M u to @p load. */
+      void add_proximal(const Unknowns &u, Unknowns &load) const
+      {
+        for (unsigned int i = 0; proximal > 0. && i < structure.n_nodes(); ++i)
+        {
+          const Vector3 Mu = structure.mass[i] * get(u, i);
+          for (unsigned int c = 0; c < 3; ++c)
+            load[3 * i + c] += proximal * Mu[c];
+        }
+      }
+
+      /** Returns the name of the monolith with the largest sum of forces. */
+      std::string fastest_body(const Unknowns &force) const
+      {
+        double largest = -1.;
+        int    number = 0;
+        for (const Body &body : structure.bodies)
+        {
+          double sum = 0.;
+          for (std::size_t k = 3 * std::size_t(body.first_node);
+               k < 3 * std::size_t(body.first_node + body.n_nodes()); ++k)
+            sum += std::abs(force[k]);
+          if (sum > largest)
+            largest = sum, number = body.number;
+        }
+        return "monolith " + std::to_string(number);
       }
 
       /** Solves a step, repeatedly until water spreads to no further pair. */
@@ -110,12 +211,7 @@ namespace Voussoir
         for (double &x : offset)
           x = -x;
         const Unknowns committed = state.memory;
-        const auto     solve = [&](const Unknowns &load)
-        {
-          stop_if_asked();
-          state.memory = committed; // crack events of previous iterations are discarded
-          return system->solve(load, offset, start, state.memory, state.force, gap, state.u);
-        };
+        const auto solve = [&](const Unknowns &load) { return solve_rounds(load, offset, start, committed); };
         const auto pressure = [&](const double z) // no pressure in joints before grouting
         { return z > path.part(i).grouted ? 0. : water_pressure(i, z); };
         ContactResult total;
@@ -164,7 +260,7 @@ namespace Voussoir
                         n_of(PairState::slip),
                         water ? water->n_wet() : 0};
         for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
-          if (const Pair &pair = dam.structure.pairs[p]; pair.place[2] <= part.grouted)
+          if (const Pair &pair = dam.structure.pairs[p]; pair.place[2] <= part.grouted || is_base(pair))
             step.opening = std::max(step.opening, gap[3 * p]);
           else
             step.overlap = std::max(step.overlap, -dam.structure.jump(pair, state.u)[0]);
@@ -189,6 +285,10 @@ namespace Voussoir
       const Unknowns               springs;
 
       const std::unique_ptr<BaseElimination::Nodes> base;
+
+      double proximal = 0.;       ///< eps [1/s^2]; 0: the base holds all monoliths
+      double least_proximal = 0.; ///< with a smaller eps the factors would be inaccurate [1/s^2]
+      double grouted = -INFINITY; ///< height of the grouted joints [m]
 
       const StaticPath                path;
       const std::unique_ptr<JointLaw> free;

@@ -6,6 +6,8 @@
 #include <voussoir/contact/pair_conditions.h>
 #include <voussoir/mesh/mesh.h>
 
+#include <algorithm>
+
 namespace Voussoir
 {
   namespace
@@ -23,6 +25,14 @@ namespace Voussoir
       const double  strike =
           norm(law.stop_normal(H, jump, {}, active)) + norm(law.stop_normal(H, back, {}, active));
       return strike <= 1e-6 * norm(applied) && dot(jump, change) >= .5 * norm(jump) * norm(change);
+    }
+
+    /** Returns true if the stiffness of a joint is at most 4/dt^2 times the mass of the pair, along n or in the joint.
+     * Such a pair needs no correction. The velocity of a stiffer pair would change its sign in each step, so that it is
+     * corrected like a rigid one; this takes less energy than the joint force of the step. */
+    bool is_soft(const Vector3 &compliance, const Matrix3 &H, const double dt)
+    {
+      return std::max({compliance[0] / H[0], compliance[1] / H[4], compliance[2] / H[8]}) >= .25 * dt * dt;
     }
 
     const Names<ImpactRule> names_of_rules = {{"mean-force", ImpactRule::mean_force},
@@ -102,6 +112,8 @@ namespace Voussoir
     if (!closed && !law.is_tangentially_tied())
       return;
     const Vector3 jump = structure.jump(pair, v), applied = get(impulse, p);
+    if (law.is_elastic() && is_soft(law.compliance(history.area), pair_inverse[p], dt))
+      return; // the time step resolves its vibration
     if (rule == ImpactRule::paper)
     {
       const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;

@@ -36,11 +36,11 @@ namespace Voussoir
   } // namespace
 
   BaseElimination::BaseElimination(const Structure &structure, Nodes given)
-      : structure(structure), nodes(std::move(given)), begin(structure.n_joints + 1, 0), first(1, 0)
+      : structure(structure), nodes(std::move(given)), begin(structure.n_groups() + 1, 0), first(1, 0)
   {
     for (const Pair &pair : structure.pairs)
-      begin[pair.joint + 1] += 3;
-    for (unsigned int j = 0; j < structure.n_joints; ++j)
+      begin[structure.group(pair) + 1] += 3;
+    for (unsigned int j = 0; j < structure.n_groups(); ++j)
       begin[j + 1] += begin[j];
     for (const Body &body : structure.bodies)
     {
@@ -77,8 +77,8 @@ namespace Voussoir
         const unsigned int node = side == 0 ? pair.node_1 : pair.node_2;
         if (node < body.first_node || node >= body.first_node + body.n_nodes()) // also if it is the ground
           continue;
-        const std::size_t    rows = n_rows(pair.joint), row = 3 * p - begin[pair.joint];
-        std::vector<double> &block = B[{pair.joint, b}];
+        const std::size_t    rows = n_rows(structure.group(pair)), row = 3 * p - begin[structure.group(pair)];
+        std::vector<double> &block = B[{structure.group(pair), b}];
         block.resize(rows * 3 * n_base_nodes(b), 0.);
         for (unsigned int k = 0; k < n_base_nodes(b); ++k)
         {

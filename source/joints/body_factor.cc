@@ -65,7 +65,7 @@ namespace Voussoir
                 if (!body.reaction.empty())
                   a += step.reaction * body.reaction[e][3 * i + j];
                 if (K.column[e] == row)
-                  a += step.mass * structure.mass[node][3 * i + j];
+                  a += (step.mass + step.proximal) * structure.mass[node][3 * i + j];
                 if (K.column[e] == row && i == j && !structure.dashpots.empty())
                   a += step.dashpot * structure.dashpots[3 * node + i];
                 if (K.column[e] == row && i == j && !springs.empty())

@@ -99,30 +99,38 @@ namespace Voussoir
       AssertDimension(gap.size(), 3 * of_pair.size());
       AssertDimension(memory.size(), n_memory());
       for (std::size_t p = 0; p < of_pair.size(); ++p)
-        (of_pair[p]->surfaces_law() ? sum.stored : sum.fracture) +=
-            of_pair[p]->bond_energy(get(gap, p), area[p], memory.data() + memory_begin(p));
+      {
+        const double *own = memory.data() + memory_begin(p);
+        sum.fracture += of_pair[p]->has_bond() ? of_pair[p]->bond_energy(get(gap, p), area[p], own) : 0.;
+        sum.stored += of_pair[p]->n_memory() > 0 ? of_pair[p]->stored_energy(get(gap, p), area[p], own) : 0.;
+      }
     }
     return sum;
   }
 
-  bool PairLaws::have_memory_with(const bool surfaces) const
+  bool PairLaws::have_seats() const
   {
     return std::any_of(of_pair.begin(), of_pair.end(),
-                       [&](const JointLaw *law)
-                       { return law->n_memory() > 0 && (law->surfaces_law() != nullptr) == surfaces; });
+                       [](const JointLaw *law)
+                       { return law->n_memory() > 0 && (law->surfaces_law() || law->is_elastic()); });
+  }
+
+  bool PairLaws::have_bonds() const
+  {
+    return std::any_of(of_pair.begin(), of_pair.end(), [](const JointLaw *law) { return law->has_bond(); });
   }
 
   double PairLaws::friction_correction(const Unknowns &start, const bool is_mean, const Unknowns &force,
                                        const Unknowns &gap, const Unknowns &memory) const
   {
-    if (!is_mean || std::none_of(of_pair.begin(), of_pair.end(),
-                                 [](const JointLaw *law) { return law->surfaces_law() != nullptr; }))
+    if (!is_mean ||
+        std::none_of(of_pair.begin(), of_pair.end(),
+                     [](const JointLaw *law) { return law->surfaces_law() || law->is_elastic(); }))
       return 0.;
     const std::vector<PairHistory> history = histories(start, is_mean, memory);
     double                         sum = 0.;
     for (std::size_t p = 0; p < of_pair.size(); ++p)
-      if (const SurfacesLaw *law = of_pair[p]->surfaces_law())
-        sum += law->friction_correction(get(force, p), get(gap, p), history[p]);
+      sum += of_pair[p]->friction_correction(get(force, p), get(gap, p), history[p]);
     return sum;
   }
 } // namespace Voussoir

@@ -17,24 +17,27 @@ namespace Voussoir
 {
   namespace
   {
-    std::vector<unsigned int> pairs_per_joint(const Structure &structure)
+    std::vector<unsigned int> pairs_per_group(const Structure &structure)
     {
-      std::vector<unsigned int> n(structure.n_joints, 0);
+      std::vector<unsigned int> n(structure.n_groups(), 0);
       for (const Pair &pair : structure.pairs)
-        ++n[pair.joint];
+        ++n[structure.group(pair)];
       return n;
     }
 
-    /** Assigns each joint to the process that has its first body. */
+    /** Assigns each group of joints to the process that has its first body. */
     Shares shares_of_joints(const Structure &structure)
     {
       if (structure.share.are_trivial())
         return Shares();
-      std::vector<unsigned int> owner(structure.n_joints, 0);
+      std::vector<unsigned int> first(structure.n_groups(), rigid_ground), owner(structure.n_groups(), 0);
       for (const Pair &pair : structure.pairs)
-        if (const unsigned int node = std::min(pair.node_1, pair.node_2); node != rigid_ground)
-          owner[pair.joint] = structure.share.owner(structure.body_of(node));
-      for (unsigned int j = 1; j < owner.size(); ++j) // joints without pairs; parts must ascend
+        if (const unsigned int node = std::min(pair.node_1, pair.node_2); node < first[structure.group(pair)])
+        {
+          first[structure.group(pair)] = node;
+          owner[structure.group(pair)] = structure.share.owner(structure.body_of(node));
+        }
+      for (unsigned int j = 1; j < owner.size(); ++j) // groups without pairs; parts must ascend
         owner[j] = std::max(owner[j], owner[j - 1]);
       return Shares::of_owners(owner);
     }
@@ -63,7 +66,7 @@ namespace Voussoir
                            const Unknowns &springs, const BaseElimination::Nodes *given_base,
                            const bool single_factors)
       : structure(structure), parameters(parameters), laws(laws), step(step), is_static(step.mass == 0.),
-        sides(structure.pairs.size()), W(pairs_per_joint(structure), shares_of_joints(structure)),
+        sides(structure.pairs.size()), W(pairs_per_group(structure), shares_of_joints(structure)),
         n_solved(parameters.first_problem)
   {
     for (const JointLaw *law : laws.of_pair)
@@ -116,8 +119,9 @@ namespace Voussoir
     const bool         needed_elsewhere =
         Ranks::size() > 1 &&
         (base || std::any_of(sides_of_body.begin(), sides_of_body.end(),
-                             [&](const auto &side)
-                             { return W.shares().owner(structure.pairs[side.first].joint) != owner; }));
+                             [&](const auto &side) {
+                               return W.shares().owner(structure.group(structure.pairs[side.first])) != owner;
+                             }));
     if (needed_elsewhere)
     {
       F.resize(9 * structure.bodies[b].interface.size() * structure.bodies[b].interface.size());
@@ -157,10 +161,11 @@ namespace Voussoir
       for (const auto &q : of_body[b]) // columns
         for (const auto &p : of_body[b])
         {
-          const Pair &pair_p = structure.pairs[p.first], &pair_q = structure.pairs[q.first];
-          if (pair_p.joint > pair_q.joint)
+          const Pair        &pair_p = structure.pairs[p.first], &pair_q = structure.pairs[q.first];
+          const unsigned int group_p = structure.group(pair_p), group_q = structure.group(pair_q);
+          if (group_p > group_q)
             continue;
-          std::vector<double> &block = W.block(pair_p.joint, pair_q.joint);
+          std::vector<double> &block = W.block(group_p, group_q);
           if (block.empty())
             continue;
           Matrix3      f;
@@ -171,8 +176,8 @@ namespace Voussoir
                   sign *
                   F[(3 * sides[q.first][q.second].node + j) * m + 3 * sides[p.first][p.second].node + i];
           const Matrix3     w = rotate(pair_p.frame, f, pair_q.frame);
-          const std::size_t rows = W.size(pair_p.joint), row = 3 * p.first - W.begin(pair_p.joint),
-                            column = 3 * q.first - W.begin(pair_q.joint);
+          const std::size_t rows = W.size(group_p), row = 3 * p.first - W.begin(group_p),
+                            column = 3 * q.first - W.begin(group_q);
           for (unsigned int j = 0; j < 3; ++j)
             for (unsigned int i = 0; i < 3; ++i)
               block[(column + j) * rows + row + i] += w[3 * i + j];

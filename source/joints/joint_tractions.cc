@@ -16,12 +16,15 @@ namespace Voussoir
   {
     using Rows = std::vector<std::map<unsigned int, double>>;
 
-    /** Returns the mass matrix of the faces of all sides 1 [m^2], by pairs. */
+    /** Returns the mass matrix of the faces of all sides 1 [m^2], by pairs; of base joints that of sides 2. */
     Rows face_mass(const SolidModel &model, const std::vector<Pair> &pairs)
     {
       std::map<std::pair<unsigned int, unsigned int>, unsigned int> pair_at; // (surface, free node) -> pair
       for (unsigned int p = 0; p < pairs.size(); ++p)
-        pair_at[{PhysicalId::joint_side_1 + pairs[p].joint + 1, pairs[p].node_1}] = p;
+        if (pairs[p].node_1 == rigid_ground)
+          pair_at[{PhysicalId::joint_side_2 + pairs[p].joint + 1, pairs[p].node_2}] = p;
+        else
+          pair_at[{PhysicalId::joint_side_1 + pairs[p].joint + 1, pairs[p].node_1}] = p;
       Rows            rows(pairs.size());
       FEFaceValues<3> values(model.fe, QGauss<2>(model.fe.degree + 1), update_values | update_JxW_values);
       std::vector<types::global_dof_index>               dofs(model.fe.n_dofs_per_cell());
@@ -30,7 +33,8 @@ namespace Voussoir
         for (const unsigned int f : cell->face_indices())
         {
           const unsigned int surface = cell->face(f)->boundary_id();
-          if (!cell->face(f)->at_boundary() || !is_joint_side(surface) || surface > PhysicalId::joint_side_2)
+          if (!cell->face(f)->at_boundary() || !is_joint_side(surface) ||
+              (surface > PhysicalId::joint_side_2 && model.base_joints.count(surface) == 0))
             continue;
           cell->get_dof_indices(dofs);
           here.clear();

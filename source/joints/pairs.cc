@@ -20,7 +20,7 @@ namespace Voussoir
     /** Two coincident nodes of a joint, and the tributary area vector from side 1 to side 2. */
     struct NodePair
     {
-      unsigned int              joint, node_1, node_2;
+      unsigned int              joint, node_1, node_2; ///< node_1: rigid_ground in a base joint
       Tensor<1, 3>              area;
       std::vector<Tensor<1, 3>> planes; ///< parts of the area at an edge; otherwise empty
     };
@@ -52,9 +52,10 @@ namespace Voussoir
     }
 
     /** Nodes of a joint. Nodes of side 1 have their area vectors, from side 1 to side 2, and the planes of
-     * which these consist. */
+     * which these consist; in a base joint those of side 2 have them. */
     struct JointNodes
     {
+      bool                                              is_base = false;
       std::map<unsigned int, Tensor<1, 3>>              area;
       std::map<unsigned int, std::vector<Tensor<1, 3>>> planes;
       std::set<unsigned int>                            side_2;
@@ -67,15 +68,16 @@ namespace Voussoir
       {
         if (!values.get_fe().has_support_on_face(i, face))
           continue;
-        if (is_side_2)
+        if (is_side_2 && !nodes.is_base)
         {
           nodes.side_2.insert(dofs[i]);
           continue;
         }
+        const double sign = is_side_2 ? -1. : 1.;
         Tensor<1, 3> of_face;
         for (const unsigned int q : values.quadrature_point_indices())
         {
-          const Tensor<1, 3> part = values.shape_value(i, q) * values.JxW(q) * values.normal_vector(q);
+          const Tensor<1, 3> part = sign * values.shape_value(i, q) * values.JxW(q) * values.normal_vector(q);
           nodes.area[dofs[i]] += part;
           of_face += part;
         }
@@ -99,6 +101,7 @@ namespace Voussoir
             AssertThrow(joint < n_joints, ExcInternalError());
             cell->get_dof_indices(dofs);
             values.reinit(cell, f);
+            joints[joint].is_base = model.base_joints.count(cell->face(f)->boundary_id()) > 0;
             add_face(values, dofs, f, is_side_2, joints[joint]);
           }
       return joints;
@@ -141,19 +144,29 @@ namespace Voussoir
           mean += node.second;
         for (const auto &node : joints[j].area)
         {
-          const unsigned int partner = partner_of(node.first, node.second.norm(), model, free, j);
+          const bool         is_base = joints[j].is_base;
+          const unsigned int partner =
+              is_base ? node.first : partner_of(node.first, node.second.norm(), model, free, j);
           free.erase(partner);
           std::vector<Tensor<1, 3>> &parts = joints[j].planes[node.first];
           std::stable_sort(parts.begin(), parts.end(),
                            [&](const Tensor<1, 3> &x, const Tensor<1, 3> &y)
                            { return x * mean / x.norm() > y * mean / y.norm() + 1e-9 * mean.norm(); });
-          matched.push_back(
-              {j, node.first, partner, node.second, parts.size() > 1 ? parts : std::vector<Tensor<1, 3>>()});
+          matched.push_back({j, is_base ? rigid_ground : node.first, partner, node.second,
+                             parts.size() > 1 && !is_base ? parts : std::vector<Tensor<1, 3>>()});
         }
       }
       return matched;
     }
   } // namespace
+
+  PairsByNode pairs_by_node(const std::vector<Pair> &pairs)
+  {
+    PairsByNode result;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      result[{pairs[p].joint, pairs[p].node_1 == rigid_ground ? pairs[p].node_2 : pairs[p].node_1}] = p;
+    return result;
+  }
 
   std::vector<Pair> find_pairs(const SolidModel &model, const unsigned int n_joints)
   {
@@ -161,7 +174,7 @@ namespace Voussoir
     for (const NodePair &match : match_joint_nodes(model, n_joints))
     {
       Pair pair;
-      pair.node_1 = model.equation[match.node_1];
+      pair.node_1 = match.node_1 == rigid_ground ? rigid_ground : model.equation[match.node_1];
       pair.node_2 = model.equation[match.node_2];
       if (pair.node_1 == pair.node_2) // both nodes fixed, or tied
         continue;
@@ -178,7 +191,7 @@ namespace Voussoir
       pair.joint = match.joint;
       pair.area = match.area.norm();
       for (unsigned int d = 0; d < 3; ++d)
-        pair.place[d] = model.points[match.node_1][d];
+        pair.place[d] = model.points[match.node_1 == rigid_ground ? match.node_2 : match.node_1][d];
       pair.frame = frame_of(match.planes.empty() ? match.area : match.planes[0]);
       if (!match.planes.empty())
         pair.area = 0.;
@@ -210,7 +223,7 @@ namespace Voussoir
     };
     for (const NodePair &match : match_joint_nodes(model, n_joints))
     {
-      if (base_only && !model.on_surface(match.node_1, PhysicalId::base))
+      if (match.node_1 == rigid_ground || (base_only && !model.on_surface(match.node_1, PhysicalId::base)))
         continue;
       const unsigned int a = root(match.node_1), b = root(match.node_2);
       master[std::max(a, b)] = std::min(a, b);

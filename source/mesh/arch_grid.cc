@@ -205,6 +205,9 @@ namespace Voussoir
     prm.add_parameter("Elements through", elements_through,
                       "Number of elements from the upstream to the downstream face [-].", Integer(1, 100));
     prm.add_parameter(
+        "Base joint", base_joint,
+        "true: the base is a joint with the law of section Joints; on a rigid foundation only.");
+    prm.add_parameter(
         "Smallest height", smallest_height,
         "Smallest height of the dam [m]. Near the banks, where the abutment is nearer to the crest, the dam "
         "is embedded in the bank. All rows of elements share this height. With 0, the elements at the ends "
@@ -304,8 +307,9 @@ namespace Voussoir
           // In the order of hex_faces: base, crest, right bank, downstream, left bank, upstream.
           const bool outside[6] = {k == 0,           k + 1 == n_up, i == 0, l + 1 == n_through,
                                    i + 1 == n_along, l == 0};
-          const int  surface[6] = {PhysicalId::base,       PhysicalId::crest, PhysicalId::base,
-                                   PhysicalId::downstream, PhysicalId::base,  PhysicalId::upstream};
+          const int  base = grid.base_joint ? PhysicalId::base_joint : PhysicalId::base;
+          const int  surface[6] = {base, PhysicalId::crest,   base, PhysicalId::downstream,
+                                   base, PhysicalId::upstream};
           for (unsigned int f = 0; f < 6; ++f)
             if (outside[f])
             {

@@ -339,7 +339,7 @@ namespace Voussoir
       {
         const auto is_end_wall = [&](const HexMesh::Face &face)
         {
-          return face.surface == PhysicalId::base &&
+          return is_base(face.surface) &&
                  std::any_of(face.nodes.begin(), face.nodes.end(),
                              [&](const unsigned int node)
                              { return node / (n_dam_layers + 1) % (dam.elements_up + 1) != 0; });

@@ -157,13 +157,24 @@ namespace Voussoir
         return "physical " + kind + std::to_string(tag) + (name.empty() ? "" : " ('" + name + "')");
       }
 
+      /** Returns the physical id of a group without a name. */
+      static int id_of_tag(const int dimension, const int tag)
+      {
+        using namespace PhysicalId;
+        if (dimension == 2 && tag > side_1_in_files && tag <= side_1_in_files + max_in_files)
+          return tag - side_1_in_files + joint_side_1;
+        if (dimension == 2 && tag > side_2_in_files && tag <= side_2_in_files + max_in_files)
+          return tag - side_2_in_files + joint_side_2;
+        return tag;
+      }
+
       /** Returns the physical id of a group of gmsh: by its name, or by its tag if it has none.
        * Stores the name. */
       int identify(const int dimension, const int tag)
       {
         std::string name;
         model::getPhysicalName(dimension, tag, name);
-        int id = name.empty() ? tag : physical_id(dimension, name);
+        int id = name.empty() ? id_of_tag(dimension, tag) : physical_id(dimension, name);
         if (id == -1 && !name.empty())
           fail(unknown_group(dimension, tag, name));
         if (dimension == 3 && !name.empty() && id == PhysicalId::first_rock) // ids of rock are free
@@ -191,7 +202,7 @@ namespace Voussoir
         if (dimension == 2 && physical_id(2, physical_name(2, id)) == -1)
           fail(label(2, tag) +
                " is unknown. Name it 'base', 'upstream', 'downstream', 'crest', 'free surface', 'artificial "
-               "boundary' or 'joint 1 side 1' and so on, use their ids (1 to 6, 101, 201), or remove it.");
+               "boundary' or 'joint 1 side 1' and so on, use their ids (1 to 7, 101, 201), or remove it.");
         return id;
       }
 

@@ -50,6 +50,17 @@ namespace Voussoir
       return groups;
     }
 
+    /** Returns the tag of a surface in the file. */
+    int tag_of(const int surface)
+    {
+      using namespace PhysicalId;
+      for (const auto &[inside, outside] :
+           {std::make_pair(joint_side_2, side_2_in_files), std::make_pair(joint_side_1, side_1_in_files)})
+        if (surface > inside && surface <= inside + max_in_files)
+          return surface - inside + outside;
+      return surface;
+    }
+
     /** Adds a discrete entity of gmsh with its elements for each physical group of @p dimension. The tags of
      * the elements follow @p last_tag, in the order of the mesh. */
     template <typename Range, typename GroupOf>
@@ -121,7 +132,7 @@ namespace Voussoir
                 add_groups(
                     mesh, 2, quadrangle_4, mesh.faces,
                     [](const HexMesh::Face &face) {
-                      return Group{face.surface, physical_name(2, face.surface)};
+                      return Group{tag_of(face.surface), physical_name(2, face.surface)};
                     },
                     mesh.cells.size());
                 gmsh::option::setNumber("Mesh.MshFileVersion", version);

@@ -117,6 +117,7 @@ namespace Voussoir
     }
 
     const std::map<int, std::string> surface_names = {{PhysicalId::base, "base"},
+                                                      {PhysicalId::base_joint, "base joint"},
                                                       {PhysicalId::upstream, "upstream"},
                                                       {PhysicalId::downstream, "downstream"},
                                                       {PhysicalId::crest, "crest"},

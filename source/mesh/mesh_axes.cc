@@ -31,12 +31,13 @@ namespace Voussoir
       double area = 0.;
     };
 
+    /** @p surface: its physical id; the base includes base joints. */
     Normals normals_of(const HexMesh &mesh, const FaceTable &table, const int surface)
     {
       Normals result;
       for (const auto &face : mesh.faces)
       {
-        if (face.surface != surface)
+        if (face.surface != surface && !(is_base(surface) && is_base(face.surface)))
           continue;
         const auto  owners = table.owners(face.nodes);
         const auto *owner = owners.first; // cell of the dam; a base on rock has two cells

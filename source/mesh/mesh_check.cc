@@ -115,7 +115,7 @@ namespace Voussoir
           const auto        owners = table.owners(face.first);
           const std::string where = "a face of surface " + group_name(mesh, 2, face.second) + " at " +
                                     place(centre(mesh, face.first));
-          if (face.second == PhysicalId::base && owners.second == nullptr)
+          if (is_base(face.second) && owners.second == nullptr)
             fail(where + " does not lie between dam and rock: it belongs to one hexahedron only. Let dam and "
                          "rock share their nodes there (gmsh: Coherence, or remove duplicate nodes), or take "
                          "it out of the surface if there is no rock.");
@@ -141,10 +141,11 @@ namespace Voussoir
           return std::any_of(mesh.faces.begin(), mesh.faces.end(),
                              [&](const auto &face) { return face.surface == surface; });
         };
-        if (has_rock && !has(PhysicalId::base))
+        const bool has_base = has(PhysicalId::base) || has(PhysicalId::base_joint);
+        if (has_rock && !has_base)
           fail("dam and rock do not touch: no hexahedra of both share a face. Let them share their nodes "
                "(gmsh: Coherence, or remove duplicate nodes).");
-        if (has(has_rock ? PhysicalId::artificial : PhysicalId::base))
+        if (has_rock ? has(PhysicalId::artificial) : has_base)
           return;
         if (has_rock)
           fail("the rock has no supports: there is no surface 'artificial boundary' (id 6). Put the lateral "
@@ -185,7 +186,7 @@ namespace Voussoir
         const int volume_1 = mesh.cells[cell_1].volume, volume_2 = mesh.cells[cell_2].volume;
         if (is_joint_side(surface)) // joint surfaces of a conforming mesh
           return is_monolith(volume_1) && is_monolith(volume_2) && volume_1 != volume_2;
-        return surface == PhysicalId::base && is_monolith(volume_1) != is_monolith(volume_2);
+        return is_base(surface) && is_monolith(volume_1) != is_monolith(volume_2);
       }
 
       [[noreturn]] void fail(const std::string &text) const

@@ -25,9 +25,9 @@ namespace Voussoir
         names.push_back("rock");
         return names;
       }
-      for (int surface = PhysicalId::base; surface <= PhysicalId::artificial; ++surface)
+      for (int surface = PhysicalId::base; surface <= PhysicalId::base_joint; ++surface)
         names.push_back(physical_name(2, surface));
-      for (int joint = 1; joint <= PhysicalId::max_joints; ++joint)
+      for (int joint = 1; joint <= PhysicalId::max_in_files; ++joint)
         for (const int side : {PhysicalId::joint_side_1, PhysicalId::joint_side_2})
           names.push_back(physical_name(2, side + joint));
       return names;
@@ -99,10 +99,11 @@ namespace Voussoir
     const std::string kind = dimension == 3 ? "volume" : "surface";
     return "the physical " + kind + " '" + name + "' (id " + std::to_string(tag) +
            ") has an unknown name. Did you mean '" + nearest_name(known_names(dimension), name) + "'? " +
-           (dimension == 3 ? "Volumes are 'monolith 1', 'monolith 2', ... and 'rock'. With several materials "
-                             "the name of a zone follows ('monolith 1 heel', 'rock weak layer')"
-                           : "Surfaces are 'base', 'upstream', 'downstream', 'crest', 'free surface', "
-                             "'artificial boundary', 'joint 1 side 1', 'joint 1 side 2' and so on") +
+           (dimension == 3
+                ? "Volumes are 'monolith 1', 'monolith 2', ... and 'rock'. With several materials "
+                  "the name of a zone follows ('monolith 1 heel', 'rock weak layer')"
+                : "Surfaces are 'base', 'base joint', 'upstream', 'downstream', 'crest', 'free surface', "
+                  "'artificial boundary', 'joint 1 side 1', 'joint 1 side 2' and so on") +
            ". Rename or remove the group. Ids are used only for groups without names.";
   }
 

@@ -185,6 +185,38 @@ namespace Voussoir
       return joints;
     }
 
+    constexpr const char *of_base = "base joint"; ///< name of the sides of base joints
+
+    /** Makes the faces of "base joint" the sides 2 of joints with the ground, one per monolith.
+     * @param volume monolith of each face
+     * @param next number of the first joint */
+    void number_base_joints(const std::vector<int> &volume, const int next, HexMesh &opened)
+    {
+      std::map<int, int> number; // by monolith
+      for (std::size_t f = 0; f < volume.size(); ++f)
+        if (opened.faces[f].surface == PhysicalId::base_joint)
+          number[volume[f]] = 0;
+      int after = next;
+      for (auto &joint : number)
+        joint.second = after++;
+      for (std::size_t f = 0; f < volume.size(); ++f)
+        if (int &surface = opened.faces[f].surface; surface == PhysicalId::base_joint)
+        {
+          surface = PhysicalId::joint_side_2 + number[volume[f]];
+          opened.names[{2, surface}] = of_base;
+        }
+      opened.names.erase({2, PhysicalId::base_joint});
+    }
+
+    /** Reverses number_base_joints(). */
+    void restore_base_joints(HexMesh &mesh)
+    {
+      for (auto &face : mesh.faces)
+        if (const auto name = mesh.names.find({2, face.surface});
+            is_joint_side(face.surface) && name != mesh.names.end() && name->second == of_base)
+          face.surface = PhysicalId::base_joint;
+    }
+
     /** Copies each shared node for every monolith except the first. Nodes of the rock stay shared. */
     class Splitter
     {
@@ -218,9 +250,10 @@ namespace Voussoir
 
   HexMesh close_joints(const HexMesh &mesh)
   {
-    auto    doubled = doubled_faces(mesh);
-    auto    merged = match_sides(mesh, doubled);
     HexMesh closed = mesh;
+    restore_base_joints(closed);
+    auto doubled = doubled_faces(closed);
+    auto merged = match_sides(closed, doubled);
     for (auto &cell : closed.cells)
       for (unsigned int &node : cell.nodes)
         node = merged.root(node);
@@ -245,13 +278,19 @@ namespace Voussoir
     const FaceTable table(opened);
     const auto      joints = number_joints(opened, table);
 
-    Splitter splitter(opened);
+    Splitter         splitter(opened);
+    std::vector<int> of_face; // monolith
     for (auto &face : opened.faces)
     {
       const int volume = opened.cells[table.owners(face.nodes).first->cell].volume;
+      of_face.push_back(volume);
       for (unsigned int &node : face.nodes)
         node = splitter.node_of(volume, node);
     }
+    int next = n_monoliths(opened);
+    for (const auto &joint : joints)
+      next = std::max(next, joint.second + 1);
+    number_base_joints(of_face, next, opened);
     for (auto &cell : opened.cells)
       for (unsigned int &node : cell.nodes)
         node = splitter.node_of(cell.volume, node);

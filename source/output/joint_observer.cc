@@ -14,7 +14,7 @@ namespace Voussoir
     joints.reach = JointReach(*run.dam->model, structure.pairs);
     joints.points =
         JointPoints(*run.dam->model, structure.pairs, structure.n_joints, scene.limits.waterstop_depth);
-    joints.keys = KeyForces(structure, scene.joints);
+    joints.keys = KeyForces(structure, run.dam->joint_models, scene.joints.friction);
   }
 
   void JointObserver::record()

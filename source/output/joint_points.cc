@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/output_file.h>
+#include <voussoir/joints/pairs.h>
 #include <voussoir/output/joint_points.h>
 #include <voussoir/solid/face_quads.h>
 
@@ -31,12 +32,9 @@ namespace Voussoir
       : pairs(pairs), rims(n_joints), now(pairs.size(), Vector3{}), opening(pairs.size(), 0.),
         slip(pairs.size(), 0.)
   {
-    std::map<unsigned int, unsigned int> pair_of; // pair by equation of its node on side 1
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      if (pairs[p].node_1 != rigid_ground)
-        pair_of[pairs[p].node_1] = p;
+    const PairsByNode pair_of = pairs_by_node(pairs);
     for (unsigned int j = 0; j < n_joints; ++j)
-      for (const FaceQuad &quad : face_quads(model, PhysicalId::joint_side_1 + 1 + static_cast<int>(j)))
+      for (const FaceQuad &quad : quads_of_joint(model, j))
       {
         Quad of_joint{{}, j};
         bool complete = true;
@@ -45,7 +43,7 @@ namespace Voussoir
           const unsigned int from = quad.nodes[k], to = quad.nodes[(k + 1) % 4];
           if (model.on_surface(from, PhysicalId::upstream) && model.on_surface(to, PhysicalId::upstream))
             rims[j].push_back({{place_of(model.points[from]), place_of(model.points[to])}});
-          const auto found = pair_of.find(model.equation[from]);
+          const auto found = pair_of.find({j, model.equation[from]});
           complete = complete && found != pair_of.end();
           of_joint.pairs[k] = complete ? found->second : 0;
         }

@@ -3,6 +3,7 @@
 
 #include <voussoir/base/error.h>
 #include <voussoir/base/output_file.h>
+#include <voussoir/joints/pairs.h>
 #include <voussoir/output/joint_surfaces.h>
 #include <voussoir/solid/face_quads.h>
 
@@ -43,13 +44,10 @@ namespace Voussoir
   void write_joint_surfaces(const std::string &file, const SolidModel &model, const Structure &structure,
                             const Newmark &newmark, const std::vector<PairState> &states)
   {
-    std::map<unsigned int, unsigned int> pair_of; // pair by equation of its node on side 1
-    for (unsigned int p = 0; p < structure.pairs.size(); ++p)
-      if (structure.pairs[p].node_1 != rigid_ground)
-        pair_of[structure.pairs[p].node_1] = p;
+    const PairsByNode                     pair_of = pairs_by_node(structure.pairs);
     std::vector<DataOutBase::Patch<2, 3>> patches;
     for (unsigned int j = 0; j < structure.n_joints; ++j)
-      for (const FaceQuad &quad : face_quads(model, PhysicalId::joint_side_1 + 1 + static_cast<int>(j)))
+      for (const FaceQuad &quad : quads_of_joint(model, j))
       {
         DataOutBase::Patch<2, 3> patch;
         patch.reference_cell = ReferenceCells::Quadrilateral;
@@ -58,7 +56,7 @@ namespace Voussoir
         for (unsigned int k = 0; k < 4; ++k)
         {
           const unsigned int node = quad.nodes[k < 2 ? k : 5 - k]; // lexicographic order
-          const auto         found = pair_of.find(model.equation[node]);
+          const auto         found = pair_of.find({j, model.equation[node]});
           patch.vertices[k] = model.points[node];
           if (found == pair_of.end()) // fixed base node
           {

@@ -8,15 +8,16 @@
 
 namespace Voussoir
 {
-  KeyForces::KeyForces(const Structure &structure, const JointParameters &parameters)
-      : pairs(structure.pairs), friction(parameters.friction)
+  KeyForces::KeyForces(const Structure &structure, const std::vector<std::string> &models,
+                       const double friction)
+      : pairs(structure.pairs), friction(friction)
   {
     for (unsigned int j = 0; j < structure.n_joints; ++j)
     {
       double area = 0.;
       for (const Pair &pair : pairs)
         area += pair.joint == j ? pair.area : 0.;
-      if (area > 0. && joint_law_reads(parameters.model_of(j + 1), "Joints/Keys/Height"))
+      if (area > 0. && joint_law_reads(models[j], "Joints/Keys/Height"))
         joints.push_back({j, area, 0., 0.});
     }
   }

@@ -13,7 +13,7 @@ namespace Voussoir
     std::vector<unsigned int>            lattice(per_side * per_side);
     for (const auto &cell : model.dof_handler.active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary() && static_cast<int>(cell->face(f)->boundary_id()) == surface)
+        if (cell->face(f)->at_boundary() && model.is_on(cell->face(f)->boundary_id(), surface))
         {
           cell->get_dof_indices(dofs);
           // Nodes of the face by their two tangential reference coordinates.
@@ -33,6 +33,13 @@ namespace Voussoir
             }
         }
     return quads;
+  }
+
+  std::vector<FaceQuad> quads_of_joint(const SolidModel &model, const unsigned int joint)
+  {
+    const int side_2 = PhysicalId::joint_side_2 + 1 + static_cast<int>(joint);
+    return face_quads(model,
+                      model.base_joints.count(side_2) > 0 ? side_2 : PhysicalId::joint_side_1 + 1 + joint);
   }
 
   double area(const SolidModel &model, const FaceQuad &quad)

@@ -3,6 +3,7 @@
 #include <deal.II/fe/mapping_q1.h>
 
 #include <voussoir/base/error.h>
+#include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/solid/cell_elasticity.h>
 #include <voussoir/solid/solid_model.h>
 #include <voussoir/solid/triangulation.h>
@@ -28,6 +29,9 @@ namespace Voussoir
       numbers.insert(cell.volume);
     }
     body_numbers.assign(numbers.begin(), numbers.end());
+    for (const Joint &joint : joints_of(mesh))
+      if (joint.is_base())
+        base_joints.insert(PhysicalId::joint_side_2 + joint.number);
     find_nodes();
     std::vector<bool>         fixed(points.size());
     std::vector<unsigned int> master(points.size());
@@ -45,6 +49,7 @@ namespace Voussoir
     DoFTools::map_dofs_to_support_points(MappingQ1<3>(), dof_handler, points);
     body.resize(points.size());
     surfaces.resize(points.size());
+    bonded.resize(points.size());
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell()), face_dofs(fe.n_dofs_per_face());
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
@@ -57,9 +62,15 @@ namespace Voussoir
       for (const unsigned int f : cell->face_indices())
         if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() != 0)
         {
+          const int id = cell->face(f)->boundary_id();
           cell->face(f)->get_dof_indices(face_dofs);
           for (const auto d : face_dofs)
-            surfaces[d].insert(cell->face(f)->boundary_id());
+          {
+            surfaces[d].insert(id);
+            bonded[d] = bonded[d] || id == PhysicalId::base;
+            if (is_on(id, PhysicalId::base))
+              surfaces[d].insert(PhysicalId::base);
+          }
         }
     }
   }
@@ -70,6 +81,18 @@ namespace Voussoir
     std::vector<unsigned int> master(n_nodes());
     std::iota(master.begin(), master.end(), 0);
     number_equations(std::vector<bool>(n_nodes(), false), master);
+  }
+
+  void SolidModel::free_base_joints(const std::set<int> &sides)
+  {
+    std::vector<unsigned int> master(n_nodes());
+    std::vector<bool>         fixed = bonded;
+    std::iota(master.begin(), master.end(), 0);
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+      for (const int id : surfaces[i])
+        if (base_joints.count(id) > 0 && sides.count(id) == 0)
+          fixed[i] = true;
+    number_equations(fixed, master);
   }
 
   void SolidModel::number_equations(const std::vector<bool> &fixed, const std::vector<unsigned int> &master)

@@ -28,6 +28,12 @@ namespace Voussoir
     share = Shares(work);
   }
 
+  unsigned int Structure::n_groups() const
+  {
+    return group_of_joint.empty() ? n_joints
+                                  : 1 + *std::max_element(group_of_joint.begin(), group_of_joint.end());
+  }
+
   unsigned int Structure::body_of(const unsigned int node) const
   {
     const auto after = std::upper_bound(bodies.begin(), bodies.end(), node,

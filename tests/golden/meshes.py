@@ -4,7 +4,7 @@ left bank, z up."""
 
 from math import cos, pi, radians, sin
 
-NAMES = {1: "base", 2: "upstream", 3: "downstream", 4: "crest", 5: "free surface", 6: "artificial boundary"}
+NAMES = {1: "base", 2: "upstream", 3: "downstream", 4: "crest", 5: "free surface", 6: "artificial boundary", 7: "base joint"}
 
 
 def write(file, nodes, hexes, quads, scale=1., volumes=None):

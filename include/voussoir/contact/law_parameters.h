@@ -48,6 +48,9 @@ namespace Voussoir
     KeyParameters keys;
     double        strength = 0., fracture_energy = 0.; ///< of law cohesive [Pa], [N/m]
 
+    double normal_stiffness = 0., tangential_stiffness = 0.; ///< of the joint itself, 0: rigid [Pa/m]
+    double adhesion = 0.; ///< shear strength without pressure, while bonded [Pa]
+
     /** Declares the entries of the section, without "Equations" and the subsection "Keys". */
     void add_parameters(Entries &prm);
   };

@@ -32,6 +32,9 @@ namespace Voussoir
     /** Returns FoundationSite::one_body for the input file. @p tied: true if all joints are tied. */
     static bool is_one_body(const Scene &scene, bool tied);
 
+    /** Returns true if any monolith stands on a base joint that is not tied. */
+    bool has_base_joints() const { return !weight_on_base.empty(); }
+
     /** Returns true if the lowest base nodes are fixed. */
     bool base_is_held() const { return lowest_base.empty(); }
 
@@ -57,6 +60,8 @@ namespace Voussoir
     std::size_t              n_cells = 0;       ///< number of concrete elements
     unsigned int             n_monoliths = 0;   ///< number of monoliths
     unsigned int             n_joints = 0;      ///< number of contraction joints, also if they are tied
+    std::vector<Joint>       joints;            ///< all joints, by number; without faces: monolith_2 is 0
+    std::vector<std::string> joint_models;      ///< names of the laws of #joints
     double                   volume = 0.;       ///< of the concrete [m^3]
     double                   crest_length = 0.; ///< see Voussoir::crest_length() [m]
     double                   size = 0.;         ///< diagonal of the bounding box of the concrete [m]
@@ -96,6 +101,8 @@ namespace Voussoir
     void    choose_laws(bool tie_all);
     void    assemble(const HexMesh &opened, const std::string &source);
     void    tie_base();
+    void    open_base_joints();
+    void    find_weight_on_base();
     void    remove_base_pairs(std::vector<Pair> &pairs) const;
 
     std::set<unsigned int> nodes_of_base() const; ///< equation numbers
@@ -105,6 +112,8 @@ namespace Voussoir
     void                   find_lowest_base();
 
     std::vector<unsigned int> lowest_base; ///< free nodes at the lowest height of the base
+    std::vector<Vector3> staged_weight;  ///< displacement per node of the model before grouting [m], or empty
+    Unknowns             weight_on_base; ///< of base joints: staged weight per free node [N], or empty
   };
 } // namespace Voussoir
 

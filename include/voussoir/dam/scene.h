@@ -9,6 +9,7 @@
 #include <voussoir/dam/load_parameters.h>
 #include <voussoir/dam/reservoir.h>
 #include <voussoir/foundation/foundation_parameters.h>
+#include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/mesh/mesh_source.h>
 #include <voussoir/motion/motion_parameters.h>
 #include <voussoir/solid/zones.h>
@@ -44,12 +45,12 @@ namespace Voussoir
   {
     JointParameters() { keys.seat_compliance = -1.; } ///< [m/Pa]; -1: 20 height/E
 
-    std::string                         model = "FJA";                    ///< joint law
-    std::string                         equations_name = "alart-curnier"; ///< form of the joint equations
-    std::map<unsigned int, std::string> overrides;                        ///< model by joint number
-    void                                add_parameters(Entries &prm);
-    void                                check() const;
-    void                                add_choices(ModelChoices &choices) const;
+    std::string                        model = "FJA";                    ///< joint law
+    std::string                        equations_name = "alart-curnier"; ///< form of the joint equations
+    std::map<std::string, std::string> overrides; ///< model by number, name or kind of a joint
+    void                               add_parameters(Entries &prm);
+    void                               check() const;
+    void                               add_choices(ModelChoices &choices) const;
 
     /** Returns the parameters of the joint laws. @p young: Young's modulus of the concrete [Pa]. */
     LawParameters law(double young) const;
@@ -57,12 +58,8 @@ namespace Voussoir
     /** Returns true if the law of any joint uses the @p entry, such as "Joints/Friction". */
     bool any_reads(const std::string &entry) const;
 
-    /** Returns the model of a joint, numbered from 1. */
-    const std::string &model_of(const unsigned int joint) const
-    {
-      const auto found = overrides.find(joint);
-      return found == overrides.end() ? model : found->second;
-    }
+    /** Returns the model of a joint: that of its number or name, otherwise of its kind, otherwise #model. */
+    const std::string &model_of(const Joint &joint) const;
   };
 
   /** Parameters of the subsection "Statics". */

@@ -21,6 +21,9 @@ namespace Voussoir
 
     double reaction = 0.; ///< factor of the reaction E of the water, Body::reaction [-]
 
+    /** Additional factor of the mass matrix in a static system whose bodies only the joints hold [1/s^2]. */
+    double proximal = 0.;
+
     bool has_mean_forces() const { return share != 1.; } ///< true if f are means over the step
   };
 

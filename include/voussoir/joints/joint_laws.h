@@ -7,14 +7,12 @@
 
 namespace Voussoir
 {
-  /** Energies of all joints from JointLaw::bond_energy() [J]. */
+  /** Energies of all joints [J]. */
   struct JointEnergy
   {
-    /** Energy stored by laws with several contact surfaces: flank contacts of shear keys (KSM) [J]. */
-    double stored = 0.;
-
-    /** Energy stored and dissipated by all other laws with history variables: bonds (cohesive) [J]. */
-    double fracture = 0.;
+    double stored =
+        0.; ///< JointLaw::stored_energy(): flank contacts of shear keys, stiffness of the joints [J]
+    double fracture = 0.; ///< JointLaw::bond_energy(): stored and dissipated by bonds [J]
   };
 
   /** Joint laws of all pairs of a structure, and the position of their history variables in one array.
@@ -53,13 +51,13 @@ namespace Voussoir
     /** Returns the energies of the joints for gaps and history variables at the same time [J]. */
     JointEnergy joint_energy(const Unknowns &gap, const Unknowns &memory) const;
 
-    /** Returns true if JointEnergy::stored can be nonzero: a law with several surfaces has history variables. */
-    bool have_seats() const { return have_memory_with(true); }
+    /** Returns true if JointEnergy::stored can be nonzero: a law is elastic, or has elastic key flanks. */
+    bool have_seats() const;
 
-    /** Returns true if JointEnergy::fracture can be nonzero: another law has history variables. */
-    bool have_bonds() const { return have_memory_with(false); }
+    /** Returns true if JointEnergy::fracture can be nonzero: a law has a bond. */
+    bool have_bonds() const;
 
-    /** Returns the sum of SurfacesLaw::friction_correction() over all pairs [J]; 0 if @p is_mean is false.
+    /** Returns the sum of JointLaw::friction_correction() over all pairs [J]; 0 if @p is_mean is false.
      * @p memory: history variables before commit(). */
     double friction_correction(const Unknowns &start, bool is_mean, const Unknowns &force,
                                const Unknowns &gap, const Unknowns &memory) const;
@@ -70,7 +68,6 @@ namespace Voussoir
     void add(const JointLaw *law, double tributary_area);
 
   private:
-    bool        have_memory_with(bool surfaces) const;
     std::size_t n_memory() const { return memory_end.empty() ? 0 : memory_end.back(); }
     std::size_t memory_begin(const std::size_t pair) const { return pair == 0 ? 0 : memory_end[pair - 1]; }
 

@@ -4,10 +4,16 @@
 
 #include <voussoir/solid/solid_model.h>
 
+#include <map>
+
 namespace Voussoir
 {
+  /** Pair by the index of its joint and the free node on side 1, or on side 2 if side 1 is the ground. */
+  using PairsByNode = std::map<std::pair<unsigned int, unsigned int>, unsigned int>;
+  PairsByNode pairs_by_node(const std::vector<Pair> &pairs);
+
   /** Returns the pairs of the joints 1 to @p n_joints, joint after joint. A pair consists of coincident nodes
-   * of the surfaces 100 + j and 200 + j. Its frame is {n, a, b}: n from side 1 to side 2, b upwards in the
+   * of the two sides of a joint, or of the ground and a node of side 2 (base joints). Its frame is {n, a, b}: n from side 1 to side 2, b upwards in the
    * joint, a = b x n. Pairs of two fixed nodes, or of nodes that move together, are omitted.
    *
    * At an edge (normals of the faces differ by more than 20 degrees, as at meshed shear keys) the pair has

@@ -19,11 +19,15 @@ namespace Voussoir
    * name has the meaning of its id; the name of a group has priority (physical_id()). */
   namespace PhysicalId
   {
-    constexpr int base = 1, upstream = 2, downstream = 3, crest = 4, free_surface = 5, artificial = 6;
-    constexpr int joint_side_1 = 100, joint_side_2 = 200; ///< plus the number of the joint (1, 2, ...)
-    constexpr int max_joints = 99;                        ///< keeps the ids of the two sides disjoint
-    constexpr int first_rock = 1000;                      ///< this and larger volume ids are rock
-  }                                                       // namespace PhysicalId
+    constexpr int base = 1, upstream = 2, downstream = 3, crest = 4, free_surface = 5, artificial = 6,
+                  base_joint = 7;
+    constexpr int joint_side_1 = 10000, joint_side_2 = 20000; ///< plus the number of the joint (1, 2, ...)
+    constexpr int max_joints = 9999;                          ///< keeps the ids of the two sides disjoint
+    constexpr int first_rock = 1000;                          ///< this and larger volume ids are rock
+
+    /** Joints 1 to 99 have these ids in files, for groups without names. */
+    constexpr int side_1_in_files = 100, side_2_in_files = 200, max_in_files = 99;
+  } // namespace PhysicalId
 
   /** Mesh of hexahedra with eight nodes, and the quadrilaterals of its named surfaces. The corners have the
    * order of gmsh, which is also that of VTK. */
@@ -55,6 +59,12 @@ namespace Voussoir
   inline bool is_monolith(const int volume)
   {
     return volume < PhysicalId::first_rock;
+  }
+
+  /** Returns true if the physical id @p surface is that of the base, bonded or as a joint. */
+  inline bool is_base(const int surface)
+  {
+    return surface == PhysicalId::base || surface == PhysicalId::base_joint;
   }
 
   /** Returns true if the physical id @p surface is that of a side of a joint. */

@@ -4,10 +4,10 @@
 
 #include <voussoir/solid/structure.h>
 
+#include <string>
+
 namespace Voussoir
 {
-  struct JointParameters;
-
   /** Shear forces of the keys of each joint: sum over the pairs of the tangential force beyond the friction
    * limit of the face. This is a lower bound, because inclined flanks carry a part of the normal force and
    * reduce the friction of the face. */
@@ -18,8 +18,9 @@ namespace Voussoir
 
     /** Finds the joints with keys.
      * @param structure pairs of the joints
-     * @param parameters section "Joints" of the input file */
-    KeyForces(const Structure &structure, const JointParameters &parameters);
+     * @param models names of the laws of the joints
+     * @param friction coefficient of friction of the faces [-] */
+    KeyForces(const Structure &structure, const std::vector<std::string> &models, double friction);
 
     /** Updates the largest forces.
      * @param time present time [s]

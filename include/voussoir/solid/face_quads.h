@@ -20,6 +20,9 @@ namespace Voussoir
    * @param surface boundary id, such as PhysicalId::upstream or a side of a joint */
   std::vector<FaceQuad> face_quads(const SolidModel &model, int surface);
 
+  /** Returns the quadrilaterals of side 1 of a joint, or of side 2 if side 1 is the ground. @p joint: its index. */
+  std::vector<FaceQuad> quads_of_joint(const SolidModel &model, unsigned int joint);
+
   /** Returns the area of the quadrilateral [m^2]. */
   double area(const SolidModel &model, const FaceQuad &quad);
 } // namespace Voussoir

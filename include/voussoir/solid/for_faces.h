@@ -24,7 +24,7 @@ namespace Voussoir
     std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
     for (const auto &cell : model.dof_handler.active_cell_iterators())
       for (const unsigned int face : cell->face_indices())
-        if (cell->face(face)->at_boundary() && static_cast<int>(cell->face(face)->boundary_id()) == surface)
+        if (cell->face(face)->at_boundary() && model.is_on(cell->face(face)->boundary_id(), surface))
         {
           values.reinit(cell, face);
           cell->get_dof_indices(dofs);

@@ -30,6 +30,10 @@ namespace Voussoir
     /** Includes the base nodes in the free nodes, for a dam on deformable rock. */
     void free_base();
 
+    /** Includes the nodes of base joints in the free nodes.
+     * @param sides sides of these joints: boundary ids. Nodes of other base faces remain fixed. */
+    void free_base_joints(const std::set<int> &sides);
+
     /** Numbers the free nodes again.
      * @param fixed whether each node is fixed
      * @param master for each node a node of the same body with the same displacement; for independent nodes
@@ -39,9 +43,16 @@ namespace Voussoir
     bool         base_is_fixed = true;
     unsigned int n_nodes() const { return static_cast<unsigned int>(points.size()); }
     unsigned int n_bodies() const { return static_cast<unsigned int>(body_numbers.size()); }
-    bool         on_surface(const unsigned int node, const int surface) const
+    /** @p surface: the base (PhysicalId::base) includes the base joints. */
+    bool on_surface(const unsigned int node, const int surface) const
     {
       return surfaces[node].count(surface) > 0;
+    }
+
+    /** Returns true if a face with this boundary id belongs to the surface; the base includes the base joints. */
+    bool is_on(const int boundary_id, const int surface) const
+    {
+      return boundary_id == surface || (surface == PhysicalId::base && base_joints.count(boundary_id) > 0);
     }
 
     /** Returns the position of a free node as "(x, y, z) m", for messages. @p free_node: its number. */
@@ -60,12 +71,14 @@ namespace Voussoir
     std::vector<int>              body_numbers; ///< monolith numbers, ascending
     std::size_t n_zones;             ///< number of zones of the mesh, also those without cells in this model
     std::vector<unsigned int>  zone; ///< index into HexMesh::zones of each active cell
-    std::vector<std::set<int>> surfaces;       ///< boundary ids of each node
+    std::set<int>              base_joints;    ///< boundary ids of the base joints
+    std::vector<std::set<int>> surfaces;       ///< boundary ids of each node, and the base at base joints
     std::vector<unsigned int>  equation;       ///< free node number of each node; rigid_ground if fixed
     std::vector<unsigned int>  first_equation; ///< first free node of each body, and the number of free nodes
 
   private:
-    void find_nodes();
+    void              find_nodes();
+    std::vector<bool> bonded; ///< node is on a face of the base that is no joint
   };
 
   /** Assembles the stiffness and the lumped mass (row sums) of all bodies. Elements of degree 2 have 27

@@ -50,12 +50,25 @@ namespace Voussoir
     std::vector<Matrix3> mass;       ///< lumped mass per node, with added mass [kg]
     std::vector<Matrix3> added_mass; ///< added mass of the water per node [kg]
     Unknowns             dashpots;   ///< viscous dashpots to the ground per component [N s/m]; empty = none
-    std::vector<Pair>    pairs;      ///< sorted by joint
+    std::vector<Pair>    pairs;      ///< sorted by group
     unsigned int         n_joints = 0;
+
+    /** Group of each joint: a block of the joint operator. Joints of a group are solved together, so that an arch with
+     * base joints is a chain of groups. Empty: each joint is a group. */
+    std::vector<unsigned int> group_of_joint;
     double mass_damping = 0.;      ///< Rayleigh: C = mass_damping M + stiffness_damping K + dashpots [1/s]
     double stiffness_damping = 0.; ///< [s]
 
     unsigned int n_nodes() const { return static_cast<unsigned int>(mass.size()); }
+
+    /** Returns the group of a pair. */
+    unsigned int group(const Pair &pair) const
+    {
+      return group_of_joint.empty() ? pair.joint : group_of_joint[pair.joint];
+    }
+
+    /** Returns the number of groups. */
+    unsigned int n_groups() const;
 
     /** Determines the interface nodes of the bodies and distributes the bodies over the ranks. Call once,
      * after bodies and pairs are complete. */
