@@ -70,8 +70,7 @@ namespace Voussoir
     Table table_of(const std::vector<NaturalMode> &modes, const std::vector<double> &radiation,
                    const Structure &structure)
     {
-      const Vector3 whole = free_mass(structure);
-      Table         table;
+      Table table;
       table.columns = {"mode",
                        "frequency",
                        "participation_x",
@@ -87,13 +86,12 @@ namespace Voussoir
         table.columns.push_back("radiation_damping");
       for (std::size_t k = 0; k < modes.size(); ++k)
       {
-        const Vector3       factor = modes[k].participation(structure);
+        const Vector3 factor = modes[k].participation(structure), share = modes[k].mass_share(structure);
         std::vector<double> row = {double(k + 1), modes[k].frequency};
         row.insert(row.end(), factor.begin(), factor.end());
         for (unsigned int d = 0; d < 3; ++d)
           row.push_back(factor[d] * factor[d]);
-        for (unsigned int d = 0; d < 3; ++d)
-          row.push_back(factor[d] * factor[d] / whole[d]);
+        row.insert(row.end(), share.begin(), share.end());
         if (!radiation.empty())
           row.push_back(radiation[k]);
         table.rows.push_back(row);

@@ -33,19 +33,13 @@ namespace Voussoir
                              const Structure &structure)
       : damping(damping)
   {
-    const Vector3 whole = free_mass(structure);
+    const double n_directions = structure.plane_strain ? 2. : 3.;
     for (const NaturalMode &mode : modes)
     {
-      const Vector3 factor = mode.participation(structure);
-      double        mean = 0., largest = 0.;
-      for (unsigned int d = 0; d < 3; ++d)
-      {
-        const double part = factor[d] * factor[d] / whole[d];
-        mean += part / 3.;
-        largest = std::max(largest, part);
-      }
+      const Vector3 part = mode.mass_share(structure);
+      const double  mean = (part[0] + part[1] + part[2]) / n_directions;
       frequency.push_back(mode.frequency);
-      is_heavy.push_back(largest >= heavy);
+      is_heavy.push_back(*std::max_element(part.begin(), part.end()) >= heavy);
       if (share < heavy_share)
       {
         share += mean;

@@ -109,6 +109,10 @@ namespace Voussoir
     log.line("Mesh      %s: %zu cells, degree %u, %u dofs, %u monoliths; volume %.4g m3, crest %.1f m",
              scene.name.c_str(), dam.n_cells, scene.elements.degree, 3 * n_nodes, dam.n_monoliths, dam.volume,
              dam.crest_length);
+    if (scene.mesh.plane_strain)
+      log.line(
+          "          plane strain: no displacements along y; forces and masses are those of a slice of %.4g m",
+          dam.crest_length);
     log.line("Concrete  %s", in_words(scene.concrete).c_str());
     report_zones(log, dam.concrete_zones, "Concrete/Zones");
     if (dam.has_sustained_moduli())

@@ -76,22 +76,17 @@ namespace Voussoir
     /** Returns the effective mass of the modes relative to the mass of the free nodes [-]. */
     Vector3 share_of(const std::vector<SpectrumResponse::Mode> &modes, const Structure &structure)
     {
-      const Vector3 whole = free_mass(structure);
-      Vector3       share{};
+      Vector3 share{};
       for (const SpectrumResponse::Mode &m : modes)
-      {
-        const Vector3 factor = m.mode.participation(structure);
-        for (unsigned int d = 0; d < 3; ++d)
-          share[d] += factor[d] * factor[d] / whole[d];
-      }
+        add(share, m.mode.mass_share(structure));
       return share;
     }
 
-    void warn_of_share(const Vector3 &share, const Vector3 &peak)
+    void warn_of_share(const Vector3 &share, const Vector3 &peak, const bool plane_strain)
     {
       std::string low;
       for (unsigned int d = 0; d < 3; ++d)
-        if (share[d] < .9 && peak[d] > 0.)
+        if (share[d] < .9 && peak[d] > 0. && !(plane_strain && d == 1))
           low += (low.empty() ? "" : ", ") + number_text(std::floor(1000. * share[d]) / 10.) + " % in " +
                  "xyz"[d];
       if (!low.empty())
@@ -265,7 +260,7 @@ namespace Voussoir
     const SpectrumResponse                    response(dam.structure, modes, peak);
     const SpectrumFields                      fields = spectrum_fields(dam, response);
     Vector3                                   share = share_of(modes, dam.structure), in_g = peak;
-    warn_of_share(share, peak);
+    warn_of_share(share, peak, dam.structure.plane_strain);
     if (std::abs(spectrum.damping - damping) > 1e-6)
       warn(
           "the spectrum is for a damping ratio of " + number_text(spectrum.damping) +

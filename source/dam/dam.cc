@@ -9,6 +9,7 @@
 #include <voussoir/mesh/mesh_axes.h>
 #include <voussoir/mesh/mesh_groups.h>
 #include <voussoir/mesh/mesh_joints.h>
+#include <voussoir/mesh/plane_section.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,6 +62,24 @@ namespace Voussoir
                            " has no node on the surface \"base\", so it is unsupported. Extend its joints to "
                            "the base, or add its lowest faces to the surface.");
     }
+
+    /** Throws InputError if the model cannot be in plane strain. */
+    void check_plane_strain(const Scene &scene, const Foundation &foundation, const HexMesh &opened)
+    {
+      if (foundation.uses_rock())
+        throw InputError(
+            "\"Mesh/Plane strain\" is true, but \"Foundation/Model\" is " + scene.foundation.model +
+            ". Plane strain applies to dams on a rigid base. Set \"Foundation/Model\" to rigid, or "
+            "\"Mesh/Plane strain\" to false.");
+      if (scene.reservoir.is_meshed() && scene.reservoir.model == "acoustic" &&
+          scene.reservoir.reflection < 1.)
+        throw InputError(
+            "\"Mesh/Plane strain\" is true, but \"Reservoir/Reflection\" is " +
+            number_text(scene.reservoir.reflection) +
+            ": the sides of the channel would absorb waves as the bed does. Set \"Reservoir/Reflection\" "
+            "to 1, or \"Reservoir/Model\" to Westergaard.");
+      check_plane_section(opened, scene.mesh.name());
+    }
   } // namespace
 
   Dam::Dam(const Scene &scene, const bool tie_all) : scene(scene)
@@ -69,7 +88,7 @@ namespace Voussoir
     const std::string source = scene.mesh.name();
     check_axes_and_units(mesh, scene.mesh, source);
     groups = group_table(mesh);
-    ungrouped = faces_without_group(mesh);
+    ungrouped = faces_without_group(mesh, scene.mesh.plane_strain);
     const HexMesh opened = open_monoliths(mesh, source);
     choose_laws(tie_all);
     if (!tied || scene.statics.self_weight == "staged")
@@ -87,6 +106,8 @@ namespace Voussoir
     if (foundation->uses_rock())
       rock_zones =
           zones_of(mesh, true, scene.foundation.rock, scene.foundation.zone_materials(), "Foundation/Zones");
+    if (scene.mesh.plane_strain)
+      check_plane_strain(scene, *foundation, opened);
     mesh_warnings = Voussoir::mesh_warnings(opened, scene, concrete_zones);
     assemble(opened, source);
     tie_base();
@@ -150,6 +171,7 @@ namespace Voussoir
   void Dam::assemble(const HexMesh &opened, const std::string &source)
   {
     model = std::make_unique<SolidModel>(opened, scene.elements.degree);
+    model->plane_strain = scene.mesh.plane_strain;
     const bool        incompatible_modes = scene.elements.incompatible_modes;
     const auto        n_all = static_cast<unsigned int>(joints.size());
     std::vector<Pair> pairs = find_pairs(*model, n_all);

@@ -18,6 +18,7 @@ namespace Voussoir
       for (unsigned int i = 0; i < structure.n_nodes(); ++i)
         for (unsigned int c = 0; c < 3; ++c)
           loads[d][3 * i + c] = -structure.mass[i][3 * c + d];
+      structure.remove_held_forces(loads[d]);
     }
     return loads;
   }

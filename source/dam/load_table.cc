@@ -248,6 +248,7 @@ namespace Voussoir
               result.back().force);
         if (factor != 1.)
           scale(result.back());
+        site.structure.remove_held_forces(result.back().force);
       }
     return result;
   }

@@ -35,7 +35,19 @@ namespace Voussoir
     for (const Matrix3 &mass : structure.mass)
       for (unsigned int d = 0; d < 3; ++d)
         sum[d] += mass[4 * d];
+    if (structure.plane_strain)
+      sum[1] = 0.;
     return sum;
+  }
+
+  Vector3 NaturalMode::mass_share(const Structure &structure) const
+  {
+    const Vector3 factor = participation(structure), whole = free_mass(structure);
+    Vector3       share{};
+    for (unsigned int d = 0; d < 3; ++d)
+      if (whole[d] > 0.)
+        share[d] = factor[d] * factor[d] / whole[d];
+    return share;
   }
 
 #ifndef VOUSSOIR_WITH_ARPACK
@@ -92,6 +104,7 @@ namespace Voussoir
                             set(Mx, i, structure.mass[i] * get(copy, i));
                           if (add_mass)
                             add_mass(copy, Mx);
+                          structure.remove_held_forces(Mx); // no modes along y in plane strain
                           std::copy(Mx.begin(), Mx.end(), y.begin());
                         }};
     const Operator inverse_stiffness{[&](Vector<double> &y, const Vector<double> &x)

@@ -52,6 +52,7 @@ namespace Voussoir
         const Vector3 force = structure.mass[i] * get(part.acceleration, i);
         set(load, i, {{-force[0], -force[1], -force[2]}});
       }
+      structure.remove_held_forces(load);
       system.solve_free(load, part.displacement);
       for (std::size_t k = 0; k < modes.size(); ++k)
       {

@@ -2,6 +2,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/nearest_name.h>
 #include <voussoir/mesh/mesh_groups.h>
+#include <voussoir/mesh/plane_section.h>
 
 #include <algorithm>
 #include <fstream>
@@ -127,7 +128,7 @@ namespace Voussoir
     return text.str();
   }
 
-  std::string faces_without_group(const HexMesh &mesh)
+  std::string faces_without_group(const HexMesh &mesh, const bool plane_strain)
   {
     std::set<std::array<unsigned int, 4>> grouped;
     for (const HexMesh::Face &face : mesh.faces)
@@ -145,7 +146,7 @@ namespace Voussoir
       const bool inside = (i > 0 && entries[i - 1].key == entries[i].key) ||
                           (i + 1 < entries.size() && entries[i + 1].key == entries[i].key);
       if (!inside && is_monolith(mesh.cells[entries[i].cell].volume) && grouped.count(entries[i].key) == 0 &&
-          n++ == 0)
+          !(plane_strain && cosine_to_y(mesh, entries[i].cell, entries[i].cell_face) > .5) && n++ == 0)
         text << " outer faces of the dam, the first at " << place(centre(mesh, entries[i].key))
              << ", are in no physical surface. They are free and have no water pressure. This is correct for "
                 "the walls of a gallery and other free faces. Put all others into \"upstream\", "

@@ -82,6 +82,10 @@ namespace Voussoir
     prm.add_parameter("Subdivide", subdivide,
                       "true: all cells of the file are divided at their midpoints. A hexahedron becomes "
                       "eight hexahedra, a wedge six. Required for a mesh with wedges.");
+    prm.add_parameter(
+        "Plane strain", plane_strain,
+        "true: plane strain. The displacement along y is zero at all nodes. The mesh is a slice of the "
+        "dam between two planes y = constant, with the same section at each y.");
     prm.add_parameter("Length unit", length_unit, "Unit of the coordinates in the mesh file.",
                       Selection("m|cm|mm|km|ft|in"));
     prm.leave_subsection();

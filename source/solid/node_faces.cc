@@ -57,6 +57,8 @@ namespace Voussoir
             faces.push_back(face);
             for (double &x : faces.back().normal)
               x /= norm(face.normal);
+            if (model.plane_strain && std::abs(faces.back().normal[1]) > .5)
+              faces.pop_back();
           }
       return faces;
     }

@@ -196,6 +196,8 @@ namespace Voussoir
         throw InputError(
             "An element of the mesh is so distorted that the mass of its node at " + model.place_of(i) +
             " is not positive. Improve the shape of the elements, or set \"Elements/Degree\" to 1.");
+    if (model.plane_strain)
+      structure.decouple_y();
     return structure;
   }
 } // namespace Voussoir

@@ -34,6 +34,32 @@ namespace Voussoir
                                   : 1 + *std::max_element(group_of_joint.begin(), group_of_joint.end());
   }
 
+  void Structure::decouple_y()
+  {
+    const auto decouple = [](Matrix3 &block, const bool is_diagonal)
+    {
+      const double yy = block[4];
+      for (unsigned int c = 0; c < 3; ++c)
+        block[3 + c] = block[3 * c + 1] = 0.;
+      block[4] = is_diagonal ? yy : 0.;
+    };
+    for (Body &body : bodies)
+      for (unsigned int row = 0; row < body.n_nodes(); ++row)
+        for (std::size_t k = body.stiffness.start[row]; k < body.stiffness.start[row + 1]; ++k)
+          decouple(body.stiffness.value[k], body.stiffness.column[k] == row);
+    for (Matrix3 &block : mass)
+      decouple(block, true);
+    for (Matrix3 &block : added_mass)
+      decouple(block, true);
+    plane_strain = true;
+  }
+
+  void Structure::remove_held_forces(Unknowns &load) const
+  {
+    for (std::size_t k = 1; plane_strain && k < load.size(); k += 3)
+      load[k] = 0.;
+  }
+
   unsigned int Structure::body_of(const unsigned int node) const
   {
     const auto after = std::upper_bound(bodies.begin(), bodies.end(), node,

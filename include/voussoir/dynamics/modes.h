@@ -17,9 +17,13 @@ namespace Voussoir
     /** Returns the participation factors phi^T M r for base motion r along x, y and z [sqrt(kg)]. Their
      * squares are the effective masses. The effective masses of all modes add up to free_mass(). */
     Vector3 participation(const Structure &structure) const;
+
+    /** Returns the effective masses relative to free_mass() [-]; 0 along y in plane strain. */
+    Vector3 mass_share(const Structure &structure) const;
   };
 
-  /** Returns the mass of the free nodes along x, y and z, including the added mass: r^T M r [kg]. */
+  /** Returns the mass of the free nodes along x, y and z, including the added mass: r^T M r [kg]. It is 0 along y in
+   * plane strain. */
   Vector3 free_mass(const Structure &structure);
 
   /** Adds the product of a further mass matrix, such as that of incompressible water, and a vector with three values

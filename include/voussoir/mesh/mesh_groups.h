@@ -20,8 +20,8 @@ namespace Voussoir
 
   /** Returns a warning about outer faces of the dam that are in no surface, with their number and the
    * position of the first. Such faces are free and have no water pressure. The string is empty if there are
-   * no such faces. */
-  std::string faces_without_group(const HexMesh &mesh);
+   * no such faces. @p plane_strain: true if the two faces across y need no surface. */
+  std::string faces_without_group(const HexMesh &mesh, bool plane_strain = false);
 
   /** Checks the section $PhysicalNames of a gmsh file. Gmsh ignores names that it cannot parse, so that the
    * ids would be used instead.

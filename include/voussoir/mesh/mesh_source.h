@@ -22,6 +22,7 @@ namespace Voussoir
     std::string        axes = "x y z";    ///< axes of the file that point downstream, to the left bank and up
     std::string        length_unit = "m"; ///< of the coordinates in the file: see metres()
     bool               subdivide = false; ///< divide every cell of the file: subdivide()
+    bool               plane_strain = false; ///< no displacements along y: Structure::plane_strain
     Arch210Parameters  arch210;
     ArcsParameters     arcs;
     ArchRockParameters arch210_rock, arcs_rock;

@@ -20,7 +20,8 @@ namespace Voussoir
 
   /** Returns the boundary faces at all boundary nodes that are not on the surface "base", sorted by node.
    * Element faces of one surface count as one face if their normals at a node differ by less than 30 degrees.
-   * Its normal is the area-weighted mean. */
+   * Its normal is the area-weighted mean. In plane strain the sides of the slice do not count: their stress is
+   * unknown. */
   std::vector<NodeFace> faces_at_nodes(const SolidModel &model);
 
   /** Returns the faces of the surface "base" at its nodes, in the same form. */

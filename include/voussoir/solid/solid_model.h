@@ -41,6 +41,7 @@ namespace Voussoir
     void number_equations(const std::vector<bool> &fixed, const std::vector<unsigned int> &master);
 
     bool         base_is_fixed = true;
+    bool         plane_strain = false; ///< assemble_structure() decouples y: Structure::decouple_y()
     unsigned int n_nodes() const { return static_cast<unsigned int>(points.size()); }
     unsigned int n_bodies() const { return static_cast<unsigned int>(body_numbers.size()); }
     /** @p surface: the base (PhysicalId::base) includes the base joints. */

@@ -58,6 +58,7 @@ namespace Voussoir
     std::vector<unsigned int> group_of_joint;
     double mass_damping = 0.;      ///< Rayleigh: C = mass_damping M + stiffness_damping K + dashpots [1/s]
     double stiffness_damping = 0.; ///< [s]
+    bool   plane_strain = false;   ///< true: displacements along y are zero, see decouple_y()
 
     unsigned int n_nodes() const { return static_cast<unsigned int>(mass.size()); }
 
@@ -73,6 +74,13 @@ namespace Voussoir
     /** Determines the interface nodes of the bodies and distributes the bodies over the ranks. Call once,
      * after bodies and pairs are complete. */
     void collect_interfaces();
+
+    /** Decouples the displacements along y in stiffness and mass, for plane strain: only the diagonal remains in
+     * their rows and columns. Without loads along y they are exactly zero. */
+    void decouple_y();
+
+    /** Removes the forces along y from a load if #plane_strain is true, three values per node. */
+    void remove_held_forces(Unknowns &load) const;
 
     /** Returns the index of the body that contains a node. */
     unsigned int body_of(unsigned int node) const;

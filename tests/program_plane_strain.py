@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Plane strain (Mesh/Plane strain): own plane elements, CalculiX, closed forms, joints, refusals.
+
+    program_plane_strain.py VOUSSOIR CASE...     cases: see the functions with that name below
+"""
+
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE / "golden"), str(HERE.parent / "meshes")]
+import koyna  # noqa: E402
+import meshes  # noqa: E402
+import plane_elements  # noqa: E402
+from compare import STRESS, read_vtu, scene  # noqa: E402
+from program_sustained import agree  # noqa: E402
+from program_watch import settings  # noqa: E402
+from run_program import expect, refused, run_cases, runs, same, table, write_scene  # noqa: E402
+
+KOYNA = 31.027e9, .2, 2643.  # Young's modulus, Poisson's ratio, density
+CPE8 = (3.072911, 8.110253, 11.07714, 15.93205)  # [Hz], CalculiX on 32 x 80 cells: benchmarks/plane_strain.py
+PLANE = settings("Mesh/Source=file", "Mesh/Plane strain=true", "Reservoir/Density=0", f"Concrete/Young's modulus={KOYNA[0]}",
+                 f"Concrete/Poisson's ratio={KOYNA[1]}", f"Concrete/Density={KOYNA[2]}")
+
+
+def modes():
+    """The section of Koyna Dam: the frequencies of own plane elements and of CalculiX, for each thickness and number of elements
+    along y; nothing along y."""
+    cells, count = (8, 20), 20
+    write_scene()
+    koyna.write("one.msh", *cells)
+    koyna.write("three.msh", *cells, along=3, thickness=2.)
+    for degree, limit in ((1, .02), (2, .005)):
+        exact = plane_elements.frequencies(*koyna.section(*cells), degree, *KOYNA, count)
+        for mesh in ("one", "three"):
+            runs("modes", "scene.prm", "--count", str(count), "--output", f"{mesh}{degree}", *PLANE, *settings(
+                f"Mesh/File={mesh}.msh", f"Elements/Degree={degree}", "Elements/Incompatible modes=false", "Output/Figures=false"))
+            header, rows = table(f"{mesh}{degree}/modes.csv")
+            found = [row[header.index("frequency")] for row in rows]
+            off, reference = (max(abs(a / b - 1) for a, b in zip(found, values)) for values in (exact, CPE8))
+            print(f"    {mesh}, degree {degree}: {found[:4]} Hz; difference {off:.1e} (limit 1e-6) of {count} frequencies from the "
+                  f"plane elements, {reference:.2e} (limit {limit}) of 4 from CalculiX")
+            expect(off < 1e-6 and reference < limit, f"{mesh}, degree {degree}: {found}, plane elements {exact}")
+            expect(all(row[header.index(f"{name}_y")] == 0 for row in rows for name in ("participation", "share")), "along y")
+
+
+def column():
+    """A column far above its base: s_zz = -rho g (H - z), s_yy = nu s_zz under weight, s_yy = -E alpha dT under a temperature."""
+    height, young, poisson, density, gravity = 60., 20e9, .2, 2500., 10.
+    meshes.wall("wall.msh", monoliths=(1, 1), width=3., height=height, thickness=4.)
+    for weight, change in (("monolithic", 0), ("staged", 0), ("none", 10)):
+        runs(scene("wall", "wall.msh", Mesh={"Plane strain": "true"}, Elements={"Degree": 2}, Statics={"Self-weight": weight, "Gravity": gravity},
+                   Concrete={"Young's modulus": young, "Poisson's ratio": poisson, "Density": density}),
+             "--output", weight, *settings("Loads/Temperature/Expansion=1e-5", *(f"Loads/Temperature/{side} face={change}" for side in ("Upstream", "Downstream"))))
+        fields, worst, moved = read_vtu(f"{weight}/solution-00000.vtu"), 0., 0.
+        for k, (_, _, z) in enumerate(fields["points"]):
+            moved = max(moved, abs(fields["displacement"][k][1]))
+            if z < 36:
+                continue
+            s_zz = -density * gravity * (height - z) * (change == 0)
+            exact = [0., poisson * s_zz - young * 1e-5 * change, s_zz, 0., 0., 0.]
+            worst = max(worst, *(abs(fields[name][k] - s) for name, s in zip(STRESS, exact)))
+        size = density * gravity * height if change == 0 else young * 1e-5 * change
+        print(f"    weight {weight}, temperature {change}: stresses off by {worst / size:.1e} of {size:.3g} Pa (limit 3e-5), u_y {moved}")
+        expect(worst < 3e-5 * size and moved == 0, f"column, weight {weight}")
+
+
+def joint():
+    """Two blocks with a joint that opens and slides: three elements along y give the same as one, and nothing moves along y,
+    also under a motion along y."""
+    write_scene()
+    shaken = [*PLANE, *settings("Reservoir/Density=1000", "Reservoir/Water level=95", "Joints/Friction=0.3", "Contact/Tolerance=1e-12",
+                                "Output/Block forces=true")]
+    for name, along in (("one", 1), ("three", 3)):
+        koyna.write(f"{name}.msh", 6, 10, along=along, thickness=6., monolith=lambda i, k: 1 if i < 3 else 2)
+        shown = runs("scene.prm", "--output", name, *shaken, *settings(f"Mesh/File={name}.msh"))
+        expect("plane strain: no displacements along y; forces and masses are those of a slice of 6 m" in shown, shown)
+    same("one", "three", 1e-9)
+    for name in ("energy", "blocks"):
+        agree("one", "three", name, 1e-9)
+    header, rows = table("three/joint_history.csv")
+    largest = {name: max(abs(row[k]) for row in rows) for k, name in enumerate(header)}
+    print("   ", largest)
+    expect(largest["opening_upstream_1"] > .001 and largest["slip_upstream_1"] > .001, "the joint opens and slides")
+    still = runs("scene.prm", "--output", "still", *shaken, *settings("Mesh/File=three.msh", "Motion/Scale y=0"))
+    expect(still, "no motion along y")
+    same("three", "still", 1e-9, ("joint_history",))
+    for directory in ("one", "three"):
+        header, rows = table(f"{directory}/history.csv")
+        expect(all(row[header.index("crest_y")] == 0 for row in rows), f"{directory}: the crest moves along y")
+
+
+def entries():
+    """prm/koyna.prm has no warning; dams and models that cannot be in plane strain are refused."""
+    shown = runs(str(HERE.parent / "prm" / "koyna.prm"), "--validate")
+    expect("plane strain" in shown and "warning" not in shown, shown)
+    write_scene()
+    plane = settings("Mesh/Plane strain=true")
+    refused(["scene.prm", "--validate", *plane], "Mesh/Plane strain", "the same section at each y", "slice")
+    refused(["scene.prm", "--validate", *plane, *settings("Foundation/Model=massless")], "rigid base", "Foundation/Model")
+    koyna.write("koyna.msh", 4, 10, along=2, thickness=10.)
+    own = [*PLANE, *settings("Mesh/File=koyna.msh", "Reservoir/Density=1000", "Reservoir/Water level=95")]
+    refused(["scene.prm", "--validate", *own, *settings("Reservoir/Model=acoustic", "Reservoir/Reflection=0.8")], "Reservoir/Reflection", "to 1")
+    across = meshes.block(lambda i, j, k: (10. * j, 5. * i, 20. * k), (1, 2), 2, 2, {**meshes.DAM, "right": None, "left": None})
+    meshes.write("across.msh", *across)
+    refused(["scene.prm", "--validate", *own, *settings("Mesh/File=across.msh", "Reservoir/Water level=35")], "(5, 5, 10) m",
+            "without joints across y")
+
+
+if __name__ == "__main__":
+    run_cases(modes, column, joint, entries)
