@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE / "golden"), str(HERE.parent / "meshes")]
+sys.path[:0] = [str(HERE / "golden"), str(HERE.parent / "meshes"), str(HERE.parent / "python")]
 import koyna  # noqa: E402
 import meshes  # noqa: E402
 import plane_elements  # noqa: E402
@@ -17,6 +17,7 @@ from compare import STRESS, read_vtu, scene  # noqa: E402
 from program_sustained import agree  # noqa: E402
 from program_watch import settings  # noqa: E402
 from run_program import expect, refused, run_cases, runs, same, table, write_scene  # noqa: E402
+from voussoir.zone_tension import zone_means  # noqa: E402
 
 KOYNA = 31.027e9, .2, 2643.  # Young's modulus, Poisson's ratio, density
 CPE8 = (3.072911, 8.110253, 11.07714, 15.93205)  # [Hz], CalculiX on 32 x 80 cells: benchmarks/plane_strain.py
@@ -83,6 +84,8 @@ def joint():
     largest = {name: max(abs(row[k]) for row in rows) for k, name in enumerate(header)}
     print("   ", largest)
     expect(largest["opening_upstream_1"] > .001 and largest["slip_upstream_1"] > .001, "the joint opens and slides")
+    area = zone_means(Path("one"))[1].sum()  # of both faces, farther than a tenth of the height from the base
+    expect(abs(area / (6 * (92.7 + 36.8 + 73.5)) - 1) < .01, f"zones of {area} m2")
     still = runs("scene.prm", "--output", "still", *shaken, *settings("Mesh/File=three.msh", "Motion/Scale y=0"))
     expect(still, "no motion along y")
     same("three", "still", 1e-9, ("joint_history",))

@@ -73,9 +73,9 @@ def common_levels(runs, column):
 
 
 def aspect(run):
-    """Height over width of a developed face."""
+    """Height over width of a developed face, at most 2: a slice in plane strain is narrow."""
     face = next(iter(run.faces.values()))
-    return 1.17 * np.ptp(face["z"]) / max(1.03 * np.ptp(face["s"]), 1e-9)
+    return min(2., 1.17 * np.ptp(face["z"]) / max(1.03 * np.ptp(face["s"]), 1e-9))
 
 
 def draw_face(axes, run, name, column, levels, strength=0.):

@@ -16,6 +16,9 @@ def outline(x, corners):
     edges = np.sort(np.stack([number, np.roll(number, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
     _, first, count = np.unique(edges, axis=0, return_index=True, return_counts=True)
     ends = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2)[first[count == 1]]
+    side = np.isin(x[ends, 1], (x[:, 1].min(), x[:, 1].max())).all(axis=1) & (np.ptp(x[ends, 1], axis=1) == 0)
+    if (side | (np.ptp(x[ends, 2], axis=1) < 0.01)).all():  # a slice on a level base: its sides are free
+        ends = ends[~side]
     below = x[ends, 2].min(axis=1) < x[:, 2].max() - 0.1
     return places[np.unique(ends[below])]
 
