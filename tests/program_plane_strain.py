@@ -51,9 +51,11 @@ def column():
     height, young, poisson, density, gravity = 60., 20e9, .2, 2500., 10.
     meshes.wall("wall.msh", monoliths=(1, 1), width=3., height=height, thickness=4.)
     for weight, change in (("monolithic", 0), ("staged", 0), ("none", 10)):
-        runs(scene("wall", "wall.msh", Mesh={"Plane strain": "true"}, Elements={"Degree": 2}, Statics={"Self-weight": weight, "Gravity": gravity},
-                   Concrete={"Young's modulus": young, "Poisson's ratio": poisson, "Density": density}),
-             "--output", weight, *settings("Loads/Temperature/Expansion=1e-5", *(f"Loads/Temperature/{side} face={change}" for side in ("Upstream", "Downstream"))))
+        file = scene("wall", "wall.msh", Mesh={"Plane strain": "true"}, Elements={"Degree": 2},
+                     Statics={"Self-weight": weight, "Gravity": gravity},
+                     Concrete={"Young's modulus": young, "Poisson's ratio": poisson, "Density": density})
+        runs(file, "--output", weight, *settings("Loads/Temperature/Expansion=1e-5", f"Loads/Temperature/Upstream face={change}",
+                                                 f"Loads/Temperature/Downstream face={change}"))
         fields, worst, moved = read_vtu(f"{weight}/solution-00000.vtu"), 0., 0.
         for k, (_, _, z) in enumerate(fields["points"]):
             moved = max(moved, abs(fields["displacement"][k][1]))
@@ -86,8 +88,7 @@ def joint():
     expect(largest["opening_upstream_1"] > .001 and largest["slip_upstream_1"] > .001, "the joint opens and slides")
     area = zone_means(Path("one"))[1].sum()  # of both faces, farther than a tenth of the height from the base
     expect(abs(area / (6 * (92.7 + 36.8 + 73.5)) - 1) < .01, f"zones of {area} m2")
-    still = runs("scene.prm", "--output", "still", *shaken, *settings("Mesh/File=three.msh", "Motion/Scale y=0"))
-    expect(still, "no motion along y")
+    runs("scene.prm", "--output", "still", *shaken, *settings("Mesh/File=three.msh", "Motion/Scale y=0"))
     same("three", "still", 1e-9, ("joint_history",))
     for directory in ("one", "three"):
         header, rows = table(f"{directory}/history.csv")
