@@ -52,6 +52,11 @@ namespace Voussoir
       return Vector3{{p[0], p[1], p[2]}} - centroid;
     }
 
+    Matrix3 scaled(const double factor, const Matrix3 &a)
+    {
+      return sum(Matrix3{}, factor, a);
+    }
+
     void add_force(Wrench &wrench, const double factor, const Vector3 &arm, const Vector3 &force)
     {
       const Vector3 moment = cross(arm, force);
@@ -119,16 +124,20 @@ namespace Voussoir
                       : std::numeric_limits<double>::infinity();
   }
 
-  BaseForces::BaseForces(Dam &dam, const std::vector<double> &joint_water)
+  BaseForces::BaseForces(Dam &dam, const std::vector<double> &joint_water, const BasePart *part)
       : dam(dam), model(*dam.model), equation(dam.model->equation)
   {
-    find_bases();
+    if (part == nullptr)
+      find_bases();
+    else
+      of_block.push_back({0, part->area, 0., part->centroid, axes_of({}, part->area)});
+    share = part == nullptr ? std::vector<double>(model.n_nodes(), 1.) : part->share;
     constant.assign(of_block.size(), Wrench{});
     stiffness.resize(of_block.size());
     mass.resize(of_block.size());
     held_mass.assign(of_block.size(), std::array<double, 18>{});
     find_supports();
-    find_lone_pairs(joint_water);
+    find_lone_pairs(joint_water, part);
     {
       const AllNodesFree all_free(model);
       Structure          whole; // only its masses are used
@@ -181,12 +190,13 @@ namespace Voussoir
     }
   }
 
-  /** Returns the base of the monolith of a cell, or the number of bases if there is none. */
-  unsigned int BaseForces::block_of(const DoFHandler<3>::active_cell_iterator &cell) const
+  /** Returns the base of a monolith, or the number of bases if there is none. A part of the base has no
+   * monolith and serves all of them. */
+  unsigned int BaseForces::block_of(const int monolith) const
   {
-    const int  monolith = cell->material_id();
-    const auto found = std::find_if(of_block.begin(), of_block.end(),
-                                    [&](const BlockBase &base) { return base.monolith == monolith; });
+    const auto found =
+        std::find_if(of_block.begin(), of_block.end(),
+                     [&](const BlockBase &base) { return base.monolith == monolith || base.monolith == 0; });
     return found - of_block.begin();
   }
 
@@ -201,7 +211,7 @@ namespace Voussoir
     std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
     for (const auto &cell : model.dof_handler.active_cell_iterators())
     {
-      const unsigned int b = block_of(cell);
+      const unsigned int b = block_of(cell->material_id());
       cell->get_dof_indices(dofs);
       for (const auto i : dofs)
         if (b < of_block.size() && supporting.count(equation[i]) > 0)
@@ -210,7 +220,7 @@ namespace Voussoir
   }
 
   /** Finds the pairs with one node on the foundation. */
-  void BaseForces::find_lone_pairs(const std::vector<double> &joint_water)
+  void BaseForces::find_lone_pairs(const std::vector<double> &joint_water, const BasePart *part)
   {
     const std::vector<Pair>             &pairs = dam.structure.pairs;
     std::map<unsigned int, unsigned int> block_at; // free node -> block
@@ -222,15 +232,13 @@ namespace Voussoir
       const auto stands = [&](const unsigned int node)
       { return node == rigid_ground || block_at.count(node) > 0; };
       const bool first = stands(pairs[p].node_1), second = stands(pairs[p].node_2);
-      if (first == second)
+      if (first == second || (part != nullptr && !part->contains(pairs[p].place)))
         continue;
-      const int monolith = static_cast<int>(pairs[p].joint) + (first ? 1 : 2);
-      for (unsigned int b = 0; b < of_block.size(); ++b)
-        if (of_block[b].monolith == monolith)
-        {
-          lone.push_back({p, b, first ? 1. : -1.});
-          water.push_back(joint_water.empty() ? 0. : joint_water[p] * pairs[p].area);
-        }
+      const unsigned int b = block_of(static_cast<int>(pairs[p].joint) + (first ? 1 : 2));
+      if (b == of_block.size())
+        continue;
+      lone.push_back({p, b, first ? 1. : -1.});
+      water.push_back(joint_water.empty() ? 0. : joint_water[p] * pairs[p].area);
     }
   }
 
@@ -243,18 +251,20 @@ namespace Voussoir
     for (const auto &cell : model.dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
-      if (std::none_of(dofs.begin(), dofs.end(), [&](const auto i) { return block[i] != rigid_ground; }))
+      const auto contributes = [&](const auto i) { return block[i] != rigid_ground && share[i] > 0.; };
+      if (std::none_of(dofs.begin(), dofs.end(), contributes))
         continue;
       elasticity.reinit(cell, model.material_of(cell, dam.materials));
       for (unsigned int i = 0; i < dofs.size(); ++i)
-        if (const unsigned int b = block[dofs[i]]; b != rigid_ground)
+        if (const unsigned int b = block[dofs[i]]; contributes(dofs[i]))
         {
           const Vector3 arm = to(of_block[b].centroid, model.points[dofs[i]]);
           for (unsigned int c = 0; c < 3; ++c)
             whole.mass[model.equation[dofs[i]]][4 * c] += elasticity.mass[i];
           for (unsigned int j = 0; j < dofs.size(); ++j)
             if (equation[dofs[j]] != rigid_ground)
-              add_block(sums[b][equation[dofs[j]]], arm, elasticity.stiffness[i * dofs.size() + j]);
+              add_block(sums[b][equation[dofs[j]]], arm,
+                        scaled(share[dofs[i]], elasticity.stiffness[i * dofs.size() + j]));
         }
     }
     for (unsigned int b = 0; b < sums.size(); ++b)
@@ -272,7 +282,7 @@ namespace Voussoir
     for (const StaticLoad &load : static_loads(scene, {model, whole, dam.sustained}))
       for (unsigned int i = 0; i < model.n_nodes(); ++i)
         if (const unsigned int b = block[i]; b != rigid_ground)
-          add_force(constant[b], -1., to(of_block[b].centroid, model.points[i]),
+          add_force(constant[b], -share[i], to(of_block[b].centroid, model.points[i]),
                     get(load.force, model.equation[i]));
     if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0.)
       add_added_mass(model, scene.reservoir, whole);
@@ -281,7 +291,7 @@ namespace Voussoir
   void BaseForces::add_masses(const Structure &whole)
   {
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
-      if (const unsigned int b = block[i]; b != rigid_ground)
+      if (const unsigned int b = block[i]; b != rigid_ground && share[i] > 0.)
       {
         const bool held = equation[i] == rigid_ground;
         if (!held)
@@ -290,25 +300,17 @@ namespace Voussoir
           mass[b].part.push_back({});
         }
         add_block(held ? held_mass[b] : mass[b].part.back(), to(of_block[b].centroid, model.points[i]),
-                  whole.mass[model.equation[i]]);
+                  scaled(share[i], whole.mass[model.equation[i]]));
       }
   }
 
   /** The staged weight is in no displacement, because displacements are relative to the state after it. */
   void BaseForces::add_staged_weight()
   {
-    const double weight = dam.scene.statics.gravity * dam.scene.loads.factor("weight");
-    FEValues<3>  values(model.fe, QGauss<3>(model.fe.degree + 1),
-                        update_quadrature_points | update_JxW_values);
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
-      if (const unsigned int b = block_of(cell); b < of_block.size())
-      {
-        values.reinit(cell);
-        const double density = model.material_of(cell, dam.materials).density;
-        for (const unsigned int q : values.quadrature_point_indices())
-          add_force(constant[b], 1., to(of_block[b].centroid, values.quadrature_point(q)),
-                    {{0., 0., weight * density * values.JxW(q)}});
-      }
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      if (const unsigned int b = block[i]; b != rigid_ground)
+        add_force(constant[b], share[i], to(of_block[b].centroid, model.points[i]),
+                  get(dam.staged_reaction, i));
   }
 
   std::vector<Wrench> BaseForces::of(const StepOfDam &step) const
@@ -344,7 +346,7 @@ namespace Voussoir
     }
     for (unsigned int i = 0; i < step.water.size(); ++i)
       if (const unsigned int b = block[i]; b != rigid_ground)
-        add_force(result[b], -1., to(of_block[b].centroid, model.points[i]), step.water[i]);
+        add_force(result[b], -share[i], to(of_block[b].centroid, model.points[i]), step.water[i]);
     for (std::size_t k = 0; k < lone.size(); ++k)
     {
       const Pair &pair = structure.pairs[lone[k].pair];

@@ -10,6 +10,7 @@
 #include <voussoir/mesh/mesh_groups.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/mesh/plane_section.h>
+#include <voussoir/solid/cell_elasticity.h>
 
 #include <algorithm>
 #include <cmath>
@@ -254,19 +255,10 @@ namespace Voussoir
   void Dam::find_weight_on_base()
   {
     weight_on_base.assign(3 * std::size_t(structure.n_nodes()), 0.);
-    if (staged_weight.empty())
-      return;
-    Unknowns u(weight_on_base.size(), 0.), Ku;
-    for (unsigned int i = 0; i < model->n_nodes(); ++i)
+    for (unsigned int i = 0; i < model->n_nodes() && !staged_reaction.empty(); ++i)
       if (const unsigned int e = model->equation[i]; e != rigid_ground)
-        set(u, e, staged_weight[i]);
-    add_weight(structure, scene.loads.factor("weight") * scene.statics.gravity, weight_on_base);
-    structure.multiply_stiffness(u, Ku);
-    const std::set<unsigned int> base = nodes_of_base();
-    for (unsigned int e = 0; e < structure.n_nodes(); ++e)
-      for (unsigned int c = 0; c < 3; ++c)
-        weight_on_base[3 * e + c] =
-            base.count(e) > 0 ? weight_on_base[3 * e + c] - scene.sustained_ratio() * Ku[3 * e + c] : 0.;
+        for (unsigned int c = 0; c < 3; ++c)
+          weight_on_base[3 * e + c] -= staged_reaction[3 * i + c];
   }
 
   bool Dam::has_sustained_moduli() const
@@ -328,7 +320,7 @@ namespace Voussoir
       for (std::size_t i = 0; i < load.stress.size(); ++i)
         for (unsigned int c = 0; c < 6; ++c)
           initial_stress[i][c] += load.stress[i][c];
-    if (has_base_joints() && !staged_weight.empty())
+    if (has_base_joints() && !staged_reaction.empty())
       loads.push_back({"self-weight at the base", false, 1., weight_on_base, {}});
     if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0.)
       added_mass = add_added_mass(*model, scene.reservoir, structure);
@@ -390,8 +382,9 @@ namespace Voussoir
 
   void Dam::stage_self_weight()
   {
-    Unknowns load(3 * structure.n_nodes(), 0.), u;
-    add_weight(structure, scene.loads.factor("weight") * scene.statics.gravity, load);
+    Unknowns     load(3 * structure.n_nodes(), 0.), u;
+    const double weight = scene.loads.factor("weight") * scene.statics.gravity;
+    add_weight(structure, weight, load);
     StepOperator operation;
     operation.stiffness = scene.sustained_ratio();
     JointSystem system(structure, JointLaws(), ContactParameters(), operation);
@@ -400,11 +393,37 @@ namespace Voussoir
                    scene.output.knows_tractions() ? faces_at_nodes(*model) : std::vector<NodeFace>(),
                    scene.output.knows_tractions())
         .apply(u, {}, initial_stress);
-    staged_weight.assign(model->n_nodes(), Vector3{});
-    for (unsigned int i = 0; i < model->n_nodes(); ++i)
-      if (const unsigned int e = model->equation[i]; e != rigid_ground)
-        staged_weight[i] = get(u, e);
     if (const unsigned int e = model->equation[geometry->crown]; e != rigid_ground)
       self_weight_crown = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};
+    find_staged_reaction(weight, u);
+  }
+
+  /** Computes #staged_reaction: the residuals of the equilibrium at the fixed nodes.
+   * @param weight gravity with the factor of the load combination [m/s^2]
+   * @param u displacement of the free nodes under staged self-weight [m] */
+  void Dam::find_staged_reaction(const double weight, const Unknowns &u)
+  {
+    staged_reaction.assign(3 * std::size_t(model->n_nodes()), 0.);
+    std::vector<dealii::types::global_dof_index> dofs(model->fe.n_dofs_per_cell());
+    CellElasticity                               elasticity(model->fe, scene.elements.incompatible_modes);
+    const auto is_fixed = [&](const auto node) { return model->equation[node] == rigid_ground; };
+    for (const auto &cell : model->dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      if (std::none_of(dofs.begin(), dofs.end(), is_fixed))
+        continue;
+      elasticity.reinit(cell, model->material_of(cell, sustained));
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+      {
+        if (!is_fixed(dofs[i]))
+          continue;
+        Vector3 force = get(staged_reaction, dofs[i]);
+        force[2] += weight * elasticity.mass[i];
+        for (unsigned int j = 0; j < dofs.size(); ++j)
+          if (!is_fixed(dofs[j]))
+            add(force, elasticity.stiffness[i * dofs.size() + j] * get(u, model->equation[dofs[j]]));
+        set(staged_reaction, dofs[i], force);
+      }
+    }
   }
 } // namespace Voussoir

@@ -2,16 +2,17 @@
 #ifndef voussoir_base_force_h
 #define voussoir_base_force_h
 
+#include <voussoir/dam/base_part.h>
 #include <voussoir/dam/dam.h>
 
 namespace Voussoir
 {
   using Wrench = std::array<double, 6>; ///< force along x, y, z [N], moment about these axes [N m]
 
-  /** Base of a monolith, projected on its mean plane. */
+  /** Base of a monolith, projected on its mean plane, or a part of the base. */
   struct BlockBase
   {
-    int                    monolith = 0; ///< number of the monolith
+    int                    monolith = 0; ///< number of the monolith; 0: part of the base
     double                 area = 0.;    ///< of the projection on the mean plane [m^2]
     double                 uplift = 0.;  ///< uplift along the inward normal, or 0 [N]
     Vector3                centroid{};   ///< reference point of the moments [m]
@@ -56,12 +57,18 @@ namespace Voussoir
    * means over a time step and exact for the discrete system. In a step with reduced time step they are exact
    * except for its curvature. They are available for every foundation and for tied joints. A base node of two
    * monoliths contributes to each of them. Mass-proportional damping is a load on the concrete. The staged
-   * weight of a monolith acts on its base. */
+   * weight acts by Dam::staged_reaction. With a BasePart there is one base: each node of the whole base
+   * contributes the share of its force. */
   class BaseForces
   {
   public:
-    /** Computes the coefficients of the sums. @p joint_water: pressure in each pair [Pa], or empty. */
-    explicit BaseForces(Dam &dam, const std::vector<double> &joint_water = {});
+    /** Computes the coefficients of the sums.
+     * @param dam dam; must outlive the object
+     * @param joint_water pressure in each pair [Pa], or empty
+     * @param part part of the base, instead of the bases of the monoliths; null: the monoliths. It is not used
+     * later */
+    explicit BaseForces(Dam &dam, const std::vector<double> &joint_water = {},
+                        const BasePart *part = nullptr);
 
     /** Returns the bases by ascending number of the monolith. */
     const std::vector<BlockBase> &bases() const { return of_block; }
@@ -83,13 +90,13 @@ namespace Voussoir
       double       sign;
     };
     void         find_bases();
-    unsigned int block_of(const dealii::DoFHandler<3>::active_cell_iterator &cell) const;
+    unsigned int block_of(int monolith) const;
     void         find_supports();
     void         add_cells(Structure &whole);
     void         add_loads(Structure &whole);
     void         add_masses(const Structure &whole);
     void         add_staged_weight();
-    void         find_lone_pairs(const std::vector<double> &joint_water);
+    void         find_lone_pairs(const std::vector<double> &joint_water, const BasePart *part);
 
     const Dam                          &dam;
     SolidModel                         &model;
@@ -99,6 +106,7 @@ namespace Voussoir
     std::vector<Wrench>                 constant;  ///< of the loads
     std::vector<unsigned int>           equation;  ///< of the nodes of the model in the dam
     std::vector<unsigned int>           block;     ///< base of each node of the model, or rigid_ground
+    std::vector<double>                 share;     ///< of the force at each node of the model on its base [-]
     std::vector<LonePair>               lone;
     std::vector<double>                 water; ///< force of the water in each lone pair [N]
   };

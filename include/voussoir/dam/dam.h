@@ -93,6 +93,10 @@ namespace Voussoir
      * included in other displacements. */
     Vector3 self_weight_crown = {{0., 0., 0.}};
 
+    /** Force of the foundation on each node of the model under staged self-weight, three values per node; zero
+     * away from the base. Empty without staged self-weight [N]. */
+    Unknowns staged_reaction;
+
     bool has_water = false; ///< true: water pressure on the upstream face, from the reservoir
     bool tied = false;      ///< true: all joints are tied, without pairs
 
@@ -109,10 +113,10 @@ namespace Voussoir
     void                   add_loads();
     void                   check_water_level();
     void                   stage_self_weight();
+    void                   find_staged_reaction(double weight, const Unknowns &u);
     void                   find_lowest_base();
 
     std::vector<unsigned int> lowest_base; ///< free nodes at the lowest height of the base
-    std::vector<Vector3> staged_weight;  ///< displacement per node of the model before grouting [m], or empty
     Unknowns             weight_on_base; ///< of base joints: staged weight per free node [N], or empty
   };
 } // namespace Voussoir
