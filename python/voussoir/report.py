@@ -25,7 +25,7 @@ from .errors import ComputationError, InputError
 from .prm import prm_text
 from .report_answers import accuracy_sentence, answers, mesh_quality, modes, modes_of
 from .report_needs import needs_of, needs_table, smallest_sentence
-from .report_tables import blocks, blocks_of, differences, extremes, facts, html_table, number, table, tiles, verdict
+from .report_tables import blocks, blocks_of, differences, extremes, facts, html_table, number, table, tiles, verdict, wedges, wedges_of
 from .runs import NotComputed, Run, Skip, name_apart
 
 
@@ -278,6 +278,18 @@ def bases(page, runs):
                  [(named(runs, run), f"safety against sliding of {run.name}", lambda run=run: figures.sliding(run, safe)) for run in safe])
 
 
+def rock_wedges(page, runs):
+    shown = [run for run in runs if wedges_of(run)]
+    if not shown:
+        return
+    page.section("Rock wedges")
+    for run in shown:
+        if len(runs) > 1:
+            page.add(f"<h3>{escape(run.name)}</h3>")
+        page.add(wedges(run))
+    page.add('<p class="sub">Limit equilibrium of rigid wedges: mode and force of the dam on the wedge at the time of the smallest safety.</p>')
+
+
 def needs(page, runs):
     """Table of `voussoir needs`, of each scene once."""
     for run in {run.scene: run for run in reversed(runs)}.values():
@@ -347,7 +359,7 @@ def allowed(directive, texts):
 def page_of(runs, study):
     page = Page()
     head(page, runs, study)
-    for section in (summary, results, view3d.section, dam_and_scene, motion, response, stresses, bases, needs, checks):
+    for section in (summary, results, view3d.section, dam_and_scene, motion, response, stresses, bases, rock_wedges, needs, checks):
         section(page, runs)
     repeat(page, runs, study)
     if page.missing:

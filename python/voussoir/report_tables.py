@@ -46,7 +46,7 @@ def with_unit(value, unit):
 LIMIT_WORDS = {"exceeded": "exceeds the limit", "undecided": "undecided, limit"}
 WORDS = {"demand_capacity": "demand-capacity ratio", "overstressed_share": "share of a face above the tensile strength",
          "overstress_duration": "duration of overstress", "sliding_safety": "least safety against sliding on the base",
-         "key_shear_stress": "shear stress of the keys"}
+         "key_shear_stress": "shear stress of the keys", "wedge_safety": "least sliding safety of a rock wedge"}
 
 
 def state_of(limit, bar=None):
@@ -161,6 +161,9 @@ def items(run):
                     if is_number(block.get("min_sliding_safety", {}).get("value"))]:
         found["sliding_safety"] = Item("Least safety of a monolith against sliding on its base", "",
                                        min(safeties, key=lambda safety: safety["value"]), limits.get("sliding_safety"))
+    if safeties := [wedge["min_safety"] | {"place": wedge["base_centroid"]} for wedge in wedges_of(run).values()
+                    if is_number(wedge["min_safety"]["value"])]:
+        found["wedge_safety"] = Item("Least sliding safety of a rock wedge", "", min(safeties, key=lambda one: one["value"]), limits.get("wedge_safety"))
     if "max_shear_stress" in (keys := run.summary.get("keys", {})):
         found["keys"] = Item(f"Shear stress of the keys, joint {keys['max_shear_stress']['joint']:.0f}, over its area", "MPa",
                              keys["max_shear_stress"], limits.get("key_shear_stress"))
@@ -198,6 +201,23 @@ def blocks(run):
             value, time = block[key]["value"], block[key]["time"]
             cells.append(f"{number(value, of)} ({time:.2f} s)" if is_number(value) else "–")  # of no shear at all
         rows.append(("", cells))
+    return html_table(heads, rows)
+
+
+def wedges_of(run):
+    return run.summary.get("wedges", {})
+
+
+def wedges(run):
+    """Sliding safety of the rock wedges, with the mode and the force of the dam at its time."""
+    heads = [("", ""), ("mass [t]", "n"), ("base on it [m²]", "n"), ("static safety", "n"), ("smallest safety", "n"), ("mode", ""),
+             *((f"force {axis} [MN]", "n") for axis in "xyz")]
+    rows = []
+    for name, wedge in wedges_of(run).items():
+        least, static = wedge["min_safety"], wedge["static_safety"]["value"]
+        rows.append(("", [escape(name), number(wedge["mass"] / 1000., ""), number(wedge["base_area"], ""), number(static, "") if is_number(static) else "–",
+                          f"{number(least['value'], '')} ({least['time']:.2f} s)" if is_number(least["value"]) else "–",
+                          escape(least["mode_in_words"]), *(number(force, "MN") for force in least["force"])]))
     return html_table(heads, rows)
 
 

@@ -66,6 +66,7 @@ class Results:
     joints = _table_property("joints", "Largest opening and slip of each joint at the crest [m].")
     joint_history = _table_property("joint_history", "Opening and slip of each joint at the crest over time [s, m].")
     blocks = _table_property("blocks", "Forces on the bases of the monoliths over time [s, N, N m].")
+    wedges = _table_property("wedges", "Force of the dam on the rock wedges and their sliding safety over time [s, N, m/s2].")
     energy = _table_property("energy", "Energies over time [s, J].")
     faces = _table_property("faces", "Envelope of the principal stresses on the faces [m, Pa].")
 

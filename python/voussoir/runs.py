@@ -107,6 +107,10 @@ class Run:
         return read_history(self.directory / "blocks.csv")
 
     @cached_property
+    def wedges(self):
+        return read_history(self.directory / "wedges.csv")
+
+    @cached_property
     def faces(self):
         """Both faces: name -> {x, y, z, s, quads, max_principal [Pa], ...}; quads are numbers on this face."""
         nodes, cells = self.table("faces.csv", ["face"]), self.table("faces_cells.csv", ["face"])

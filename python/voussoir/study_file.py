@@ -215,8 +215,9 @@ def path_of(value, study):
 
 
 def is_file_entry(entry):
-    """Mesh/File, Motion/File, Motion/File x..., the target spectrum, and the tables of arcs, temperatures and added masses."""
-    return entry.split("/")[-1].split(" ")[0] == "File" or entry in ("Mesh/Arcs/Table", "Motion/Target spectrum", "Loads/Temperature/Table", "Reservoir/Table")
+    """Mesh/File, Motion/File, Motion/File x..., the target spectrum, the tables of arcs, temperatures and added masses, and the rock wedges."""
+    return entry.split("/")[-1].split(" ")[0] == "File" or entry in (
+        "Mesh/Arcs/Table", "Motion/Target spectrum", "Loads/Temperature/Table", "Reservoir/Table", "Limits/Wedges")
 
 
 def with_paths(entry, text, directory):

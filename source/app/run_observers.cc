@@ -9,6 +9,8 @@ namespace Voussoir
   {
     if (run.scene().output.block_forces)
       list.push_back(&blocks.emplace(run));
+    if (!run.scene().limits.wedges.empty())
+      list.push_back(&wedges.emplace(run));
     if (run.scene().error_estimate)
       list.push_back(&time_error.emplace(run, joints.joints, stresses, log));
     if (run.dam->water && run.n_steps > 0)

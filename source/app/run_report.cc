@@ -2,6 +2,7 @@
 #include <voussoir/app/memory_need.h>
 #include <voussoir/app/run_report.h>
 #include <voussoir/base/python_script.h>
+#include <voussoir/dam/rock_wedge.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
 #include <voussoir/output/figures.h>
@@ -35,6 +36,23 @@ namespace Voussoir
       if (dam.foundation->uses_rock())
         text << ", rock " << dam.scene.foundation.sustained_ratio();
       return text.str();
+    }
+
+    /** Prints the planes, the part of the base and the mass of each rock wedge. */
+    void report_wedges(const Dam &dam, Log &log)
+    {
+      const char *title = "Wedges";
+      for (const auto &[wedge, part] : loaded_wedges(dam.scene, *dam.model))
+      {
+        log.line("%-9s %s: %zu plane%s, %.4g kg; under %u faces of the base (%.4g m2)", title,
+                 wedge.name.c_str(), wedge.planes.size(), wedge.planes.size() == 1 ? "" : "s", wedge.mass(),
+                 part.n_faces, part.area);
+        title = "";
+      }
+      if (*title == '\0')
+        log.line(
+            "          inertia by the mean acceleration of the base nodes on each wedge; weight and uplift are "
+            "constant");
     }
 
     /** Prints the peak values of the motion, and a warning for each entry that may be an oversight. */
@@ -150,6 +168,7 @@ namespace Voussoir
       log.line("Water     level %g m; added mass %s, %.4g kg along x", scene.reservoir.level,
                scene.reservoir.name_of_mass().c_str(), dam.added_mass);
     report_loads(dam, log);
+    report_wedges(dam, log);
     report_motion_and_warnings(run, log);
     report_motion_notes(run, log);
     if (validate)

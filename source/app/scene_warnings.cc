@@ -82,9 +82,12 @@ namespace Voussoir
         {"Contact/Write problems is false",
          [](const Scene &s) { return !s.contact.write_problems; },
          {"Contact/Write interval"}},
-        {"Statics/Self-weight is none, and there is no water and no silt",
+        {"Statics/Self-weight is none, and there are no water, silt and rock wedges",
          [](const Scene &s)
-         { return s.statics.self_weight == "none" && !any_acts(s, &LoadRow::is_by_gravity); },
+         {
+           return s.statics.self_weight == "none" && !any_acts(s, &LoadRow::is_by_gravity) &&
+                  s.limits.wedges.empty();
+         },
          {"Statics/Gravity"}},
         {"the matrix factors are always in double precision on subcycled or massless rock",
          [](const Scene &s)

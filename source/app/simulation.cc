@@ -4,6 +4,7 @@
 #include <voussoir/base/blas_buffers.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/ranks.h>
+#include <voussoir/dam/rock_wedge.h>
 #include <voussoir/dam/static_path.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/output/energy_check.h>
@@ -106,8 +107,10 @@ namespace Voussoir
     unsigned int &n_steps = state.n_steps;
     motion = make_motion(scene.motion, scene.directory).refined(scene.steps_per_sample).scaled(factor);
     n_steps = scene.motion.source == "none" || factor == 0. ? 0 : motion.acceleration.size() - 1;
+    rock_wedges(scene); // throws InputError before the dam is assembled
     make_dam();
     const Dam &dam = *state.dam;
+    loaded_wedges(scene, *dam.model); // throws InputError
     if (!scene.statics.stages.empty())
       StaticPath{*state.dam};                                // throws InputError for an invalid stage
     if (n_steps > 0 && scene.motion.duration_is_automatic()) // in whole samples

@@ -83,9 +83,12 @@ namespace Voussoir
       const StressObserver &stress = observers.stresses;
       const StressesOfRun   stresses{stress.envelope, stress.tension,
                                    run.n_steps > 0 ? run.scene().output.envelope_interval : 1};
-      return {run.scene().limits, *run.dam->model, stress.is_recording() ? &stresses : nullptr,
+      return {run.scene().limits,
+              *run.dam->model,
+              stress.is_recording() ? &stresses : nullptr,
               run.dam->structure.pairs.empty() ? nullptr : &observers.joints.joints,
-              observers.blocks ? &observers.blocks->blocks : nullptr};
+              observers.blocks ? &observers.blocks->blocks : nullptr,
+              observers.wedges ? std::optional<double>(observers.wedges->least_safety()) : std::nullopt};
     }
   } // namespace
 
@@ -230,6 +233,8 @@ namespace Voussoir
       summary.add("water", observers.water->json());
     if (observers.blocks)
       summary.add("blocks", observers.blocks->blocks.json());
+    if (observers.wedges)
+      summary.add("wedges", observers.wedges->json());
     summary.add_texts("warnings", log.warnings());
     summary.add("per_rank", ranks.json());
     if (observers.time_error && observers.time_error->has_estimate())

@@ -14,6 +14,7 @@ namespace Voussoir
     prm.enter_subsection("Limits");
     add_stresses(prm);
     add_joints_and_base(prm);
+    add_wedges(prm);
     prm.leave_subsection();
   }
 
@@ -84,5 +85,18 @@ namespace Voussoir
         "the area of the joint [Pa]. It is the strength of the keys times their share of the section. "
         "0: none.",
         {1e4, 2e7, true}, not_negative);
+  }
+
+  void LimitParameters::add_wedges(Entries &prm)
+  {
+    prm.add_parameter(
+        "Wedges", wedges,
+        "File with the planes of rock wedges under the abutments, one line per plane (doc/wedges.md). With it, "
+        "wedges.csv contains the force of the dam on each wedge, the mode of sliding and the sliding safety over "
+        "time. The path is relative to the input file.",
+        dealii::Patterns::Anything());
+    prm.add_parameter("Wedge safety", wedge_safety,
+                      "Smallest allowed sliding safety of every rock wedge at all times [-]. 0: none.",
+                      {.5, 10., true}, not_negative);
   }
 } // namespace Voussoir

@@ -404,6 +404,7 @@ namespace Voussoir
     add("Loads/Temperature/Table", loads.temperature.table);
     if (reservoir.model == "added mass table")
       add("Reservoir/Table", reservoir.table);
+    add("Limits/Wedges", limits.wedges);
     if (motion.source == "file")
     {
       constexpr const char *entries[3] = {"Motion/File x", "Motion/File y", "Motion/File z"};

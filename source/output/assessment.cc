@@ -83,7 +83,7 @@ namespace Voussoir
 
   Assessment::Assessment(const LimitParameters &limits, const SolidModel &model,
                          const StressesOfRun *stresses, const JointRecorder *joints,
-                         const BlockRecorder *blocks)
+                         const BlockRecorder *blocks, const std::optional<double> wedge_safety)
       : limits(limits)
   {
     const std::string no_stress = "Output/Envelope interval is 0", no_joint = "no joint can move";
@@ -108,6 +108,10 @@ namespace Voussoir
                                         {"key_shear_stress", limits.key_shear_stress}})
         leave(name, limit, no_joint);
     add_blocks(blocks);
+    if (!wedge_safety)
+      leave("wedge_safety", limits.wedge_safety, "there is no Limits/Wedges");
+    else if (limits.wedge_safety > 0.)
+      verdicts.push_back({"wedge_safety", "", *wedge_safety, limits.wedge_safety, true});
   }
 
   void Assessment::leave_stresses(const std::string &reason)

@@ -36,7 +36,7 @@ namespace Voussoir
         return std::regex_match(name, std::regex("problem-[0-9]{6}\\.hdf5"));
       static const std::regex result(
           "scene\\.prm|log\\.txt|summary\\.json|(history|energy|stages|blocks|joints|joint_history|joint_"
-          "points|joint_cells|joint_pressures|spectrum|floor_spectra|faces|faces_cells)\\.csv|envelope\\.vtu|solution\\."
+          "points|joint_cells|joint_pressures|spectrum|floor_spectra|faces|faces_cells|wedges)\\.csv|envelope\\.vtu|solution\\."
           "pvd|(solution|joints)-[0-9]{5,}\\.vtu|report\\.(html|pdf)|figures\\.log|checkpoint\\.txt|"
           "frames\\.bin|checkpoint\\.bin(\\.before|\\.new)?|\\.voussoir");
       return folder.empty() && std::regex_match(name, result);

@@ -71,6 +71,28 @@ namespace Voussoir
     return {{.5 * (before[0] + after[0]), .5 * (before[1] + after[1]), .5 * (before[2] + after[2])}};
   }
 
+  void RunState::with_last_step(const std::function<void(const StepOfDam &)> &use) const
+  {
+    if (step == 0)
+    {
+      const Unknowns u = statics.elastic(statics.u);
+      return use({u, u, {}, statics.force});
+    }
+    const DynamicState &state = newmark->state();
+    const Vector3       first = ground_acceleration(step - 1), last = ground_acceleration(step);
+    Vector3             velocity, ground;
+    for (unsigned int c = 0; c < 3; ++c)
+    {
+      velocity[c] = .5 * (base_velocity_before[c] + state.base_velocity[c]);
+      ground[c] = .5 * (first[c] + last[c]);
+    }
+    Unknowns force = newmark->impulses();
+    for (double &f : force)
+      f /= motion.dt;
+    use({statics.elastic(u_before), statics.elastic(state.u), acceleration, force, ground, velocity,
+         motion.dt, dam->water ? dam->water->mean_force() : std::vector<Vector3>()});
+  }
+
   double RunState::largest_energy() const
   {
     // Before the motion begins, the largest energy is only round-off of the static state.

@@ -3,6 +3,7 @@
 #define voussoir_run_observers_h
 
 #include <voussoir/output/frame_observer.h>
+#include <voussoir/output/wedge_observer.h>
 
 #include <optional>
 
@@ -23,6 +24,7 @@ namespace Voussoir
     StressObserver                   stresses;
     std::optional<WaterObserver>     water;      ///< if the water is acoustic
     std::optional<BlockObserver>     blocks;     ///< if the scene requests it
+    std::optional<WedgeObserver>     wedges;     ///< if the scene has rock wedges
     std::optional<TimeErrorObserver> time_error; ///< if the scene requests it
 
   private:

@@ -2,6 +2,8 @@
 #ifndef voussoir_limits_h
 #define voussoir_limits_h
 
+#include <string>
+
 namespace Voussoir
 {
   class Entries;
@@ -25,12 +27,16 @@ namespace Voussoir
     double sliding_safety = 0.;    ///< smallest allowed safety against sliding [-]
     double key_shear_stress = 0.;  ///< shear force of the keys of a joint, divided by its area [Pa]
 
+    std::string wedges;            ///< file of the rock wedges, relative to the input file; empty: none
+    double      wedge_safety = 0.; ///< smallest allowed sliding safety of the wedges [-]
+
     /** Declares the entries of the subsection. */
     void add_parameters(Entries &prm);
 
   private:
     void add_stresses(Entries &prm);
     void add_joints_and_base(Entries &prm);
+    void add_wedges(Entries &prm);
   };
 } // namespace Voussoir
 

@@ -46,9 +46,10 @@ namespace Voussoir
      * @param model mesh of the dam
      * @param stresses stress results; nullptr: not recorded
      * @param joints joint results; nullptr: tied dam
-     * @param blocks forces at the base; nullptr: not recorded */
+     * @param blocks forces at the base; nullptr: not recorded
+     * @param wedge_safety smallest sliding safety of the rock wedges [-]; empty: no wedges */
     Assessment(const LimitParameters &limits, const SolidModel &model, const StressesOfRun *stresses,
-               const JointRecorder *joints, const BlockRecorder *blocks);
+               const JointRecorder *joints, const BlockRecorder *blocks, std::optional<double> wedge_safety);
 
     /** Adds the members "overstress", "waterstop", "residual", "keys", "limits" (value, limit and satisfied, by
      * name of the limit) and "limits_not_evaluated" (reason, by name of the limit) to @p summary. */

@@ -2,9 +2,12 @@
 #ifndef voussoir_run_state_h
 #define voussoir_run_state_h
 
+#include <voussoir/dam/base_force.h>
 #include <voussoir/dam/static_state.h>
 #include <voussoir/dynamics/newmark.h>
 #include <voussoir/motion/ground_motion.h>
+
+#include <functional>
 
 namespace Voussoir
 {
@@ -67,6 +70,10 @@ namespace Voussoir
     /** Returns the absolute acceleration of a node of the mesh, the mean over the last step [m/s^2]; zero
      * before the first step. On rock with mass it is that of the displacements, which are absolute. */
     Vector3 absolute_acceleration(unsigned int node) const;
+
+    /** Calls @p use with the last step of the dam, for the forces on the base. Before the first step this is the
+     * static state. */
+    void with_last_step(const std::function<void(const StepOfDam &)> &use) const;
 
     /** Returns the largest energy of the run, the reference of energy balances [J]. */
     double largest_energy() const;
