@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forces of the foundation on the bases of the monoliths: from the cells there (BaseForces), against the
-// balance of momentum of each whole monolith, and against closed forms. Usage: base_forces rigid|rock|wall
+// balance of momentum of each whole monolith, and against closed forms; rock wedges on parts of the base.
+// Usage: base_forces rigid|rock|wall|equilibrium|wedge_files
 
 #include <voussoir/dam/base_force.h>
 #include <voussoir/mesh/gmsh_io.h>
@@ -8,6 +9,7 @@
 
 #include "grids.h"
 #include "testing.h"
+#include "wedges.h"
 
 #include <cstring>
 
@@ -141,6 +143,39 @@ namespace
     std::vector<double> weight;
   };
 
+  /** Forces on the whole base as one part, and on two parts without and with a cut through a monolith. */
+  struct Parts
+  {
+    explicit Parts(Dam &dam)
+    {
+      const auto add = [&](const std::function<bool(const Vector3 &)> &contains)
+      {
+        parts.push_back(base_part(*dam.model, contains));
+        forces.emplace_back(dam, std::vector<double>(), &parts.back());
+      };
+      add([](const Vector3 &) { return true; });
+      for (const double y : {10., 5.})
+      {
+        add([y](const Vector3 &x) { return x[1] < y; });
+        add([y](const Vector3 &x) { return x[1] >= y; });
+      }
+    }
+
+    /** Largest difference to @p sum, the wrench about the origin of the monoliths together. */
+    double difference_to(const Wrench &sum, const StepOfDam &step) const
+    {
+      std::vector<Wrench> found;
+      for (const BaseForces &one : forces)
+        found.push_back(about_origin(one.bases()[0], one.of(step)[0]));
+      for (unsigned int c = 0; c < 6; ++c)
+        found[1][c] += found[2][c], found[3][c] += found[4][c];
+      return std::max({difference(found[0], sum), difference(found[1], sum), difference(found[3], sum)});
+    }
+
+    std::vector<BasePart>   parts;
+    std::vector<BaseForces> forces;
+  };
+
   /** Both ways through a sudden load and a shaking: the largest difference of any step. @p each: of every
    * monolith; else of all together. */
   double momentum(const Scene &scene, const bool each, const double dt = .01, const unsigned int n = 40)
@@ -148,6 +183,7 @@ namespace
     Dam              dam(scene);
     const Whole      whole(scene);
     const BaseForces forces(dam);
+    const Parts      parts(dam);
     const bool       staged = scene.statics.self_weight == "staged";
     GroundMotion     motion;
     motion.dt = dt;
@@ -212,7 +248,7 @@ namespace
         for (unsigned int c = 0; c < 6; ++c)
           our_sum[c] += mine[c], their_sum[c] += other[c];
       }
-      worst = std::max(worst, difference(our_sum, their_sum));
+      worst = std::max({worst, difference(our_sum, their_sum), parts.difference_to(our_sum, step)});
     }
     expect(moved || dam.tied, "joints open or slide");
     return worst;
@@ -403,5 +439,16 @@ namespace
 
 int main(int argc, char **argv)
 {
-  return run({{"rigid", rigid}, {"rock", rock}, {"wall", wall}}, argc, argv);
+  return run({{"rigid", rigid},
+              {"rock", rock},
+              {"wall", wall},
+              {"equilibrium",
+               []
+               {
+                 Wedges::incline();
+                 Wedges::line_of_intersection();
+                 Wedges::enumeration();
+               }},
+              {"wedge_files", Wedges::files}},
+             argc, argv);
 }
