@@ -8,8 +8,9 @@ namespace Voussoir
 
   BasePart base_part(const SolidModel &model, const std::function<bool(const Vector3 &)> &contains)
   {
-    BasePart            part{contains};
+    BasePart            part;
     std::vector<double> whole(model.n_nodes(), 0.);
+    part.contains = contains;
     for_faces(model, PhysicalId::base, model.fe.degree + 1,
               [&](const FEFaceValues<3> &values, const auto &dofs)
               {
