@@ -217,7 +217,7 @@ def wedges(run):
         least, static = wedge["min_safety"], wedge["static_safety"]["value"]
         rows.append(("", [escape(name), number(wedge["mass"] / 1000., ""), number(wedge["base_area"], ""), number(static, "") if is_number(static) else "–",
                           f"{number(least['value'], '')} ({least['time']:.2f} s)" if is_number(least["value"]) else "–",
-                          escape(least["mode_in_words"]), *(number(force, "MN") for force in least["force"])]))
+                          escape(least["mode_in_words"]), *(number(round(force), "MN") for force in least["force"])]))
     return html_table(heads, rows)
 
 
