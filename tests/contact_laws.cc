@@ -648,7 +648,7 @@ namespace
     below("elastic seat: force of spring and seat in series", f[1] / expected - 1., 1e-12);
     below("  play and deformation of the seat [m]", gap[1] - .001 + f[1] * k.seat_compliance / area, 1e-14);
     law->commit(f, gap, past, memory);
-    below("  energy of the seat", law->stored_energy(gap, area, memory) / (.5 * (gap[1] - .001) * -f[1]) - 1.,
+    below("  energy of the seat", law->bond_energy(gap, area, memory) / (.5 * (gap[1] - .001) * -f[1]) - 1.,
           1e-12);
     const auto friction = [&](const Vector3 &force, const Vector3 &end)
     {

@@ -4,6 +4,8 @@
 
 #include "column.h"
 
+#include <voussoir/contact/elastic_law.h>
+
 using namespace Columns;
 
 namespace
@@ -77,7 +79,7 @@ namespace
                            {{0., -.01, 0.}}),
           1e-6);
     below("  stored energy",
-          slipped.law->stored_energy({}, area, slipped.memory.data()) /
+          slipped.law->elastic_law()->stored_energy(area, slipped.memory.data()) /
                   (.5 * N * N / (k_n * area) + .5 * limit * limit / (k_t * area)) -
               1.,
           1e-14);

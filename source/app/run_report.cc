@@ -117,6 +117,33 @@ namespace Voussoir
         log.line("warning: %s", warning.c_str());
     }
 
+    void report_joints(const Dam &dam, Log &log)
+    {
+      if (dam.tied)
+      {
+        log.line("Joints    %u joint%s, tied: the monolithic dam", dam.n_joints,
+                 dam.n_joints == 1 ? "" : "s");
+        return;
+      }
+      const JointParameters &joints = dam.scene.joints;
+      std::ostringstream     laws;
+      laws << joints.model;
+      for (const auto &entry : joints.overrides)
+        laws << (std::isdigit(entry.first[0]) ? ", joint " : ", ") << entry.first << ": " << entry.second;
+      if (joints.any_reads("Joints/Friction"))
+        laws << " (friction " << joints.friction << ")";
+      for (const auto &[value, text] : {std::make_pair(joints.normal_stiffness, " Pa/m along the normal"),
+                                        std::make_pair(joints.tangential_stiffness, " Pa/m along the joint"),
+                                        std::make_pair(joints.adhesion, " Pa adhesion")})
+        if (value > 0.)
+          laws << ", " << value << text;
+      const std::size_t n_base = dam.joints.size() - dam.n_joints;
+      const std::string bases =
+          n_base == 0 ? "" : ", " + std::to_string(n_base) + " base joint" + (n_base == 1 ? "" : "s");
+      log.line("Joints    %u joint%s%s, %zu pairs, law %s", dam.n_joints, dam.n_joints == 1 ? "" : "s",
+               bases.c_str(), dam.structure.pairs.size(), laws.str().c_str());
+    }
+
   } // namespace
 
   void report_setup(const RunState &run, const bool validate, Log &log)
@@ -136,25 +163,7 @@ namespace Voussoir
     if (dam.has_sustained_moduli())
       log.line("          sustained moduli in the static state: %.4g of Young's modulus%s",
                scene.sustained_ratio(), sustained_rock(dam).c_str());
-    if (dam.tied)
-      log.line("Joints    %u joint%s, tied: the monolithic dam", dam.n_joints, dam.n_joints == 1 ? "" : "s");
-    else
-    {
-      std::string laws = scene.joints.model;
-      for (const auto &entry : scene.joints.overrides)
-        laws += (std::isdigit(entry.first[0]) ? ", joint " : ", ") + entry.first + ": " + entry.second;
-      if (scene.joints.any_reads("Joints/Friction"))
-      {
-        std::ostringstream friction;
-        friction << " (friction " << scene.joints.friction << ")";
-        laws += friction.str();
-      }
-      const std::size_t n_base = dam.joints.size() - dam.n_joints;
-      log.line("Joints    %u joint%s%s, %zu pairs, law %s", dam.n_joints, dam.n_joints == 1 ? "" : "s",
-               n_base > 0 ? (", " + std::to_string(n_base) + " base joint" + (n_base == 1 ? "" : "s")).c_str()
-                          : "",
-               dam.structure.pairs.size(), laws.c_str());
-    }
+    report_joints(dam, log);
     dam.foundation->report(log, run.grid());
     report_zones(log, dam.rock_zones, "Foundation/Zones");
     log.line("Damping   Rayleigh, C = a M + b K with a = %.4g 1/s, b = %.4g s (%.3g %% at %g and %g Hz)",

@@ -39,19 +39,4 @@ namespace Voussoir
   {
     return 0.;
   }
-
-  Vector3 JointLaw::compliance(double) const
-  {
-    return {};
-  }
-
-  double JointLaw::stored_energy(const Vector3 &, double, const double *) const
-  {
-    return 0.;
-  }
-
-  double JointLaw::friction_correction(const Vector3 &, const Vector3 &, const PairHistory &) const
-  {
-    return 0.;
-  }
 } // namespace Voussoir

@@ -121,7 +121,7 @@ namespace Voussoir
       }
 
       /** Returns the elastic energy of the flank contact [J]. */
-      double stored_energy(const Vector3 &gap, const double area, const double *memory) const override
+      double bond_energy(const Vector3 &gap, const double area, const double *memory) const override
       {
         double energy = 0.;
         for (std::size_t k = 1; k < surfaces.size() && seat > 0. && !is_out(gap); ++k)

@@ -3,6 +3,7 @@
 
 #include <voussoir/base/names.h>
 #include <voussoir/base/parallel.h>
+#include <voussoir/contact/elastic_law.h>
 #include <voussoir/contact/pair_conditions.h>
 #include <voussoir/mesh/mesh.h>
 
@@ -112,7 +113,8 @@ namespace Voussoir
     if (!closed && !law.is_tangentially_tied())
       return;
     const Vector3 jump = structure.jump(pair, v), applied = get(impulse, p);
-    if (law.is_elastic() && is_soft(law.compliance(history.area), pair_inverse[p], dt))
+    if (const ElasticLaw *elastic = law.elastic_law();
+        elastic && is_soft(elastic->compliance(history.area), pair_inverse[p], dt))
       return; // the time step resolves its vibration
     if (rule == ImpactRule::paper)
     {

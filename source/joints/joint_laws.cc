@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/exceptions.h>
 
+#include <voussoir/contact/elastic_law.h>
 #include <voussoir/contact/surfaces_law.h>
 #include <voussoir/joints/joint_laws.h>
 
@@ -101,8 +102,10 @@ namespace Voussoir
       for (std::size_t p = 0; p < of_pair.size(); ++p)
       {
         const double *own = memory.data() + memory_begin(p);
-        sum.fracture += of_pair[p]->has_bond() ? of_pair[p]->bond_energy(get(gap, p), area[p], own) : 0.;
-        sum.stored += of_pair[p]->n_memory() > 0 ? of_pair[p]->stored_energy(get(gap, p), area[p], own) : 0.;
+        const double  of_bond = of_pair[p]->bond_energy(get(gap, p), area[p], own);
+        (of_pair[p]->surfaces_law() ? sum.stored : sum.fracture) += of_bond;
+        if (const ElasticLaw *law = of_pair[p]->elastic_law())
+          sum.stored += law->stored_energy(area[p], own);
       }
     }
     return sum;
@@ -112,12 +115,17 @@ namespace Voussoir
   {
     return std::any_of(of_pair.begin(), of_pair.end(),
                        [](const JointLaw *law)
-                       { return law->n_memory() > 0 && (law->surfaces_law() || law->is_elastic()); });
+                       { return law->n_memory() > 0 && (law->surfaces_law() || law->elastic_law()); });
   }
 
   bool PairLaws::have_bonds() const
   {
-    return std::any_of(of_pair.begin(), of_pair.end(), [](const JointLaw *law) { return law->has_bond(); });
+    return std::any_of(of_pair.begin(), of_pair.end(),
+                       [](const JointLaw *law)
+                       {
+                         return law->elastic_law() ? law->elastic_law()->has_bond()
+                                                   : law->n_memory() > 0 && !law->surfaces_law();
+                       });
   }
 
   double PairLaws::friction_correction(const Unknowns &start, const bool is_mean, const Unknowns &force,
@@ -125,12 +133,15 @@ namespace Voussoir
   {
     if (!is_mean ||
         std::none_of(of_pair.begin(), of_pair.end(),
-                     [](const JointLaw *law) { return law->surfaces_law() || law->is_elastic(); }))
+                     [](const JointLaw *law) { return law->surfaces_law() || law->elastic_law(); }))
       return 0.;
     const std::vector<PairHistory> history = histories(start, is_mean, memory);
     double                         sum = 0.;
     for (std::size_t p = 0; p < of_pair.size(); ++p)
-      sum += of_pair[p]->friction_correction(get(force, p), get(gap, p), history[p]);
+      if (const SurfacesLaw *law = of_pair[p]->surfaces_law())
+        sum += law->friction_correction(get(force, p), get(gap, p), history[p]);
+      else if (const ElasticLaw *elastic = of_pair[p]->elastic_law())
+        sum += elastic->friction_correction(get(force, p), history[p]);
     return sum;
   }
 } // namespace Voussoir

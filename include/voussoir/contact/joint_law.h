@@ -44,6 +44,7 @@ namespace Voussoir
   };
 
   class SurfacesLaw;
+  class ElasticLaw;
 
   /** Conditions between the two faces of a joint at one pair, in the frame (n, a, b) of the pair.
    *
@@ -161,37 +162,20 @@ namespace Voussoir
     virtual void commit(const Vector3 &force, const Vector3 &gap, const PairHistory &history,
                         double *memory) const;
 
-    /** Returns the energy that the bond of a pair stores and has dissipated [J]. It counts only if has_bond() is
-     * true. The default is 0.
+    /** Returns the energy of a pair [J]: the energy that the bond stores and has dissipated, or the energy
+     * stored by the contact compliance of key flanks. It counts only if the law has history variables, see
+     * PairLaws::joint_energy(). The default is 0.
      * @param gap gap at one time [m]
      * @param area tributary area of the pair [m^2]
      * @param memory history variables at the same time */
     virtual double bond_energy(const Vector3 &gap, double area, const double *memory) const;
 
-    /** Returns the elastic energy of a pair [J], of the stiffness of the joint or of key flanks. It counts only if
-     * is_elastic() is true. The default is 0. The arguments are those of bond_energy(). */
-    virtual double stored_energy(const Vector3 &gap, double area, const double *memory) const;
-
-    /** Returns true if the pair has a bond that can break. The default is true for laws with history variables. */
-    virtual bool has_bond() const { return n_memory() > 0; }
-
-    /** Returns true if the joint itself is elastic: a closed pair then has a velocity. */
-    virtual bool is_elastic() const { return false; }
-
-    /** Returns the compliance of the joint itself along n, a and b [m/N]; 0: rigid. @p area: of the pair [m^2]. */
-    virtual Vector3 compliance(double area) const;
-
-    /** Returns D + W [J]: the friction energy D of a step, and the work W of the force along the joint. For a flat
-     * rigid face D = -W, and the default is 0. It counts only with mean forces and history variables.
-     * @param force force of the pair in the step [N]
-     * @param gap gap at the end of the step [m]
-     * @param history data of the pair, with the history variables at the start of the step */
-    virtual double friction_correction(const Vector3 &force, const Vector3 &gap,
-                                       const PairHistory &history) const;
-
     /** Returns this object if a pair has several contact surfaces with separate forces, else a null pointer.
      * The solver uses these forces as unknowns, see PairSurfaces. */
     virtual const SurfacesLaw *surfaces_law() const { return nullptr; }
+
+    /** Returns this object if the joint itself is elastic or has an adhesion, else a null pointer. */
+    virtual const ElasticLaw *elastic_law() const { return nullptr; }
 
     /** Returns the coefficient of friction [-] if the law is Coulomb's law with constant friction on one flat
      * face, else -1. */

@@ -30,12 +30,13 @@ namespace Voussoir
 
     const SurfacesLaw *surfaces_law() const override { return this; }
 
-    bool has_bond() const override { return false; }
-
-    /** D is minus the work of each surface's force along this surface, minus the energy that the contact compliance of
-     * the surface stores in the step. */
-    double friction_correction(const Vector3 &force, const Vector3 &gap,
-                               const PairHistory &history) const override;
+    /** Returns D + W [J]: the friction energy D of a step, and the work W of the pair's force along the joint.
+     * For a flat face D = -W. In general, D is minus the work of each surface's force along this surface,
+     * minus the energy that the contact compliance of the surface stores in the step.
+     * @param force force of the pair in the step [N]
+     * @param gap gap at the end of the step [m]
+     * @param history data of the pair, with the history variables at the start of the step */
+    double friction_correction(const Vector3 &force, const Vector3 &gap, const PairHistory &history) const;
 
     /** Computes the equations of the pair. The forces of the secondary surfaces follow from the gap and are
      * eliminated (PairSurfaces::condense()). Rigid flanks get the compliance 1e-3/rho. */
