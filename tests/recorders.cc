@@ -102,10 +102,7 @@ namespace
       pair.area = area;
       structure.pairs.push_back(pair);
     }
-    JointParameters parameters;
-    parameters.model = "KSM";
-    parameters.friction = .5;
-    KeyForces keys(structure, parameters);
+    KeyForces keys(structure, {"KSM", "KSM", "KSM"}, .5);
     keys.record(1., {10., 3., 4., -20., 6., 8., 2., 3., 4., 100., 20., 21.}); // 0 + 10; 4 + 0
     keys.record(2., {10., 3., 4., 0., 0., 3., 0., 0., 0., 0., 0., 0.});       // 0 + 3; 0
     expect(keys.joints.size() == 2, "joints with keys");

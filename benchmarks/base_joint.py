@@ -1,0 +1,71 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a base joint changes: openings, slips, tension, base forces and cost of the quick start and rigid28.
+
+    benchmarks/base_joint.py [SCENE...] [--duration 6] [--output output/base_joint] [--voussoir PROGRAM]
+
+Variants: base bonded; base joint with the law of the joints (FJA); cohesive base joint (1 MPa, 150 N/m); elastic base joint (5e9 and 2e9 Pa/m);
+full water pressure in open pairs of the base in the static state. Finished runs are not repeated. Prints a Markdown table. Cost: CPU time of the steps.
+"""
+
+import argparse
+import csv
+import json
+from pathlib import Path
+
+from program import ROOT, add_program_argument, run
+
+BASE = {"arch210": "Mesh/Arch210/Base joint=true"}
+VARIANTS = {
+    "bonded": (),
+    "base joint": (BASE["arch210"],),
+    "base joint, no slip": (BASE["arch210"], "Joints/Overrides=base: FJB"),
+    "cohesive base joint": (BASE["arch210"], "Joints/Overrides=base: cohesive", "Joints/Strength=1 MPa", "Joints/Fracture energy=150"),
+    "base joint, water in open pairs": (BASE["arch210"], "Loads/Uplift/Joints=true"),
+}
+
+
+def of_joints(folder, first, last):
+    """Largest opening and slip of the joints from number `first` to `last` [mm]."""
+    with open(folder / "joint_points.csv", encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if first <= int(row["joint"]) <= last]
+    return [1e3 * max((float(row[column]) for row in rows), default=0.) for column in ("max_opening", "max_slip")]
+
+
+def largest_shear(folder):
+    """Largest shear force on the base of a monolith in the run [MN]."""
+    with open(folder / "blocks.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    numbers = {name.rsplit("_", 1)[1] for name in rows[0] if name.startswith("V_stream_")}
+    return max((float(row[f"V_stream_{n}"])**2 + float(row[f"V_arch_{n}"])**2)**.5 for row in rows for n in numbers) / 1e6
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    add_program_argument(parser)
+    parser.add_argument("scenes", nargs="*", default=["quickstart", "rigid28"])
+    parser.add_argument("--duration", default="6")
+    parser.add_argument("--output", type=Path, default=ROOT / "output" / "base_joint")
+    options = parser.parse_args()
+    print("| Scene | Base | Joints: opening; slip [mm] | Base: opening; slip [mm] | Tension up; down [MPa] | Base shear [MN] | Newton steps | Cost |")
+    print("|---|---|---|---|---|---|---|---|")
+    for scene in options.scenes:
+        cost = None
+        for name, entries in VARIANTS.items():
+            folder = options.output / f"{scene}-{name.replace(' ', '-').replace(',', '')}"
+            if not (folder / "summary.json").exists():
+                settings = [word for entry in (f"Motion/Duration={options.duration}", "Output/Figures=false", *entries) for word in ("--set", entry)]
+                run(options.voussoir, ROOT / "prm" / f"{scene}.prm", "--output", folder, "--overwrite", *settings)
+            summary = json.loads((folder / "summary.json").read_text())
+            n, extremes = summary["mesh"]["joints"], summary["extremes"]
+            (opening, slip), (of_base, base_slip) = of_joints(folder, 1, n), of_joints(folder, n + 1, 10**6)
+            seconds = summary["seconds"]["shaking_cpu"]
+            cost = cost or seconds
+            tension = "; ".join(f"{extremes[f'max_tension_{face}_away_from_base']['value'] / 1e6:.2f}" for face in ("upstream", "downstream"))
+            base = f"{of_base:.1f}; {base_slip:.1f}" if entries else ""
+            print(f"| {scene} | {name} | {opening:.1f}; {slip:.1f} | {base} | {tension} | {largest_shear(folder):.0f} | "
+                  f"{summary['newton_iterations']['mean']:.2f} | {seconds / cost:.2f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
