@@ -80,8 +80,9 @@ namespace
   {
     const WaterSection    section(valley([](double) { return 30.; }), height, 5.);
     const WaterProperties water{1000., 1440., .5, height, 120., 5.};
-    const WaterModel      model(section, water, 0.);
-    const double          length = -model.points.back()[0];
+    const WaterMesh       mesh = make_channel(section, water);
+    const WaterModel      model(mesh, water, 0.);
+    const double          length = -mesh.points.back()[0];
     expect_close(model.volume, 60. * height * length, 1e-12, "volume");
     const double of_cubes = 5. / 1440.; // the elements at the corners of the bank are distorted
     expect(model.critical_step > .6 * of_cubes && model.critical_step < of_cubes, "critical time step");
@@ -101,14 +102,14 @@ namespace
     expect_within(ground[0], 0., 1e-6, "areas along the channel");
     expect_within(ground[1], 0., 1e-6, "areas of both banks");
     std::vector<double> phi, K_phi;
-    for (const Vector3 &x : model.points)
+    for (const Vector3 &x : mesh.points)
       phi.push_back(x[0] - 2. * x[1] + 3. * x[2]);
     model.multiply(phi, K_phi);
     double energy = 0.;
     for (std::size_t i = 0; i < phi.size(); ++i)
       energy += phi[i] * K_phi[i];
     expect_close(energy, 1000. * 14. * model.volume, 1e-12, "stiffness of a linear potential");
-    const WaterModel increased(section, water, 5e-3);
+    const WaterModel increased(mesh, water, 5e-3);
     expect(increased.mass_factor > 1.05 && increased.mass_factor < 3.,
            "increase of the mass for a large step");
   }
@@ -122,14 +123,15 @@ namespace
     const WaterProperties water{1000., 1440., .5, 50., 100., 5.};
     for (const double dt : {0., 2.6e-3})
     {
-      const WaterModel   model(section, water, dt), far = model.far_channel(section, water, dt);
-      const unsigned int n = model.n_section, last = model.n_nodes() - n;
-      expect(far.n_nodes() == 2 * n && far.n_section == n, "nodes");
-      expect_close(-far.points[n][0], model.points[last - n][0] - model.points[last][0], 1e-9,
-                   "length of the layer");
+      const WaterMesh    mesh = make_channel(section, water), of_end = mesh.far_channel();
+      const WaterModel   model(mesh, water, dt), far(of_end, water, dt);
+      const unsigned int n = section.points.size(), last = model.n_nodes() - n;
+      expect(far.n_nodes() == 2 * n && mesh.places.size() == n, "nodes");
+      expect_close(of_end.points[0][0] - of_end.points[n][0], mesh.points[last - n][0] - mesh.points[last][0],
+                   1e-9, "length of the layer");
       std::vector<double> phi, of_far, K_phi, K_far;
       for (unsigned int i = 0; i < model.n_nodes(); ++i)
-        phi.push_back(std::sin(.1 * model.points[i][1]) * model.points[i][2] * model.points[i][2]);
+        phi.push_back(std::sin(.1 * mesh.points[i][1]) * mesh.points[i][2] * mesh.points[i][2]);
       of_far.assign(phi.begin(), phi.begin() + 2 * n);
       model.multiply(phi, K_phi);
       far.multiply(of_far, K_far);
@@ -154,9 +156,10 @@ namespace
    * 0.542755 rho H^2 per width. */
   void incompressible()
   {
-    const WaterSection  section(valley([](double) { return 10.; }), height, 2.5);
-    const WaterModel    model(section, {1000., 1440., 1., height, 180., 2.5}, 0.);
-    std::vector<double> source(model.n_nodes(), 0.);
+    const WaterSection    section(valley([](double) { return 10.; }), height, 2.5);
+    const WaterProperties water{1000., 1440., 1., height, 180., 2.5};
+    const WaterModel      model(make_channel(section, water), water, 0.);
+    std::vector<double>   source(model.n_nodes(), 0.);
     for (const auto &cell : section.cells)
       for (unsigned int k = 0; k < 4; ++k)
       {

@@ -176,6 +176,9 @@ namespace Voussoir
     else
       log.line("Water     level %g m; added mass %s, %.4g kg along x", scene.reservoir.level,
                scene.reservoir.name_of_mass().c_str(), dam.added_mass);
+    if (dam.water_volumes != nullptr && !dam.water)
+      log.line("          the volumes \"water\" of the mesh file are not used: Reservoir/Model is %s",
+               scene.reservoir.model.c_str());
     report_loads(dam, log);
     report_wedges(dam, log);
     report_motion_and_warnings(run, log);

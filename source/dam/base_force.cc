@@ -42,11 +42,6 @@ namespace Voussoir
       std::vector<unsigned int> equation, first_equation;
     };
 
-    Vector3 cross(const Vector3 &a, const Vector3 &b)
-    {
-      return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
-    }
-
     Vector3 to(const Vector3 &centroid, const Point<3> &p)
     {
       return Vector3{{p[0], p[1], p[2]}} - centroid;

@@ -89,6 +89,7 @@ namespace Voussoir
     const std::string source = scene.mesh.name();
     check_axes_and_units(mesh, scene.mesh, source);
     groups = group_table(mesh);
+    water_volumes = mesh.water;
     ungrouped = faces_without_group(mesh, scene.mesh.plane_strain);
     const HexMesh opened = open_monoliths(mesh, source);
     choose_laws(tie_all);
@@ -328,9 +329,13 @@ namespace Voussoir
     {
       water = std::make_unique<AcousticWater>(
           *model, structure, *foundation,
-          WaterProperties{r.density, r.sound_speed, r.reflection, 0., r.length, r.element_size}, r.level);
+          WaterProperties{r.density, r.sound_speed, r.reflection, 0., r.length, r.element_size}, r.level,
+          water_volumes.get());
       water->gravity = scene.statics.gravity * scene.loads.factor("water");
       neighbours.push_back(water.get());
+      if (water_volumes != nullptr && r.element_size > 0.)
+        mesh_warnings.push_back(
+            "Entry \"Reservoir/Element size\" has no effect: the mesh file has volumes of the water. Remove it.");
     }
     inertia = inertial_loads(structure);
   }

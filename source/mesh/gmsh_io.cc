@@ -196,13 +196,14 @@ namespace Voussoir
                ", which has no name, would both be " + physical_name(dimension, id) +
                ". Name the group without a name, or remove it.");
 
-        if (dimension == 3 && id < 1)
+        if (dimension == 3 && id < 1 && (id != PhysicalId::water || name.empty()))
           fail(label(3, tag) +
                " has an id out of range. Number the monoliths from 1 to 999 and rock from 1000.");
         if (dimension == 2 && physical_id(2, physical_name(2, id)) == -1)
-          fail(label(2, tag) +
-               " is unknown. Name it 'base', 'upstream', 'downstream', 'crest', 'free surface', 'artificial "
-               "boundary' or 'joint 1 side 1' and so on, use their ids (1 to 7, 101, 201), or remove it.");
+          fail(
+              label(2, tag) +
+              " is unknown. Name it 'base', 'base joint', 'upstream', 'downstream', 'crest', 'free surface', 'artificial "
+              "boundary', 'water end' or 'joint 1 side 1' and so on, use their ids (1 to 8, 101, 201), or remove it.");
         return id;
       }
 
@@ -240,7 +241,7 @@ namespace Voussoir
             {
               const ElementKind *kind = kind_of(dimension, types[t]);
               if (kind == nullptr)
-                refuse(types[t], label(dimension, group.second), expected);
+                refuse(types[t], id, label(dimension, group.second), expected);
               for (std::size_t e = 0, n = nodes[t].size() / std::max<std::size_t>(1, tags[t].size());
                    e < tags[t].size(); ++e)
                 result.push_back({tags[t][e],
@@ -263,14 +264,21 @@ namespace Voussoir
         return result;
       }
 
-      [[noreturn]] void refuse(const int type, const std::string &group, const std::string &expected) const
+      [[noreturn]] void refuse(const int type, const int id, const std::string &group,
+                               const std::string &expected) const
       {
         std::string         name;
         int                 dimension, order, n_nodes, n_corners;
         std::vector<double> local;
         model::mesh::getElementProperties(type, name, dimension, order, n_nodes, local, n_corners);
-        const bool tetrahedra = dimension == 3 && n_corners == 4;
-        fail(group + " has elements of type '" + name + "', not " + expected + ". " +
+        const bool        tetrahedra = dimension == 3 && n_corners == 4;
+        const std::string found = group + " has elements of type '" + name + "', not " + expected + ". ";
+        if (dimension == 3 && id == PhysicalId::water)
+          fail(
+              found +
+              "Mesh the water with hexahedra, for example by extrusion of the upstream face, or remove the volume: "
+              "the program then generates a channel.");
+        fail(found +
              (tetrahedra ? "Linear tetrahedra lock: the dam would be far too stiff and its stresses wrong. "
                          : "") +
              "Use a transfinite mesh and recombine it (gmsh: Transfinite, Recombine), or extrude a "
@@ -289,8 +297,9 @@ namespace Voussoir
           n_all += tags.size();
         }
         if (n_all > n_grouped && n_grouped > 0)
-          fail(std::to_string(n_all - n_grouped) + " of " + std::to_string(n_all) +
-               " hexahedra are in no physical volume. Put every volume into 'monolith 1', ... or 'rock'.");
+          fail(
+              std::to_string(n_all - n_grouped) + " of " + std::to_string(n_all) +
+              " hexahedra are in no physical volume. Put every volume into 'monolith 1', ..., 'rock' or 'water'.");
         if (n_grouped == 0 && n_all > 0)
           fail("no hexahedron is in a physical volume. Give every monolith a physical volume, named "
                "'monolith 1', 'monolith 2', ... from the right bank to the left.");

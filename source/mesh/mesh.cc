@@ -122,7 +122,8 @@ namespace Voussoir
                                                       {PhysicalId::downstream, "downstream"},
                                                       {PhysicalId::crest, "crest"},
                                                       {PhysicalId::free_surface, "free surface"},
-                                                      {PhysicalId::artificial, "artificial boundary"}};
+                                                      {PhysicalId::artificial, "artificial boundary"},
+                                                      {PhysicalId::water_end, "water end"}};
   } // namespace
 
   FaceTable::FaceTable(const HexMesh &mesh)
@@ -156,6 +157,8 @@ namespace Voussoir
 
   std::string physical_name(const int dimension, const int id)
   {
+    if (dimension == 3 && id == PhysicalId::water)
+      return "water";
     if (dimension == 3)
       return (is_monolith(id) ? "monolith " : "rock ") + std::to_string(id);
     const auto name = surface_names.find(id);
@@ -178,6 +181,8 @@ namespace Voussoir
       // A zone may follow the number, but no second number.
       if (word.size() >= 2 && word[0] == "monolith" && (word.size() == 2 || std::isalpha(word[2][0])))
         return to_number(word[1], PhysicalId::first_rock - 1);
+      if (word == words(physical_name(3, PhysicalId::water)))
+        return PhysicalId::water;
       return !word.empty() && word[0] == "rock" ? PhysicalId::first_rock : -1;
     }
     for (const auto &surface : surface_names)
@@ -249,6 +254,29 @@ namespace Voussoir
                     [&](const HexMesh::Cell &cell) { return is_mirrored(mesh, cell); }))
       for (auto &cell : mesh.cells)
         std::swap_ranges(cell.nodes.begin(), cell.nodes.begin() + 4, cell.nodes.begin() + 4);
+  }
+
+  void split_water(HexMesh &mesh)
+  {
+    HexMesh water;
+    water.names = mesh.names;
+    const auto split = [](auto &from, auto &to, const auto &is_water)
+    {
+      const auto first =
+          std::stable_partition(from.begin(), from.end(), [&](const auto &x) { return !is_water(x); });
+      to.assign(first, from.end());
+      from.erase(first, from.end());
+    };
+    split(mesh.cells, water.cells,
+          [](const HexMesh::Cell &cell) { return cell.volume == PhysicalId::water; });
+    split(mesh.faces, water.faces,
+          [](const HexMesh::Face &face) { return face.surface == PhysicalId::water_end; });
+    if (water.cells.empty() && water.faces.empty())
+      return;
+    water.nodes = mesh.nodes;
+    normalize(water);
+    normalize(mesh);
+    mesh.water = std::make_shared<HexMesh>(std::move(water));
   }
 
   unsigned int n_monoliths(const HexMesh &mesh)

@@ -210,5 +210,11 @@ namespace Voussoir
     check.faces();
     check.supports();
     check.contacts();
+    if (mesh.water == nullptr)
+      return;
+    const Check of_water(*mesh.water, source);
+    of_water.nodes();
+    of_water.cells();
+    of_water.faces();
   }
 } // namespace Voussoir

@@ -23,10 +23,10 @@ namespace Voussoir
       {
         for (int monolith = 1; monolith < PhysicalId::first_rock; ++monolith)
           names.push_back(physical_name(3, monolith));
-        names.push_back("rock");
+        names.insert(names.end(), {"rock", "water"});
         return names;
       }
-      for (int surface = PhysicalId::base; surface <= PhysicalId::base_joint; ++surface)
+      for (int surface = PhysicalId::base; surface <= PhysicalId::water_end; ++surface)
         names.push_back(physical_name(2, surface));
       for (int joint = 1; joint <= PhysicalId::max_in_files; ++joint)
         for (const int side : {PhysicalId::joint_side_1, PhysicalId::joint_side_2})
@@ -50,7 +50,8 @@ namespace Voussoir
     {
       if (row.dimension != dimension || row.named != named || id != row.last_id + 1 || row.zone != zone)
         return false;
-      return dimension == 3 ? is_monolith(id) : is_joint_side(row.last_id);
+      return dimension == 3 ? is_monolith(id) && row.last_id != PhysicalId::water
+                            : is_joint_side(row.last_id);
     }
 
     /** Returns the meaning of the groups of a line. */
@@ -74,6 +75,10 @@ namespace Voussoir
         ++count[{0, !is_monolith(cell.volume), cell.zone, cell.volume}];
       for (const auto &face : mesh.faces)
         ++count[{1, false, 0, face.surface}];
+      if (mesh.water != nullptr && !mesh.water->cells.empty())
+        count[{0, true, 0, PhysicalId::water}] = mesh.water->cells.size();
+      if (mesh.water != nullptr && !mesh.water->faces.empty())
+        count[{1, false, 0, PhysicalId::water_end}] = mesh.water->faces.size();
       std::vector<Row> rows;
       for (const auto &group : count)
       {
@@ -101,10 +106,10 @@ namespace Voussoir
     return "the physical " + kind + " '" + name + "' (id " + std::to_string(tag) +
            ") has an unknown name. Did you mean '" + nearest_name(known_names(dimension), name) + "'? " +
            (dimension == 3
-                ? "Volumes are 'monolith 1', 'monolith 2', ... and 'rock'. With several materials "
+                ? "Volumes are 'monolith 1', 'monolith 2', ..., 'rock' and 'water'. With several materials "
                   "the name of a zone follows ('monolith 1 heel', 'rock weak layer')"
                 : "Surfaces are 'base', 'base joint', 'upstream', 'downstream', 'crest', 'free surface', "
-                  "'artificial boundary', 'joint 1 side 1', 'joint 1 side 2' and so on") +
+                  "'artificial boundary', 'water end', 'joint 1 side 1', 'joint 1 side 2' and so on") +
            ". Rename or remove the group. Ids are used only for groups without names.";
   }
 

@@ -71,7 +71,8 @@ namespace Voussoir
         "(doc/mesh.md). The physical volumes are 'monolith 1', 'monolith 2', ... and 'rock ...'. The "
         "physical surfaces are 'base', 'upstream', 'downstream' and 'crest', and with rock 'free surface' "
         "and 'artificial boundary'. The mesh may be conforming at the joints. With doubled nodes, the sides "
-        "of the joints are the surfaces 'joint 1 side 1', 'joint 1 side 2' and so on.",
+        "of the joints are the surfaces 'joint 1 side 1', 'joint 1 side 2' and so on. The volume 'water' is the "
+        "mesh of the water for Reservoir/Model acoustic and incompressible (doc/water.md).",
         Anything());
     prm.add_parameter(
         "Axes", axes,
@@ -196,6 +197,7 @@ namespace Voussoir
         node[d] = axes[d].sign * unit * from[axes[d].coordinate];
     }
     normalize(mesh); // left-handed axes mirror the cells
+    split_water(mesh);
     check_mesh(mesh, file);
     return mesh;
   }

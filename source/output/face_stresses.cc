@@ -10,11 +10,6 @@ namespace Voussoir
 {
   namespace
   {
-    Vector3 cross(const Vector3 &a, const Vector3 &b)
-    {
-      return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
-    }
-
     Vector3 unit(Vector3 x)
     {
       const double size = norm(x);

@@ -10,13 +10,7 @@ namespace Voussoir
   namespace
   {
     constexpr double atmospheric = 101325.; // [Pa]
-
-    std::array<double, 3> place_of(const AcousticWater &water, const unsigned int node)
-    {
-      const WaterSection &section = water.mesh();
-      return {section.face_x[node], section.points[node][0], section.points[node][1]};
-    }
-  } // namespace
+  }                                         // namespace
 
   void WaterObserver::record()
   {
@@ -43,7 +37,7 @@ namespace Voussoir
     table.columns = {"x", "y", "z", "static_pressure", "largest_pressure", "smallest_pressure"};
     for (unsigned int i = 0; i < largest.size(); ++i)
     {
-      const auto p = place_of(water, i);
+      const auto p = water.mesh().points[i];
       table.rows.push_back({p[0], p[1], p[2], water.static_pressure(i), largest[i], smallest[i]});
     }
     table.write(directory + "/water_pressure.csv");
@@ -51,10 +45,10 @@ namespace Voussoir
 
   void WaterObserver::report(Log &log) const
   {
-    const auto p = place_of(water, highest.node);
+    const auto p = water.mesh().points[highest.node];
     log.line("Water     largest dynamic pressure %.3f MPa at (%.1f, %.1f, %.1f) m, smallest %.3f MPa",
              1e-6 * highest.value, p[0], p[1], p[2], 1e-6 * lowest.value);
-    const auto q = place_of(water, driest.node);
+    const auto q = water.mesh().points[driest.node];
     if (driest.value < 0.)
       log.line(
           "warning: the absolute pressure of the water falls to %.3f MPa at (%.1f, %.1f, %.1f) m, t = %.3f s: the "
@@ -76,7 +70,7 @@ namespace Voussoir
     {
       return Json()
           .add("value", extreme.value)
-          .add_list("place", place_of(water, extreme.node))
+          .add_list("place", water.mesh().points[extreme.node])
           .add("time", extreme.time);
     };
     return Json()

@@ -77,36 +77,63 @@ namespace Voussoir
   } // namespace
 
   AcousticWater::AcousticWater(const SolidModel &dam, Structure &structure, Foundation &foundation,
-                               const WaterProperties &given, const double level)
+                               const WaterProperties &given, const double level, const HexMesh *volumes)
       : level(level), dam(dam), structure(structure), foundation(foundation),
         properties(complete(given, depth_below(wet_quads(dam), level))),
-        section(wet_quads(dam), level, properties.h), coupling(dam, section, level, properties.h)
+        water_mesh(volumes != nullptr
+                       ? read_volumes(*volumes, wet_quads(dam), level, properties)
+                       : make_channel(WaterSection(wet_quads(dam), level, properties.h), properties)),
+        coupling(dam, water_mesh, level, properties.h), far_mesh(water_mesh.far_channel())
   {
+    if (volumes != nullptr)
+      check_cover();
+  }
+
+  /** Throws InputError if the volumes of a mesh file do not touch the whole wet face. */
+  void AcousticWater::check_cover() const
+  {
+    Vector3 wet{};
+    for (const Vector3 &part : coupling.area)
+      add(wet, part);
+    if (norm(wet - water_mesh.wet_area) > .05 * norm(wet))
+      throw InputError("Mesh of the water: the volume \"water\" of the mesh file touches " +
+                       number_text(std::round(norm(water_mesh.wet_area))) +
+                       " m2 of the upstream face of the dam, whose part below the water level has " +
+                       number_text(std::round(norm(wet))) +
+                       " m2 (both along their mean normal). Mesh the water at the whole wet face.");
   }
 
   void AcousticWater::prepare(const double time_step, const unsigned int steps_per_sample)
   {
     dt = time_step;
-    model = std::make_unique<WaterModel>(section, properties, dt);
-    far = std::make_unique<WaterModel>(model->far_channel(section, properties, dt));
+    model = std::make_unique<WaterModel>(water_mesh, properties, dt);
+    far = std::make_unique<WaterModel>(far_mesh, properties, dt);
     if (model->mass_factor <= largest_mass_factor)
       return;
     const double factor = model->mass_factor;
     unsigned int more = 2;
-    while (more < 64 && WaterModel(section, properties, dt / more).mass_factor > largest_mass_factor)
+    while (more < 64 && WaterModel(water_mesh, properties, dt / more).mass_factor > largest_mass_factor)
       more *= 2;
     throw InputError("Compressible water: the time step of " + number_text(dt) +
                      " s is above the critical time step of the water, " + number_text(model->critical_step) +
                      " s. It would need " + number_text(std::round(100. * factor) / 100.) +
                      " times the mass of the water (limit 1.3). Set \"Dynamics/Steps per sample\" to " +
-                     std::to_string(more * steps_per_sample) +
-                     ", or increase Reservoir/Element size, which is " + number_text(properties.h) + " m.");
+                     std::to_string(more * steps_per_sample) + ", or use water elements larger than " +
+                     number_text(properties.h) +
+                     " m (Reservoir/Element size, or the water volumes of the mesh file).");
   }
 
   void AcousticWater::report(Log &log) const
   {
     log.line("Water     level %g m; %u nodes, elements of %.3g m, %.3g m3", level, model->n_nodes(),
              properties.h, model->volume);
+    if (water_mesh.of_file)
+      log.line(
+          "          volumes of the mesh file: %u nodes at the dam, %zu faces at bed and banks, %zu at the end; %s",
+          water_mesh.n_wet(), water_mesh.bed.size(), water_mesh.end.size(),
+          *std::max_element(water_mesh.layer.begin(), water_mesh.layer.end()) > 0.
+              ? "damping layer before the end"
+              : "no damping layer");
     if (dt == 0.)
       return;
     log.line("          compressible; critical time step %.3g s; mass increased by the factor %.3f",
@@ -118,7 +145,7 @@ namespace Voussoir
     if (model->mass_factor > noticeable_mass_factor)
       log.line(
           "warning: the mass of the water is increased by %.1f %% for the time step of %g s. Frequencies change "
-          "by up to a third of this. Increase Dynamics/Steps per sample, or Reservoir/Element size.",
+          "by up to a third of this. Increase Dynamics/Steps per sample, or the size of the water elements.",
           100. * (model->mass_factor - 1.), dt);
   }
 
@@ -139,10 +166,8 @@ namespace Voussoir
       far_inverse.push_back(far->at_surface[i] ? 0. : 1. / (far->mass[i] / dt + .5 * far->bed_damping[i]));
     far_pi.assign(far->n_nodes(), 0.);
     far_phi = far_mean = far_pi;
-    bed_velocity.assign(model->n_section, Vector3{});
-    std::vector<Vector3> places;
-    for (unsigned int j = 0; j < model->n_section; ++j)
-      places.push_back({{section.face_x[j], section.points[j][0], section.points[j][1]}});
+    const std::vector<Vector3> &places = water_mesh.places;
+    bed_velocity.assign(places.size(), Vector3{});
     valley = foundation.valley(places);
     valley_place.assign(valley ? 3 * places.size() : 0, 0.);
     valley_velocity = valley_place;
@@ -240,7 +265,7 @@ namespace Voussoir
     {
       const double C = far->bed_damping[i],
                    pi = ((far->mass[i] / dt - .5 * C) * far_pi[i] - K_phi[i] +
-                         properties.density * dot(far->ground[i], bed_velocity[i % model->n_section])) *
+                         properties.density * dot(far->ground[i], bed_velocity[far_mesh.column[i]])) *
                         far_inverse[i];
       far_mean[i] = .5 * (far_pi[i] + pi);
       far_pi[i] = pi;
@@ -260,11 +285,11 @@ namespace Voussoir
     for (int i = 0; i < static_cast<int>(pi.size()); ++i)
     {
       const double C = model->bed_damping[i] + model->end_damping[i];
-      double       source = dot(model->ground[i], bed_velocity[i % model->n_section]);
+      double       source = dot(model->ground[i], bed_velocity[water_mesh.column[i]]);
       if (i < static_cast<int>(coupling.area.size()))
         source += dot(coupling.area[i], base_velocity);
       pi[i] = ((model->mass[i] / dt - .5 * C) * pi[i] - K_phi[i] + rho * source +
-               model->end_damping[i] * far_mean[i % model->n_section]) *
+               model->end_damping[i] * far_mean[water_mesh.far[i]]) *
               inverse[i];
     }
     for (const WaterCoupling::Share &share : coupling.shares)
@@ -298,11 +323,11 @@ namespace Voussoir
       const double mean = .5 * (pi[i] + before[i]);
       phi[i] += dt * pi[i];
       stored += .5 * model->mass[i] * pi[i] * pi[i] + .5 * K_phi[i] * phi[i];
-      record[radiated] += dt * mean * model->end_damping[i] * (mean - far_mean[i % model->n_section]);
+      record[radiated] += dt * mean * model->end_damping[i] * (mean - far_mean[water_mesh.far[i]]);
       record[absorbed] += dt * mean * model->bed_damping[i] * mean;
       if (i < source.size())
         record[work_of_dam] += rho * mean * source[i];
-      record[work_of_ground] += dt * rho * mean * dot(model->ground[i], bed_velocity[i % model->n_section]);
+      record[work_of_ground] += dt * rho * mean * dot(model->ground[i], bed_velocity[water_mesh.column[i]]);
       if (i < source.size())
         record[work_of_ground] += dt * rho * mean * dot(coupling.area[i], base_velocity);
     }
@@ -372,31 +397,31 @@ namespace Voussoir
 
   double AcousticWater::static_pressure(const unsigned int node) const
   {
-    return properties.density * gravity * (level - section.points[node][1]);
+    return properties.density * gravity * (level - water_mesh.points[node][2]);
   }
 
   std::vector<double> AcousticWater::pressure() const
   {
     std::vector<double> result;
-    for (std::size_t i = 0; i < section.points.size(); ++i)
+    for (std::size_t i = 0; i < water_mesh.n_wet(); ++i)
       result.push_back(pi.empty() ? 0. : -properties.density * pi[i]);
     return result;
   }
 
   unsigned int AcousticWater::node_at(const double depth) const
   {
-    const auto  &points = section.points;
-    const Point2 deepest = *std::min_element(points.begin(), points.end(),
-                                             [](const Point2 &a, const Point2 &b) { return a[1] < b[1]; });
+    const auto    first = water_mesh.points.begin(), last = first + water_mesh.n_wet();
+    const Vector3 deepest =
+        *std::min_element(first, last, [](const Vector3 &a, const Vector3 &b) { return a[2] < b[2]; });
     if (depth > properties.depth)
       throw InputError("Output/Pressure depths contains " + number_text(depth) +
                        " m, but the depth of the reservoir is " + number_text(properties.depth) +
                        " m. Reduce it.");
-    const auto distance = [&](const Point2 &p)
-    { return std::hypot(p[0] - deepest[0], p[1] - level + depth); };
-    return std::min_element(points.begin(), points.end(),
-                            [&](const Point2 &a, const Point2 &b) { return distance(a) < distance(b); }) -
-           points.begin();
+    const auto distance = [&](const Vector3 &p)
+    { return std::hypot(p[1] - deepest[1], p[2] - level + depth); };
+    return std::min_element(first, last,
+                            [&](const Vector3 &a, const Vector3 &b) { return distance(a) < distance(b); }) -
+           first;
   }
 
   std::vector<double> AcousticWater::at_dam(const std::vector<double> &values) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
+#include <voussoir/mesh/coincident.h>
 #include <voussoir/solid/face_quads.h>
 #include <voussoir/water/water_coupling.h>
 
@@ -25,56 +26,40 @@ namespace Voussoir
       return size;
     }
 
-    /** Finds the water node of a part of the dam's face. */
+    /** Finds the water node of a part of the dam's face. Nodes of the water line have no pressure, but their area
+     * counts. */
     class NodeFinder
     {
     public:
-      NodeFinder(const WaterSection &section, const double h) : section(section), h(h)
+      NodeFinder(const WaterMesh &mesh, const double h) : of_file(mesh.of_file)
       {
-        for (std::size_t c = 0; c < section.cells.size(); ++c)
-          for (const unsigned int node : section.cells[c])
-            bins[bin(section.points[node])].push_back(node);
-        for (auto &[key, nodes] : bins)
+        std::map<int, std::vector<Vector3>> points;
+        for (unsigned int i = 0; i < mesh.n_wet(); ++i)
         {
-          std::sort(nodes.begin(), nodes.end());
-          nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+          nodes[mesh.monolith[i]].push_back(i);
+          points[mesh.monolith[i]].push_back(seen(mesh.points[i]));
         }
+        for (const auto &[monolith, its_points] : points)
+          finders.try_emplace(monolith, its_points, 4. * h);
       }
 
-      /** Returns the nearest node of the monolith within three element sizes; it has the largest bilinear weight in
-       * a square element. Nodes of the water line have no pressure, but their area counts. */
-      unsigned int find(const Point2 &p, const int monolith) const
+      /** Returns the nearest node of the monolith within four element sizes, or rigid_ground. Of two nodes at the same
+       * distance it is the lower one. */
+      unsigned int find(Vector3 p, const int monolith) const
       {
-        unsigned int best = rigid_ground;
-        double       least = 1e300;
-        for (int reach = 1; reach <= 4 && best == rigid_ground; ++reach)
-        {
-          const auto [i, j] = bin(p);
-          for (int a = -reach; a <= reach; ++a)
-            for (int b = -reach; b <= reach; ++b)
-              if (const auto found = bins.find({i + a, j + b}); found != bins.end())
-                for (const unsigned int node : found->second)
-                  if (section.monolith[node] == monolith)
-                    if (const double far =
-                            std::hypot(section.points[node][0] - p[0], section.points[node][1] - p[1]);
-                        far < least)
-                    {
-                      least = far;
-                      best = node;
-                    }
-        }
-        return best;
+        p[1] -= 1e-6, p[2] -= 1e-6;
+        const auto         finder = finders.find(monolith);
+        const unsigned int found = finder == finders.end() ? PointFinder::none : finder->second.find(seen(p));
+        return found == PointFinder::none ? rigid_ground : nodes.at(monolith)[found];
       }
 
     private:
-      std::pair<int, int> bin(const Point2 &p) const
-      {
-        return {static_cast<int>(std::floor(p[0] / h)), static_cast<int>(std::floor(p[1] / h))};
-      }
+      /** Returns the point as seen along the river, in a channel. Faces in a mesh file can be parallel to the river. */
+      Vector3 seen(const Vector3 &p) const { return {{of_file ? p[0] : 0., p[1], p[2]}}; }
 
-      const WaterSection                                      &section;
-      const double                                             h;
-      std::map<std::pair<int, int>, std::vector<unsigned int>> bins;
+      const bool                               of_file;
+      std::map<int, std::vector<unsigned int>> nodes; ///< by monolith
+      std::map<int, PointFinder>               finders;
     };
   } // namespace
 
@@ -92,11 +77,11 @@ namespace Voussoir
     return result;
   }
 
-  WaterCoupling::WaterCoupling(const SolidModel &dam, const WaterSection &section, const double level,
+  WaterCoupling::WaterCoupling(const SolidModel &dam, const WaterMesh &mesh, const double level,
                                const double h)
-      : area(section.points.size(), Vector3{})
+      : area(mesh.n_wet(), Vector3{})
   {
-    const NodeFinder                                         finder(section, h);
+    const NodeFinder                                         finder(mesh, h);
     std::map<std::pair<unsigned int, unsigned int>, Vector3> areas; // by water node and node of the model
     const auto                                               quads = face_quads(dam, PhysicalId::upstream);
     const auto                                               wet = wet_quads(dam);
@@ -119,16 +104,16 @@ namespace Voussoir
           }
           if (p[2] >= level)
             continue;
-          Vector3 part = {{along[1] * up[2] - along[2] * up[1], along[2] * up[0] - along[0] * up[2],
-                           along[0] * up[1] - along[1] * up[0]}};
-          if (part[0] < 0.) // out of the water is downstream
-            part = {{-part[0], -part[1], -part[2]}};
-          const unsigned int water = finder.find({p[1], p[2]}, wet[f].monolith);
+          const Vector3 part =
+              quads[f].is_clockwise ? cross(along, up) : cross(up, along); // out of the water
+          const unsigned int water = finder.find(p, wet[f].monolith);
           if (water == rigid_ground)
             throw InputError(
                 "Mesh of the water: monolith " + std::to_string(wet[f].monolith) +
                 " has no water node near y = " + number_text(p[1]) + " m, z = " + number_text(p[2]) +
-                " m. Reduce Reservoir/Element size, for example to " + number_text(.7 * h) + " m.");
+                " m. Reduce the size of the water elements there (Reservoir/Element size, or the water volumes of the "
+                "mesh file), for example to " +
+                number_text(.7 * h) + " m.");
           add(area[water], part);
           for (unsigned int k = 0; k < 4; ++k)
             for (unsigned int d = 0; d < 3; ++d)
@@ -154,6 +139,6 @@ namespace Voussoir
     for (std::size_t f = 0; f < quads.size(); ++f)
       for (unsigned int k = 0; k < 4; ++k)
         if (const Vector3 &x = wet[f].corners[k]; x[2] < level)
-          nearest[quads[f].nodes[k]] = finder.find({x[1], x[2]}, wet[f].monolith);
+          nearest[quads[f].nodes[k]] = finder.find(x, wet[f].monolith);
   }
 } // namespace Voussoir

@@ -10,9 +10,6 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double damped_depths = 5.; ///< length of the damped layers, in depths
-    constexpr double growth = 1.05;      ///< of the damped layers
-
     /** Matrices of an element. */
     struct Cell
     {
@@ -21,8 +18,7 @@ namespace Voussoir
       double                               volume = 0.;
     };
 
-    /** Returns the matrices for density and sound speed 1. Nodes: four of a section counter-clockwise, then the same
-     * four of the next layer. */
+    /** Returns the matrices for density and sound speed 1. @p x: corners [m]. */
     Cell cell_matrices(const std::array<Vector3, 8> &x)
     {
       constexpr double s[8] = {-1, 1, 1, -1, -1, 1, 1, -1}, t[8] = {-1, -1, 1, 1, -1, -1, 1, 1},
@@ -90,110 +86,24 @@ namespace Voussoir
       }
       return 1.001 * value;
     }
-
-    /** Calls f(area, shares) at the four Gauss points of a quadrilateral: its area vector there [m^2], and the shape
-     * functions. The order of the corners gives the direction. */
-    template <class Function> void for_points(const std::array<Vector3, 4> &x, const Function &f)
-    {
-      const double     g = 1. / std::sqrt(3.);
-      constexpr double s[4] = {-1, 1, 1, -1}, t[4] = {-1, -1, 1, 1};
-      for (unsigned int q = 0; q < 4; ++q)
-      {
-        Vector3               a{}, b{};
-        std::array<double, 4> N;
-        for (unsigned int i = 0; i < 4; ++i)
-        {
-          const double A = 1 + s[i] * s[q] * g, B = 1 + t[i] * t[q] * g;
-          N[i] = A * B / 4;
-          for (unsigned int d = 0; d < 3; ++d)
-          {
-            a[d] += s[i] * B / 4 * x[i][d];
-            b[d] += A * t[i] / 4 * x[i][d];
-          }
-        }
-        f(Vector3{{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}}, N);
-      }
-    }
   } // namespace
 
-  WaterModel::WaterModel(const WaterSection &section, const WaterProperties &properties, const double dt)
-      : n_section(section.points.size())
+  WaterModel::WaterModel(const WaterMesh &mesh, const WaterProperties &properties, const double dt)
+      : at_surface(mesh.at_surface)
   {
-    add_layers(section, properties);
-    make_pattern(section);
-    assemble_cells(section, properties, dt);
-    add_bed(section, properties);
-    add_end(section, properties);
-  }
-
-  WaterModel WaterModel::far_channel(WaterSection section, const WaterProperties &properties,
-                                     const double dt) const
-  {
-    section.face_x.assign(n_section, 0.);
-    WaterModel far(n_section);
-    far.layers = {0., 1.};
-    far.first_damped = 1;
-    far.place_nodes(section, last_length);
-    far.make_pattern(section);
-    far.assemble_cells(section, properties, dt);
-    far.end_damping.assign(far.n_nodes(), 0.);
-    far.add_bed(section, properties);
-    return far;
-  }
-
-  /** Places the layers: lengths of the elements from h to 2 h in an arithmetic progression, then the damped layers. */
-  void WaterModel::add_layers(const WaterSection &section, const WaterProperties &properties)
-  {
-    const auto          n = std::max<unsigned int>(2, std::lround(properties.length / (1.5 * properties.h)));
-    std::vector<double> lengths;
-    for (unsigned int k = 0; k < n; ++k)
-      lengths.push_back(properties.length / n * (2. / 3. + 2. / 3. * k / (n - 1.)));
-    first_damped = n;
-    for (double damped = 0.; damped < damped_depths * properties.depth; damped += lengths.back())
-      lengths.push_back(lengths.back() * growth);
-    layers = {0.};
-    for (const double length : lengths)
-      layers.push_back(layers.back() + length);
-    const double whole = layers.back();
-    for (double &place : layers)
-      place /= whole;
-    last_length = lengths.back();
-    place_nodes(section, whole);
-  }
-
-  /** Places the nodes of the layers between the dam and the flat end. @p length: smallest one of the channel [m]. */
-  void WaterModel::place_nodes(const WaterSection &section, const double length)
-  {
-    const double end = *std::min_element(section.face_x.begin(), section.face_x.end()) - length;
-    for (const double t : layers)
-      for (unsigned int j = 0; j < n_section; ++j)
-      {
-        points.push_back({{section.face_x[j] + t * (end - section.face_x[j]), section.points[j][0],
-                           section.points[j][1]}});
-        at_surface.push_back(section.at_surface[j]);
-      }
-  }
-
-  std::array<unsigned int, 8> WaterModel::nodes_of(const std::size_t                  layer,
-                                                   const std::array<unsigned int, 4> &cell) const
-  {
-    std::array<unsigned int, 8> nodes;
-    for (unsigned int i = 0; i < 4; ++i)
-      nodes[i] = layer * n_section + cell[i], nodes[4 + i] = (layer + 1) * n_section + cell[i];
-    return nodes;
+    make_pattern(mesh);
+    assemble_cells(mesh, properties, dt);
+    add_bed(mesh, properties);
+    add_end(mesh, properties);
   }
 
   /** Creates the sparsity pattern of K. */
-  void WaterModel::make_pattern(const WaterSection &section)
+  void WaterModel::make_pattern(const WaterMesh &mesh)
   {
-    std::vector<std::set<unsigned int>> rows(points.size());
-    for (std::size_t k = 0; k + 1 < layers.size(); ++k)
-      for (const auto &cell : section.cells)
-      {
-        const auto nodes = nodes_of(k, cell);
-        for (const unsigned int i : nodes)
-          rows[i].insert(nodes.begin(), nodes.end());
-      }
+    std::vector<std::set<unsigned int>> rows(mesh.points.size());
+    for (const WaterMesh::Cell &nodes : mesh.cells)
+      for (const unsigned int i : nodes)
+        rows[i].insert(nodes.begin(), nodes.end());
     start = {0};
     for (const auto &row : rows)
     {
@@ -203,96 +113,71 @@ namespace Voussoir
     value.assign(column.size(), 0.);
   }
 
-  void WaterModel::assemble_cells(const WaterSection &section, const WaterProperties &properties,
-                                  const double dt)
+  void WaterModel::assemble_cells(const WaterMesh &mesh, const WaterProperties &properties, const double dt)
   {
     const double rho = properties.density, c = properties.sound_speed;
-    mass.assign(points.size(), 0.);
-    std::vector<double> unscaled(points.size(), 0.);
+    mass.assign(mesh.points.size(), 0.);
+    std::vector<double> unscaled(mass.size(), 0.);
     double              fastest = 0.;
-    for (std::size_t k = 0; k + 1 < layers.size(); ++k)
-      for (const auto &in_section : section.cells)
+    for (const WaterMesh::Cell &nodes : mesh.cells)
+    {
+      std::array<Vector3, 8> x;
+      for (unsigned int i = 0; i < 8; ++i)
+        x[i] = mesh.points[nodes[i]];
+      const Cell   cell = cell_matrices(x);
+      const double omega = c * std::sqrt(largest_eigenvalue(cell));
+      const double scale = std::max(1., std::pow(1.02 * dt * omega / 2., 2));
+      fastest = std::max(fastest, omega);
+      volume += cell.volume;
+      for (unsigned int i = 0; i < 8; ++i)
       {
-        const auto             nodes = nodes_of(k, in_section);
-        std::array<Vector3, 8> x;
-        for (unsigned int i = 0; i < 8; ++i)
-          x[i] = points[nodes[i]];
-        const Cell   cell = cell_matrices(x);
-        const double omega = c * std::sqrt(largest_eigenvalue(cell));
-        const double scale = std::max(1., std::pow(1.02 * dt * omega / 2., 2));
-        fastest = std::max(fastest, omega);
-        volume += cell.volume;
-        for (unsigned int i = 0; i < 8; ++i)
+        mass[nodes[i]] += scale * rho / (c * c) * cell.M[i];
+        unscaled[nodes[i]] += rho / (c * c) * cell.M[i];
+        for (unsigned int j = 0; j < 8; ++j)
         {
-          mass[nodes[i]] += scale * rho / (c * c) * cell.M[i];
-          unscaled[nodes[i]] += rho / (c * c) * cell.M[i];
-          for (unsigned int j = 0; j < 8; ++j)
-          {
-            const auto row = column.begin() + start[nodes[i]];
-            const auto at = std::lower_bound(row, column.begin() + start[nodes[i] + 1], nodes[j]);
-            value[at - column.begin()] += rho * cell.K[i][j];
-          }
+          const auto row = column.begin() + start[nodes[i]];
+          const auto at = std::lower_bound(row, column.begin() + start[nodes[i] + 1], nodes[j]);
+          value[at - column.begin()] += rho * cell.K[i][j];
         }
       }
+    }
     double sum = 0., sum_unscaled = 0.;
     for (std::size_t i = 0; i < mass.size(); ++i)
       sum += mass[i], sum_unscaled += unscaled[i];
     mass_factor = sum / sum_unscaled;
     critical_step = 2. / fastest;
-    end_damping.assign(points.size(), 0.);
-    const double from = layers[first_damped];
-    for (std::size_t i = first_damped * n_section; i < points.size() && from < 1.; ++i)
-      end_damping[i] =
-          c / properties.depth * std::pow((layers[i / n_section] - from) / (1. - from), 2) * unscaled[i];
+    for (std::size_t i = 0; i < mass.size(); ++i)
+      end_damping.push_back(c / properties.depth * std::pow(mesh.layer[i], 2) * unscaled[i]);
   }
 
-  void WaterModel::add_bed(const WaterSection &section, const WaterProperties &properties)
+  void WaterModel::add_bed(const WaterMesh &mesh, const WaterProperties &properties)
   {
     const double rho = properties.density,
                  q = (1. - properties.reflection) / (1. + properties.reflection) / properties.sound_speed;
-    bed_damping.assign(points.size(), 0.);
-    ground.assign(points.size(), Vector3{});
-    for (std::size_t k = 0; k + 1 < layers.size(); ++k)
-      for (std::size_t b = 0; b + 1 < section.bank.size(); ++b)
-      {
-        // The chain goes from small to large y below the water, and the layers upstream.
-        const std::array<unsigned int, 4> nodes = {
-            static_cast<unsigned int>(k * n_section + section.bank[b]),
-            static_cast<unsigned int>((k + 1) * n_section + section.bank[b]),
-            static_cast<unsigned int>((k + 1) * n_section + section.bank[b + 1]),
-            static_cast<unsigned int>(k * n_section + section.bank[b + 1])};
-        std::array<Vector3, 4> x;
-        for (unsigned int i = 0; i < 4; ++i)
-          x[i] = points[nodes[i]];
-        for_points(x,
-                   [&](const Vector3 &area, const std::array<double, 4> &N)
-                   {
-                     for (unsigned int i = 0; i < 4; ++i)
-                     {
-                       bed_damping[nodes[i]] += rho * q * N[i] * norm(area);
-                       for (unsigned int d = 0; d < 3; ++d)
-                         ground[nodes[i]][d] += N[i] * area[d];
-                     }
-                   });
-      }
-  }
-
-  void WaterModel::add_end(const WaterSection &section, const WaterProperties &properties)
-  {
-    const std::size_t last = (layers.size() - 1) * n_section;
-    for (const auto &cell : section.cells)
-    {
-      std::array<Vector3, 4> x;
-      for (unsigned int i = 0; i < 4; ++i)
-        x[i] = points[last + cell[i]];
-      for_points(x,
+    bed_damping.assign(mass.size(), 0.);
+    ground.assign(mass.size(), Vector3{});
+    for (const WaterMesh::Face &nodes : mesh.bed)
+      for_points(corners(mesh.points, nodes),
                  [&](const Vector3 &area, const std::array<double, 4> &N)
                  {
                    for (unsigned int i = 0; i < 4; ++i)
-                     end_damping[last + cell[i]] +=
-                         properties.density / properties.sound_speed * N[i] * norm(area);
+                   {
+                     bed_damping[nodes[i]] += rho * q * N[i] * norm(area);
+                     for (unsigned int d = 0; d < 3; ++d)
+                       ground[nodes[i]][d] += N[i] * area[d];
+                   }
                  });
-    }
+  }
+
+  void WaterModel::add_end(const WaterMesh &mesh, const WaterProperties &properties)
+  {
+    for (const WaterMesh::Face &nodes : mesh.end)
+      for_points(corners(mesh.points, nodes),
+                 [&](const Vector3 &area, const std::array<double, 4> &N)
+                 {
+                   for (unsigned int i = 0; i < 4; ++i)
+                     end_damping[nodes[i]] += properties.density / properties.sound_speed * N[i] * norm(area);
+                 });
   }
 
   template <class Number>
@@ -343,7 +228,7 @@ namespace Voussoir
     {
       if (iteration == most)
         throw ComputationError("The potential of the water did not converge in " + std::to_string(most) +
-                               " iterations. Increase Reservoir/Element size.");
+                               " iterations. Increase the size of the water elements.");
       multiply(p, Ap);
       Number pAp = 0.;
       for (unsigned int i = 0; i < n; ++i)

@@ -197,3 +197,54 @@ def on_rock(file, cell, n, dam, layers, dam_cells, sides, zone=None):
                         quads.append((surface, corners))
     volumes = {1000 + i: f"rock {name}" for i, name in enumerate(zones) if name}
     write(file, nodes, hexes, quads, volumes=volumes)
+
+
+def read(file):
+    """Nodes by number, elements [kind, physical id, corners] and names {(dimension, id): name} of a file in MSH 2.2."""
+    parts = [part.splitlines() for part in open(file).read().split("$")]
+    sections = {part[0]: part[2:] for part in parts if part and not part[0].startswith("End")}
+    names = {(int(a), int(b)): name.strip('"') for a, b, name in (line.split(None, 2) for line in sections["PhysicalNames"])}
+    nodes = {int(i): tuple(map(float, x)) for i, *x in (line.split() for line in sections["Nodes"])}
+    words = [list(map(int, line.split())) for line in sections["Elements"]]
+    return nodes, [[w[1], w[3], w[3 + w[2]:]] for w in words], names
+
+
+def with_water(file, output, layers, level, upstream=-1., own_nodes=False, change=None, end=False, tetrahedra=False):
+    """Adds the volume 'water': layers of the given lengths on the faces of `upstream` below the level, up to a flat end. The lengths are those at the
+    most upstream node. upstream: direction of the file's x. own_nodes: the water shares no nodes with the dam. change(x): moves the water's
+    nodes. end: marks the end as 'water end'. Numbers of nodes and elements of the water."""
+    nodes, elements, names = read(file)
+    surface = next(tag for (dimension, tag), name in names.items() if (dimension, name) == (2, "upstream"))
+    wet = [c for kind, tag, c in elements if (kind, tag) == (3, surface) and all(nodes[n][2] < level + 1e-6 for n in c)]
+    at, count = sorted({n for c in wet for n in c}), max(nodes)
+    far, number = max(upstream * nodes[n][0] for n in at) + sum(layers), {}
+    for k in range(len(layers) + 1):
+        t = sum(layers[:k]) / sum(layers)
+        for n in at:
+            x, y, z = nodes[n]
+            number[n, k] = n
+            if k > 0 or own_nodes:
+                count += 1
+                number[n, k] = count
+                x += t * (upstream * far - x)
+                nodes[count] = change((x, y, z)) if change else (x, y, z)
+    rings = []
+    for c in wet:
+        (_, y, z), (_, y1, z1), (_, y3, z3) = (nodes[c[i]] for i in (0, 1, 3))
+        rings.append(c if upstream * ((y1 - y) * (z3 - z) - (z1 - z) * (y3 - y)) > 0 else c[::-1])
+    names[3, 2000] = "water"
+    for k in range(len(layers)):
+        for c in rings:
+            corners = [number[n, a] for a in (k, k + 1) for n in c]
+            elements.append([4, 2000, [corners[i] for i in (0, 1, 3, 4)]] if tetrahedra else [5, 2000, corners])
+    if end:
+        names[2, 7] = "water end"
+        elements += [[3, 7, [number[n, len(layers)] for n in c]] for c in rings]
+    with open(output, "w") as out:
+        print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames", len(names), sep="\n", file=out)
+        print(*(f'{a} {b} "{name}"' for (a, b), name in names.items()), "$EndPhysicalNames\n$Nodes", len(nodes), sep="\n", file=out)
+        print(*(f"{i} {x!r} {y!r} {z!r}" for i, (x, y, z) in nodes.items()), "$EndNodes\n$Elements", len(elements), sep="\n", file=out)
+        for i, (kind, tag, corners) in enumerate(elements):
+            print(i + 1, kind, 2, tag, tag, *corners, file=out)
+        print("$EndElements", file=out)
+    return len(number), len(layers) * len(rings)

@@ -79,6 +79,11 @@ namespace Voussoir
     return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
   }
 
+  inline Vector3 cross(const Vector3 &a, const Vector3 &b)
+  {
+    return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+  }
+
   /** Adds @p x to @p y. */
   inline void add(Vector3 &y, const Vector3 &x)
   {

@@ -73,9 +73,10 @@ namespace Voussoir
      * base. */
     JointLaws laws;
 
-    std::unique_ptr<DamGeometry>   geometry;   ///< crest, crown and upper ends of the joints
-    std::unique_ptr<Foundation>    foundation; ///< foundation under the base
-    std::unique_ptr<AcousticWater> water;      ///< compressible water, or null
+    std::unique_ptr<DamGeometry>   geometry;      ///< crest, crown and upper ends of the joints
+    std::unique_ptr<Foundation>    foundation;    ///< foundation under the base
+    std::unique_ptr<AcousticWater> water;         ///< compressible water, or null
+    std::shared_ptr<const HexMesh> water_volumes; ///< HexMesh::water
     std::vector<Neighbour *>       neighbours; ///< in the order of their calls; the first is the foundation
     std::vector<StaticLoad>        loads;      ///< active static loads, with the factors of their combination
 

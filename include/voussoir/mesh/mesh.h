@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,10 +21,12 @@ namespace Voussoir
   namespace PhysicalId
   {
     constexpr int base = 1, upstream = 2, downstream = 3, crest = 4, free_surface = 5, artificial = 6,
-                  base_joint = 7;
+                  base_joint = 7, water_end = 8;              ///< water_end: upstream end of the water
     constexpr int joint_side_1 = 10000, joint_side_2 = 20000; ///< plus the number of the joint (1, 2, ...)
     constexpr int max_joints = 9999;                          ///< keeps the ids of the two sides disjoint
     constexpr int first_rock = 1000;                          ///< this and larger volume ids are rock
+
+    constexpr int water = 0; ///< volume "water", which requires its name
 
     /** Joints 1 to 99 have these ids in files, for groups without names. */
     constexpr int side_1_in_files = 100, side_2_in_files = 200, max_in_files = 99;
@@ -49,6 +52,7 @@ namespace Voussoir
     std::vector<Face>                          faces;
     std::map<std::pair<int, int>, std::string> names;        ///< (dimension, physical id) -> physical name
     std::vector<std::string>                   zones = {""}; ///< names as by zone_name(); the first: no zone
+    std::shared_ptr<const HexMesh> water; ///< water volumes of the file, see split_water(); or null
   };
 
   /** Corners of the six faces of a hexahedron, counter-clockwise seen from outside. */
@@ -142,10 +146,14 @@ namespace Voussoir
    * all cells: the file then has another convention or left-handed axes, which is not an error. */
   void normalize(HexMesh &mesh);
 
+  /** Moves the cells of the volume "water" and the faces of the surface "water end" to HexMesh::water, with nodes of
+   * their own. @p mesh: dam, rock and water; keeps dam and rock. */
+  void split_water(HexMesh &mesh);
+
   /** Checks that the mesh can be used for an analysis.
    *
    * Throws InputError, with @p source (the file) at the beginning of the message, in these cases:
-   *  - coordinates that are not finite, inverted or degenerate cells, or three cells at one face;
+   *  - coordinates that are not finite, inverted or degenerate cells, or three cells at one face, also in the water;
    *  - volume ids below 1, or monoliths that are not numbered 1, 2, ...;
    *  - a surface face without a cell, inside the body (joints and base excepted), or in two surfaces;
    *  - two monoliths that lie face to face without common nodes and without a joint;

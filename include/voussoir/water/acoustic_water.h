@@ -23,23 +23,24 @@ namespace Voussoir
    * pi_n+1 depends on the displacement of the dam: Body::reaction = rho^2 A A^T / (dt D). The scheme is stable for
    * time steps below the critical one of the water, and conserves energy.
    *
-   * Far upstream the motion does not depend on x. WaterModel::far_channel() computes this motion, and the damping of
+   * Far upstream the motion does not depend on x. WaterMesh::far_channel() computes this motion, and the damping of
    * the end of the channel acts on the difference to it. Bed and banks have the same velocity v_g in all sections of
    * the channel: the ground motion, the motions of the banks (Motion/Abutments), or on rock with mass its free field
    * (BaseSupport::valley()). */
   class AcousticWater : public Neighbour
   {
   public:
-    /** Meshes the section of the reservoir.
+    /** Generates the mesh of a channel, or takes the water volumes of the mesh file.
      * @param dam model of the dam; must outlive the object
      * @param structure receives the reaction of the water at start(); must outlive the object
      * @param foundation moves bed and banks; must outlive the object
      * @param properties water; depth is computed
      * @param level water level [m]
+     * @param volumes HexMesh::water, or null
      *
-     * Throws InputError like WaterSection. */
+     * Throws InputError like WaterSection and read_volumes(), or if the volumes do not cover the wet face. */
     AcousticWater(const SolidModel &dam, Structure &structure, Foundation &foundation,
-                  const WaterProperties &properties, double level);
+                  const WaterProperties &properties, double level, const HexMesh *volumes = nullptr);
 
     void   start(const GroundMotion &motion, const TimeGrid &grid, const Unknowns &u) override;
     void   advance(Unknowns &load) override;
@@ -55,7 +56,7 @@ namespace Voussoir
     std::vector<std::vector<double> *>          state() override;
 
     /** Returns the finite elements for a time step [s]; 0: without increase of the mass. */
-    WaterModel model_for(const double dt) const { return WaterModel(section, properties, dt); }
+    WaterModel model_for(const double dt) const { return WaterModel(water_mesh, properties, dt); }
 
     /** Adds the mass of incompressible water times the accelerations @p x, three values per node, to y [N]:
      * rho^2 A K^-1 A^T. Bed and banks are at rest. @p water: model_for(0). */
@@ -65,24 +66,24 @@ namespace Voussoir
      * per node of @p water. */
     std::vector<double> source(const WaterModel &water, const Unknowns &x) const;
 
-    const WaterSection &mesh() const { return section; }
+    const WaterMesh &mesh() const { return water_mesh; }
 
-    /** Returns the dynamic pressure at each node of the section [Pa]. */
+    /** Returns the dynamic pressure at each water node at the dam [Pa]. */
     std::vector<double> pressure() const;
 
-    /** Returns the node of the section nearest to the vertical line above the deepest point, at a depth [m]. Throws
+    /** Returns the water node at the dam nearest to the vertical line above the deepest point, at a depth [m]. Throws
      * InputError if the depth is too large. */
     unsigned int node_at(double depth) const;
 
     /** Returns the value of the nearest water node at each node of the model of the dam; zero at dry nodes. @p values:
-     * one per node of the section. */
+     * one per water node at the dam. */
     std::vector<double> at_dam(const std::vector<double> &values) const;
 
     /** Returns the mean force of the moving water in the last step on each node of the model of the dam [N], also on
      * fixed nodes. */
     std::vector<Vector3> mean_force() const;
 
-    /** Returns the static pressure at a node of the section [Pa]. */
+    /** Returns the static pressure at a water node [Pa]. */
     double static_pressure(unsigned int node) const;
 
     /** Assembles the matrices for a time step [s]; 0: no earthquake. Must be called before report() and start(). Throws
@@ -97,6 +98,7 @@ namespace Voussoir
     double       gravity = 9.81; ///< [m/s^2]
 
   private:
+    void check_cover() const;
     void set_reaction();
     void find_bed_velocity();
     void advance_far_channel();
@@ -105,16 +107,17 @@ namespace Voussoir
     Structure                    &structure;
     Foundation                   &foundation;
     WaterProperties               properties;
-    WaterSection                  section;
+    WaterMesh                     water_mesh;
     WaterCoupling                 coupling;
     std::unique_ptr<WaterModel>   model;
     double                        dt = 0.;
-    std::unique_ptr<WaterModel>   far;    ///< section of the far channel
+    WaterMesh                     far_mesh;
+    std::unique_ptr<WaterModel>   far;    ///< one layer of the far channel
     std::unique_ptr<BaseMotion>   banks;  ///< motion of the banks relative to the ground motion, or null
     std::unique_ptr<ValleyMotion> valley; ///< displacement of bed and banks, or null
     std::vector<Vector3>          ground_velocity; ///< per step [m/s]
     Vector3              base_velocity; ///< mean in the step of the axes of the dam's displacements [m/s]
-    std::vector<Vector3> bed_velocity;  ///< per node of the section: mean in the step [m/s]
+    std::vector<Vector3> bed_velocity;  ///< per column of the mesh: mean in the step [m/s]
     std::vector<double>  D, inverse;    ///< [kg s/m^2] and its reciprocal
     std::vector<double>  far_inverse, far_pi, far_phi, far_mean; ///< as pi and phi; mean of pi in the step
     std::vector<double>  valley_place, valley_velocity; ///< last displacement [m] and mean velocity [m/s]

@@ -13,26 +13,25 @@ namespace Voussoir
   /** Coupling of the water nodes at the wet face with the nodes of the dam.
    *
    * Each face of the dam is divided into parts of at most a quarter of the water's element size. The area vector of a
-   * part belongs to one water node of the same monolith: the corner of its water element with the largest weight, or
-   * else the nearest. So each monolith has its exact area, and no water node acts on two monoliths. */
+   * part belongs to the nearest water node of the same monolith. So each monolith has its exact area, and no water node acts on two monoliths. */
   struct WaterCoupling
   {
     /** Area vector that a water node shares with a node of the dam. */
     struct Share
     {
-      unsigned int water; ///< node of the section
+      unsigned int water; ///< node of the water
       unsigned int node;  ///< node of the model of the dam
       unsigned int wet;   ///< its index in #dam_nodes; rigid_ground: the node is fixed
       Vector3      area;  ///< normal out of the water [m^2]
     };
 
     /** @param dam model of the dam
-     * @param section mesh of the section
+     * @param mesh water
      * @param level water level [m]
      * @param h size of the water elements [m]
      *
      * Throws InputError if a monolith below the water level has no water node. */
-    WaterCoupling(const SolidModel &dam, const WaterSection &section, double level, double h);
+    WaterCoupling(const SolidModel &dam, const WaterMesh &mesh, double level, double h);
 
     std::vector<unsigned int> dam_nodes; ///< free nodes of the dam at the water, ascending
     std::vector<Share>        shares;    ///< sorted by water node
