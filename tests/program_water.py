@@ -296,8 +296,55 @@ def modes():
             if model is not INCOMPRESSIBLE:
                 radiation = [float(line.split()[3]) for line in text.splitlines() if len(line.split()) == 4 and line.split()[0].isdigit()]
                 expect(len(radiation) == 4 and max(radiation) < .1, f"radiation {radiation} %")
+    numbers = golden.with_water(FDLV112, "conforming.msh", [6 + 4 * k / 17 for k in range(18)], 0., upstream=1.)
+    expect(numbers == (6213, 5292), numbers)
+    common[common.index(f"Mesh/File={FDLV112}")] = "Mesh/File=conforming.msh"
+    for model, exact in ((INCOMPRESSIBLE, reference), ([*ACOUSTIC, *settings("Reservoir/Sound speed=1500")], compressible)):
+        found = frequencies(runs("modes", "aster.prm", "--count", "4", *common, *model))
+        off = [f / g - 1 for f, g in zip(found, exact)]
+        print(f"    water mesh of the reference, {model[1].split('=')[-1]}: {found} Hz, {', '.join(f'{100 * x:.2f} %' for x in off)}")
+        expect(max(map(abs, off)) < .008, f"{off}")
     found = frequencies(runs("modes", "aster.prm", "--count", "4", *common))
     print(f"    Westergaard: {found} Hz, {', '.join(f'{100 * (f / g - 1):.1f} %' for f, g in zip(found, reference))}")
+
+
+def own():
+    """A water mesh of the file: an arch dam with three monoliths and water extruded from its upstream face, up to a damping layer. Crest and pressures are
+    those with the channel of the program under motion in three directions; accounts close; a killed run goes on; without acoustic water the
+    volumes change nothing, in other axes and units neither."""
+    golden.arch("dry.msh", (1,) * 4 + (2,) * 4 + (3,) * 4, n_through=1, n_up=6)
+    layers = [6 + 6 * k / 13 for k in range(14)] + [12 * 1.05**k for k in range(1, 18)]
+    nodes, cells = golden.with_water("dry.msh", "own.msh", layers, 60.)
+    file = scene("scene", "own.msh", Joints={"Model": "FJA"}, Damping={"Ratio": .05}, Statics={"Self-weight": "monolithic"})
+    t = np.arange(0, 1.005, .01)
+    np.savetxt("motion.txt", np.column_stack([t, *(a * np.sin(w * t) * np.sin(np.pi * t)**2 for a, w in ((2, 20), (1.5, 25), (1, 30)))]))
+    common = settings("Motion/Source=file", "Motion/File=motion.txt", "Motion/Unit=m/s^2", "Motion/Time step=0.01", "Motion/Duration=1",
+                      "Reservoir/Density=1000", "Reservoir/Reflection=0.8", "Dynamics/Steps per sample=10", "Output/Checkpoint interval=20",
+                      "Output/Pressure depths=50", "Output/Solution interval=0")
+    text = runs(file, "--output", "own", *common, *ACOUSTIC)
+    expect("volumes of the mesh file" in text and f"{nodes} nodes" in text and re.search(rf"water +-> +water +{cells} hexahedra",
+           runs(file, "--validate", *common, *ACOUSTIC)), text)
+    energies(text, "own")
+    energies(runs(file, "--output", "channel", "--overwrite", *common, *ACOUSTIC, *settings("Mesh/File=dry.msh", "Reservoir/Element size=5")), "channel")
+    for name in ("crest_x", "crest_z", "pressure_50"):
+        one, two = (np.array([row[names.index(name)] for row in rows]) for names, rows in (table(f"{d}/history.csv") for d in ("own", "channel")))
+        off = np.abs(one - two).max() / np.ptp(two)
+        print(f"    {name}: own mesh and channel differ by {100 * off:.2f} % of the range {np.ptp(two):.4g}")
+        expect(off < (.08 if name == "pressure_50" else .03), f"{name}: {off}")
+    stop_and_resume("own", [*common, *ACOUSTIC])
+    for d, mesh in (("plain", "dry.msh"), ("unused", "own.msh")):
+        text = runs(file, "--output", d, *common, *settings(f"Mesh/File={mesh}", "Reservoir/Model=Westergaard"))
+    expect('the volumes "water" of the mesh file are not used' in text, text)
+    same("plain", "unused", 1e-12)
+    golden.with_water("dry.msh", "apart.msh", layers, 60., own_nodes=True, end=True)
+    text = Path("apart.msh").read_text().split("$")
+    at = next(k for k, part in enumerate(text) if part.startswith("Nodes"))
+    lines = text[at].splitlines()
+    turned = [(i, -float(y) * 1e3, float(x) * 1e3, float(z) * 1e3) for i, x, y, z in map(str.split, lines[2:])]
+    text[at] = "\n".join([*lines[:2], *(" ".join(map(str, row)) for row in turned), ""])
+    Path("turned.msh").write_text("$".join(text))
+    runs(file, "--output", "turned", *common, *ACOUSTIC, *settings("Mesh/File=turned.msh", "Mesh/Axes=y -x z", "Mesh/Length unit=mm"))
+    same("own", "turned", 1e-5, ("history",))
 
 
 def radiation():
@@ -357,6 +404,19 @@ def messages():
     Path("mass.csv").write_text("depth,mass\n0,0\n300,3e5\n")
     text = runs("scene.prm", "--validate", *settings("Reservoir/Model=added mass table", "Reservoir/Table=mass.csv"))
     expect(re.search(r"added mass of mass.csv, \S+e\+\d+ kg", text), text)
+    golden.arch("dry.msh")
+    file = scene("own", "own.msh", Reservoir={"Density": 1000, "Water level": 60})
+    layers, moved = [20.] * 6, lambda x: (x[0] - 5, x[1], x[2])
+    for water, entries, parts in (({"tetrahedra": True}, (), ("'water'", "Tetrahedron", "extrusion")),
+                                  ({}, ("Reservoir/Water level=58",), ("z = 60 m", "Water level is 58 m", "Set the level to 60 m")),
+                                  ({"own_nodes": True, "change": moved}, (), ("surface \"upstream\"", "5 m away", "Extrude"))):
+        golden.with_water("dry.msh", "own.msh", layers, 60., **water)
+        refused([file, "--validate", *ACOUSTIC, *settings(*entries)], *parts)
+    golden.with_water("dry.msh", "own.msh", [5.] * 6, 60.)
+    refused([file, "--validate", *ACOUSTIC], "30 m upstream", "depth of 60 m")
+    golden.with_water("dry.msh", "own.msh", layers, 60.)
+    text = runs(file, "--validate", *ACOUSTIC, *settings("Reservoir/Element size=7"))
+    expect(re.search(r"warning: .*Reservoir/Element size.* no effect", text), text)
     choices = runs("scene", "scene.prm", "--choices", *ACOUSTIC)
     names = [choice["name"] for choice in json.loads(choices)["choices"] if choice["group"] == "water"]
     expected = ("no added mass", "Westergaard", "half of Westergaard", "compressible, reflection 0.75", "compressible, reflection 0.5")
@@ -364,4 +424,4 @@ def messages():
 
 
 if __name__ == "__main__":
-    run_cases(pulse, ground, face, joints, rock, works, modes, radiation, messages)
+    run_cases(pulse, ground, face, joints, rock, works, modes, own, radiation, messages)

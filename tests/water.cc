@@ -4,6 +4,7 @@
 #include "testing.h"
 
 #include <voussoir/base/error.h>
+#include <voussoir/mesh/coincident.h>
 #include <voussoir/water/acoustic_water.h>
 
 #include <algorithm>
@@ -228,6 +229,84 @@ namespace
     expect(other > .2 * size, "the left bank alone");
   }
 
+  /** The hexahedra of a channel as volumes of a mesh file. */
+  HexMesh volumes_of(const WaterMesh &channel)
+  {
+    HexMesh mesh;
+    mesh.nodes.assign(channel.points.rbegin(), channel.points.rend());
+    const unsigned int last = mesh.nodes.size() - 1;
+    for (const WaterMesh::Cell &cell : channel.cells) // of right-handed order: from the end to the dam
+    {
+      mesh.cells.push_back({{}, PhysicalId::water});
+      for (unsigned int k = 0; k < 8; ++k)
+        mesh.cells.back().nodes[k] = last - cell[(k + 4) % 8];
+    }
+    return mesh;
+  }
+
+  /** A channel whose hexahedra are volumes of a mesh file gives the same matrices. A shorter length adds a damping layer;
+   * the named end is found, too. */
+  void own_mesh()
+  {
+    const auto        half = [](const double z) { return 20. + .7 * z; };
+    const auto        faces = valley(half);
+    WaterProperties   water{1000., 1440., .5, 50., 100., 5.};
+    const WaterMesh   channel = make_channel(WaterSection(faces, 50., 5.), water);
+    HexMesh           file = volumes_of(channel);
+    const WaterMesh   mesh = read_volumes(file, faces, 50., water);
+    const WaterModel  expected(channel, water, 2.6e-3), found(mesh, water, 2.6e-3);
+    const PointFinder finder(channel.points);
+    const WaterMesh   far = mesh.far_channel();
+    double            off = 0., off_area = 0., off_end = 0., off_far = 0.;
+    expect(mesh.n_wet() == channel.n_wet() && mesh.bed.size() == channel.bed.size() &&
+               mesh.end.size() == channel.end.size() && mesh.places.size() == channel.places.size(),
+           "numbers of nodes and faces");
+    for (unsigned int i = 0; i < found.n_nodes(); ++i)
+    {
+      const unsigned int j = finder.nearest(mesh.points[i]).number;
+      expect(found.at_surface[i] == expected.at_surface[j] && (i < mesh.n_wet()) == (j < channel.n_wet()),
+             "place of a node");
+      off = std::max(off, std::abs(found.mass[i] / expected.mass[j] - 1.));
+      off_area = std::max(off_area, norm(found.ground[i] - expected.ground[j]));
+      off_end = std::max(off_end, std::abs(found.end_damping[i] - expected.end_damping[j]));
+      const Vector3 &of_far = far.points[mesh.far[i]];
+      off_far = std::max(off_far, std::hypot(of_far[1] - mesh.points[i][1], of_far[2] - mesh.points[i][2]));
+    }
+    expect_within(off, 0., 1e-9, "masses");
+    expect_within(off_area, 0., 1e-9, "areas of bed and banks");
+    expect_within(off_end, 0., 1e-9, "damping layer and dashpot");
+    expect_within(off_far, 0., 1e-9, "node of the far channel with the same y and z");
+    expect_close(mesh.wet_area[0], area_of(WaterSection(faces, 50., 5.)), 1e-9,
+                 "wet area, normal out of the water");
+    expect_close(far.points.back()[0] - far.points[0][0],
+                 channel.points.back()[0] - channel.points[channel.points.size() - 1 - channel.n_wet()][0],
+                 1e-9, "length of the far layer");
+    const WaterMesh whole = read_volumes(file, faces, 50., water = {1000., 1440., .5, 50., 1e3, 5.});
+    expect_within(*std::max_element(whole.layer.begin(), whole.layer.end()), 0., 0., "no damping layer");
+    for (const WaterMesh::Face &face : channel.end)
+      file.faces.push_back({face, PhysicalId::water_end});
+    for (HexMesh::Face &face : file.faces)
+      for (unsigned int &node : face.nodes)
+        node = file.nodes.size() - 1 - node;
+    file.faces.pop_back();
+    expect(read_volumes(file, faces, 50., water).end.size() == channel.end.size() - 1, "named end");
+  }
+
+  void wrong_mesh()
+  {
+    const auto      faces = valley([](double) { return 30.; });
+    WaterProperties water{1000., 1440., .5, height, 120., 10.};
+    HexMesh         file = volumes_of(make_channel(WaterSection(faces, height, 10.), water));
+    const auto      read = [&](const double level) { read_volumes(file, faces, level, water); };
+    throws<InputError>("another level", [&] { read(55.); }, {"z = 60 m", "Water level is 55 m"});
+    for (Vector3 &x : file.nodes)
+      x[0] -= 3.;
+    throws<InputError>("a gap", [&] { read(height); }, {"upstream", "3 m away"});
+    for (Vector3 &x : file.nodes)
+      x[0] = .1 * (x[0] + 3.);
+    throws<InputError>("too short", [&] { read(height); }, {"depth of 60 m"});
+  }
+
   void wrong_sections()
   {
     auto faces = valley([](double) { return 30.; });
@@ -246,5 +325,7 @@ int main()
               {"far channel", far_channel},
               {"incompressible", incompressible},
               {"banks", banks},
+              {"own mesh", own_mesh},
+              {"wrong own mesh", wrong_mesh},
               {"wrong sections", wrong_sections}});
 }
