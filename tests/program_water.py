@@ -412,11 +412,18 @@ def messages():
                                   ({"own_nodes": True, "change": moved}, (), ("surface \"upstream\"", "5 m away", "Extrude"))):
         golden.with_water("dry.msh", "own.msh", layers, 60., **water)
         refused([file, "--validate", *ACOUSTIC, *settings(*entries)], *parts)
+    golden.with_water("dry.msh", "own.msh", layers, 60., left=True)
+    refused([file, "--validate", *ACOUSTIC, *settings("Joints/Model=tied", "Mesh/File=own.msh")], "monolith 1", "no water node")
+    golden.arch("one.msh", (1,) * 6)
+    golden.with_water("one.msh", "half.msh", layers, 60., left=True)
+    refused([file, "--validate", *ACOUSTIC, *settings("Mesh/File=half.msh")], "of the upstream face", "whole wet face")
     golden.with_water("dry.msh", "own.msh", [5.] * 6, 60.)
     refused([file, "--validate", *ACOUSTIC], "30 m upstream", "depth of 60 m")
     golden.with_water("dry.msh", "own.msh", layers, 60.)
     text = runs(file, "--validate", *ACOUSTIC, *settings("Reservoir/Element size=7"))
     expect(re.search(r"warning: .*Reservoir/Element size.* no effect", text), text)
+    choices = runs("scene", file, "--choices", *ACOUSTIC)
+    expect("water level" not in choices and "reflection 0.75" in choices, choices)
     choices = runs("scene", "scene.prm", "--choices", *ACOUSTIC)
     names = [choice["name"] for choice in json.loads(choices)["choices"] if choice["group"] == "water"]
     expected = ("no added mass", "Westergaard", "half of Westergaard", "compressible, reflection 0.75", "compressible, reflection 0.5")

@@ -48,11 +48,11 @@ namespace Voussoir
     prm.add_parameter(
         "Length", length,
         "Models acoustic and incompressible: length of the channel before its absorbing end [m], at least one depth. 0: two "
-        "depths.",
+        "depths. In water volumes of a mesh file the damping layer begins there.",
         {50., 5000., true}, Patterns::Double(0.));
     prm.add_parameter(
         "Element size", element_size,
-        "Models acoustic and incompressible: size of the water elements at the dam [m]. 0: a sixteenth of the depth.",
+        "Models acoustic and incompressible: size of the water elements at the dam [m]. 0: a sixteenth of the depth. No effect if the mesh file has the volume 'water'.",
         {1., 50., true}, Patterns::Double(0.));
     prm.leave_subsection();
   }

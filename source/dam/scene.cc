@@ -375,6 +375,7 @@ namespace Voussoir
     {
       const bool moves = !motion.abutments.empty(); // requires massless rock
       return (moves && choice.entries.count("Foundation/Model") > 0) ||
+             (hexes.water && reservoir.is_meshed() && choice.entries.count("Reservoir/Water level") > 0) ||
              (reservoir.is_acoustic() && choice.name == "twice the time step");
     };
     choices.list.erase(std::remove_if(choices.list.begin(), choices.list.end(), refused), choices.list.end());

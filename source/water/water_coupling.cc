@@ -108,12 +108,11 @@ namespace Voussoir
               quads[f].is_clockwise ? cross(along, up) : cross(up, along); // out of the water
           const unsigned int water = finder.find(p, wet[f].monolith);
           if (water == rigid_ground)
-            throw InputError(
-                "Mesh of the water: monolith " + std::to_string(wet[f].monolith) +
-                " has no water node near y = " + number_text(p[1]) + " m, z = " + number_text(p[2]) +
-                " m. Reduce the size of the water elements there (Reservoir/Element size, or the water volumes of the "
-                "mesh file), for example to " +
-                number_text(.7 * h) + " m.");
+            throw InputError("Mesh of the water: monolith " + std::to_string(wet[f].monolith) +
+                             " has no water node near y = " + number_text(p[1]) +
+                             " m, z = " + number_text(p[2]) +
+                             " m. Reduce Reservoir/Element size, for example to " + number_text(.7 * h) +
+                             " m. Water volumes of a mesh file must touch every monolith.");
           add(area[water], part);
           for (unsigned int k = 0; k < 4; ++k)
             for (unsigned int d = 0; d < 3; ++d)

@@ -209,13 +209,14 @@ def read(file):
     return nodes, [[w[1], w[3], w[3 + w[2]:]] for w in words], names
 
 
-def with_water(file, output, layers, level, upstream=-1., own_nodes=False, change=None, end=False, tetrahedra=False):
+def with_water(file, output, layers, level, upstream=-1., own_nodes=False, change=None, end=False, tetrahedra=False, left=False):
     """Adds the volume 'water': layers of the given lengths on the faces of `upstream` below the level, up to a flat end. The lengths are those at the
     most upstream node. upstream: direction of the file's x. own_nodes: the water shares no nodes with the dam. change(x): moves the water's
-    nodes. end: marks the end as 'water end'. Numbers of nodes and elements of the water."""
+    nodes. end: marks the end as 'water end'. left: only on faces with y > 0 of the file. Numbers of nodes and elements of the water."""
     nodes, elements, names = read(file)
     surface = next(tag for (dimension, tag), name in names.items() if (dimension, name) == (2, "upstream"))
-    wet = [c for kind, tag, c in elements if (kind, tag) == (3, surface) and all(nodes[n][2] < level + 1e-6 for n in c)]
+    wet = [c for kind, tag, c in elements if (kind, tag) == (3, surface) and all(nodes[n][2] < level + 1e-6 for n in c)
+           and (not left or min(nodes[n][1] for n in c) > -1e-6)]
     at, count = sorted({n for c in wet for n in c}), max(nodes)
     far, number = max(upstream * nodes[n][0] for n in at) + sum(layers), {}
     for k in range(len(layers) + 1):
