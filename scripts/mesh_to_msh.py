@@ -4,7 +4,7 @@
 
     mesh_to_msh.py FILE OUTPUT.msh      needs meshio (Debian package python3-meshio); Voussoir runs it by itself
 
-Groups become physical groups when their names are Voussoir's: "monolith 3", "MONOLITH_3_HEEL", "rock", "upstream", ... (case,
+Groups become physical groups when their names are Voussoir's: "monolith 3", "MONOLITH_3_HEEL", "rock", "water", "upstream", ... (case,
 blanks, '_' and '-' do not count); others are left out. In .inp they are ELSETs of volumes or of shells, *SURFACEs, and NSETs:
 all outer faces whose corners are in the set, for "base" also the faces between dam and rock. In .med they are groups of
 volumes, of faces and of nodes alike.
@@ -22,8 +22,8 @@ try:
 except ImportError:
     sys.exit(3)
 
-VOLUME = re.compile(r"(monolith[ _-]*\d+|rock)")
-SURFACE = re.compile(r"(base|upstream|downstream|crest|free[ _-]*surface|artificial([ _-]*boundary)?|joint[ _-]*\d+.*)$")
+VOLUME = re.compile(r"(monolith[ _-]*\d+|rock|water$)")
+SURFACE = re.compile(r"(base|upstream|downstream|crest|free[ _-]*surface|artificial([ _-]*boundary)?|water[ _-]*end|joint[ _-]*\d+.*)$")
 # meshio's types: dimension, gmsh's number, corners of the faces (of Abaqus' labels S1, S2, ...)
 HEXAHEDRON = ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0))
 WEDGE = ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0))
@@ -144,14 +144,15 @@ class Converter:
                 owners.setdefault(frozenset(corners), []).append((k, corners))
         return owners
 
-    def is_rock(self, k):
-        return (self.cells[k][2] or "").strip().lower().startswith("rock")
+    def is_in(self, k, group):
+        return (self.cells[k][2] or "").strip().lower().startswith(group)
 
     def take_nodes(self, name, nodes, owners):
         """The faces whose corners are all in the set."""
         nodes = set(int(n) for n in nodes)
         for corners, cells in owners.items():
-            outer = len(cells) == 1 or name.lower().startswith("base") and self.is_rock(cells[0][0]) != self.is_rock(cells[1][0])
+            cells = [cell for cell in cells if not self.is_in(cell[0], "water")] or cells  # the water is beside the body
+            outer = len(cells) == 1 or name.lower().startswith("base") and self.is_in(cells[0][0], "rock") != self.is_in(cells[1][0], "rock")
             if outer and corners <= nodes:
                 self.faces.append((cells[0][1], name))
 

@@ -87,6 +87,15 @@ def inp():
     for name, text in (("shared", shared), ("unnamed", unnamed)):
         write(f"{name}.inp", "\n".join(text) + "\n")
         alike(crest(name, f"{name}.inp"), expected)
+    # Water that shares its nodes with the dam.
+    meshes.with_water("arch.msh", "wet.msh", [30.] * 3, 60.)
+    places, elements, _ = meshes.read("wet.msh")
+    more = [", ".join(map(str, (n, *places[n]))) for n in range(len(nodes) + 1, len(places) + 1)]
+    last = next(k for k, line in enumerate(by_nodes) if line.startswith("*ELEMENT"))
+    cells = [", ".join(map(str, (1000 + k, *c))) for k, (_, tag, c) in enumerate(elements) if tag == 2000]
+    write("water.inp", "\n".join([*by_nodes[:last], *more, "*ELEMENT, TYPE=C3D8, ELSET=WATER", *cells, *by_nodes[last:]]) + "\n")
+    alike(crest("water", "water.inp"), expected)
+    expect(f"{len(cells)} hexahedra" in runs("water.prm", "--validate"), "hexahedra of the water")
     write("parts.inp", "\n".join([*lines[:5], "*NODE", *lines[5:]]) + "\n")
     refused([scene("parts", "parts.inp"), "--validate"], "parts.inp", "*NODE", "flat file")
     write("bare.inp", "\n".join(lines).replace("MONOLITH_", "BLOCK") + "\n")

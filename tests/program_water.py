@@ -336,6 +336,13 @@ def own():
         text = runs(file, "--output", d, *common, *settings(f"Mesh/File={mesh}", "Reservoir/Model=Westergaard"))
     expect('the volumes "water" of the mesh file are not used' in text, text)
     same("plain", "unused", 1e-12)
+    golden.arch("finer.msh", (1,) * 17, n_up=8)
+    golden.with_water("finer.msh", "other.msh", layers, 60., dam="dry.msh")
+    tied = [*common, *INCOMPRESSIBLE, *settings("Joints/Model=tied", "Mesh/File=other.msh")]
+    other, channel = (frequencies(runs("modes", file, "--count", "3", *tied, *more)) for more in ((), settings("Mesh/File=dry.msh", "Reservoir/Element size=5")))
+    off = [f / g - 1 for f, g in zip(other, channel)]
+    print(f"    water mesh that does not match the dam: {other} Hz, {', '.join(f'{100 * x:.2f} %' for x in off)} against the channel")
+    expect(max(map(abs, off)) < .02, f"{off}")
     golden.with_water("dry.msh", "apart.msh", layers, 60., own_nodes=True, end=True)
     text = Path("apart.msh").read_text().split("$")
     at = next(k for k, part in enumerate(text) if part.startswith("Nodes"))

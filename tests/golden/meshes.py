@@ -209,10 +209,11 @@ def read(file):
     return nodes, [[w[1], w[3], w[3 + w[2]:]] for w in words], names
 
 
-def with_water(file, output, layers, level, upstream=-1., own_nodes=False, change=None, end=False, tetrahedra=False, left=False):
+def with_water(file, output, layers, level, upstream=-1., own_nodes=False, change=None, end=False, tetrahedra=False, left=False, dam=None):
     """Adds the volume 'water': layers of the given lengths on the faces of `upstream` below the level, up to a flat end. The lengths are those at the
     most upstream node. upstream: direction of the file's x. own_nodes: the water shares no nodes with the dam. change(x): moves the water's
-    nodes. end: marks the end as 'water end'. left: only on faces with y > 0 of the file. Numbers of nodes and elements of the water."""
+    nodes. end: marks the end as 'water end'. left: only on faces with y > 0 of the file. dam: file with another
+    mesh of the same dam, which receives this water. Numbers of nodes and elements of the water."""
     nodes, elements, names = read(file)
     surface = next(tag for (dimension, tag), name in names.items() if (dimension, name) == (2, "upstream"))
     wet = [c for kind, tag, c in elements if (kind, tag) == (3, surface) and all(nodes[n][2] < level + 1e-6 for n in c)
@@ -241,6 +242,12 @@ def with_water(file, output, layers, level, upstream=-1., own_nodes=False, chang
     if end:
         names[2, 7] = "water end"
         elements += [[3, 7, [number[n, len(layers)] for n in c]] for c in rings]
+    if dam:
+        of_water, (of_dam, cells, names) = nodes, read(dam)
+        first = max(of_dam)
+        nodes = {**of_dam, **{first + n: x for n, x in of_water.items()}}
+        elements = cells + [[kind, tag, [first + n for n in c]] for kind, tag, c in elements if tag == 2000]
+        names[3, 2000] = "water"
     with open(output, "w") as out:
         print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames", len(names), sep="\n", file=out)
         print(*(f'{a} {b} "{name}"' for (a, b), name in names.items()), "$EndPhysicalNames\n$Nodes", len(nodes), sep="\n", file=out)
