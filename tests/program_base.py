@@ -76,6 +76,45 @@ def crack():
                 expect(abs(found - expected) < (.001 * width if uplift == "false" else width / across), f"{name}: crack {found} m instead of {expected} m")
 
 
+def uplift():
+    """A rigid block of 4 x 10 m on a linear bed with uplift: gap at the heel by hand; water in a crack reduces the sliding safety."""
+    width, level, stiffness, weight = 4., 6.5, 1e10, 2400 * G * 40
+    p = 1000 * G * level
+    section("block.msh", width, width, 10., 60, 4)
+    more = {"joints": {"Friction": 10, "Normal stiffness": f"{stiffness:g}", "Tangential stiffness": "1e10"}, "young": 1e13,
+            "Reservoir": {"Water level": level, "Density": 1000, "Model": "none"}}
+    friction = settings("Limits/Base friction=1")
+    for base, force, moment in (("false", weight, weight * width / 2 - p * level**2 / 6),
+                                ("true", weight - p * width / 2, weight * width / 2 - p * level**2 / 6 - p * width**2 / 3)):
+        block(f"uplift{base}", "block.msh", *friction, *settings(f"Loads/Uplift/Base={base}"), **more)
+        names, rows = table(f"uplift{base}/joint_history.csv")
+        found = -rows[0][names.index("opening_upstream_1")] * stiffness
+        exact = 2 * force / width * (3 * moment / force / width - 1)
+        print(f"    uplift {base}: stress at the heel {found:.0f} Pa, by hand {exact:.0f} Pa")
+        expect(abs(found - exact) < 5e-3 * force / width, f"stress at the heel {found} Pa instead of {exact} Pa")
+    level = 7.8
+    more["Reservoir"]["Water level"] = level
+    _, rows = block("crack_water", "block.msh", *friction, *settings("Loads/Uplift/Joints=true"), **more)
+    wet = sum(row["area"] for row in rows if row["max_opening"] > 0) * 1000 * G * level
+    names, values = table("crack_water/blocks.csv")
+    safety = values[0][names.index("safety_1")]
+    exact = (weight - wet) / (1000 * G * level**2 / 2)
+    print(f"    water in the crack: sliding safety {safety:.4f}, by hand {exact:.4f}")
+    expect(abs(safety / exact - 1) < 1e-4, f"safety {safety} instead of {exact}")
+
+
+def slice_at_rest():
+    """A slice in plane strain under its own weight has no displacement and no joint force along y."""
+    section("slice.msh", 8., 2., 10., 8, 8)
+    entries = sections({"joints": {"Friction": .5}, "young": 2e10})
+    entries["Statics"]["Self-weight"], entries["Concrete"]["Poisson's ratio"] = "staged", .25
+    entries["Mesh"] = {"Source": "file", "File": "slice.msh", "Plane strain": "true"}
+    runs(scene("slice", "slice.msh", **entries, Output={"Probes": "heel: 0 -0.5 0"}), "--output", "slice")
+    names, rows = table("slice/history.csv")
+    moved = [abs(value) for name, value in zip(names, rows[0]) if name.endswith("_y") and "acceleration" not in name]
+    expect(moved and max(moved) == 0., f"displacements along y: {moved}")
+
+
 def pulse(name, acceleration, direction, duration, end, dt):
     """Constant base acceleration for a duration, then rest."""
     with open(name, "w") as file:
@@ -143,6 +182,9 @@ def arch():
     runs("scene.prm", "--output", "bonded", *ARCH)
     runs("scene.prm", "--output", "tied", *ARCH, *BASE, *settings("Joints/Overrides=base: tied"))
     same_to_the_bit_but_joints("bonded", "tied")
+    for name, more in (("bonded_rock", ()), ("tied_rock", (*BASE, *settings("Joints/Overrides=base: tied")))):
+        runs("scene.prm", "--output", name, *ARCH, *more, *settings("Foundation/Model=massless", "Motion/Duration=0.3"))
+    same_to_the_bit_but_joints("bonded_rock", "tied_rock")
     for name, more in (("rigid", ()), ("elastic", ("Joints/Normal stiffness=1e11", "Joints/Tangential stiffness=5e10")),
                        ("adhesive", ("Joints/Adhesion=2 MPa", "Joints/Overrides=contraction: FJB")),
                        ("bond", ("Joints/Overrides=base: cohesive", "Joints/Strength=1 MPa", "Joints/Fracture energy=200"))):
@@ -206,4 +248,4 @@ def refusals():
 
 
 if __name__ == "__main__":
-    run_cases(crack, slide, rock, arch, resume, refusals)
+    run_cases(crack, uplift, slice_at_rest, slide, rock, arch, resume, refusals)

@@ -106,7 +106,7 @@ def values():
                            "Mesh/Arch210/Joints=2.5": ("an integer from 0 to 60",),
                            "Joints/Model=FJC": ("one of: tied, FJA, FJB, KSM, cohesive",),
                            "Output/Figures=maybe": ("true or false",),
-                           "Joints/Overrides=a: FJA": ("key: value", "an integer of at least 1"),
+                           "Joints/Overrides=a: FJA": ('the joint "a"', "contraction"),
                            "Joints/Overrides=1: FJA, 1: FJB": ('"1" twice',),
                            "Output/Probes=foot: 0 0 0; foot: 1 0 0": ('"foot" twice',),
                            "Output/Probes=foot: 0 0 0; far: 0 900 100": ('"far"', "(0, 900, 100) m", "more than an element"),

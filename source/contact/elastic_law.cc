@@ -180,10 +180,6 @@ namespace Voussoir
     if (p.equations != Equations::alart_curnier)
       throw InputError("Joints with a stiffness or an adhesion support alart-curnier only. Set "
                        "\"Joints/Equations\" to alart-curnier.");
-    if (p.adhesion > 0. && face->n_memory() > 0)
-      throw InputError(
-          "The joint model cohesive has its own bond. Set \"Joints/Adhesion\" to 0, or the joint model "
-          "to FJA.");
     if (p.adhesion > 0. && !(p.friction > 0.))
       throw InputError(
           "Entry \"Joints/Adhesion\" requires friction, because the tension is limited to adhesion "

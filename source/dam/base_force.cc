@@ -226,6 +226,8 @@ namespace Voussoir
     {
       const auto stands = [&](const unsigned int node)
       { return node == rigid_ground || block_at.count(node) > 0; };
+      if (pairs[p].is_base && !joint_water.empty()) // the water in open pairs is a part of the reaction
+        add_crack_water(pairs[p], joint_water[p] * pairs[p].area);
       const bool first = stands(pairs[p].node_1), second = stands(pairs[p].node_2);
       if (first == second || (part != nullptr && !part->contains(pairs[p].place)))
         continue;
@@ -235,6 +237,13 @@ namespace Voussoir
       lone.push_back({p, b, first ? 1. : -1.});
       water.push_back(joint_water.empty() ? 0. : joint_water[p] * pairs[p].area);
     }
+  }
+
+  void BaseForces::add_crack_water(const Pair &pair, const double force)
+  {
+    for (BlockBase &base : of_block)
+      if (base.monolith == dam.joints[pair.joint].monolith_2)
+        base.uplift += force * dot(pair.frame[0], base.axes[2]);
   }
 
   /** Adds the stiffness and the lumped mass of the cells at the supports. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/contact/law_table.h>
+#include <voussoir/dam/base_uplift.h>
 #include <voussoir/dam/dam.h>
 #include <voussoir/dam/dam_loads.h>
 #include <voussoir/dam/mesh_warnings.h>
@@ -156,12 +157,15 @@ namespace Voussoir
       laws.of_joint.push_back(make_joint_law(joint_models.back(), scene.joints.law(scene.concrete.young)));
       known.insert({std::to_string(joint.number), joint.name(), joint.kind()});
     }
-    for (const auto &entry : scene.joints.overrides)
-      if (known.count(entry.first) == 0)
-        throw InputError("Entry \"Joints/Overrides\" names the joint \"" + entry.first +
-                         "\", but the dam has " + std::to_string(joints.size()) +
-                         " joints, and no such name or kind (contraction" +
-                         (joints.size() > n_joints ? ", base" : "") + "). Correct or remove it.");
+    for (const auto &[key, model] : scene.joints.overrides)
+      if (known.count(key) == 0)
+        throw InputError("Entry \"Joints/Overrides\" names " +
+                         (std::isdigit(static_cast<unsigned char>(key[0])) ? "joint " + key
+                                                                           : "the joint \"" + key + "\"") +
+                         ", but the dam has " + std::to_string(joints.size()) +
+                         " joints, and none with this number, name or kind (such as 1, contraction" +
+                         (joints.size() > n_joints ? ", base, " + joints.back().name() : "") +
+                         "). Correct or remove it.");
   }
 
   bool Dam::is_one_body(const Scene &scene, const bool tied)
@@ -260,6 +264,7 @@ namespace Voussoir
       if (const unsigned int e = model->equation[i]; e != rigid_ground)
         for (unsigned int c = 0; c < 3; ++c)
           weight_on_base[3 * e + c] -= staged_reaction[3 * i + c];
+    structure.remove_held_forces(weight_on_base);
   }
 
   bool Dam::has_sustained_moduli() const
@@ -323,6 +328,8 @@ namespace Voussoir
           initial_stress[i][c] += load.stress[i][c];
     if (has_base_joints() && !staged_reaction.empty())
       loads.push_back({"self-weight at the base", false, 1., weight_on_base, {}});
+    if (has_base_joints() && scene.loads.uplift.base && scene.loads.factor("uplift") != 0.)
+      loads.push_back({"uplift at the base", true, scene.loads.factor("uplift"), uplift_at_base(), {}});
     if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0.)
       added_mass = add_added_mass(*model, scene.reservoir, structure);
     if (const ReservoirParameters &r = scene.reservoir; r.is_meshed() && scene.loads.factor("water") != 0.)
@@ -338,6 +345,18 @@ namespace Voussoir
             "Entry \"Reservoir/Element size\" has no effect: the mesh file has volumes of the water. Remove it.");
     }
     inertia = inertial_loads(structure);
+  }
+
+  /** Returns the forces of the uplift on free base nodes, three values per free node [N]. */
+  Unknowns Dam::uplift_at_base() const
+  {
+    const BaseUplift uplift = base_uplift(scene, *model);
+    Unknowns         force(3 * std::size_t(structure.n_nodes()), 0.);
+    for (unsigned int i = 0; i < model->n_nodes(); ++i)
+      for (unsigned int c = 0; c < 3 && model->equation[i] != rigid_ground; ++c)
+        force[3 * model->equation[i] + c] += uplift.force[3 * i + c];
+    structure.remove_held_forces(force);
+    return force;
   }
 
   void Dam::check_water_level()

@@ -117,9 +117,11 @@ namespace Voussoir
 
   void JointParameters::add_choices(ModelChoices &choices) const
   {
-    if (choices.n_joints == 0)
+    if (choices.n_joints == 0 && !choices.has_base_joints)
       return;
     add_law_choices(model, *this, choices);
+    if (choices.has_base_joints && overrides.empty() && model != "tied")
+      choices.add("joints", "bonded base", {{"Joints/Overrides", "base: tied"}}, true);
     if (overrides.empty() && model != "tied" && choices.n_joints > 1)
     {
       std::string tied;
@@ -341,6 +343,9 @@ namespace Voussoir
     choices.bottom = 1e300, choices.top = -1e300;
     choices.has_rock = mesh.source != "file";
     choices.time_step = motion.time_step / steps_per_sample;
+    choices.has_base_joints =
+        std::any_of(hexes.faces.begin(), hexes.faces.end(),
+                    [](const HexMesh::Face &face) { return face.surface == PhysicalId::base_joint; });
     for (const HexMesh::Cell &cell : hexes.cells)
       if (is_monolith(cell.volume))
       {
@@ -374,7 +379,7 @@ namespace Voussoir
     const auto refused = [&](const ModelChoice &choice) // by check()
     {
       const bool moves = !motion.abutments.empty(); // requires massless rock
-      return (moves && choice.entries.count("Foundation/Model") > 0) ||
+      return ((moves || choices.has_base_joints) && choice.entries.count("Foundation/Model") > 0) ||
              (hexes.water && reservoir.is_meshed() && choice.entries.count("Reservoir/Water level") > 0) ||
              (reservoir.is_acoustic() && choice.name == "twice the time step");
     };

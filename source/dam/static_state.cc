@@ -19,18 +19,12 @@ namespace Voussoir
         4e10; // Young's modulus of concrete [Pa]; larger ones are those of rigid blocks
     constexpr double usual_gap = 5e-3; // usual gap of joints before grouting [m]
 
-    /** Returns true for pairs with the ground, which are cast and need no grout. */
-    bool is_base(const Pair &pair)
-    {
-      return pair.node_1 == rigid_ground;
-    }
-
     /** Grouts the pairs between two heights: their gap is zero in the current state. */
     void close_pairs(const Structure &structure, const double from, const double to, const Unknowns &u,
                      Unknowns &closed, Unknowns &gap)
     {
       for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-        if (const double z = structure.pairs[p].place[2]; z > from && z <= to && !is_base(structure.pairs[p]))
+        if (const double z = structure.pairs[p].place[2]; z > from && z <= to && !structure.pairs[p].is_base)
         {
           set(closed, p, structure.jump(structure.pairs[p], u));
           set(gap, p, {});
@@ -121,25 +115,25 @@ namespace Voussoir
                                                operation, springs, base.get());
       }
 
-      /** Solves with the load f, and with base joints in rounds: (K + eps M) u = f + eps M u_k, where u_k is the
-       * displacement of the previous round. The rounds end when the force eps M (u - u_k) is negligible, or no longer
+      /** Solves with the load f, and with base joints by iterations: (K + eps M) u = f + eps M u_k, where u_k is the
+       * displacement of the previous iteration. They end when the force eps M (u - u_k) is negligible, or no longer
        * falls. If it falls slowly, eps is reduced. */
-      ContactResult solve_rounds(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
-                                 const Unknowns &committed)
+      ContactResult iterate(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
+                            const Unknowns &committed)
       {
         constexpr unsigned int most = 100;                         // rounds
         constexpr double       negligible = 1e-11, allowed = 1e-7; // of the sum of all nodal loads
         ContactResult          total;
         double                 before = INFINITY;
-        for (unsigned int round = 0;; ++round)
+        for (unsigned int k = 0;; ++k)
         {
           stop_if_asked();
           state.memory = committed; // crack events of previous iterations are discarded
           const Unknowns last = state.u;
-          Unknowns       of_round = load;
-          add_proximal(last, of_round);
+          Unknowns       raised = load;
+          add_proximal(last, raised);
           const ContactResult result =
-              system->solve(of_round, offset, start, state.memory, state.force, gap, state.u);
+              system->solve(raised, offset, start, state.memory, state.force, gap, state.u);
           if (proximal == 0.)
             return result;
           total += result;
@@ -153,18 +147,29 @@ namespace Voussoir
           const double sum = norm_1(held), of_load = norm_1(load);
           if (sum <= negligible * of_load || (sum > .5 * before && sum <= allowed * of_load))
             return total;
-          const bool is_slow = sum > .5 * before && round > 2;
+          const bool is_slow = sum > .5 * before && k > 2;
           if (is_slow && proximal > 1.5 * least_proximal)
           {
             proximal *= .1;
             make_system();
           }
-          else if ((is_slow && sum > .9 * before) || round == most)
-            throw ComputationError("The static state has no equilibrium: " + fastest_body(held) +
-                                   " moves without limit on its base joint. Check the friction "
-                                   "(\"Joints/Friction\"), the water level and the uplift.");
+          else if ((is_slow && sum > .9 * before) || k == most)
+            throw_no_equilibrium(held);
           before = sum;
         }
+      }
+
+      [[noreturn]] void throw_no_equilibrium(const Unknowns &force) const
+      {
+        const int         number = fastest_body(force);
+        const std::string monolith = "monolith " + std::to_string(number);
+        throw ComputationError(
+            "The static state has no equilibrium: " + monolith + " moves without limit on its base joint" +
+            (grouted < INFINITY
+                 ? ", in a stage before all joints are grouted. Grout the joints before this stage"
+                 : std::string(". Check the friction (\"Joints/Friction\"), the water level and the "
+                               "uplift")) +
+            ", or bond its base (\"Joints/Overrides\" = base " + std::to_string(number) + ": tied).");
       }
 
       static double norm_1(const Unknowns &x)
@@ -186,8 +191,8 @@ namespace Voussoir
         }
       }
 
-      /** Returns the name of the monolith with the largest sum of forces. */
-      std::string fastest_body(const Unknowns &force) const
+      /** Returns the number of the monolith with the largest sum of forces. */
+      int fastest_body(const Unknowns &force) const
       {
         double largest = -1.;
         int    number = 0;
@@ -200,7 +205,7 @@ namespace Voussoir
           if (sum > largest)
             largest = sum, number = body.number;
         }
-        return "monolith " + std::to_string(number);
+        return number;
       }
 
       /** Solves a step, repeatedly until water spreads to no further pair. */
@@ -211,8 +216,8 @@ namespace Voussoir
         for (double &x : offset)
           x = -x;
         const Unknowns committed = state.memory;
-        const auto solve = [&](const Unknowns &load) { return solve_rounds(load, offset, start, committed); };
-        const auto pressure = [&](const double z) // no pressure in joints before grouting
+        const auto     solve = [&](const Unknowns &load) { return iterate(load, offset, start, committed); };
+        const auto     pressure = [&](const double z) // no pressure in joints before grouting
         { return z > path.part(i).grouted ? 0. : water_pressure(i, z); };
         ContactResult total;
         total.converged = true;
@@ -260,7 +265,7 @@ namespace Voussoir
                         n_of(PairState::slip),
                         water ? water->n_wet() : 0};
         for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
-          if (const Pair &pair = dam.structure.pairs[p]; pair.place[2] <= part.grouted || is_base(pair))
+          if (const Pair &pair = dam.structure.pairs[p]; pair.place[2] <= part.grouted || pair.is_base)
             step.opening = std::max(step.opening, gap[3 * p]);
           else
             step.overlap = std::max(step.overlap, -dam.structure.jump(pair, state.u)[0]);

@@ -28,12 +28,12 @@ namespace Voussoir
       return strike <= 1e-6 * norm(applied) && dot(jump, change) >= .5 * norm(jump) * norm(change);
     }
 
-    /** Returns true if the stiffness of a joint is at most 4/dt^2 times the mass of the pair, along n or in the joint.
-     * Such a pair needs no correction. The velocity of a stiffer pair would change its sign in each step, so that it is
+    /** Returns true if the stiffness of a joint is at most 4/dt^2 times the mass of the pair, in direction c. Such a
+     * pair needs no correction. The velocity of a stiffer pair would change its sign in each step, so that it is
      * corrected like a rigid one; this takes less energy than the joint force of the step. */
-    bool is_soft(const Vector3 &compliance, const Matrix3 &H, const double dt)
+    bool is_soft(const Vector3 &compliance, const Matrix3 &H, const double dt, const unsigned int c)
     {
-      return std::max({compliance[0] / H[0], compliance[1] / H[4], compliance[2] / H[8]}) >= .25 * dt * dt;
+      return compliance[c] / H[4 * c] >= .25 * dt * dt;
     }
 
     const Names<ImpactRule> names_of_rules = {{"mean-force", ImpactRule::mean_force},
@@ -113,9 +113,19 @@ namespace Voussoir
     if (!closed && !law.is_tangentially_tied())
       return;
     const Vector3 jump = structure.jump(pair, v), applied = get(impulse, p);
-    if (const ElasticLaw *elastic = law.elastic_law();
-        elastic && is_soft(elastic->compliance(history.area), pair_inverse[p], dt))
-      return; // the time step resolves its vibration
+    if (const ElasticLaw *elastic = law.elastic_law())
+    {
+      const Vector3 compliance = elastic->compliance(history.area);
+      if (is_soft(compliance, pair_inverse[p], dt, 0))
+        return; // the time step resolves its vibration
+      if (is_soft(compliance, pair_inverse[p], dt, 1) || is_soft(compliance, pair_inverse[p], dt, 2))
+      {
+        const Vector3 kept = law.stop_normal(pair_inverse[p], jump, applied, system.active_surfaces()[p] & 1);
+        add_impulse(pair, kept - applied, v);
+        set(impulse, p, kept);
+        return;
+      }
+    }
     if (rule == ImpactRule::paper)
     {
       const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;

@@ -21,7 +21,7 @@ namespace Voussoir
     {
       std::map<std::pair<unsigned int, unsigned int>, unsigned int> pair_at; // (surface, free node) -> pair
       for (unsigned int p = 0; p < pairs.size(); ++p)
-        if (pairs[p].node_1 == rigid_ground)
+        if (pairs[p].is_base)
           pair_at[{PhysicalId::joint_side_2 + pairs[p].joint + 1, pairs[p].node_2}] = p;
         else
           pair_at[{PhysicalId::joint_side_1 + pairs[p].joint + 1, pairs[p].node_1}] = p;

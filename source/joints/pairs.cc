@@ -99,6 +99,9 @@ namespace Voussoir
             const unsigned int joint = cell->face(f)->boundary_id() -
                                        (is_side_2 ? PhysicalId::joint_side_2 : PhysicalId::joint_side_1) - 1;
             AssertThrow(joint < n_joints, ExcInternalError());
+            const int side = cell->face(f)->boundary_id();
+            if (model.base_joints.count(side) > model.open_base.count(side))
+              continue; // bonded
             cell->get_dof_indices(dofs);
             values.reinit(cell, f);
             joints[joint].is_base = model.base_joints.count(cell->face(f)->boundary_id()) > 0;
@@ -164,7 +167,7 @@ namespace Voussoir
   {
     PairsByNode result;
     for (unsigned int p = 0; p < pairs.size(); ++p)
-      result[{pairs[p].joint, pairs[p].node_1 == rigid_ground ? pairs[p].node_2 : pairs[p].node_1}] = p;
+      result[{pairs[p].joint, pairs[p].is_base ? pairs[p].node_2 : pairs[p].node_1}] = p;
     return result;
   }
 
@@ -189,6 +192,7 @@ namespace Voussoir
         continue;
       }
       pair.joint = match.joint;
+      pair.is_base = match.node_1 == rigid_ground;
       pair.area = match.area.norm();
       for (unsigned int d = 0; d < 3; ++d)
         pair.place[d] = model.points[match.node_1 == rigid_ground ? match.node_2 : match.node_1][d];

@@ -131,9 +131,12 @@ namespace Voussoir
         const auto &sides = joint.second;
         for (const int s : {0, 1})
           if (sides[s].empty())
-            fail(joint.first, "it has a side " + std::to_string(2 - s) + " but no side " +
-                                  std::to_string(s + 1) + ". Put the opposite faces into the surface '" +
-                                  physical_name(2, 100 * (s + 1) + joint.first) + "'.");
+            fail(joint.first,
+                 "it has a side " + std::to_string(2 - s) + " but no side " + std::to_string(s + 1) +
+                     ". Put the opposite faces into the surface '" +
+                     physical_name(2, (s == 0 ? PhysicalId::joint_side_1 : PhysicalId::joint_side_2) +
+                                          joint.first) +
+                     "'.");
         match(mesh, joint.first, 1, sides[0], sides[1], merged);
         match(mesh, joint.first, 2, sides[1], sides[0], merged);
       }

@@ -87,6 +87,7 @@ namespace Voussoir
   {
     std::vector<unsigned int> master(n_nodes());
     std::vector<bool>         fixed = bonded;
+    open_base = sides;
     std::iota(master.begin(), master.end(), 0);
     for (unsigned int i = 0; i < n_nodes(); ++i)
       for (const int id : surfaces[i])

@@ -26,6 +26,7 @@ namespace Voussoir
     unsigned int n_joints = 0;          ///< contraction joints
     double       time_step = 0.;        ///< of the dam [s]
     bool         has_rock = false;      ///< true: the mesh has rock, or can have it
+    bool         has_base_joints = false;
 
     std::vector<ModelChoice> list;
 

@@ -80,7 +80,7 @@ namespace Voussoir
 
   /** Returns an ElasticLaw, or @p face itself without stiffness and adhesion.
    *
-   * Throws InputError for negative values, for an adhesion without friction or with a bond (cohesive), and for
+   * Throws InputError for negative values, for an adhesion without friction, and for
    * equations other than "alart-curnier". */
   std::unique_ptr<JointLaw> make_elastic_law(std::unique_ptr<JointLaw> face, const LawParameters &parameters);
 } // namespace Voussoir

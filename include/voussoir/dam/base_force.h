@@ -97,6 +97,7 @@ namespace Voussoir
     void         add_masses(const Structure &whole);
     void         add_staged_weight();
     void         find_lone_pairs(const std::vector<double> &joint_water, const BasePart *part);
+    void         add_crack_water(const Pair &pair, double force);
 
     const Dam                          &dam;
     SolidModel                         &model;

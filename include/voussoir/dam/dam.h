@@ -108,7 +108,9 @@ namespace Voussoir
     void    tie_base();
     void    open_base_joints();
     void    find_weight_on_base();
-    void    remove_base_pairs(std::vector<Pair> &pairs) const;
+
+    Unknowns uplift_at_base() const;
+    void     remove_base_pairs(std::vector<Pair> &pairs) const;
 
     std::set<unsigned int> nodes_of_base() const; ///< equation numbers
     void                   add_loads();
@@ -117,8 +119,8 @@ namespace Voussoir
     void                   find_staged_reaction(double weight, const Unknowns &u);
     void                   find_lowest_base();
 
-    std::vector<unsigned int> lowest_base; ///< free nodes at the lowest height of the base
-    Unknowns             weight_on_base; ///< of base joints: staged weight per free node [N], or empty
+    std::vector<unsigned int> lowest_base;    ///< free nodes at the lowest height of the base
+    Unknowns                  weight_on_base; ///< of base joints: staged weight per free node [N], or empty
   };
 } // namespace Voussoir
 

@@ -73,6 +73,7 @@ namespace Voussoir
     std::size_t n_zones;             ///< number of zones of the mesh, also those without cells in this model
     std::vector<unsigned int>  zone; ///< index into HexMesh::zones of each active cell
     std::set<int>              base_joints;    ///< boundary ids of the base joints
+    std::set<int>              open_base;      ///< those of free_base_joints()
     std::vector<std::set<int>> surfaces;       ///< boundary ids of each node, and the base at base joints
     std::vector<unsigned int>  equation;       ///< free node number of each node; rigid_ground if fixed
     std::vector<unsigned int>  first_equation; ///< first free node of each body, and the number of free nodes

@@ -35,6 +35,7 @@ namespace Voussoir
     double                 area = 1.;              ///< tributary area [m^2]
     Vector3                place = {{0., 0., 0.}}; ///< position [m]
     unsigned int           joint = 0;              ///< index of its joint
+    bool                   is_base = false;        ///< in a base joint: side 1 is the ground
 
     /** Axes of each plane that meets at an edge of the joint: n and two tangents as rows, in the frame of the
      * pair. The first plane has the frame of the pair. Empty if the joint is smooth here. */
