@@ -217,7 +217,7 @@ namespace
     HexMesh       mixed = opened;
     mixed.faces.clear();
     for (const auto &face : opened.faces)
-      if (face.surface != 101 && face.surface != 201)
+      if (face.surface != PhysicalId::joint_side_1 + 1 && face.surface != PhysicalId::joint_side_2 + 1)
         mixed.faces.push_back(face);
     const auto join = [&](auto &nodes)
     {

@@ -20,15 +20,21 @@ namespace
 {
   void test_names()
   {
-    const std::pair<std::string, int> surfaces[] = {
-        {"base", 1},           {"Up-stream", -1},       {"UPSTREAM", 2},        {"free_surface", 5},
-        {"joint3_minus", 103}, {"joint 3 side 2", 203}, {"Joint-12 Plus", 212}, {"joint 100 side 1", -1}};
+    const std::pair<std::string, int> surfaces[] = {{"base", 1},
+                                                    {"Up-stream", -1},
+                                                    {"UPSTREAM", 2},
+                                                    {"free_surface", 5},
+                                                    {"joint3_minus", 10003},
+                                                    {"joint 3 side 2", 20003},
+                                                    {"Joint-12 Plus", 20012},
+                                                    {"joint 100 side 1", 10100},
+                                                    {"joint 10000 side 1", -1}};
     for (const auto &name : surfaces)
       expect(physical_id(2, name.first) == name.second, "the surface " + name.first);
     expect(physical_id(3, "monolith7") == 7 && physical_id(3, "Monolith 12") == 12 &&
                physical_id(3, "rock left") == 1000 && physical_id(3, "monolith") == -1,
            "names of volumes");
-    for (const int id : {1, 2, 3, 4, 5, 6, 101, 199, 201, 299})
+    for (const int id : {1, 2, 3, 4, 5, 6, 7, 8, 10001, 10099, 19999, 20001, 29999})
       expect(physical_id(2, physical_name(2, id)) == id, "the name of surface " + std::to_string(id));
 
     // In a file, names decide and ids are what is left: here all are shifted.
@@ -215,12 +221,13 @@ namespace
 
     HexMesh gap = open_joints(bar(3));
     for (const auto &face : gap.faces)
-      if (face.surface == 202)
+      if (face.surface == PhysicalId::joint_side_2 + 2)
         gap.nodes[*std::max_element(face.nodes.begin(), face.nodes.end())][1] += 0.01;
     expect_error([&] { open_joints(gap); }, {"joint 2", "side 1", "(1, 2, 1)", "0.01 m away"});
     HexMesh half = open_joints(bar(3));
     half.faces.erase(std::remove_if(half.faces.begin(), half.faces.end(),
-                                    [](const auto &face) { return face.surface == 201; }),
+                                    [](const auto &face)
+                                    { return face.surface == PhysicalId::joint_side_2 + 1; }),
                      half.faces.end());
     expect_error([&] { close_joints(half); }, {"joint 1", "no side 2", "'joint 1 side 2'"});
   }

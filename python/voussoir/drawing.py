@@ -146,15 +146,17 @@ def draw_crest_bars(axes, run, quantity, top, limit=0.):
     number = run.joints["joint"].astype(int)
     for k, (face, values) in enumerate(crest_values(run, quantity).items()):
         axes.bar(number + (k - 0.5) * 0.4, values, 0.38, color=FACES[face],
-                 label=f"{face}: {values.max():.1f} mm at joint {number[values.argmax()]}")
+                 label=f"{face}: {values.max():.1f} mm at {run.joint_name(number[values.argmax()])}")
         if (bar := run.error_bars[0].get(f"max_{quantity}")) and values.max() == common_top([run], quantity):
             show_error_bar(axes, number[values.argmax()] + (k - 0.5) * 0.4, values.max(), bar)
             top = max(top, values.max() * bar["high"] / bar["value"])
     show_limit(axes, 1e3 * limit, "mm", top)
     every = -(-len(number) // 15)
-    axes.set_xticks(number[::every])
-    axes.set(xlabel="joint, from the right bank to the left" if run.joints["s"][0] <= run.joints["s"][-1] else
-             "joint, from the left bank to the right", ylabel=f"maximum {quantity} [mm]")
+    axes.set_xticks(number[::every], [run.joint_name(joint, short=True) for joint in number[::every]])
+    bases = run.summary.get("mesh", {}).get("base_joints", [])
+    last = len(number) - len(bases) - 1  # of the contraction joints
+    order = "right bank to the left" if run.joints["s"][0] <= run.joints["s"][last] else "left bank to the right"
+    axes.set(xlabel=f"joint, from the {order}" + ("; b: base joint of a monolith, heel and toe" if bases else ""), ylabel=f"maximum {quantity} [mm]")
     axes.set_ylim(0, 1.42 * max(top, 1e3 * limit if 1e3 * limit < 2. * top else 0.) or 1)
     axes.grid(False, axis="x")
     axes.legend(loc="upper left", handletextpad=0.4, borderaxespad=0.2)
@@ -191,7 +193,7 @@ def draw_joint_history(axes, run, joint, quantity="opening"):
         values = 1e3 * table[f"{quantity}_{face}_{joint}"]
         largest = max(largest, values.max())
         axes.plot(table["time"], values, color=colour, linewidth=0.9, label=face)
-    note(axes, f"joint {joint}: {largest:.1f} mm")
+    note(axes, f"{run.joint_name(joint)}: {largest:.1f} mm")
     axes.yaxis.set_major_locator(MaxNLocator(4))
     axes.set_xlim(table["time"][0], table["time"][-1])
     return largest

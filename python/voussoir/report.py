@@ -153,7 +153,7 @@ def error_bars(page, runs):
 
 def dam_and_scene(page, runs):
     page.section("Dam and scene")
-    pictured = {tuple(run.summary.get("mesh", {}).items()): run for run in reversed(runs)}
+    pictured = {str(run.summary.get("mesh", {})): run for run in reversed(runs)}
     shown = [run for run in runs if run in pictured.values()]
     page.row("The mesh, seen from downstream, the right bank at the left; heavy lines are contraction joints.",
              [(named(shown, run), f"mesh of {run.name}", lambda run=run: figures.dam(run)) for run in shown])

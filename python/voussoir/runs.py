@@ -95,6 +95,15 @@ class Run:
         order = np.argsort(table["joint"])
         return {name: column[order] for name, column in table.items()}
 
+    def joint_name(self, number, short=False):
+        """joint 3, or base 2 for the base joint of monolith 2; short: 3 and b2."""
+        mesh = self.summary.get("mesh", {})
+        k = number - mesh.get("joints", number) - 1
+        bases = mesh.get("base_joints", [])
+        if not 0 <= k < len(bases):
+            return f"{number}" if short else f"joint {number}"
+        return f"b{bases[k]:g}" if short else f"base {bases[k]:g}"
+
     @cached_property
     def energy(self):
         table = read_history(self.directory / "energy.csv")

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Means of a run's largest tension over zones of the dam's faces: what `voussoir accuracy` measures stresses by."""
 
+import re
+
 import numpy as np
 
 from .tables import read_table
@@ -9,16 +11,21 @@ ZONES = 3  # of either face, along and up
 FOOT = 0.1  # of the height: nearer to the base is no zone
 
 
-def outline(x, corners):
-    """Positions of the nodes at the edges of the faces, except the crest: nodes on the base."""
+def is_slice(directory):
+    """True if the run is a slice in plane strain, whose sides are free."""
+    scene = directory / "scene.prm"
+    return scene.exists() and re.search(r"^\s*set Plane strain\s*=\s*true", scene.read_text(encoding="utf-8"), re.M) is not None
+
+
+def outline(x, corners, free_sides):
+    """Positions of the nodes at the edges of the faces, except the crest and free sides at both ends of y: nodes on the base."""
     places = np.round(x[:, :3], 2)
     number = np.unique(places, axis=0, return_inverse=True)[1].ravel()[corners]  # joints have two nodes at each place
     edges = np.sort(np.stack([number, np.roll(number, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
     _, first, count = np.unique(edges, axis=0, return_index=True, return_counts=True)
     ends = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2)[first[count == 1]]
-    side = np.isin(x[ends, 1], (x[:, 1].min(), x[:, 1].max())).all(axis=1) & (np.ptp(x[ends, 1], axis=1) == 0)
-    if (side | (np.ptp(x[ends, 2], axis=1) < 0.01)).all():  # a slice on a level base: its sides are free
-        ends = ends[~side]
+    if free_sides:
+        ends = ends[~(np.isin(x[ends, 1], (x[:, 1].min(), x[:, 1].max())).all(axis=1) & (np.ptp(x[ends, 1], axis=1) == 0))]
     below = x[ends, 2].min(axis=1) < x[:, 2].max() - 0.1
     return places[np.unique(ends[below])]
 
@@ -36,7 +43,7 @@ def zone_means(directory):
     inside = np.einsum("pk,qkc->qpc", weights, x[corners])  # quad, part, column
     diagonals = x[corners[:, 2], :3] - x[corners[:, 0], :3], x[corners[:, 3], :3] - x[corners[:, 1], :3]
     area = np.repeat(np.linalg.norm(np.cross(*diagonals), axis=1) / (2 * parts**2), parts * parts).reshape(len(corners), -1)
-    base = outline(x, corners)
+    base = outline(x, corners, is_slice(directory))
     foot = FOOT * (x[:, 2].max() - x[:, 2].min())
     means, areas = [], []
     for name in ("upstream", "downstream"):

@@ -34,6 +34,10 @@ namespace Voussoir
 
     Json json_of_mesh(const Dam &dam)
     {
+      std::vector<double> bases; // monoliths of the base joints, whose numbers follow those of the other joints
+      for (const Joint &joint : dam.joints)
+        if (joint.is_base())
+          bases.push_back(joint.monolith_2);
       Json json;
       json.add("cells", dam.n_cells)
           .add("degree", dam.scene.elements.degree)
@@ -41,6 +45,7 @@ namespace Voussoir
           .add("dofs", 3. * dam.structure.n_nodes())
           .add("monoliths", dam.n_monoliths)
           .add("joints", dam.n_joints)
+          .add_list("base_joints", bases)
           .add("pairs", dam.structure.pairs.size())
           .add("volume", dam.volume)
           .add("crest_length", dam.crest_length);

@@ -28,12 +28,25 @@ namespace Voussoir
       return strike <= 1e-6 * norm(applied) && dot(jump, change) >= .5 * norm(jump) * norm(change);
     }
 
-    /** Returns true if the stiffness of a joint is at most 4/dt^2 times the mass of the pair, in direction c. Such a
-     * pair needs no correction. The velocity of a stiffer pair would change its sign in each step, so that it is
-     * corrected like a rigid one; this takes less energy than the joint force of the step. */
-    bool is_soft(const Vector3 &compliance, const Matrix3 &H, const double dt, const unsigned int c)
+    /** Rows of a closed pair that the correction changes. */
+    enum class Rows
     {
-      return compliance[c] / H[4 * c] >= .25 * dt * dt;
+      none,
+      normal,
+      all
+    };
+
+    /** Returns the rows in which a joint is rigid, or its stiffness exceeds 4/dt^2 times the mass of the pair. The time
+     * step resolves the vibration of a softer joint. The velocity of a stiffer one would change its sign in each step,
+     * so that it is corrected like a rigid one; this takes less energy than the joint force of the step. */
+    Rows stiff_rows(const JointLaw &law, const Matrix3 &H, const double area, const double dt)
+    {
+      const ElasticLaw *elastic = law.elastic_law();
+      if (!elastic)
+        return Rows::all;
+      const Vector3 compliance = elastic->compliance(area);
+      const auto    is_soft = [&](const unsigned int c) { return compliance[c] / H[4 * c] >= .25 * dt * dt; };
+      return is_soft(0) ? Rows::none : is_soft(1) || is_soft(2) ? Rows::normal : Rows::all;
     }
 
     const Names<ImpactRule> names_of_rules = {{"mean-force", ImpactRule::mean_force},
@@ -113,19 +126,9 @@ namespace Voussoir
     if (!closed && !law.is_tangentially_tied())
       return;
     const Vector3 jump = structure.jump(pair, v), applied = get(impulse, p);
-    if (const ElasticLaw *elastic = law.elastic_law())
-    {
-      const Vector3 compliance = elastic->compliance(history.area);
-      if (is_soft(compliance, pair_inverse[p], dt, 0))
-        return; // the time step resolves its vibration
-      if (is_soft(compliance, pair_inverse[p], dt, 1) || is_soft(compliance, pair_inverse[p], dt, 2))
-      {
-        const Vector3 kept = law.stop_normal(pair_inverse[p], jump, applied, system.active_surfaces()[p] & 1);
-        add_impulse(pair, kept - applied, v);
-        set(impulse, p, kept);
-        return;
-      }
-    }
+    const Rows    rows = stiff_rows(law, pair_inverse[p], history.area, dt);
+    if (rows == Rows::none)
+      return;
     if (rule == ImpactRule::paper)
     {
       const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
@@ -136,12 +139,14 @@ namespace Voussoir
         impulse[3 * p + c] += f[c];
       return;
     }
-    if (rule == ImpactRule::mean_force && system.states()[p] == PairState::slip &&
-        slides_on(law, pair_inverse[p], jump, applied, get(change, p), system.active_surfaces()[p]))
+    const unsigned char active = system.active_surfaces()[p];
+    if (rows == Rows::normal || (rule == ImpactRule::mean_force && system.states()[p] == PairState::slip &&
+                                 slides_on(law, pair_inverse[p], jump, applied, get(change, p), active)))
     {
       // The mean friction of the step has an error of second order. Friction from the velocity at the end
       // would have one of first order.
-      const Vector3 kept = law.stop_normal(pair_inverse[p], jump, applied, system.active_surfaces()[p]);
+      const Vector3 kept =
+          law.stop_normal(pair_inverse[p], jump, applied, rows == Rows::normal ? active & 1 : active);
       add_impulse(pair, kept - applied, v);
       set(impulse, p, kept);
       return;

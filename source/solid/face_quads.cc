@@ -13,7 +13,7 @@ namespace Voussoir
     std::vector<unsigned int>            lattice(per_side * per_side);
     for (const auto &cell : model.dof_handler.active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary() && model.is_on(cell->face(f)->boundary_id(), surface))
+        if (cell->face(f)->at_boundary() && static_cast<int>(cell->face(f)->boundary_id()) == surface)
         {
           cell->get_dof_indices(dofs);
           // Nodes of the face by their two tangential reference coordinates.
