@@ -34,7 +34,8 @@ namespace Voussoir
 
     Json json_of_mesh(const Dam &dam)
     {
-      std::vector<double> bases; // monoliths of the base joints, whose numbers follow those of the other joints
+      std::vector<double>
+          bases; // monoliths of the base joints, whose numbers follow those of the other joints
       for (const Joint &joint : dam.joints)
         if (joint.is_base())
           bases.push_back(joint.monolith_2);
