@@ -104,15 +104,19 @@ def uplift():
 
 
 def slice_at_rest():
-    """A slice in plane strain under its own weight has no displacement and no joint force along y."""
+    """A slice in plane strain under its staged weight has no displacement along y, and its base carries the weight."""
     section("slice.msh", 8., 2., 10., 8, 8)
-    entries = sections({"joints": {"Friction": .5}, "young": 2e10})
+    entries = sections({"joints": {"Friction": .5, "Tangential stiffness": "1e9 Pa/m"}, "young": 2e10})
     entries["Statics"]["Self-weight"], entries["Concrete"]["Poisson's ratio"] = "staged", .25
     entries["Mesh"] = {"Source": "file", "File": "slice.msh", "Plane strain": "true"}
     runs(scene("slice", "slice.msh", **entries, Output={"Probes": "heel: 0 -0.5 0"}), "--output", "slice")
     names, rows = table("slice/history.csv")
     moved = [abs(value) for name, value in zip(names, rows[0]) if name.endswith("_y") and "acceleration" not in name]
     expect(moved and max(moved) == 0., f"displacements along y: {moved}")
+    names, rows = table("slice/joint_pressures.csv")
+    carried, weight = rows[0][names.index("mean_pressure")] * 8., 2400 * G * 50
+    print(f"    the base carries {carried:.0f} N of {weight:.0f} N")
+    expect(abs(carried / weight - 1) < 1e-6, f"the base carries {carried} N instead of {weight} N")
 
 
 def pulse(name, acceleration, direction, duration, end, dt):
