@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Joints with a stiffness and an adhesion: equations and Jacobian of one pair, its exact solution, loss of the adhesion;
-// a bar on an elastic joint in statics and in free vibration; a stiff joint that is pressed does not oscillate.
+// Joints with a stiffness and an adhesion. One pair: equations, Jacobian, exact solution, loss of the adhesion. A bar on
+// an elastic joint: static state and free vibration. A stiff joint under pressure does not oscillate.
 
 #include "column.h"
 
@@ -183,7 +183,7 @@ namespace
   }
 
   /** Free vibration of a rigid mass that is pressed on its joint: frequency, decay by the backward Euler rule of the
-   * joint, energy account. */
+   * joint, energy balance. */
   void vibration()
   {
     const BarOnJoint bars(k_n, 0., true);

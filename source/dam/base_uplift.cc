@@ -19,8 +19,8 @@ namespace Voussoir
     prm.add_parameter(
         "Base", base,
         "true: report the uplift at the base. The pressure is that of the reservoir at the heel "
-        "and that of the tail water at the toe, and linear between. The base is bonded, so the "
-        "uplift changes neither displacements nor stresses (doc/loads.md).");
+        "and that of the tail water at the toe, and linear between. The uplift of a bonded base changes "
+        "neither displacements nor stresses (doc/loads.md); on base joints it is a load.");
     prm.add_parameter("Drain position", drain_position,
                       "Distance of the drains from the heel, divided by the thickness of the base [-].",
                       Patterns::Double(0., 1.));

@@ -215,8 +215,8 @@ namespace Voussoir
     structure.collect_interfaces();
   }
 
-  /** Frees the nodes of base joints that are not tied, and finds their pairs. At the foot of a contraction joint the two
-   * nodes have pairs with the ground only, so that no node belongs to two pairs. */
+  /** Frees the nodes of base joints that are not tied, and finds their pairs. Where a contraction joint meets the
+   * base, the two nodes have pairs with the ground only, so that no node belongs to two pairs. */
   void Dam::open_base_joints()
   {
     std::set<int> sides;

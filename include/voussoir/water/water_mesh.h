@@ -45,7 +45,7 @@ namespace Voussoir
     /** Numbers #column and #far, and sets #places. */
     void link();
 
-    /** Returns the mesh of the far channel: one straight layer upstream of the end, without an end of its own. Its columns
+    /** Returns the mesh of the far channel: one straight layer upstream of the end, itself without an end. Its columns
      * are those of this mesh. */
     WaterMesh far_channel() const;
 
