@@ -127,7 +127,8 @@ namespace
   {
     const Solved direct = push(12, false, make_direct_coarse_rock);
     expect(direct.residual < 2e-11, "equilibrium");
-    expect(direct.iterations < 50, "iterations with CHOLMOD");
+    // 18; 28 with the diagonal of the coarse matrix alone
+    expect(direct.iterations < 23, "iterations with CHOLMOD: " + std::to_string(direct.iterations));
     std::cout << "iterations: " << direct.iterations << " with CHOLMOD\n";
 #ifdef VOUSSOIR_WITH_TRILINOS
     const Solved multigrid = push(12, false, make_multigrid_coarse_rock);
