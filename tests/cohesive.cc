@@ -247,7 +247,7 @@ namespace
     column.structure.collect_interfaces();
     JointLaws laws;
     laws.of_joint.push_back(make_joint_law("cohesive", parameters(f_t, G_f)));
-    laws.assign(column.structure.pairs);
+    laws.assign(column.structure);
     Newmark newmark(column.structure, laws, tight(), dt, ImpactRule::mean_force);
     newmark.start(column.zero(), column.zero(), {0., 0., 0.}, column.zero(), {0., 0., 0.});
     double     held = 0.;
@@ -277,7 +277,7 @@ namespace
     column.structure.collect_interfaces();
     JointLaws laws;
     laws.of_joint.push_back(make_joint_law("cohesive", parameters(f_t, G_f)));
-    laws.assign(column.structure.pairs);
+    laws.assign(column.structure);
     Newmark newmark(column.structure, laws, tight(), dt, ImpactRule::mean_force);
     newmark.start(column.zero(), column.zero(), {0., 0., 0.}, column.zero(), {0., 0., 0.});
     double     largest = 0.;
@@ -305,7 +305,7 @@ namespace
     JointLaws laws;
     laws.of_joint.push_back(make_joint_law("cohesive", parameters(weaker * f_t, G_f)));
     laws.of_joint.push_back(make_joint_law("cohesive", parameters(f_t, G_f)));
-    laws.assign(column.structure.pairs);
+    laws.assign(column.structure);
     const std::size_t n = 3 * column.structure.pairs.size();
     Newmark           newmark(column.structure, laws, tight(), dt, ImpactRule::mean_force);
     newmark.start(column.zero(), column.zero(), Unknowns(n, 0.), column.zero(), Unknowns(n, 0.));

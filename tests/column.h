@@ -148,10 +148,9 @@ namespace Columns
     for (HexMesh::Cell &cell : mesh.cells) // each bar is a zone
       cell.zone = cell.volume - 1;
     mesh.zones.resize(bars.size());
-    SolidModel                model(mesh, 1);
-    std::vector<unsigned int> master(model.n_nodes());
-    std::vector<bool>         fixed(model.n_nodes());
-    const auto                layer = [&](const unsigned int i)
+    SolidModel        model(mesh, 1);
+    std::vector<bool> fixed(model.n_nodes());
+    const auto        layer = [&](const unsigned int i)
     {
       const Bar   &bar = bars[model.body[i]];
       unsigned int nearest = 0;
@@ -163,10 +162,10 @@ namespace Columns
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> first;
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
     {
-      master[i] = first.try_emplace({model.body[i], layer(i)}, i).first->second;
+      model.master[i] = first.try_emplace({model.body[i], layer(i)}, i).first->second;
       fixed[i] = is_fixed && is_fixed(model.points[i][0]);
     }
-    model.number_equations(fixed, master);
+    model.number_equations(fixed);
 
     Column column;
     column.structure = assemble_structure(model, materials, true);
@@ -191,7 +190,7 @@ namespace Columns
     JointLaws laws;
     for (unsigned int j = 0; j < structure.n_joints; ++j)
       laws.of_joint.push_back(make_joint_law(name, friction, equations_from_name(equations)));
-    laws.assign(structure.pairs);
+    laws.assign(structure);
     return laws;
   }
 

@@ -857,7 +857,7 @@ namespace
     JointLaws laws;
     for (unsigned int j = 0; j < structure.n_joints; ++j)
       laws.of_joint.push_back(make_joint_law(name, mu, Equations::alart_curnier, k));
-    laws.assign(structure.pairs);
+    laws.assign(structure);
     return laws;
   }
 

@@ -160,7 +160,7 @@ namespace
       column.structure.collect_interfaces();
       LawParameters p = parameters(normal, tangential, 0.);
       laws.of_joint.push_back(make_joint_law("FJA", p));
-      laws.assign(column.structure.pairs);
+      laws.assign(column.structure);
     }
     Column    column;
     JointLaws laws;

@@ -66,7 +66,7 @@ namespace
         : model(mesh, 1), structure(with_joints(model, {Material()}))
     {
       laws.of_joint.push_back(make_joint_law(law, face_friction, Equations::alart_curnier, keys));
-      laws.assign(structure.pairs);
+      laws.assign(structure);
       system = std::make_unique<JointSystem>(structure, laws, tight(), StepOperator());
       force.assign(3 * structure.pairs.size(), 0.);
       gap = force;

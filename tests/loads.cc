@@ -399,7 +399,7 @@ namespace
       structure.n_joints = 1;
       structure.collect_interfaces();
       laws.of_joint.push_back(make_joint_law("FJA", LawParameters(.8)));
-      laws.assign(structure.pairs);
+      laws.assign(structure);
       load = temperature_load(model, {concrete}, true, heat(10. + dt, 10. + dt), ".").load;
       system = std::make_unique<JointSystem>(structure, laws, ContactParameters(), StepOperator());
     }

@@ -711,7 +711,7 @@ namespace
     structure.collect_interfaces();
     JointLaws laws;
     laws.of_joint.push_back(make_joint_law("FJA", .5));
-    laws.assign(structure.pairs);
+    laws.assign(structure);
     const double dt = .001, push = 4.;
     Newmark      newmark(structure, laws, ContactParameters(), dt, ImpactRule::mean_force);
     newmark.start({0., 0., 0.}, {0., 1., 0.}, {push, -.5 * push, 0.}, {-push, 0., 0.}, {0., 0., 0.});

@@ -41,7 +41,7 @@ namespace
     const Wall wall;
     JointLaws  laws;
     laws.of_joint.push_back(make_joint_law("FJA", LawParameters(.8)));
-    laws.assign(wall.structure.pairs);
+    laws.assign(wall.structure);
     JointRecorder  recorder(wall.structure, *wall.geometry);
     const Unknowns none(3 * wall.structure.n_nodes(), 0.), closed(3 * wall.structure.pairs.size(), 0.);
     for (const double part : {1., .5})

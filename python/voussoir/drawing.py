@@ -143,20 +143,24 @@ def common_top(runs, quantity):
 
 def draw_crest_bars(axes, run, quantity, top, limit=0.):
     """The largest openings or slips at the crest, bars on both faces of each joint."""
-    number = run.joints["joint"].astype(int)
-    for k, (face, values) in enumerate(crest_values(run, quantity).items()):
+    of_part = [run.joint_name(joint, short=True) for joint in run.joints["joint"].astype(int)]
+    names = list(dict.fromkeys(name.split(".")[0] for name in of_part))  # of joints whose parts have one bar
+    number = np.arange(1, len(names) + 1)
+    for k, (face, of_parts) in enumerate(crest_values(run, quantity).items()):
+        values = np.array([max(v for v, part in zip(of_parts, of_part) if part.split(".")[0] == name) for name in names])
         axes.bar(number + (k - 0.5) * 0.4, values, 0.38, color=FACES[face],
-                 label=f"{face}: {values.max():.1f} mm at {run.joint_name(number[values.argmax()])}")
+                 label=f"{face}: {values.max():.1f} mm at {run.joint_name(run.joints['joint'][of_parts.argmax()])}")
         if (bar := run.error_bars[0].get(f"max_{quantity}")) and values.max() == common_top([run], quantity):
             show_error_bar(axes, number[values.argmax()] + (k - 0.5) * 0.4, values.max(), bar)
             top = max(top, values.max() * bar["high"] / bar["value"])
     show_limit(axes, 1e3 * limit, "mm", top)
     every = -(-len(number) // 15)
-    axes.set_xticks(number[::every], [run.joint_name(joint, short=True) for joint in number[::every]])
-    bases = run.summary.get("mesh", {}).get("base_joints", [])
-    last = len(number) - len(bases) - 1  # of the contraction joints
-    order = "right bank to the left" if run.joints["s"][0] <= run.joints["s"][last] else "left bank to the right"
-    axes.set(xlabel=f"joint, from the {order}" + ("; b: base joint of a monolith, heel and toe" if bases else ""), ylabel=f"maximum {quantity} [mm]")
+    axes.set_xticks(number[::every], names[::every])
+    last = sum(name[0].isdigit() for name in of_part if "." not in name) - 1  # of the contraction joints
+    order = "right bank to the left" if run.joints["s"][0] <= run.joints["s"][max(last, 0)] else "left bank to the right"
+    kinds = {"l": "lift joints", "b": "base joint"}
+    others = "".join(f"; {kind}: {text} of a monolith" for kind, text in kinds.items() if any(name[0] == kind for name in names))
+    axes.set(xlabel=f"joint, from the {order}" + others, ylabel=f"maximum {quantity} [mm]")
     axes.set_ylim(0, 1.42 * max(top, 1e3 * limit if 1e3 * limit < 2. * top else 0.) or 1)
     axes.grid(False, axis="x")
     axes.legend(loc="upper left", handletextpad=0.4, borderaxespad=0.2)

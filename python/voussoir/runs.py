@@ -96,8 +96,11 @@ class Run:
         return {name: column[order] for name, column in table.items()}
 
     def joint_name(self, number, short=False):
-        """joint 3, or base 2 for the base joint of monolith 2; short: 3 and b2."""
+        """joint 3, lift 2.1, or base 2 for the base joint of monolith 2; short: 3, l2.1 and b2."""
         mesh = self.summary.get("mesh", {})
+        if names := mesh.get("joint_names"):
+            name = names[int(number) - 1]
+            return name.replace("joint ", "").replace("lift ", "l").replace("base ", "b") if short else name
         k = number - mesh.get("joints", number) - 1
         bases = mesh.get("base_joints", [])
         if not 0 <= k < len(bases):

@@ -149,8 +149,8 @@ namespace Voussoir
         for (std::size_t k = j; k < joints.size(); ++k)
         {
           const Joint &a = joints[j], &b = joints[k];
-          if ((a.monolith_1 == b.monolith_1 && !a.is_base()) || a.monolith_1 == b.monolith_2 ||
-              a.monolith_2 == b.monolith_1 || a.monolith_2 == b.monolith_2)
+          if ((a.block_1 == b.block_1 && !a.is_base()) || a.block_1 == b.block_2 || a.block_2 == b.block_1 ||
+              a.block_2 == b.block_2)
             factors.operators += m[j] * m[k];
           if (j == k)
             factors.diagonal += m[j] * m[k];

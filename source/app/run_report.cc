@@ -137,11 +137,14 @@ namespace Voussoir
                                         std::make_pair(joints.adhesion, " Pa adhesion")})
         if (value > 0.)
           laws << ", " << value << text;
-      const std::size_t n_base = dam.joints.size() - dam.n_joints;
-      const std::string bases =
-          n_base == 0 ? "" : ", " + std::to_string(n_base) + " base joint" + (n_base == 1 ? "" : "s");
+      std::string others;
+      for (const std::string kind : {"lift", "base"})
+        if (const auto n = std::count_if(dam.joints.begin(), dam.joints.end(),
+                                         [&](const Joint &joint) { return joint.kind() == kind; });
+            n > 0)
+          others += ", " + std::to_string(n) + " " + kind + " joint" + (n == 1 ? "" : "s");
       log.line("Joints    %u joint%s%s, %zu pairs, law %s", dam.n_joints, dam.n_joints == 1 ? "" : "s",
-               bases.c_str(), dam.structure.pairs.size(), laws.str().c_str());
+               others.c_str(), dam.structure.pairs.size(), laws.str().c_str());
     }
 
   } // namespace

@@ -36,9 +36,13 @@ namespace Voussoir
     {
       std::vector<double>
           bases; // monoliths of the base joints, whose numbers follow those of the other joints
+      std::vector<std::string> names;
       for (const Joint &joint : dam.joints)
+      {
+        names.push_back(joint.name());
         if (joint.is_base())
-          bases.push_back(joint.monolith_2);
+          bases.push_back(joint.monolith_2());
+      }
       Json json;
       json.add("cells", dam.n_cells)
           .add("degree", dam.scene.elements.degree)
@@ -46,6 +50,7 @@ namespace Voussoir
           .add("dofs", 3. * dam.structure.n_nodes())
           .add("monoliths", dam.n_monoliths)
           .add("joints", dam.n_joints)
+          .add_texts("joint_names", names)
           .add_list("base_joints", bases)
           .add("pairs", dam.structure.pairs.size())
           .add("volume", dam.volume)

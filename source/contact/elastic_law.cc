@@ -153,16 +153,22 @@ namespace Voussoir
     return energy;
   }
 
+  /** Returns the elastic energy that a step adds along n, a or b [J]. @p row: 0, 1 or 2. */
+  double ElasticLaw::change_of_row(const unsigned int row, const Vector3 &force,
+                                   const PairHistory &history) const
+  {
+    const double before = history.memory[stress + row] * history.area;
+    return .5 * compliance(history.area)[row] * (force[row] * force[row] - before * before);
+  }
+
+  double ElasticLaw::stored_change(const Vector3 &force, const PairHistory &history) const
+  {
+    return change_of_row(0, force, history) - friction_correction(force, history);
+  }
+
   double ElasticLaw::friction_correction(const Vector3 &force, const PairHistory &history) const
   {
-    const Vector3 D = compliance(history.area);
-    double        stored = 0.;
-    for (unsigned int i = 1; i < 3; ++i)
-    {
-      const double before = history.memory[stress + i] * history.area;
-      stored += .5 * D[i] * (force[i] * force[i] - before * before);
-    }
-    return -stored;
+    return -change_of_row(1, force, history) - change_of_row(2, force, history);
   }
 
   std::unique_ptr<JointLaw> make_elastic_law(std::unique_ptr<JointLaw> face, const LawParameters &p)

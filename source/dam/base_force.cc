@@ -157,7 +157,7 @@ namespace Voussoir
     for_faces(model, PhysicalId::base, model.fe.degree + 1,
               [&](const FEFaceValues<3> &values, const auto &)
               {
-                Surface &surface = surfaces[values.get_cell()->material_id()];
+                Surface &surface = surfaces[monolith_of(values.get_cell()->material_id())];
                 for (const unsigned int q : values.quadrature_point_indices())
                 {
                   surface.area += values.JxW(q);
@@ -206,7 +206,7 @@ namespace Voussoir
     std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
     for (const auto &cell : model.dof_handler.active_cell_iterators())
     {
-      const unsigned int b = block_of(cell->material_id());
+      const unsigned int b = block_of(monolith_of(cell->material_id()));
       cell->get_dof_indices(dofs);
       for (const auto i : dofs)
         if (b < of_block.size() && supporting.count(equation[i]) > 0)
@@ -231,7 +231,8 @@ namespace Voussoir
       const bool first = stands(pairs[p].node_1), second = stands(pairs[p].node_2);
       if (first == second || (part != nullptr && !part->contains(pairs[p].place)))
         continue;
-      const unsigned int b = block_of(static_cast<int>(pairs[p].joint) + (first ? 1 : 2));
+      const Joint       &joint = dam.joints[pairs[p].joint];
+      const unsigned int b = block_of(first ? joint.monolith_1() : joint.monolith_2());
       if (b == of_block.size())
         continue;
       lone.push_back({p, b, first ? 1. : -1.});
@@ -242,7 +243,7 @@ namespace Voussoir
   void BaseForces::add_crack_water(const Pair &pair, const double force)
   {
     for (BlockBase &base : of_block)
-      if (base.monolith == dam.joints[pair.joint].monolith_2)
+      if (base.monolith == dam.joints[pair.joint].monolith_2())
         base.uplift += force * dot(pair.frame[0], base.axes[2]);
   }
 

@@ -61,7 +61,7 @@ namespace Voussoir
                   for (unsigned int c = 0; c < 3; ++c)
                   {
                     const double f = -factor * p * values.normal_vector(q)[c] * values.JxW(q);
-                    uplift.of_monolith[values.get_cell()->material_id()][c] += f;
+                    uplift.of_monolith[monolith_of(values.get_cell()->material_id())][c] += f;
                     for (unsigned int i = 0; i < dofs.size(); ++i)
                       uplift.force[3 * dofs[i] + c] += f * values.shape_value(i, q);
                   }

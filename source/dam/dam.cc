@@ -24,15 +24,15 @@ namespace Voussoir
 {
   namespace
   {
-    /** Throws InputError if a joint j is not between the monoliths j and j + 1. */
+    /** Throws InputError if there is no joint j between the monoliths j and j + 1. */
     void check_joint_numbers(const HexMesh &opened, const std::string &source)
     {
       std::set<int> numbers, monoliths;
       for (const Joint &joint : joints_of(opened))
-        if (!joint.is_base())
-          numbers.insert(joint.number);
+        if (joint.is_contraction())
+          numbers.insert(joint.contraction_number());
       for (const HexMesh::Cell &cell : opened.cells)
-        monoliths.insert(cell.volume);
+        monoliths.insert(monolith_of(cell.volume));
       const int n_joints = std::max(numbers.empty() ? 0 : *numbers.rbegin(),
                                     monoliths.size() > 1 ? *monoliths.rbegin() - 1 : 0);
       for (int j = 1; j <= n_joints; ++j)
@@ -56,8 +56,8 @@ namespace Voussoir
           base.insert(face.nodes.begin(), face.nodes.end());
       std::map<int, bool> stands;
       for (const HexMesh::Cell &cell : opened.cells)
-        stands[cell.volume] |= std::any_of(cell.nodes.begin(), cell.nodes.end(),
-                                           [&](const unsigned int n) { return base.count(n) > 0; });
+        stands[monolith_of(cell.volume)] |= std::any_of(
+            cell.nodes.begin(), cell.nodes.end(), [&](const unsigned int n) { return base.count(n) > 0; });
       for (const auto &[monolith, does] : stands)
         if (!does)
           throw InputError("mesh " + source + ": monolith " + std::to_string(monolith) +
@@ -139,8 +139,8 @@ namespace Voussoir
       while (static_cast<int>(joints.size()) + 1 < joint.number)
         joints.push_back({static_cast<int>(joints.size()) + 1, -1, 0});
       joints.push_back(joint);
-      if (!joint.is_base())
-        n_joints = joint.number;
+      if (joint.is_contraction())
+        n_joints = std::max<unsigned int>(n_joints, joint.contraction_number());
     }
     check_joint_numbers(opened, source);
     return opened;
@@ -155,7 +155,7 @@ namespace Voussoir
       joint_models.push_back(tie_all ? "tied" : scene.joints.model_of(joint));
       tied = tied && joint_models.back() == "tied";
       laws.of_joint.push_back(make_joint_law(joint_models.back(), scene.joints.law(scene.concrete.young)));
-      known.insert({std::to_string(joint.number), joint.name(), joint.kind()});
+      known.insert({std::to_string(joint.contraction_number()), joint.name(), joint.kind()});
     }
     for (const auto &[key, model] : scene.joints.overrides)
       if (known.count(key) == 0)
@@ -184,20 +184,40 @@ namespace Voussoir
     structure = assemble_structure(*model, materials, incompatible_modes);
     geometry = std::make_unique<DamGeometry>(*model, pairs, n_all, source);
     initial_stress.assign(model->n_nodes(), Stress{});
+    const auto is_lift = [&](const unsigned int j) { return joints[j].is_lift(); };
+    const bool has_lifts =
+        std::any_of(joints.begin(), joints.end(), [](const Joint &j) { return j.is_lift(); });
     if (scene.statics.self_weight == "staged")
-      stage_self_weight(); // on a rigid base; later displacements are relative to this state
+    {
+      // on a rigid base and in whole monoliths; later displacements are relative to this state
+      if (has_lifts)
+      {
+        tie_joints(*model, n_all, is_lift);
+        structure = assemble_structure(*model, materials, incompatible_modes);
+      }
+      stage_self_weight();
+    }
+    if (has_lifts)
+    {
+      model = std::make_unique<SolidModel>(opened, scene.elements.degree);
+      model->plane_strain = scene.mesh.plane_strain;
+      tie_joints(*model, n_all,
+                 [&](const unsigned int j) { return is_lift(j) && joint_models[j] == "tied"; });
+      structure = assemble_structure(*model, materials, incompatible_modes);
+      pairs = find_pairs(*model, n_all);
+    }
     if (foundation->base() != Foundation::Base::fixed)
     {
       model->free_base();
       if (foundation->base() == Foundation::Base::merged)
-        tie_joints(*model, n_all, true); // the monoliths share their base nodes
+        tie_base_nodes(*model, n_all); // the monoliths share their base nodes
       structure = assemble_structure(*model, materials, incompatible_modes);
       pairs = find_pairs(*model, n_all);
       if (foundation->base() == Foundation::Base::coupled)
         remove_base_pairs(pairs);
       geometry = std::make_unique<DamGeometry>(*model, pairs, n_all, source);
     }
-    if (tied && n_joints > 0)
+    if (tied && n_joints + has_lifts > 0)
     {
       tie_joints(*model, n_all);
       structure = assemble_structure(*model, materials, incompatible_modes);
@@ -206,6 +226,7 @@ namespace Voussoir
     {
       structure.pairs = std::move(pairs);
       open_base_joints();
+      open_lift_joints();
       geometry = std::make_unique<DamGeometry>(*model, structure.pairs, n_all, source);
     }
     structure.mass_damping = scene.damping.mass_factor();
@@ -247,24 +268,60 @@ namespace Voussoir
                                         standing.count(pair.node_1) + standing.count(pair.node_2) > 0;
                                }),
                 pairs.end());
-    structure.group_of_joint.resize(joints.size());
-    for (std::size_t j = 0; j < joints.size(); ++j) // the base joint of monolith m belongs to joint m - 1
-      structure.group_of_joint[j] = joints[j].is_base() ? std::max(0, joints[j].monolith_2 - 2) : j;
-    std::stable_sort(pairs.begin(), pairs.end(),
-                     [&](const Pair &a, const Pair &b) { return structure.group(a) < structure.group(b); });
-    find_weight_on_base();
+    group_by_monolith();
+    has_open_bases = true;
+    find_weight_on_joints();
   }
 
-  /** Finds the load of the staged weight on free base nodes. Displacements are relative to the state after the
-   * self-weight, in which the base joints already carry it. */
-  void Dam::find_weight_on_base()
+  /** Checks the lift joints that are not tied, and finds the clusters of pairs where they cross other joints. */
+  void Dam::open_lift_joints()
   {
-    weight_on_base.assign(3 * std::size_t(structure.n_nodes()), 0.);
+    const auto is_open = [&](const Joint &joint)
+    { return joint.is_lift() && joint_models[joint.number - 1] != "tied"; };
+    if (std::none_of(joints.begin(), joints.end(), is_open))
+      return;
+    if (foundation->uses_rock())
+      throw InputError(
+          "The mesh has lift joints, which require a rigid foundation. Set \"Foundation/Model\" to rigid, "
+          "or \"Joints/Overrides\" to \"lift: tied\".");
+    group_by_monolith();
+    structure.clusters = clusters_of(structure.pairs);
+    for (const auto &cluster : structure.clusters)
+      for (const unsigned int p : cluster)
+        if (const unsigned int j = structure.pairs[p].joint; joint_models[j] == "KSM")
+          throw InputError(
+              "The law of " + joints[j].name() +
+              " is KSM, but the joint crosses lift joints, and shear "
+              "keys cannot cross joints. Set \"Joints/Overrides\" to \"lift: tied\", or the model of this "
+              "joint to FJA, FJB or cohesive.");
+    has_open_lifts = true;
+    find_weight_on_joints();
+  }
+
+  /** Groups and sorts the pairs: the lift and base joints of monolith m belong to the contraction joint m - 1. */
+  void Dam::group_by_monolith()
+  {
+    structure.group_of_joint.resize(joints.size());
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      structure.group_of_joint[j] = joints[j].is_contraction() ? joints[j].contraction_number() - 1
+                                                               : std::max(0, joints[j].monolith_2() - 2);
+    std::stable_sort(structure.pairs.begin(), structure.pairs.end(),
+                     [&](const Pair &a, const Pair &b) {
+                       return std::make_pair(structure.group(a), a.joint) <
+                              std::make_pair(structure.group(b), b.joint);
+                     });
+  }
+
+  /** Finds the load of the staged weight on free nodes of base and lift joints. Displacements are relative to the
+   * state after the self-weight, in which these joints already carry it. */
+  void Dam::find_weight_on_joints()
+  {
+    weight_on_joints.assign(3 * std::size_t(structure.n_nodes()), 0.);
     for (unsigned int i = 0; i < model->n_nodes() && !staged_reaction.empty(); ++i)
       if (const unsigned int e = model->equation[i]; e != rigid_ground)
         for (unsigned int c = 0; c < 3; ++c)
-          weight_on_base[3 * e + c] -= staged_reaction[3 * i + c];
-    structure.remove_held_forces(weight_on_base);
+          weight_on_joints[3 * e + c] -= staged_reaction[3 * i + c];
+    structure.remove_held_forces(weight_on_joints);
   }
 
   bool Dam::has_sustained_moduli() const
@@ -303,10 +360,37 @@ namespace Voussoir
     return base;
   }
 
+  /** Makes the laws of pairs that share nodes with other pairs. Where joints cross, their conditions are redundant. The
+   * compliance of these laws makes the forces unique. It is that of a thin layer of concrete, and about 3e-2 of the
+   * flexibility of the concrete around a pair in a step of 10 ms. */
+  void Dam::make_laws_of_crossings()
+  {
+    constexpr double thickness = .2; // of the layer of concrete, in distances of the nodes
+    if (structure.clusters.empty())
+      return;
+    std::vector<double>       area(joints.size(), 0.);
+    std::vector<unsigned int> n(joints.size(), 0);
+    for (const auto &cluster : structure.clusters)
+      for (const unsigned int p : cluster)
+      {
+        area[structure.pairs[p].joint] += structure.pairs[p].area;
+        ++n[structure.pairs[p].joint];
+      }
+    for (std::size_t j = 0; j < joints.size(); ++j)
+    {
+      LawParameters parameters = scene.joints.law(scene.concrete.young);
+      const double  added = scene.concrete.young / (thickness * std::sqrt(area[j] / std::max(1u, n[j])));
+      for (double *stiffness : {&parameters.normal_stiffness, &parameters.tangential_stiffness})
+        *stiffness = n[j] == 0 ? *stiffness : *stiffness == 0. ? added : 1. / (1. / *stiffness + 1. / added);
+      laws.of_crossings.push_back(make_joint_law(joint_models[j], parameters));
+    }
+  }
+
   /** Assigns the laws of the pairs. Pairs at the base are tied if the foundation requires it. */
   void Dam::tie_base()
   {
-    laws.assign(structure.pairs);
+    make_laws_of_crossings();
+    laws.assign(structure);
     if (laws.need_mean_force() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)
       throw InputError("The joint models " + joint_laws_of_mean_force() +
                        " require \"Dynamics/Impact\" = mean-force, not " + scene.impact_rule + ".");
@@ -326,8 +410,8 @@ namespace Voussoir
       for (std::size_t i = 0; i < load.stress.size(); ++i)
         for (unsigned int c = 0; c < 6; ++c)
           initial_stress[i][c] += load.stress[i][c];
-    if (has_base_joints() && !staged_reaction.empty())
-      loads.push_back({"self-weight at the base", false, 1., weight_on_base, {}});
+    if (has_loose_blocks() && !staged_reaction.empty())
+      loads.push_back({"self-weight in joints", false, 1., weight_on_joints, {}});
     if (has_base_joints() && scene.loads.uplift.base && scene.loads.factor("uplift") != 0.)
       loads.push_back({"uplift at the base", true, scene.loads.factor("uplift"), uplift_at_base(), {}});
     if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0.)
@@ -422,7 +506,8 @@ namespace Voussoir
     find_staged_reaction(weight, u);
   }
 
-  /** Computes #staged_reaction: the residuals of the equilibrium at the fixed nodes.
+  /** Computes #staged_reaction: the residuals of the equilibrium at the fixed nodes, and of each block at the nodes of
+   * lift joints.
    * @param weight gravity with the factor of the load combination [m/s^2]
    * @param u displacement of the free nodes under staged self-weight [m] */
   void Dam::find_staged_reaction(const double weight, const Unknowns &u)
@@ -430,16 +515,22 @@ namespace Voussoir
     staged_reaction.assign(3 * std::size_t(model->n_nodes()), 0.);
     std::vector<dealii::types::global_dof_index> dofs(model->fe.n_dofs_per_cell());
     CellElasticity                               elasticity(model->fe, scene.elements.incompatible_modes);
+    std::vector<bool>                            in_lift(model->n_nodes(), false);
+    for (unsigned int i = 0; i < model->n_nodes(); ++i)
+      in_lift[i] = std::any_of(model->surfaces[i].begin(), model->surfaces[i].end(),
+                               [&](const int id)
+                               { return is_joint_side(id) && joints[number_of_joint(id) - 1].is_lift(); });
     const auto is_fixed = [&](const auto node) { return model->equation[node] == rigid_ground; };
+    const auto is_held = [&](const auto node) { return is_fixed(node) || in_lift[node]; };
     for (const auto &cell : model->dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
-      if (std::none_of(dofs.begin(), dofs.end(), is_fixed))
+      if (std::none_of(dofs.begin(), dofs.end(), is_held))
         continue;
       elasticity.reinit(cell, model->material_of(cell, sustained));
       for (unsigned int i = 0; i < dofs.size(); ++i)
       {
-        if (!is_fixed(dofs[i]))
+        if (!is_held(dofs[i]))
           continue;
         Vector3 force = get(staged_reaction, dofs[i]);
         force[2] += weight * elasticity.mass[i];

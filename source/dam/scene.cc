@@ -77,9 +77,9 @@ namespace Voussoir
     LawParameters::add_parameters(prm);
     prm.add_parameter(
         "Overrides", overrides,
-        "Models of single joints, as \"3: tied, base: cohesive, base 2: FJB\": number, kind (contraction, "
-        "base) or name (base 2: the base joint of monolith 2) of the joints. Joints are numbered from "
-        "the right bank.",
+        "Models of single joints, as \"3: tied, base: cohesive, lift 2.1: FJB\": number, kind (contraction, lift, "
+        "base) or name of the joints. base 2 is the base joint of monolith 2, lift 2.1 the joint between its lifts 1 "
+        "and 2, joint 3.2 the part of joint 3 between lifts 2. Joints are numbered from the right bank.",
         Patterns::Map(Patterns::Anything(), Patterns::Selection(joint_law_names())));
     prm.add_parameter(
         "Equations", equations_name,
@@ -102,7 +102,7 @@ namespace Voussoir
 
   const std::string &JointParameters::model_of(const Joint &joint) const
   {
-    for (const std::string &key : {std::to_string(joint.number), joint.name(), joint.kind()})
+    for (const std::string &key : {std::to_string(joint.contraction_number()), joint.name(), joint.kind()})
       if (const auto found = overrides.find(key); found != overrides.end())
         return found->second;
     return model;
@@ -117,11 +117,13 @@ namespace Voussoir
 
   void JointParameters::add_choices(ModelChoices &choices) const
   {
-    if (choices.n_joints == 0 && !choices.has_base_joints)
+    if (choices.n_joints == 0 && !choices.has_base_joints && !choices.has_lift_joints)
       return;
     add_law_choices(model, *this, choices);
     if (choices.has_base_joints && overrides.empty() && model != "tied")
       choices.add("joints", "bonded base", {{"Joints/Overrides", "base: tied"}}, true);
+    if (choices.has_lift_joints && overrides.empty() && model != "tied")
+      choices.add("joints", "tied lift joints", {{"Joints/Overrides", "lift: tied"}}, true);
     if (overrides.empty() && model != "tied" && choices.n_joints > 1)
     {
       std::string tied;
@@ -349,7 +351,8 @@ namespace Voussoir
     for (const HexMesh::Cell &cell : hexes.cells)
       if (is_monolith(cell.volume))
       {
-        choices.n_joints = std::max<unsigned int>(choices.n_joints, cell.volume - 1);
+        choices.n_joints = std::max<unsigned int>(choices.n_joints, monolith_of(cell.volume) - 1);
+        choices.has_lift_joints = choices.has_lift_joints || lift_of(cell.volume) > 1;
         for (const unsigned int node : cell.nodes)
         {
           choices.bottom = std::min(choices.bottom, hexes.nodes[node][2]);

@@ -149,7 +149,7 @@ namespace Voussoir
     for (std::size_t p = 0; p < laws.of_pair.size(); ++p)
       if (dam.structure.pairs[p].place[2] > grouted &&
           dam.joint_models[dam.structure.pairs[p].joint] != "tied" &&
-          !dam.joints[dam.structure.pairs[p].joint].is_base() && // cast, not grouted
+          dam.joints[dam.structure.pairs[p].joint].is_contraction() && // others are cast, not grouted
           laws.of_pair[p] != dam.laws.of_joint.back().get())
         laws.of_pair[p] = &free;
     return laws;

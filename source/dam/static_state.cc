@@ -20,11 +20,12 @@ namespace Voussoir
     constexpr double usual_gap = 5e-3; // usual gap of joints before grouting [m]
 
     /** Grouts the pairs between two heights: their gap is zero in the current state. */
-    void close_pairs(const Structure &structure, const double from, const double to, const Unknowns &u,
-                     Unknowns &closed, Unknowns &gap)
+    void close_pairs(const Structure &structure, const std::vector<Joint> &joints, const double from,
+                     const double to, const Unknowns &u, Unknowns &closed, Unknowns &gap)
     {
       for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-        if (const double z = structure.pairs[p].place[2]; z > from && z <= to && !structure.pairs[p].is_base)
+        if (const double z = structure.pairs[p].place[2];
+            z > from && z <= to && joints[structure.pairs[p].joint].is_contraction())
         {
           set(closed, p, structure.jump(structure.pairs[p], u));
           set(gap, p, {});
@@ -44,7 +45,7 @@ namespace Voussoir
             path(dam), free(make_free_law())
       {
         const Scene &scene = dam.scene;
-        if (dam.has_base_joints())
+        if (dam.has_loose_blocks())
           least_proximal = 1e-3 * (proximal = .3 * std::min(scene.concrete.young, stiffest) /
                                               (scene.concrete.density * dam.size * dam.size));
         state.force.assign(3 * dam.structure.pairs.size(), 0.);
@@ -100,7 +101,7 @@ namespace Voussoir
 
       void grout(const double before, const double up_to)
       {
-        close_pairs(dam.structure, before, up_to, state.u, state.closed, gap);
+        close_pairs(dam.structure, dam.joints, before, up_to, state.u, state.closed, gap);
         grouted = up_to;
         make_system();
       }
@@ -161,15 +162,14 @@ namespace Voussoir
 
       [[noreturn]] void throw_no_equilibrium(const Unknowns &force) const
       {
-        const int         number = fastest_body(force);
-        const std::string monolith = "monolith " + std::to_string(number);
+        const Body &body = fastest_body(force);
         throw ComputationError(
-            "The static state has no equilibrium: " + monolith + " moves without limit on its base joint" +
+            "The static state has no equilibrium: " + body.name() + " moves without limit on its joints" +
             (grouted < INFINITY
                  ? ", in a stage before all joints are grouted. Grout the joints before this stage"
                  : std::string(". Check the friction (\"Joints/Friction\"), the water level and the "
                                "uplift")) +
-            ", or bond its base (\"Joints/Overrides\" = base " + std::to_string(number) + ": tied).");
+            ", or bond its base or lift joints (\"Joints/Overrides\" = base: tied, lift: tied).");
       }
 
       static double norm_1(const Unknowns &x)
@@ -191,11 +191,11 @@ namespace Voussoir
         }
       }
 
-      /** Returns the number of the monolith with the largest sum of forces. */
-      int fastest_body(const Unknowns &force) const
+      /** Returns the body with the largest sum of forces. */
+      const Body &fastest_body(const Unknowns &force) const
       {
-        double largest = -1.;
-        int    number = 0;
+        double      largest = -1.;
+        const Body *fastest = nullptr;
         for (const Body &body : structure.bodies)
         {
           double sum = 0.;
@@ -203,9 +203,9 @@ namespace Voussoir
                k < 3 * std::size_t(body.first_node + body.n_nodes()); ++k)
             sum += std::abs(force[k]);
           if (sum > largest)
-            largest = sum, number = body.number;
+            largest = sum, fastest = &body;
         }
-        return number;
+        return *fastest;
       }
 
       /** Solves a step, repeatedly until water spreads to no further pair. */
@@ -265,7 +265,8 @@ namespace Voussoir
                         n_of(PairState::slip),
                         water ? water->n_wet() : 0};
         for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
-          if (const Pair &pair = dam.structure.pairs[p]; pair.place[2] <= part.grouted || pair.is_base)
+          if (const Pair &pair = dam.structure.pairs[p];
+              pair.place[2] <= part.grouted || !dam.joints[pair.joint].is_contraction())
             step.opening = std::max(step.opening, gap[3 * p]);
           else
             step.overlap = std::max(step.overlap, -dam.structure.jump(pair, state.u)[0]);

@@ -5,6 +5,7 @@
 #include <voussoir/base/parallel.h>
 #include <voussoir/contact/elastic_law.h>
 #include <voussoir/contact/pair_conditions.h>
+#include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh.h>
 
 #include <algorithm>
@@ -28,25 +29,22 @@ namespace Voussoir
       return strike <= 1e-6 * norm(applied) && dot(jump, change) >= .5 * norm(jump) * norm(change);
     }
 
-    /** Rows of a closed pair that the correction changes. */
-    enum class Rows
-    {
-      none,
-      normal,
-      all
-    };
-
     /** Returns the rows in which a joint is rigid, or its stiffness exceeds 4/dt^2 times the mass of the pair. The time
      * step resolves the vibration of a softer joint. The velocity of a stiffer one would change its sign in each step,
      * so that it is corrected like a rigid one; this takes less energy than the joint force of the step. */
-    Rows stiff_rows(const JointLaw &law, const Matrix3 &H, const double area, const double dt)
+    ImpactRows stiff_rows(const JointLaw &law, const Matrix3 &H, const double area, const double dt)
     {
       const ElasticLaw *elastic = law.elastic_law();
       if (!elastic)
-        return Rows::all;
+        return ImpactRows::all;
       const Vector3 compliance = elastic->compliance(area);
       const auto    is_soft = [&](const unsigned int c) { return compliance[c] / H[4 * c] >= .25 * dt * dt; };
-      return is_soft(0) ? Rows::none : is_soft(1) || is_soft(2) ? Rows::normal : Rows::all;
+      return is_soft(0) ? ImpactRows::none : is_soft(1) || is_soft(2) ? ImpactRows::normal : ImpactRows::all;
+    }
+
+    Vector3 scaled(const double factor, const Vector3 &x)
+    {
+      return {{factor * x[0], factor * x[1], factor * x[2]}};
     }
 
     const Names<ImpactRule> names_of_rules = {{"mean-force", ImpactRule::mean_force},
@@ -70,29 +68,53 @@ namespace Voussoir
   {
     for (const Matrix3 &m : structure.mass)
       inverse_mass.push_back(inverse(m));
-    std::vector<unsigned int> joint_of(structure.n_nodes(), 0); // counted from 1; 0: none
     for (const Pair &pair : structure.pairs)
+      pair_inverse.push_back(between(pair, pair));
+    std::vector<bool> shares(structure.pairs.size(), false);
+    for (const auto &pairs : clusters_of(structure.pairs))
     {
-      Matrix3 H{};
-      for (const unsigned int node : {pair.node_1, pair.node_2})
-        if (node != rigid_ground)
+      add_cluster(pairs);
+      for (const unsigned int p : pairs)
+        shares[p] = true;
+    }
+    for (unsigned int p = 0; p < shares.size(); ++p)
+      if (!shares[p])
+        single.push_back(p);
+  }
+
+  /** Returns G_p M^-1 G_q^T. */
+  Matrix3 Impact::between(const Pair &p, const Pair &q) const
+  {
+    Matrix3 H{};
+    for (const unsigned int node : {p.node_1, p.node_2})
+      for (const unsigned int other : {q.node_1, q.node_2})
+        if (node == other && node != rigid_ground)
         {
-          if (joint_of[node] > 0)
-            throw InputError("The node of the mesh at " + place(pair.place) +
-                             " belongs to two pairs, of the joints " + std::to_string(joint_of[node]) +
-                             " and " + std::to_string(pair.joint + 1) +
-                             ". Joints must not cross or share nodes of one monolith: "
-                             "change the joints in the mesh.");
-          joint_of[node] = pair.joint + 1;
+          const double sign = (node == p.node_2) == (node == q.node_2) ? 1. : -1.;
           for (unsigned int j = 0; j < 3; ++j)
           {
-            const Vector3 Mq = inverse_mass[node] * pair.frame[j];
+            const Vector3 Mq = inverse_mass[node] * q.frame[j];
             for (unsigned int i = 0; i < 3; ++i)
-              H[3 * i + j] += dot(pair.frame[i], Mq);
+              H[3 * i + j] += sign * dot(p.frame[i], Mq);
           }
         }
-      pair_inverse.push_back(H);
-    }
+    return H;
+  }
+
+  void Impact::add_cluster(const std::vector<unsigned int> &pairs)
+  {
+    const Pair &one = structure.pairs[pairs[0]], &two = structure.pairs[pairs[1]];
+    if (rule != ImpactRule::mean_force && rule != ImpactRule::none)
+      throw InputError(
+          "The joints " + std::to_string(one.joint + 1) + " and " + std::to_string(two.joint + 1) +
+          " share the node at " + place(one.place) +
+          ", which requires \"Dynamics/Impact\" = mean-force. Set this entry, or change the joints in the "
+          "mesh so that they do not cross.");
+    Cluster cluster{pairs, {}};
+    for (const unsigned int p : pairs)
+      for (const unsigned int q : pairs)
+        cluster.H.push_back(between(structure.pairs[p], structure.pairs[q]));
+    clusters.push_back(std::move(cluster));
   }
 
   void Impact::add_impulse(const Pair &pair, const Vector3 &f, Unknowns &v) const
@@ -112,9 +134,110 @@ namespace Voussoir
   void Impact::correct_velocity(const JointSystem &system, const std::vector<PairHistory> &histories,
                                 const double dt, const Unknowns &change, Unknowns &v, Unknowns &impulse) const
   {
-    for_each_in_chunks(structure.pairs.size(), // no node belongs to two pairs
-                       [&](const std::size_t p)
-                       { correct_pair(system, histories[p], dt, p, change, v, impulse); });
+    for_each_in_chunks(single.size(), [&](const std::size_t i)
+                       { correct_pair(system, histories[single[i]], dt, single[i], change, v, impulse); });
+    for_each_in_chunks(clusters.size(), [&](const std::size_t i)
+                       { correct_cluster(system, histories, dt, clusters[i], change, v, impulse); });
+  }
+
+  /** Impulses of a cluster in a step. */
+  struct Impact::ClusterStep
+  {
+    std::vector<ImpactRows>    rows;
+    std::vector<unsigned char> active;
+    std::vector<Vector3>       jump;    ///< velocity jumps with the applied impulses [m/s]
+    std::vector<Vector3>       applied; ///< impulses of the joint forces in the step [N s]
+    std::vector<Vector3>       kept;    ///< impulses after the correction [N s]
+  };
+
+  bool Impact::solve_cluster(const Cluster &cluster, const std::vector<PairHistory> &histories,
+                             ClusterStep &step) const
+  {
+    constexpr unsigned int most = 500; // iterations
+    constexpr double       enough = 1e-10;
+    const std::size_t      n = cluster.pairs.size();
+    step.kept = step.applied;
+    for (unsigned int sweep = 0; sweep < most; ++sweep)
+    {
+      double largest = 0., changed = 0.;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        if (step.rows[i] == ImpactRows::none)
+          continue;
+        const unsigned int p = cluster.pairs[i];
+        const JointLaw    &law = *laws.of_pair[p];
+        Vector3 jump = step.jump[i]; // with the applied impulse of this pair and those of the others
+        for (std::size_t j = 0; j < n; ++j)
+          if (j != i)
+            add(jump, cluster.between(i, j) * (step.kept[j] - step.applied[j]));
+        const Matrix3 &H = pair_inverse[p];
+        const Vector3  next =
+            step.rows[i] == ImpactRows::normal
+                 ? law.stop_normal(H, jump, step.applied[i], step.active[i])
+                 : law.solve_impulse(H, jump - H * step.applied[i], histories[p], step.active[i]);
+        changed = std::max(changed, norm(next - step.kept[i]));
+        largest = std::max({largest, norm(next), norm(step.applied[i])});
+        step.kept[i] = next;
+      }
+      if (changed <= enough * largest)
+        return true;
+    }
+    return false;
+  }
+
+  void Impact::correct_cluster(const JointSystem &system, const std::vector<PairHistory> &histories,
+                               const double dt, const Cluster &cluster, const Unknowns &change, Unknowns &v,
+                               Unknowns &impulse) const
+  {
+    const std::size_t n = cluster.pairs.size();
+    ClusterStep       step;
+    double            dissipated = 0.; // by friction in the step [J]
+    for (const unsigned int p : cluster.pairs)
+    {
+      const JointLaw &law = *laws.of_pair[p];
+      const bool      closed = system.states()[p] != PairState::open;
+      unsigned char   active = system.active_surfaces()[p];
+      step.applied.push_back(get(impulse, p));
+      step.jump.push_back(structure.jump(structure.pairs[p], v));
+      ImpactRows rows = closed || law.is_tangentially_tied()
+                            ? stiff_rows(law, pair_inverse[p], histories[p].area, dt)
+                            : ImpactRows::none;
+      if (rows == ImpactRows::normal)
+        active &= 1;
+      else if (rows == ImpactRows::all && system.states()[p] == PairState::slip &&
+               slides_on(law, pair_inverse[p], step.jump.back(), step.applied.back(), get(change, p), active))
+        rows = ImpactRows::normal;
+      step.rows.push_back(rows);
+      step.active.push_back(active);
+      dissipated -= dot(step.applied.back(), get(change, p)) / dt;
+      if (const ElasticLaw *elastic = law.elastic_law())
+        dissipated -= elastic->stored_change(scaled(1. / dt, step.applied.back()), histories[p]);
+    }
+    bool is_safe = solve_cluster(cluster, histories, step);
+    if (is_safe)
+    {
+      double gain = 0., size = 0.; // of the kinetic energy
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        const Vector3 f = step.kept[i] - step.applied[i];
+        Vector3       gained{};
+        for (std::size_t j = 0; j < n; ++j)
+          add(gained, cluster.between(i, j) * (step.kept[j] - step.applied[j]));
+        gain += dot(f, step.jump[i]) + .5 * dot(f, gained);
+        size += norm(f) * (norm(step.jump[i]) + norm(gained));
+      }
+      is_safe = gain <= dissipated + 1e-12 * size;
+    }
+    if (!is_safe) // the normal rows alone always dissipate energy
+    {
+      std::replace(step.rows.begin(), step.rows.end(), ImpactRows::all, ImpactRows::normal);
+      solve_cluster(cluster, histories, step);
+    }
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      add_impulse(structure.pairs[cluster.pairs[i]], step.kept[i] - step.applied[i], v);
+      set(impulse, cluster.pairs[i], step.kept[i]);
+    }
   }
 
   void Impact::correct_pair(const JointSystem &system, const PairHistory &history, const double dt,
@@ -125,9 +248,9 @@ namespace Voussoir
     const bool      closed = system.states()[p] != PairState::open;
     if (!closed && !law.is_tangentially_tied())
       return;
-    const Vector3 jump = structure.jump(pair, v), applied = get(impulse, p);
-    const Rows    rows = stiff_rows(law, pair_inverse[p], history.area, dt);
-    if (rows == Rows::none)
+    const Vector3    jump = structure.jump(pair, v), applied = get(impulse, p);
+    const ImpactRows rows = stiff_rows(law, pair_inverse[p], history.area, dt);
+    if (rows == ImpactRows::none)
       return;
     if (rule == ImpactRule::paper)
     {
@@ -140,13 +263,14 @@ namespace Voussoir
       return;
     }
     const unsigned char active = system.active_surfaces()[p];
-    if (rows == Rows::normal || (rule == ImpactRule::mean_force && system.states()[p] == PairState::slip &&
-                                 slides_on(law, pair_inverse[p], jump, applied, get(change, p), active)))
+    if (rows == ImpactRows::normal ||
+        (rule == ImpactRule::mean_force && system.states()[p] == PairState::slip &&
+         slides_on(law, pair_inverse[p], jump, applied, get(change, p), active)))
     {
       // The mean friction of the step has an error of second order. Friction from the velocity at the end
       // would have one of first order.
       const Vector3 kept =
-          law.stop_normal(pair_inverse[p], jump, applied, rows == Rows::normal ? active & 1 : active);
+          law.stop_normal(pair_inverse[p], jump, applied, rows == ImpactRows::normal ? active & 1 : active);
       add_impulse(pair, kept - applied, v);
       set(impulse, p, kept);
       return;

@@ -35,8 +35,7 @@ namespace Voussoir
           std::find_if(state.u.begin(), state.u.end(), [](const double u) { return !std::isfinite(u); });
       std::string where;
       if (value != state.u.end())
-        where = " in monolith " +
-                std::to_string(structure.bodies[structure.body_of((value - state.u.begin()) / 3)].number);
+        where = " in " + structure.bodies[structure.body_of((value - state.u.begin()) / 3)].name();
       throw ComputationError(
           "The displacements" + where + " or the loads are not finite at t = " + number_text(state.time) +
           " s. Check the units of materials, loads and ground motion (\"Motion/Unit\"), or increase "
@@ -58,6 +57,14 @@ namespace Voussoir
       throw InputError(
           "Massless rock and subcycled rock require joint forces that are means over the step. Set "
           "\"Dynamics/Impact\" to mean-force.");
+    std::vector<bool> found(structure.n_nodes(), false);
+    for (const Pair &pair : structure.pairs)
+      for (const unsigned int node : {pair.node_1, pair.node_2})
+        if (node != rigid_ground && !found[node])
+        {
+          found[node] = true;
+          nodes_in_pairs.push_back(node);
+        }
     add_level({dt, support ? support->n_substeps() : 1, 0});
   }
 
@@ -309,10 +316,8 @@ namespace Voussoir
   double Newmark::kinetic_energy_of_pairs() const
   {
     double sum = 0.;
-    for (const Pair &pair : structure.pairs)
-      for (const unsigned int node : {pair.node_1, pair.node_2})
-        if (node != rigid_ground)
-          sum += .5 * dot(get(now.v, node), structure.mass[node] * get(now.v, node));
+    for (const unsigned int node : nodes_in_pairs)
+      sum += .5 * dot(get(now.v, node), structure.mass[node] * get(now.v, node));
     return sum;
   }
 

@@ -199,8 +199,7 @@ namespace Voussoir
     }
     catch (const FactorTooLarge &)
     {
-      throw FactorTooLarge("Monolith " + std::to_string(body.number) + " (" + std::to_string(n()) +
-                           " unknowns)");
+      throw FactorTooLarge("The factor of " + body.name() + " (" + std::to_string(n()) + " unknowns)");
     }
   }
 
@@ -212,7 +211,7 @@ namespace Voussoir
     const cholmod_factor *L = cholmod->L;
     if (cholmod->common.status != CHOLMOD_OK || L == nullptr || L->minor < L->n)
       throw ComputationError(
-          "The stiffness of monolith " + std::to_string(body.number) +
+          "The stiffness of " + body.name() +
           " is not positive definite. Either its nodes on the surface \"base\" do not hold it: at least three "
           "that are not on a line are needed. Or its elements are distorted; `voussoir mesh` prints their "
           "quality.");
@@ -227,7 +226,7 @@ namespace Voussoir
     for (unsigned int i = n() - n_interface(); i < n(); ++i)
       if (!std::binary_search(body.interface.begin(), body.interface.end(), unknown[i] / 3))
         throw ComputationError(
-            "Monolith " + std::to_string(body.number) +
+            "The mesh of " + body.name() +
             " is not in one piece, or only one element wide on rock with mass. If its parts have no common node, "
             "merge their coincident nodes in the mesh (gmsh: Coherence), or give the parts different numbers. "
             "Otherwise use at least two elements along each monolith.");

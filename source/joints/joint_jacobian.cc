@@ -14,7 +14,7 @@ namespace Voussoir
     using Floats = std::vector<float>;
   } // namespace
 
-  JointJacobian::JointJacobian(const InterfaceOperator &W) : W(W), joints(W.n_groups())
+  JointJacobian::JointJacobian(const InterfaceOperator &W) : W(W), joints(W.n_groups()), crossings(W)
   {
     for (unsigned int g = 0; g < W.n_groups(); ++g)
       for (unsigned int k = g; k < W.n_groups(); ++k)
@@ -54,6 +54,7 @@ namespace Voussoir
       chain->factorise(new_equations);
       return W.n_groups();
     }
+    crossings.factorise(new_equations);
     std::vector<unsigned int> made(W.n_groups(), 0);
     for_each_parallel(W.n_groups(), [&](const int g)
                       { made[g] = W.size(g) > 0 && W.is_mine(g) && joints[g].update(present(g)); });
@@ -163,6 +164,8 @@ namespace Voussoir
             Wz_g[j] += own[j];
         },
         z, Wz);
+    if (!crossings.is_empty())
+      crossings.correct(*equations, v, z, Wz);
   }
 
   /** Computes w = J z. */

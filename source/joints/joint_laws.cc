@@ -9,11 +9,16 @@
 
 namespace Voussoir
 {
-  void JointLaws::assign(const std::vector<Pair> &pairs)
+  void JointLaws::assign(const Structure &structure)
   {
-    for (const Pair &pair : pairs)
+    std::vector<bool> crosses(structure.pairs.size(), false);
+    for (const auto &cluster : structure.clusters)
+      for (const unsigned int p : cluster)
+        crosses[p] = !of_crossings.empty();
+    for (std::size_t p = 0; p < crosses.size(); ++p)
     {
-      const JointLaw *law = of_joint[pair.joint].get();
+      const Pair     &pair = structure.pairs[p];
+      const JointLaw *law = (crosses[p] ? of_crossings : of_joint)[pair.joint].get();
       if (const double friction = law->flat_friction(); friction >= 0. && !pair.planes.empty())
       {
         std::vector<ContactSurface> surfaces;

@@ -17,25 +17,44 @@ namespace Voussoir
 {
   namespace
   {
-    std::vector<unsigned int> pairs_per_group(const Structure &structure)
+    /** Returns the group of each pair. Where joints cross, each joint is a group in dynamics; in statics the groups
+     * form a chain, because distant joints are strongly coupled. */
+    std::vector<unsigned int> groups_of_pairs(const Structure &structure, const bool is_static)
+    {
+      std::vector<unsigned int> result;
+      for (const Pair &pair : structure.pairs)
+        if (is_static || structure.clusters.empty())
+          result.push_back(structure.group(pair));
+        else if (result.empty())
+          result.push_back(0);
+        else
+          result.push_back(result.back() + (pair.joint != structure.pairs[result.size() - 1].joint));
+      return result;
+    }
+
+    std::vector<unsigned int> pairs_per_group(const Structure                 &structure,
+                                              const std::vector<unsigned int> &group)
     {
       std::vector<unsigned int> n(structure.n_groups(), 0);
-      for (const Pair &pair : structure.pairs)
-        ++n[structure.group(pair)];
+      n.resize(std::max<std::size_t>(n.size(), group.empty() ? 0 : group.back() + 1), 0);
+      for (const unsigned int g : group)
+        ++n[g];
       return n;
     }
 
     /** Assigns each group of joints to the process that has its first body. */
-    Shares shares_of_joints(const Structure &structure)
+    Shares shares_of_joints(const Structure &structure, const std::vector<unsigned int> &group)
     {
       if (structure.share.are_trivial())
         return Shares();
-      std::vector<unsigned int> first(structure.n_groups(), rigid_ground), owner(structure.n_groups(), 0);
-      for (const Pair &pair : structure.pairs)
-        if (const unsigned int node = std::min(pair.node_1, pair.node_2); node < first[structure.group(pair)])
+      const std::size_t         n_groups = pairs_per_group(structure, group).size();
+      std::vector<unsigned int> first(n_groups, rigid_ground), owner(n_groups, 0);
+      for (std::size_t p = 0; p < group.size(); ++p)
+        if (const unsigned int node = std::min(structure.pairs[p].node_1, structure.pairs[p].node_2);
+            node < first[group[p]])
         {
-          first[structure.group(pair)] = node;
-          owner[structure.group(pair)] = structure.share.owner(structure.body_of(node));
+          first[group[p]] = node;
+          owner[group[p]] = structure.share.owner(structure.body_of(node));
         }
       for (unsigned int j = 1; j < owner.size(); ++j) // groups without pairs; parts must ascend
         owner[j] = std::max(owner[j], owner[j - 1]);
@@ -66,7 +85,8 @@ namespace Voussoir
                            const Unknowns &springs, const BaseElimination::Nodes *given_base,
                            const bool single_factors)
       : structure(structure), parameters(parameters), laws(laws), step(step), is_static(step.mass == 0.),
-        sides(structure.pairs.size()), W(pairs_per_group(structure), shares_of_joints(structure)),
+        sides(structure.pairs.size()), group(groups_of_pairs(structure, is_static)),
+        W(pairs_per_group(structure, group), shares_of_joints(structure, group)),
         n_solved(parameters.first_problem)
   {
     for (const JointLaw *law : laws.of_pair)
@@ -88,6 +108,8 @@ namespace Voussoir
     condense();
     if (base && is_static)
       make_whole();
+    if (!is_static)
+      W.set_clusters(structure.clusters);
     W.finish(is_static ? nullptr : base);
     solver = std::make_unique<ContactSolver>(W, laws.of_pair, parameters);
   }
@@ -119,9 +141,7 @@ namespace Voussoir
     const bool         needed_elsewhere =
         Ranks::size() > 1 &&
         (base || std::any_of(sides_of_body.begin(), sides_of_body.end(),
-                             [&](const auto &side) {
-                               return W.shares().owner(structure.group(structure.pairs[side.first])) != owner;
-                             }));
+                             [&](const auto &side) { return W.shares().owner(group[side.first]) != owner; }));
     if (needed_elsewhere)
     {
       F.resize(9 * structure.bodies[b].interface.size() * structure.bodies[b].interface.size());
@@ -162,7 +182,7 @@ namespace Voussoir
         for (const auto &p : of_body[b])
         {
           const Pair        &pair_p = structure.pairs[p.first], &pair_q = structure.pairs[q.first];
-          const unsigned int group_p = structure.group(pair_p), group_q = structure.group(pair_q);
+          const unsigned int group_p = group[p.first], group_q = group[q.first];
           if (group_p > group_q)
             continue;
           std::vector<double> &block = W.block(group_p, group_q);

@@ -215,32 +215,51 @@ namespace Voussoir
     return pairs;
   }
 
-  void tie_joints(SolidModel &model, const unsigned int n_joints, const bool base_only)
+  void tie_joints(SolidModel &model, const unsigned int n_joints,
+                  const std::function<bool(unsigned int)> &is_tied)
   {
-    std::vector<unsigned int> master(model.n_nodes());
-    std::iota(master.begin(), master.end(), 0);
-    const auto root = [&](unsigned int i)
-    {
-      while (master[i] != i)
-        i = master[i];
-      return i;
-    };
+    std::vector<std::pair<unsigned int, unsigned int>> together;
     for (const NodePair &match : match_joint_nodes(model, n_joints))
+      if (match.node_1 != rigid_ground && (!is_tied || is_tied(match.joint)))
+        together.emplace_back(match.node_1, match.node_2);
+    model.merge(together, !is_tied);
+  }
+
+  void tie_base_nodes(SolidModel &model, const unsigned int n_joints)
+  {
+    std::vector<std::pair<unsigned int, unsigned int>> together;
+    for (const NodePair &match : match_joint_nodes(model, n_joints))
+      if (match.node_1 != rigid_ground && model.on_surface(match.node_1, PhysicalId::base))
+        together.emplace_back(match.node_1, match.node_2);
+    model.merge(together, true);
+  }
+
+  std::vector<std::vector<unsigned int>> clusters_of(const std::vector<Pair> &pairs)
+  {
+    std::map<unsigned int, unsigned int> first; // pair of each free node
+    std::vector<unsigned int>            cluster(pairs.size());
+    std::iota(cluster.begin(), cluster.end(), 0);
+    const auto root = [&](unsigned int p)
     {
-      if (match.node_1 == rigid_ground || (base_only && !model.on_surface(match.node_1, PhysicalId::base)))
-        continue;
-      const unsigned int a = root(match.node_1), b = root(match.node_2);
-      master[std::max(a, b)] = std::min(a, b);
-    }
-    std::vector<bool> fixed(model.n_nodes());
-    for (unsigned int i = 0; i < model.n_nodes(); ++i)
-    {
-      master[i] = root(i);
-      if (model.on_surface(i, PhysicalId::base)) // a node of one monolith is sufficient
-        fixed[master[i]] = model.base_is_fixed;
-    }
-    std::fill(model.body.begin(), model.body.end(), 0);
-    model.body_numbers.resize(1);
-    model.number_equations(fixed, master);
+      while (cluster[p] != p)
+        p = cluster[p];
+      return p;
+    };
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      for (const unsigned int node : {pairs[p].node_1, pairs[p].node_2})
+        if (node != rigid_ground)
+          if (const auto found = first.emplace(node, p); !found.second)
+          {
+            const unsigned int a = root(found.first->second), b = root(p);
+            cluster[std::max(a, b)] = std::min(a, b);
+          }
+    std::map<unsigned int, std::vector<unsigned int>> members;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      members[root(p)].push_back(p);
+    std::vector<std::vector<unsigned int>> result;
+    for (const auto &[p, list] : members)
+      if (list.size() > 1)
+        result.push_back(list);
+    return result;
   }
 } // namespace Voussoir

@@ -146,6 +146,62 @@ namespace Voussoir
       std::vector<int>    monolith; ///< of the elements between two columns
     };
 
+    /** Lift joints: horizontal where the dam is high enough. Elsewhere the row of nodes follows the base, and the
+     * monolith has no joint there. */
+    class Lifts
+    {
+    public:
+      Lifts(const ArchShape &shape, const ArchGrid &grid)
+          : top(shape.top()), n(grid.lift_joints), n_up(grid.elements_up)
+      {
+        for (unsigned int i = 1; i <= n; ++i)
+        {
+          levels.push_back(shape.bottom() + (top - shape.bottom()) * i / (n + 1));
+          rows.push_back((i * n_up + (n + 1) / 2) / (n + 1));
+        }
+      }
+
+      /** Returns the heights of the nodes above a point of the base [m]. */
+      std::vector<double> heights(const double base) const
+      {
+        // Near the banks, lifts whose level is little above the base or below it are lower than others.
+        constexpr double    least = .5; // share of their usual height
+        std::vector<double> ends(n + 2, base), result(n_up + 1, base);
+        ends[n + 1] = top;
+        for (unsigned int i = n; i >= 1; --i)
+        {
+          const double above = 2. * (n + 1) * (base - levels[i - 1]) / (top - levels[0]),
+                       share = least + (1. - least) * std::clamp(above, 0., 1.);
+          ends[i] = std::max(levels[i - 1], base + share * i / (i + 1) * (ends[i + 1] - base));
+        }
+        for (unsigned int i = 0, first = 0; i <= n; ++i)
+        {
+          const unsigned int last = i < n ? rows[i] : n_up;
+          for (unsigned int k = first + 1; k <= last; ++k)
+            result[k] = ends[i] + (ends[i + 1] - ends[i]) * (k - first) / (last - first);
+          first = last;
+        }
+        return result;
+      }
+
+      /** Returns the lifts below the lift joint or row @p k that begin above a base, for each row of elements: counted
+       * from 0 at the base. @p base: highest point of the base of the monolith [m]. */
+      int lift_of_row(const unsigned int k, const double base) const
+      {
+        const std::vector<double> z = heights(base);
+        int                       lift = 0;
+        for (unsigned int i = 0; i < n; ++i)
+          lift += rows[i] <= k && z[rows[i]] == levels[i];
+        return lift;
+      }
+
+    private:
+      const double              top;
+      const unsigned int        n, n_up;
+      std::vector<double>       levels; ///< of the joints [m]
+      std::vector<unsigned int> rows;   ///< of nodes in the joints
+    };
+
     Columns columns(const ArchShape &shape, const ArchGrid &grid)
     {
       const Crest               crest(shape);
@@ -167,8 +223,11 @@ namespace Voussoir
       return result;
     }
 
-    void add_nodes(const ArchShape &shape, const ArchGrid &grid, const std::vector<double> &s, HexMesh &mesh)
+    /** Adds the nodes. @p highest: receives the highest point of the base of each column [m]. */
+    void add_nodes(const ArchShape &shape, const ArchGrid &grid, const std::vector<double> &s, HexMesh &mesh,
+                   std::vector<double> &highest)
     {
+      const Lifts        lifts(shape, grid);
       const unsigned int n_up = grid.elements_up, n_through = grid.elements_through;
       const double       top = shape.top();
       for (const double place : s)
@@ -179,13 +238,15 @@ namespace Voussoir
         std::vector<double> base;
         for (unsigned int l = 0; l <= n_through; ++l)
           base.push_back(column.base(2. * l / n_through - 1));
+        highest.push_back(*std::max_element(base.begin(), base.end()));
         for (unsigned int k = 0; k <= n_up; ++k)
           for (unsigned int l = 0; l <= n_through; ++l)
           {
             const bool   is_end = k == 0 || k == n_up || grid.rows.empty();
-            const double z =
-                is_end ? base[l] + (top - base[l]) * k / n_up : base[l] + (top - base[l]) * grid.rows[k - 1];
-            auto node = column.node(z, 2. * l / n_through - 1);
+            const double z = grid.lift_joints > 0 ? lifts.heights(base[l])[k]
+                             : is_end             ? base[l] + (top - base[l]) * k / n_up
+                                                  : base[l] + (top - base[l]) * grid.rows[k - 1];
+            auto         node = column.node(z, 2. * l / n_through - 1);
             node[1] *= bank;
             mesh.nodes.push_back(node);
           }
@@ -207,6 +268,11 @@ namespace Voussoir
     prm.add_parameter(
         "Base joint", base_joint,
         "true: the base is a joint with the law of section Joints; on a rigid foundation only.");
+    prm.add_parameter(
+        "Lift joints", lift_joints,
+        "Number of lift joints in each monolith [-]. They lie between rows of elements and divide the rows into equal "
+        "parts.",
+        Integer(0, PhysicalId::max_lifts - 1));
     prm.add_parameter(
         "Smallest height", smallest_height,
         "Smallest height of the dam [m]. Near the banks, where the abutment is nearer to the crest, the dam "
@@ -242,6 +308,10 @@ namespace Voussoir
   void check_grid(const ArchShape &shape, const ArchGrid &grid, const std::string &section)
   {
     const std::string entry = "Entry \"" + section + "/";
+    if (grid.lift_joints >= grid.elements_up)
+      throw InputError(entry + "Lift joints\" is " + std::to_string(grid.lift_joints) +
+                       ", but the dam has only " + std::to_string(grid.elements_up) +
+                       " rows of elements. Choose fewer lift joints or more rows.");
     if (grid.elements_along == 0 || grid.elements_up == 0 || grid.elements_through == 0)
       throw InputError(entry +
                        (grid.elements_along == 0 ? "Elements along"
@@ -290,7 +360,18 @@ namespace Voussoir
     const unsigned int n_along = monolith.size(), n_up = grid.elements_up, n_through = grid.elements_through;
     HexMesh            mesh;
     Crest(shape).check_valley();
-    add_nodes(shape, grid, s, mesh);
+    std::vector<double> highest;
+    add_nodes(shape, grid, s, mesh, highest);
+    const Lifts                   lifts(shape, grid);
+    std::vector<std::vector<int>> lift(grid.n_monoliths() + 1); // of the rows of each monolith
+    for (unsigned int m = 1, i = 0; m <= grid.n_monoliths(); ++m)
+    {
+      double base = highest[i];
+      for (; i < n_along && monolith[i] == static_cast<int>(m); ++i)
+        base = std::max({base, highest[i], highest[i + 1]});
+      for (unsigned int k = 0; k < n_up; ++k)
+        lift[m].push_back(lifts.lift_of_row(k, base));
+    }
 
     const auto node = [&](const unsigned int i, const unsigned int k, const unsigned int l)
     { return (i * (n_up + 1) + k) * (n_through + 1) + l; };
@@ -301,7 +382,7 @@ namespace Voussoir
           const HexMesh::Cell cell{{node(i, k, l), node(i, k, l + 1), node(i + 1, k, l + 1),
                                     node(i + 1, k, l), node(i, k + 1, l), node(i, k + 1, l + 1),
                                     node(i + 1, k + 1, l + 1), node(i + 1, k + 1, l)},
-                                   monolith[i]};
+                                   monolith[i] + PhysicalId::per_lift * lift[monolith[i]][k]};
           mesh.cells.push_back(cell);
 
           // In the order of hex_faces: base, crest, right bank, downstream, left bank, upstream.

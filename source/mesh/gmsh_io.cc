@@ -196,7 +196,8 @@ namespace Voussoir
                ", which has no name, would both be " + physical_name(dimension, id) +
                ". Name the group without a name, or remove it.");
 
-        if (dimension == 3 && id < 1 && (id != PhysicalId::water || name.empty()))
+        const bool has_lift_id = dimension == 3 && name.empty() && id >= PhysicalId::per_lift;
+        if (has_lift_id || (dimension == 3 && id < 1 && (id != PhysicalId::water || name.empty())))
           fail(label(3, tag) +
                " has an id out of range. Number the monoliths from 1 to 999 and rock from 1000.");
         if (dimension == 2 && physical_id(2, physical_name(2, id)) == -1)

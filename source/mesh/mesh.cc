@@ -116,6 +116,12 @@ namespace Voussoir
       return number >= 1 && number <= largest ? number : -1;
     }
 
+    /** Returns true for the words of "monolith 3 lift 2" with or without a zone. */
+    bool is_lift(const std::vector<std::string> &word)
+    {
+      return word.size() >= 4 && word[2] == "lift" && std::isdigit(word[3][0]);
+    }
+
     const std::map<int, std::string> surface_names = {{PhysicalId::base, "base"},
                                                       {PhysicalId::base_joint, "base joint"},
                                                       {PhysicalId::upstream, "upstream"},
@@ -159,8 +165,11 @@ namespace Voussoir
   {
     if (dimension == 3 && id == PhysicalId::water)
       return "water";
+    if (dimension == 3 && !is_monolith(id))
+      return "rock " + std::to_string(id);
     if (dimension == 3)
-      return (is_monolith(id) ? "monolith " : "rock ") + std::to_string(id);
+      return "monolith " + std::to_string(monolith_of(id)) +
+             (lift_of(id) > 1 ? " lift " + std::to_string(lift_of(id)) : "");
     const auto name = surface_names.find(id);
     if (name != surface_names.end())
       return name->second;
@@ -178,9 +187,14 @@ namespace Voussoir
     const std::vector<std::string> word = words(name);
     if (dimension == 3)
     {
-      // A zone may follow the number, but no second number.
-      if (word.size() >= 2 && word[0] == "monolith" && (word.size() == 2 || std::isalpha(word[2][0])))
-        return to_number(word[1], PhysicalId::first_rock - 1);
+      // A zone may follow the number of the monolith or of its lift, but no further number.
+      const unsigned int end = is_lift(word) ? 4 : 2;
+      if (word.size() >= end && word[0] == "monolith" && (word.size() == end || std::isalpha(word[end][0])))
+      {
+        const int monolith = to_number(word[1], PhysicalId::first_rock - 1),
+                  lift = end == 4 ? to_number(word[3], PhysicalId::max_lifts) : 1;
+        return monolith == -1 || lift == -1 ? -1 : monolith + (lift - 1) * PhysicalId::per_lift;
+      }
       if (word == words(physical_name(3, PhysicalId::water)))
         return PhysicalId::water;
       return !word.empty() && word[0] == "rock" ? PhysicalId::first_rock : -1;
@@ -218,7 +232,7 @@ namespace Voussoir
     const bool is_id = word.size() == 2 && word[1].size() >= 4 && std::isdigit(word[1][0]);
     if (id == -1 || (!is_monolith(id) && is_id))
       return "";
-    return joined(word, is_monolith(id) ? 2 : 1);
+    return joined(word, !is_monolith(id) ? 1 : is_lift(word) ? 4 : 2);
   }
 
   std::string zone_name(const std::string &text)
@@ -284,7 +298,7 @@ namespace Voussoir
     int largest = 0;
     for (const auto &cell : mesh.cells)
       if (is_monolith(cell.volume))
-        largest = std::max(largest, cell.volume);
+        largest = std::max(largest, monolith_of(cell.volume));
     return largest;
   }
 

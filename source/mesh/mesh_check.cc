@@ -40,13 +40,17 @@ namespace Voussoir
 
       void volumes() const
       {
-        std::set<int> monoliths;
+        std::set<int>                monoliths;
+        std::map<int, std::set<int>> lifts;
         for (const auto &cell : mesh.cells)
           if (cell.volume < 1)
             fail("volume id " + std::to_string(cell.volume) +
                  " is out of range. Number the monoliths from 1 to 999 and rock from 1000.");
           else if (is_monolith(cell.volume))
-            monoliths.insert(cell.volume);
+          {
+            monoliths.insert(monolith_of(cell.volume));
+            lifts[monolith_of(cell.volume)].insert(lift_of(cell.volume));
+          }
         if (monoliths.empty())
           fail("there is no monolith. Give the dam's volumes physical ids from 1 to 999, or the names "
                "'monolith 1', 'monolith 2', ...");
@@ -56,6 +60,12 @@ namespace Voussoir
             fail("the numbers of the monoliths have gaps: the largest is " +
                  std::to_string(*monoliths.rbegin()) + ", but there is no monolith " +
                  std::to_string(expected - 1) + ". Number them 1, 2, ... from the right bank to the left.");
+        for (const auto &[monolith, numbers] : lifts)
+          if (*numbers.rbegin() != static_cast<int>(numbers.size()))
+            fail("the numbers of the lifts of monolith " + std::to_string(monolith) +
+                 " have gaps: the largest is " + std::to_string(*numbers.rbegin()) + ", but there are " +
+                 std::to_string(numbers.size()) + ". Name its volumes 'monolith " + std::to_string(monolith) +
+                 " lift 1', 'lift 2', ... from the base up.");
       }
 
       void cells() const

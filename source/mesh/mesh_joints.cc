@@ -163,39 +163,58 @@ namespace Voussoir
       }
     }
 
-    /** Returns the joint number of each pair of adjacent monoliths in a conforming mesh. */
-    std::map<std::pair<int, int>, int> number_joints(const HexMesh &mesh, const FaceTable &table)
+    /** Order of blocks: by monolith, then by lift. */
+    bool is_before(const int block_1, const int block_2)
     {
-      std::map<std::pair<int, int>, int> joints;
+      return std::make_pair(monolith_of(block_1), block_1) < std::make_pair(monolith_of(block_2), block_2);
+    }
+
+    struct InOrder
+    {
+      bool operator()(const std::pair<int, int> &a, const std::pair<int, int> &b) const
+      {
+        return a.first != b.first ? is_before(a.first, b.first) : is_before(a.second, b.second);
+      }
+    };
+    using JointNumbers = std::map<std::pair<int, int>, int, InOrder>; ///< by the two blocks
+
+    /** Returns the joint number of each pair of adjacent blocks in a conforming mesh. */
+    JointNumbers number_joints(const HexMesh &mesh, const FaceTable &table)
+    {
+      JointNumbers joints;
       for (std::size_t i = 1; i < table.entries().size(); ++i)
       {
         const auto &entry = table.entries()[i], &previous = table.entries()[i - 1];
-        const auto  sides = std::minmax(mesh.cells[previous.cell].volume, mesh.cells[entry.cell].volume);
-        if (entry.key == previous.key && sides.first != sides.second && is_monolith(sides.second))
+        const auto  sides =
+            std::minmax(mesh.cells[previous.cell].volume, mesh.cells[entry.cell].volume, is_before);
+        if (entry.key == previous.key && sides.first != sides.second && is_monolith(sides.first) &&
+            is_monolith(sides.second))
           joints[sides] = 0;
       }
       int further = n_monoliths(mesh);
       for (auto &joint : joints)
       {
         const auto &sides = joint.first;
-        joint.second = sides.second == sides.first + 1 ? sides.first : further++;
+        const bool  is_lowest = lift_of(sides.first) == 1 && sides.second == sides.first + 1;
+        joint.second = is_lowest ? sides.first : further++;
         if (joint.second > PhysicalId::max_joints)
-          throw InputError("mesh: the contact of monoliths " + std::to_string(sides.first) + " and " +
-                           std::to_string(sides.second) + " would be joint " + std::to_string(joint.second) +
-                           ", but joints are numbered up to " + std::to_string(PhysicalId::max_joints) +
-                           " only. Merge monoliths, or give adjacent monoliths successive numbers.");
+          throw InputError("mesh: the contact of " + physical_name(3, sides.first) + " and " +
+                           physical_name(3, sides.second) + " would be joint " +
+                           std::to_string(joint.second) + ", but joints are numbered up to " +
+                           std::to_string(PhysicalId::max_joints) +
+                           " only. Merge monoliths or lifts, or give adjacent monoliths successive numbers.");
       }
       return joints;
     }
 
     constexpr const char *of_base = "base joint"; ///< name of the sides of base joints
 
-    /** Makes the faces of "base joint" the sides 2 of joints with the ground, one per monolith.
-     * @param volume monolith of each face
+    /** Makes the faces of "base joint" the sides 2 of joints with the ground, one per block.
+     * @param volume block of each face
      * @param next number of the first joint */
     void number_base_joints(const std::vector<int> &volume, const int next, HexMesh &opened)
     {
-      std::map<int, int> number; // by monolith
+      std::map<int, int, bool (*)(int, int)> number(is_before); // by block
       for (std::size_t f = 0; f < volume.size(); ++f)
         if (opened.faces[f].surface == PhysicalId::base_joint)
           number[volume[f]] = 0;
@@ -220,7 +239,7 @@ namespace Voussoir
           face.surface = PhysicalId::base_joint;
     }
 
-    /** Copies each shared node for every monolith except the first. Nodes of the rock stay shared. */
+    /** Copies each shared node for every block except the first. Nodes of the rock stay shared. */
     class Splitter
     {
     public:
@@ -250,6 +269,25 @@ namespace Voussoir
       std::map<std::pair<unsigned int, int>, unsigned int> copies;
     };
   } // namespace
+
+  std::string Joint::name() const
+  {
+    const auto in_lift = [](const int block)
+    {
+      return std::to_string(monolith_of(block)) +
+             (lift_of(block) > 1 ? "." + std::to_string(lift_of(block)) : "");
+    };
+    if (is_base())
+      return "base " + in_lift(block_2);
+    const int lift_1 = lift_of(block_1), lift_2 = lift_of(block_2);
+    if (is_lift())
+      return "lift " + std::to_string(monolith_1()) + "." + std::to_string(lift_1) +
+             (lift_2 == lift_1 + 1 ? "" : "-" + std::to_string(lift_2));
+    std::string result = "joint " + std::to_string(contraction_number());
+    if (lift_1 > 1 || lift_2 > 1)
+      result += "." + std::to_string(lift_1) + (lift_1 == lift_2 ? "" : "-" + std::to_string(lift_2));
+    return result;
+  }
 
   HexMesh close_joints(const HexMesh &mesh)
   {
@@ -282,7 +320,7 @@ namespace Voussoir
     const auto      joints = number_joints(opened, table);
 
     Splitter         splitter(opened);
-    std::vector<int> of_face; // monolith
+    std::vector<int> of_face; // block
     for (auto &face : opened.faces)
     {
       const int volume = opened.cells[table.owners(face.nodes).first->cell].volume;
@@ -312,7 +350,7 @@ namespace Voussoir
         for (unsigned int v = 0; v < 4; ++v)
           sides[s].nodes[v] = cell.nodes[hex_faces[entry.cell_face][v]];
       }
-      if (owner[0] > owner[1])
+      if (is_before(owner[1], owner[0]))
       {
         std::swap(owner[0], owner[1]);
         std::swap(sides[0], sides[1]);
@@ -355,7 +393,7 @@ namespace Voussoir
       {
         const auto joint = joint_and_side(face.surface);
         Joint     &result = joints.emplace(joint.first, Joint{joint.first, 0, 0}).first->second;
-        (joint.second == 1 ? result.monolith_1 : result.monolith_2) =
+        (joint.second == 1 ? result.block_1 : result.block_2) =
             mesh.cells[table.owners(face.nodes).first->cell].volume;
       }
     std::vector<Joint> result;

@@ -33,7 +33,7 @@ namespace Voussoir
       data_out.add_data_vector(model.dof_handler, scalars.back(), field.name);
     }
     for (const auto &cell : model.triangulation.active_cell_iterators())
-      monolith[cell->active_cell_index()] = static_cast<float>(cell->material_id());
+      monolith[cell->active_cell_index()] = static_cast<float>(monolith_of(cell->material_id()));
     data_out.add_data_vector(monolith, "monolith", DataOut<3>::type_cell_data);
     if (!u.empty())
     {

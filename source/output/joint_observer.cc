@@ -67,9 +67,10 @@ namespace Voussoir
                            [](const auto &a, const auto &b) { return a.opening < b.opening; });
       const auto slip = std::max_element(residuals.begin(), residuals.end(),
                                          [](const auto &a, const auto &b) { return a.slip < b.slip; });
-      log.line("Residual  at t = %.2f s: opening %.2f mm (joint %td), slip %.2f mm (joint %td)",
-               run.end_of_part(part) * run.motion.dt, 1e3 * opening->opening, opening - residuals.begin() + 1,
-               1e3 * slip->slip, slip - residuals.begin() + 1);
+      const auto name = [&](const auto &joint) { return run.dam->joints[joint - residuals.begin()].name(); };
+      log.line("Residual  at t = %.2f s: opening %.2f mm (%s), slip %.2f mm (%s)",
+               run.end_of_part(part) * run.motion.dt, 1e3 * opening->opening, name(opening).c_str(),
+               1e3 * slip->slip, name(slip).c_str());
     }
   }
 

@@ -33,12 +33,9 @@ namespace Voussoir
       if (joint.is_base())
         base_joints.insert(PhysicalId::joint_side_2 + joint.number);
     find_nodes();
-    std::vector<bool>         fixed(points.size());
-    std::vector<unsigned int> master(points.size());
+    master.resize(points.size());
     std::iota(master.begin(), master.end(), 0);
-    for (unsigned int i = 0; i < points.size(); ++i)
-      fixed[i] = on_surface(i, PhysicalId::base);
-    number_equations(fixed, master);
+    number_equations(on_base());
   }
 
   /** Determines position, body and surfaces of each node. */
@@ -75,36 +72,82 @@ namespace Voussoir
     }
   }
 
+  std::vector<bool> SolidModel::on_base() const
+  {
+    std::vector<bool> result(n_nodes());
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+      result[i] = on_surface(i, PhysicalId::base);
+    return result;
+  }
+
   void SolidModel::free_base()
   {
     base_is_fixed = false;
-    std::vector<unsigned int> master(n_nodes());
-    std::iota(master.begin(), master.end(), 0);
-    number_equations(std::vector<bool>(n_nodes(), false), master);
+    number_equations(std::vector<bool>(n_nodes(), false));
   }
 
   void SolidModel::free_base_joints(const std::set<int> &sides)
   {
-    std::vector<unsigned int> master(n_nodes());
-    std::vector<bool>         fixed = bonded;
+    std::vector<bool> fixed = bonded;
     open_base = sides;
-    std::iota(master.begin(), master.end(), 0);
     for (unsigned int i = 0; i < n_nodes(); ++i)
       for (const int id : surfaces[i])
         if (base_joints.count(id) > 0 && sides.count(id) == 0)
           fixed[i] = true;
-    number_equations(fixed, master);
+    number_equations(fixed);
   }
 
-  void SolidModel::number_equations(const std::vector<bool> &fixed, const std::vector<unsigned int> &master)
+  void SolidModel::merge(const std::vector<std::pair<unsigned int, unsigned int>> &pairs,
+                         const bool                                                all_bodies)
   {
+    const auto root = [](const std::vector<unsigned int> &parent, unsigned int i)
+    {
+      while (parent[i] != i)
+        i = parent[i];
+      return i;
+    };
+    const auto unite = [&](std::vector<unsigned int> &parent, const unsigned int i, const unsigned int j)
+    {
+      const unsigned int a = root(parent, i), b = root(parent, j);
+      parent[std::max(a, b)] = std::min(a, b);
+    };
+    std::vector<unsigned int> joined(n_bodies());
+    std::iota(joined.begin(), joined.end(), 0);
+    for (const auto &[i, j] : pairs)
+    {
+      unite(master, i, j);
+      unite(joined, body[i], body[j]);
+    }
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+      master[i] = root(master, i);
+    std::vector<int>          numbers;
+    std::vector<unsigned int> number(n_bodies(), 0);
+    for (unsigned int b = 0; b < n_bodies(); ++b)
+      if (const unsigned int first = all_bodies ? 0 : root(joined, b); first == b)
+      {
+        number[b] = numbers.size();
+        numbers.push_back(body_numbers[b]);
+      }
+      else
+        number[b] = number[first];
+    body_numbers = numbers;
+    for (unsigned int &b : body)
+      b = number[b];
+    number_equations(base_is_fixed ? on_base() : std::vector<bool>(n_nodes(), false));
+  }
+
+  void SolidModel::number_equations(const std::vector<bool> &fixed)
+  {
+    std::vector<bool> is_fixed(n_nodes(), false);
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+      is_fixed[master[i]] = is_fixed[master[i]] || fixed[i];
     equation.assign(n_nodes(), rigid_ground);
     first_equation.assign(1, 0);
     unsigned int next = 0;
     for (unsigned int b = 0; b < n_bodies(); ++b)
     {
       for (unsigned int i = 0; i < n_nodes(); ++i)
-        if (body[i] == b && master[i] == i && !fixed[i])
+        if (body[i] == b && master[i] == i && !is_fixed[i])
           equation[i] = next++;
       first_equation.push_back(next);
     }

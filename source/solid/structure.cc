@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/exceptions.h>
 
+#include <voussoir/mesh/mesh.h>
 #include <voussoir/solid/structure.h>
 
 #include <algorithm>
@@ -8,6 +9,12 @@
 
 namespace Voussoir
 {
+  std::string Body::name() const
+  {
+    return "monolith " + std::to_string(monolith_of(number)) +
+           (lift_of(number) > 1 ? " lift " + std::to_string(lift_of(number)) : "");
+  }
+
   void Structure::collect_interfaces()
   {
     std::vector<bool> in_pair(n_nodes(), false);

@@ -27,6 +27,7 @@ namespace Voussoir
     double       time_step = 0.;        ///< of the dam [s]
     bool         has_rock = false;      ///< true: the mesh has rock, or can have it
     bool         has_base_joints = false;
+    bool         has_lift_joints = false;
 
     std::vector<ModelChoice> list;
 

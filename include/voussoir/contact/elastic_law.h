@@ -38,6 +38,9 @@ namespace Voussoir
     /** Returns true if the pair has a bond that can break. */
     bool has_bond() const { return tension > 0. || face->n_memory() > 0; }
 
+    /** Returns the elastic energy that a step adds [J]. The arguments are those of friction_correction(). */
+    double stored_change(const Vector3 &force, const PairHistory &history) const;
+
     /** Returns minus the elastic energy along the joint that a step adds [J], see SurfacesLaw::friction_correction().
      * @param force force of the pair in the step [N]
      * @param history data of the pair, with the history variables at the start of the step */
@@ -70,6 +73,7 @@ namespace Voussoir
       n_own = stress + 3
     };
     struct OfFace;
+    double change_of_row(unsigned int row, const Vector3 &force, const PairHistory &history) const;
     bool   is_bonded(const PairHistory &history) const { return tension > 0. && history.memory[lost] == 0.; }
     double softened(double rho, const PairHistory &history) const;
 

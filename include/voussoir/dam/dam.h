@@ -33,7 +33,10 @@ namespace Voussoir
     static bool is_one_body(const Scene &scene, bool tied);
 
     /** Returns true if any monolith stands on a base joint that is not tied. */
-    bool has_base_joints() const { return !weight_on_base.empty(); }
+    bool has_base_joints() const { return has_open_bases; }
+
+    /** Returns true if a base or lift joint is not tied, so that only joints hold some blocks. */
+    bool has_loose_blocks() const { return has_open_bases || has_open_lifts; }
 
     /** Returns true if the lowest base nodes are fixed. */
     bool base_is_held() const { return lowest_base.empty(); }
@@ -94,8 +97,8 @@ namespace Voussoir
      * included in other displacements. */
     Vector3 self_weight_crown = {{0., 0., 0.}};
 
-    /** Force of the foundation on each node of the model under staged self-weight, three values per node; zero
-     * away from the base. Empty without staged self-weight [N]. */
+    /** Force on each node of the model under staged self-weight, three values per node: of the foundation, and of the
+     * other block at lift joints; zero elsewhere. Empty without staged self-weight [N]. */
     Unknowns staged_reaction;
 
     bool has_water = false; ///< true: water pressure on the upstream face, from the reservoir
@@ -107,7 +110,10 @@ namespace Voussoir
     void    assemble(const HexMesh &opened, const std::string &source);
     void    tie_base();
     void    open_base_joints();
-    void    find_weight_on_base();
+    void    open_lift_joints();
+    void    group_by_monolith();
+    void    find_weight_on_joints();
+    void    make_laws_of_crossings();
 
     Unknowns uplift_at_base() const;
     void     remove_base_pairs(std::vector<Pair> &pairs) const;
@@ -119,8 +125,10 @@ namespace Voussoir
     void                   find_staged_reaction(double weight, const Unknowns &u);
     void                   find_lowest_base();
 
-    std::vector<unsigned int> lowest_base;    ///< free nodes at the lowest height of the base
-    Unknowns                  weight_on_base; ///< of base joints: staged weight per free node [N], or empty
+    bool has_open_bases = false, has_open_lifts = false; ///< joints that are not tied
+
+    std::vector<unsigned int> lowest_base; ///< free nodes at the lowest height of the base
+    Unknowns weight_on_joints; ///< of base and lift joints: staged weight per free node [N], or empty
   };
 } // namespace Voussoir
 

@@ -17,6 +17,14 @@ namespace Voussoir
     none   ///< no correction (plain Newmark); joint forces oscillate; for comparison
   };
 
+  /** Rows of a closed pair that the correction changes. */
+  enum class ImpactRows
+  {
+    none,
+    normal, ///< along n, with the mean friction of the step
+    all
+  };
+
   /** Returns the rule @p name. Throws InputError for an unknown name. */
   ImpactRule impact_rule(const std::string &name);
 
@@ -27,12 +35,13 @@ namespace Voussoir
    * displacements, pair by pair. Without it, the force of a closed pair oscillates from step to step
    * (doc/failures.md, Plain Newmark).
    *
-   * The mass matrix is lumped with one 3x3 block per node. A node may belong to one pair only. The structure
-   * and the laws must outlive the object. */
+   * The mass matrix is lumped with one 3x3 block per node. Pairs that share nodes form a cluster, whose impulses are
+   * computed together by Gauss-Seidel iterations. Their sum never adds energy; otherwise only the normal velocities of
+   * the cluster are corrected. The structure and the laws must outlive the object. */
   class Impact
   {
   public:
-    /** Inverts the masses. Throws InputError if a node belongs to two pairs. */
+    /** Inverts the masses. Throws InputError if pairs share nodes and the rule is not mean_force or none. */
     Impact(const Structure &structure, const JointLaws &laws, ImpactRule rule);
 
     /** Corrects the velocities and impulses of all pairs at the end of a step.
@@ -56,16 +65,38 @@ namespace Voussoir
                        const Unknowns &force, const Unknowns &v, const Unknowns &nodal_force) const;
 
   private:
+    /** Pairs that share nodes. */
+    struct Cluster
+    {
+      std::vector<unsigned int> pairs;
+      std::vector<Matrix3>      H; ///< G M^-1 G^T between its pairs, by row
+      const Matrix3            &between(const std::size_t i, const std::size_t j) const
+      {
+        return H[i * pairs.size() + j];
+      }
+    };
+    struct ClusterStep;
+    Matrix3 between(const Pair &p, const Pair &q) const;
+    void    add_cluster(const std::vector<unsigned int> &pairs);
+    void    correct_cluster(const JointSystem &system, const std::vector<PairHistory> &histories, double dt,
+                            const Cluster &cluster, const Unknowns &change, Unknowns &v,
+                            Unknowns &impulse) const;
+
+    /** Computes the impulses of a cluster. Returns false without convergence. */
+    bool solve_cluster(const Cluster &cluster, const std::vector<PairHistory> &histories,
+                       ClusterStep &step) const;
     void correct_pair(const JointSystem &system, const PairHistory &history, double dt, std::size_t p,
                       const Unknowns &change, Unknowns &v, Unknowns &impulse) const;
     /** Adds M^-1 G^T f of one pair to the velocity @p v. */
     void add_impulse(const Pair &pair, const Vector3 &f, Unknowns &v) const;
 
-    const Structure     &structure;
-    const JointLaws     &laws;
-    const ImpactRule     rule;
-    std::vector<Matrix3> inverse_mass; ///< per node
-    std::vector<Matrix3> pair_inverse; ///< G M^-1 G^T per pair
+    const Structure          &structure;
+    const JointLaws          &laws;
+    const ImpactRule          rule;
+    std::vector<Matrix3>      inverse_mass; ///< per node
+    std::vector<Matrix3>      pair_inverse; ///< G M^-1 G^T per pair
+    std::vector<Cluster>      clusters;
+    std::vector<unsigned int> single; ///< pairs that share no nodes
   };
 } // namespace Voussoir
 

@@ -145,7 +145,8 @@ namespace Voussoir
     const ImpactRule              rule;
     Support *const                support;
     const bool                    single_factors;
-    const double                  share; ///< StepOperator::share of the rule
+    const double                  share;          ///< StepOperator::share of the rule
+    std::vector<unsigned int>     nodes_in_pairs; ///< each once
     Impact                        impact;
     std::unique_ptr<StepEquation> equation;
     Unknowns                      reference, impulse, gap;

@@ -119,6 +119,12 @@ namespace Voussoir
      * subtracted, and the block is rounded to single precision. */
     std::vector<double> own_block(unsigned int group) const;
 
+    /** Sets the clusters of pairs that share nodes, for the preconditioner. Call it before finish(). */
+    void set_clusters(const std::vector<std::vector<unsigned int>> &given) { clusters = given; }
+
+    /** Returns the clusters of pairs that share nodes. */
+    const std::vector<std::vector<unsigned int>> &pair_clusters() const { return clusters; }
+
     /** Copies the blocks to single precision and assigns the colours of the groups. Call it after all blocks
      * are filled. @p base: eliminated base nodes, whose part is subtracted; nullptr: none. */
     void finish(std::shared_ptr<const BaseElimination> base = nullptr);
@@ -138,6 +144,7 @@ namespace Voussoir
     void    find_colours();
 
     Shares                                                               share;
+    std::vector<std::vector<unsigned int>>                               clusters;
     std::vector<unsigned int>                                            offset;
     std::vector<std::vector<unsigned int>>                               coupled;
     std::map<std::pair<unsigned int, unsigned int>, std::vector<double>> blocks;

@@ -2,6 +2,7 @@
 #ifndef voussoir_joint_jacobian_h
 #define voussoir_joint_jacobian_h
 
+#include <voussoir/joints/crossings.h>
 #include <voussoir/joints/joint_block.h>
 #include <voussoir/joints/joint_chain.h>
 
@@ -10,7 +11,7 @@ namespace Voussoir
   /** Linear systems of Newton's method for the joints: J = d_force + d_gap W.
    *
    * GMRES in single precision, preconditioned by P = D + L. D has the diagonal blocks of the joints
-   * (JointBlock). L has the couplings to joints of earlier colour; neighbouring joints have different
+   * (JointBlock). Where joints cross, Crossings corrects the result. L has the couplings to joints of earlier colour; neighbouring joints have different
    * colours. P is a block Gauss-Seidel iteration, in which joints of one colour run in parallel.
    *
    * The preconditioner computes z = P^-1 v together with W z: JointBlock supplies W_jj z_j, and each coupling
@@ -50,6 +51,7 @@ namespace Voussoir
     std::vector<std::pair<unsigned int, unsigned int>> keys; ///< indices of the blocks
     const std::vector<PairEquations>                  *equations = nullptr;
     std::vector<JointBlock>                            joints;
+    Crossings                                          crossings;
     bool                        is_chain = true;       ///< each joint is coupled to its neighbours only
     bool                        expects_chain = false; ///< JointChain in all problems
     bool                        use_chain = false; ///< JointChain from the next equations of this problem on

@@ -81,9 +81,13 @@ namespace Voussoir
     std::vector<std::unique_ptr<JointLaw>> of_joint; ///< law of each joint
     std::vector<std::unique_ptr<JointLaw>> of_edges; ///< law of each pair on an edge, see assign()
 
-    /** Appends all @p pairs, with the law of their joint. A pair on an edge of a joint with Coulomb friction
-     * (FJA) has an own law, with friction on all its planes (Pair::planes). Other laws treat edges as flat. */
-    void assign(const std::vector<Pair> &pairs);
+    /** Law of the pairs of each joint that share nodes with other pairs; empty: of_joint. */
+    std::vector<std::unique_ptr<JointLaw>> of_crossings;
+
+    /** Appends all pairs of a structure, with the law of their joint. A pair that shares nodes with other pairs has
+     * the law of #of_crossings. A pair on an edge of a joint with Coulomb friction (FJA) has an own law, with friction
+     * on all its planes (Pair::planes). Other laws treat edges as flat. */
+    void assign(const Structure &structure);
   };
 } // namespace Voussoir
 

@@ -155,6 +155,7 @@ namespace Voussoir
     const bool                                  is_static; ///< without mass
     std::vector<std::unique_ptr<CondensedBody>> bodies;    ///< nullptr for bodies of other processes
     std::vector<std::array<Side, 2>>            sides;     ///< nodes of each pair
+    std::vector<unsigned int>                   group;     ///< block of W of each pair
     InterfaceOperator                           W;
     std::shared_ptr<BaseElimination>            base; ///< or nullptr
     std::unique_ptr<ContactSolver>              solver;

@@ -4,7 +4,9 @@
 
 #include <voussoir/solid/solid_model.h>
 
+#include <functional>
 #include <map>
+#include <vector>
 
 namespace Voussoir
 {
@@ -22,9 +24,19 @@ namespace Voussoir
    * Throws InputError for nodes without a coincident partner. */
   std::vector<Pair> find_pairs(const SolidModel &model, unsigned int n_joints);
 
-  /** Merges all bodies into one: coincident nodes on the two sides of the joints 1 to @p n_joints move
-   * together. @p base_only: only base nodes are merged. */
-  void tie_joints(SolidModel &model, unsigned int n_joints, bool base_only = false);
+  /** Makes coincident nodes on the two sides of joints move together, and joins their bodies.
+   * @param model mesh and numbering, changed in place
+   * @param n_joints number of joints
+   * @param is_tied whether the joint with this index is tied; none: all joints are, and all bodies become one */
+  void tie_joints(SolidModel &model, unsigned int n_joints,
+                  const std::function<bool(unsigned int)> &is_tied = nullptr);
+
+  /** Merges all bodies into one: coincident base nodes on the two sides of the joints 1 to @p n_joints move together. */
+  void tie_base_nodes(SolidModel &model, unsigned int n_joints);
+
+  /** Returns the clusters of pairs that share free nodes, as where joints cross: pairs that are connected by such nodes.
+   * A pair that shares no node belongs to no cluster. The pairs of a cluster ascend. */
+  std::vector<std::vector<unsigned int>> clusters_of(const std::vector<Pair> &pairs);
 } // namespace Voussoir
 
 #endif

@@ -24,6 +24,7 @@ namespace Voussoir
     std::vector<double> rows;          ///< ends of the rows of elements, see make_arch(); empty: equal
     double              end_wall_height = 0; ///< depth of the abutment below the two ends of the crest [m]
     bool                base_joint = false;  ///< the base is a joint
+    unsigned int        lift_joints = 0;     ///< in each monolith, between rows of elements
     double smallest_height = 5; ///< [m]; where the abutment is higher, the dam is embedded in the bank
 
     /** Declares the entries of the current subsection that all dams have. */

@@ -28,6 +28,9 @@ namespace Voussoir
 
     constexpr int water = 0; ///< volume "water", which requires its name
 
+    /** Lift l of monolith m, from the base, is the volume m + (l - 1) per_lift. */
+    constexpr int per_lift = 10000000, max_lifts = 99;
+
     /** Joints 1 to 99 have these ids in files, for groups without names. */
     constexpr int side_1_in_files = 100, side_2_in_files = 200, max_in_files = 99;
   } // namespace PhysicalId
@@ -39,7 +42,7 @@ namespace Voussoir
     struct Cell
     {
       std::array<unsigned int, 8> nodes;
-      int                         volume;   ///< physical id: monolith 1 to 999, rock from 1000
+      int                         volume;   ///< physical id: monolith 1 to 999 and its lifts, rock from 1000
       unsigned int                zone = 0; ///< index into zones (material); 0: no zone
     };
     struct Face
@@ -59,10 +62,23 @@ namespace Voussoir
   constexpr unsigned int hex_faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                             {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
-  /** Returns true if the physical id @p volume is that of a monolith, false for rock. */
+  /** Returns the monolith of a block of concrete: a monolith, or one of its lifts. @p volume: physical id of the
+   * block. */
+  inline int monolith_of(const int volume)
+  {
+    return volume % PhysicalId::per_lift;
+  }
+
+  /** Returns the lift of a block of concrete, from 1 at the base. */
+  inline int lift_of(const int volume)
+  {
+    return volume / PhysicalId::per_lift + 1;
+  }
+
+  /** Returns true if the physical id @p volume is that of a block of concrete, false for rock. */
   inline bool is_monolith(const int volume)
   {
-    return volume < PhysicalId::first_rock;
+    return monolith_of(volume) < PhysicalId::first_rock;
   }
 
   /** Returns true if the physical id @p surface is that of the base, bonded or as a joint. */
@@ -75,6 +91,13 @@ namespace Voussoir
   inline bool is_joint_side(const int surface)
   {
     return surface > PhysicalId::joint_side_1;
+  }
+
+  /** Returns the number of the joint of which the physical id @p surface is a side. */
+  inline int number_of_joint(const int surface)
+  {
+    return surface > PhysicalId::joint_side_2 ? surface - PhysicalId::joint_side_2
+                                              : surface - PhysicalId::joint_side_1;
   }
 
   /** Table of all cell faces. Finds the cells on the two sides of a face by the nodes of the face. */
@@ -101,7 +124,8 @@ namespace Voussoir
     std::vector<Entry> table;
   };
 
-  /** Returns the standard name of a physical group: "monolith 7", "rock 1000", "base", "joint 3 side 1", ...
+  /** Returns the standard name of a physical group: "monolith 7", "monolith 7 lift 2", "rock 1000", "base", "joint 3
+   * side 1", ... The lowest lift of a monolith has the name of the monolith.
    * @param dimension 3: volume, 2: surface
    * @param id physical id */
   std::string physical_name(int dimension, int id);
@@ -110,7 +134,7 @@ namespace Voussoir
    *
    * Case, blanks, '_' and '-' are ignored ("monolith7", "Free surface"). The words "minus" and "plus" mean
    * side 1 and side 2 of a joint. All names that begin with "rock" give PhysicalId::first_rock. A name with a
-   * zone, as "monolith 3 heel", gives the id of the monolith. */
+   * zone, as "monolith 3 heel" or "monolith 3 lift 2 heel", gives the id of the monolith or its lift. */
   int physical_id(int dimension, const std::string &name);
 
   /** Returns the zone in the name of a physical volume, in the form of zone_name(): "heel" for "Monolith_3
@@ -161,7 +185,7 @@ namespace Voussoir
    *  - with rock: the surface 'base' is not exactly the set of faces between dam and rock. */
   void check_mesh(const HexMesh &mesh, const std::string &source);
 
-  /** Returns the number of monoliths: the largest volume id below PhysicalId::first_rock. */
+  /** Returns the number of monoliths: the largest number of a monolith. */
   unsigned int n_monoliths(const HexMesh &mesh);
 
   /** Returns the smallest determinant of the Jacobian of the map from the unit cube to a cell, at the corners

@@ -8,33 +8,46 @@
 
 namespace Voussoir
 {
-  /** Joint of an opened mesh: an edge of the graph of monoliths and ground. Side 1 has the faces of monolith_1 and is
-   * the surface with the id PhysicalId::joint_side_1 + number. Side 2 has the faces of monolith_2 and the id
-   * PhysicalId::joint_side_2 + number. The ground has no faces. */
+  /** Joint of an opened mesh: an edge of the graph of blocks and ground. A block is a monolith or one of its lifts.
+   * Side 1 has the faces of block_1 and is the surface with the id PhysicalId::joint_side_1 + number. Side 2 has the
+   * faces of block_2 and the id PhysicalId::joint_side_2 + number. The ground has no faces. */
   struct Joint
   {
     int number;
-    int monolith_1, monolith_2; ///< monolith_1 < monolith_2; monolith_1 is 0 for the ground
+    int block_1,
+        block_2; ///< volumes, of the lower monolith or the lower lift first; block_1 is 0 for the ground
 
-    bool        is_base() const { return monolith_1 == 0; }
-    std::string kind() const { return is_base() ? "base" : "contraction"; }
+    int  monolith_1() const { return monolith_of(block_1); }
+    int  monolith_2() const { return monolith_of(block_2); }
+    bool is_base() const { return block_1 == 0; }
+    bool is_lift() const { return !is_base() && monolith_1() == monolith_2(); }
+    bool is_contraction() const { return !is_base() && !is_lift(); }
 
-    /** Returns "joint 3", or "base 2" for the base joint of monolith 2. */
-    std::string name() const
+    /** Returns "contraction", "lift" or "base". */
+    std::string kind() const { return is_base() ? "base" : is_lift() ? "lift" : "contraction"; }
+
+    /** Returns the number of the contraction joint between successive monoliths; a contraction joint between lifts has
+     * that of its monoliths. Returns #number for others. */
+    int contraction_number() const
     {
-      return is_base() ? "base " + std::to_string(monolith_2) : "joint " + std::to_string(number);
+      return is_contraction() && monolith_2() == monolith_1() + 1 ? monolith_1() : number;
     }
+
+    /** Returns the standard name: "joint 3"; "joint 3.2" between the lifts 2 of the monoliths 3 and 4, "joint 3.2-1"
+     * between the lifts 2 and 1; "lift 3.1" between the lifts 1 and 2 of monolith 3; "base 3" for the base joint of
+     * monolith 3, "base 3.2" of its lift 2. */
+    std::string name() const;
   };
 
   /** Returns the dam without the rock. */
   HexMesh monoliths_only(const HexMesh &mesh);
 
-  /** Returns the mesh with doubled nodes at the joints. Monoliths share no nodes, except those of the rock.
-   * The two sides of every joint are surfaces.
+  /** Returns the mesh with doubled nodes at the joints. Blocks share no nodes, except those of the rock. A node has one
+   * copy per block. The two sides of every joint are surfaces: two blocks that share faces have a joint.
    *
-   * Joint j lies between the monoliths j and j + 1. Contacts of other monoliths have the numbers from
-   * n_monoliths() on, in the order of the monoliths. The base joints follow, one per monolith with faces in the surface
-   * "base joint". Nodes of the rock are not doubled: where a joint meets the rock, its sides share the base node and are
+   * Joint j lies between the monoliths j and j + 1, or their lowest lifts. Contacts of other blocks have the numbers
+   * from n_monoliths() on, in the order of the monoliths and lifts. The base joints follow, one per block with faces in
+   * the surface "base joint". Nodes of the rock are not doubled: where a joint meets the rock, its sides share the base node and are
    * tied there.
    *
    * @param mesh conforming, with doubled nodes, or a mixture. It is closed first, so that all three give the

@@ -34,11 +34,14 @@ namespace Voussoir
      * @param sides sides of these joints: boundary ids. Nodes of other base faces remain fixed. */
     void free_base_joints(const std::set<int> &sides);
 
-    /** Numbers the free nodes again.
-     * @param fixed whether each node is fixed
-     * @param master for each node a node of the same body with the same displacement; for independent nodes
-     * the node itself */
-    void number_equations(const std::vector<bool> &fixed, const std::vector<unsigned int> &master);
+    /** Numbers the free nodes again. A node moves as its #master. @p fixed: whether each node is fixed; if one of the
+     * nodes that move together is fixed, all are. */
+    void number_equations(const std::vector<bool> &fixed);
+
+    /** Makes pairs of nodes move together, and joins their bodies. Numbers the free nodes again.
+     * @param pairs pairs of nodes
+     * @param all_bodies true: joins all bodies */
+    void merge(const std::vector<std::pair<unsigned int, unsigned int>> &pairs, bool all_bodies);
 
     bool         base_is_fixed = true;
     bool         plane_strain = false; ///< assemble_structure() decouples y: Structure::decouple_y()
@@ -64,14 +67,15 @@ namespace Voussoir
     const Material &material_of(const dealii::DoFHandler<3>::active_cell_iterator &cell,
                                 const std::vector<Material>                       &materials) const;
 
-    dealii::Triangulation<3>      triangulation; ///< material id: monolith; boundary id: surface
+    dealii::Triangulation<3>      triangulation; ///< material id: block; boundary id: surface
     dealii::FE_Q<3>               fe;
     dealii::DoFHandler<3>         dof_handler;
     std::vector<dealii::Point<3>> points;       ///< position of each node [m]
     std::vector<unsigned int>     body;         ///< index into body_numbers of each node
-    std::vector<int>              body_numbers; ///< monolith numbers, ascending
-    std::size_t n_zones;             ///< number of zones of the mesh, also those without cells in this model
-    std::vector<unsigned int>  zone; ///< index into HexMesh::zones of each active cell
+    std::vector<int>              body_numbers; ///< physical id of the (first) block of each body, ascending
+    std::vector<unsigned int> master; ///< of each node: a node of the same body that moves with it, or itself
+    std::size_t n_zones;              ///< number of zones of the mesh, also those without cells in this model
+    std::vector<unsigned int>  zone;  ///< index into HexMesh::zones of each active cell
     std::set<int>              base_joints;    ///< boundary ids of the base joints
     std::set<int>              open_base;      ///< those of free_base_joints()
     std::vector<std::set<int>> surfaces;       ///< boundary ids of each node, and the base at base joints
@@ -80,6 +84,7 @@ namespace Voussoir
 
   private:
     void              find_nodes();
+    std::vector<bool> on_base() const;
     std::vector<bool> bonded; ///< node is on a face of the base that is no joint
   };
 

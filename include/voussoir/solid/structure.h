@@ -5,12 +5,14 @@
 #include <voussoir/base/node_matrix.h>
 #include <voussoir/base/ranks.h>
 
+#include <string>
+
 namespace Voussoir
 {
   /** Linear elastic body: its stiffness and the position of its nodes in the numbering of the structure. */
   struct Body
   {
-    int               number = 0;     ///< monolith number in messages
+    int               number = 0;     ///< physical id of its (first) block
     unsigned int      first_node = 0; ///< its nodes are first_node .. first_node + stiffness.n_rows() - 1
     BlockSparseMatrix stiffness;      ///< [N/m], free nodes only
 
@@ -21,6 +23,9 @@ namespace Voussoir
     std::vector<unsigned int> interface; ///< local numbers of the nodes in pairs, ascending
 
     unsigned int n_nodes() const { return stiffness.n_rows(); }
+
+    /** Returns the name for messages, as "monolith 3" or "monolith 3 lift 2". */
+    std::string name() const;
   };
 
   /** Node number of the rigid ground, whose displacement is zero. */
@@ -55,8 +60,11 @@ namespace Voussoir
     unsigned int         n_joints = 0;
 
     /** Group of each joint: a block of the joint operator. Joints of a group are solved together, so that an arch with
-     * base joints is a chain of groups. Empty: each joint is a group. */
+     * base and lift joints is a chain of groups. Empty: each joint is a group. */
     std::vector<unsigned int> group_of_joint;
+
+    /** Clusters of pairs that share nodes, where joints cross; see clusters_of(). */
+    std::vector<std::vector<unsigned int>> clusters;
     double mass_damping = 0.;      ///< Rayleigh: C = mass_damping M + stiffness_damping K + dashpots [1/s]
     double stiffness_damping = 0.; ///< [s]
     bool   plane_strain = false;   ///< true: displacements along y are zero, see decouple_y()

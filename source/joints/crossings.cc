@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/blas.h>
+#include <voussoir/base/parallel.h>
+#include <voussoir/joints/crossings.h>
+
+#include <algorithm>
+
+namespace Voussoir
+{
+  namespace
+  {
+    /** Entry of W in single precision between unknowns of two groups. @p i, @p j: relative to the first of the group. */
+    float entry(const InterfaceOperator &W, const unsigned int row_group, const unsigned int i,
+                const unsigned int column_group, const unsigned int j)
+    {
+      const std::vector<float> &block =
+          W.single_block(std::min(row_group, column_group), std::max(row_group, column_group));
+      return row_group <= column_group ? block[std::size_t(j) * W.size(row_group) + i]
+                                       : block[std::size_t(i) * W.size(column_group) + j];
+    }
+  } // namespace
+
+  Crossings::Crossings(const InterfaceOperator &W) : W(W)
+  {
+    if (W.pair_clusters().empty() || !W.shares().are_trivial())
+      return;
+    std::vector<unsigned int> group; // of each pair
+    for (unsigned int g = 0; g < W.n_groups(); ++g)
+      group.insert(group.end(), W.size(g) / 3, g);
+    unknowns.resize(W.n_groups());
+    columns.resize(W.n_groups());
+    for (const auto &pairs : W.pair_clusters())
+    {
+      Cluster cluster{pairs, {}, {}, {}};
+      for (const unsigned int q : pairs)
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          unknowns[group[q]].push_back(3 * q + c - W.begin(group[q]));
+          for (const unsigned int p : pairs)
+            for (unsigned int r = 0; r < 3; ++r)
+              cluster.W.push_back(
+                  W.find_block(std::min(group[p], group[q]), std::max(group[p], group[q]))
+                      ? entry(W, group[p], 3 * p + r - W.begin(group[p]), group[q], unknowns[group[q]].back())
+                      : 0.f);
+        }
+      clusters.push_back(std::move(cluster));
+    }
+    for (auto &list : unknowns)
+      std::sort(list.begin(), list.end());
+    for (unsigned int g = 0; g < W.n_groups(); ++g)
+    {
+      copy_columns(g, g);
+      for (const unsigned int k : W.neighbours(g))
+        copy_columns(g, k);
+    }
+  }
+
+  void Crossings::copy_columns(const unsigned int to, const unsigned int from)
+  {
+    if (unknowns[from].empty() || W.size(to) == 0)
+      return;
+    Columns copy{from, {}};
+    for (const unsigned int j : unknowns[from])
+      for (unsigned int i = 0; i < W.size(to); ++i)
+        copy.value.push_back(entry(W, to, i, from, j));
+    columns[to].push_back(std::move(copy));
+  }
+
+  void Crossings::factorise(const std::vector<PairEquations> &equations)
+  {
+    for_each_in_chunks(clusters.size(),
+                       [&](const std::size_t k)
+                       {
+                         Cluster  &cluster = clusters[k];
+                         const int n = cluster.n();
+                         cluster.lu.resize(cluster.W.size());
+                         cluster.pivots.resize(n);
+                         for (int j = 0; j < n; ++j)
+                           for (int i = 0; i < n; ++i)
+                           {
+                             const PairEquations &e = equations[cluster.pairs[i / 3]];
+                             const double        *g = e.d_gap.data() + 3 * (i % 3);
+                             const float         *w = cluster.W.data() + j * n + i - i % 3;
+                             const double         own = i / 3 == j / 3 ? e.d_force[3 * (i % 3) + j % 3] : 0.;
+                             cluster.lu[j * n + i] =
+                                 static_cast<float>(own + g[0] * w[0] + g[1] * w[1] + g[2] * w[2]);
+                           }
+                         int info = 0;
+                         sgetrf_(&n, &n, cluster.lu.data(), &n, cluster.pivots.data(), &info);
+                       });
+  }
+
+  void Crossings::correct(const std::vector<PairEquations> &equations, const std::vector<float> &v,
+                          std::vector<float> &z, std::vector<float> &Wz) const
+  {
+    std::vector<float> change(z.size(), 0.f);
+    for_each_in_chunks(
+        clusters.size(),
+        [&](const std::size_t k)
+        {
+          const Cluster     &cluster = clusters[k];
+          const int          n = cluster.n(), one = 1;
+          std::vector<float> r(n);
+          for (int i = 0; i < n; ++i)
+          {
+            const unsigned int   p = cluster.pairs[i / 3];
+            const PairEquations &e = equations[p];
+            double               sum = v[3 * p + i % 3];
+            for (unsigned int c = 0; c < 3; ++c)
+              sum -= e.d_force[3 * (i % 3) + c] * z[3 * p + c] + e.d_gap[3 * (i % 3) + c] * Wz[3 * p + c];
+            r[i] = static_cast<float>(sum);
+          }
+          int info = 0;
+          sgetrs_("N", &n, &one, cluster.lu.data(), &n, cluster.pivots.data(), r.data(), &n, &info);
+          for (int i = 0; i < n; ++i)
+            change[3 * cluster.pairs[i / 3] + i % 3] = r[i];
+        });
+    for (std::size_t i = 0; i < z.size(); ++i)
+      z[i] += change[i];
+    for_each_parallel(W.n_groups(),
+                      [&](const int g)
+                      {
+                        for (const Columns &part : columns[g])
+                        {
+                          std::vector<float> x;
+                          for (const unsigned int j : unknowns[part.from])
+                            x.push_back(change[W.begin(part.from) + j]);
+                          const int   rows = W.size(g), n = x.size(), stride = 1;
+                          const float one = 1.f;
+                          sgemv_("N", &rows, &n, &one, part.value.data(), &rows, x.data(), &stride, &one,
+                                 Wz.data() + W.begin(g), &stride);
+                        }
+                      });
+  }
+} // namespace Voussoir
