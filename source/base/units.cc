@@ -147,4 +147,12 @@ namespace Voussoir
     std::snprintf(text, sizeof(text), "%.15g", number * written->factor / target->factor);
     return text;
   }
+
+  double number_in_unit(const std::string &value, const std::string &declared, const std::string &what)
+  {
+    const std::string text = in_declared_unit(value, declared, what);
+    char             *end = nullptr;
+    const double      x = std::strtod(text.c_str(), &end);
+    return end == text.c_str() || *end != '\0' ? std::nan("") : x;
+  }
 } // namespace Voussoir

@@ -32,15 +32,6 @@ namespace Voussoir
       return values;
     }
 
-    /** Returns a number in the unit @p unit, or NaN for invalid text. */
-    double number(const std::string &value, const std::string &unit, const std::string &what)
-    {
-      const std::string text = in_declared_unit(value, unit, what);
-      char             *end = nullptr;
-      const double      x = std::strtod(text.c_str(), &end);
-      return end == text.c_str() || *end != '\0' ? std::nan("") : x;
-    }
-
     Material material_from(const std::string &text, const double largest_poisson, const std::string &what)
     {
       const std::vector<std::string> values = values_in(text);
@@ -53,17 +44,17 @@ namespace Voussoir
       {
         throw InputError(what + ": " + quantity + " cannot be \"" + value + "\". It must be " + must + ".");
       };
-      m.young = number(values[0], "Pa", what + ": the modulus of elasticity");
+      m.young = number_in_unit(values[0], "Pa", what + ": the modulus of elasticity");
       if (!std::isfinite(m.young) || !(m.young > 0.))
         refuse(values[0], "the modulus of elasticity", "a positive number, in Pa");
-      m.poisson = number(values[1], "-", what + ": Poisson's ratio");
+      m.poisson = number_in_unit(values[1], "-", what + ": Poisson's ratio");
       if (!(m.poisson >= 0. && m.poisson <= largest_poisson))
       {
         std::ostringstream range;
         range << "from 0 to " << largest_poisson;
         refuse(values[1], "Poisson's ratio", range.str());
       }
-      m.density = number(values[2], "kg/m^3", what + ": the density");
+      m.density = number_in_unit(values[2], "kg/m^3", what + ": the density");
       if (!std::isfinite(m.density) || !(m.density > 0.))
         refuse(values[2], "the density", "a positive number, in kg/m^3");
       return m;

@@ -15,6 +15,10 @@ namespace Voussoir
    * Throws InputError for an unknown unit, a unit of another dimension, or a unit on an entry without one. */
   std::string in_declared_unit(const std::string &value, const std::string &declared,
                                const std::string &what);
+
+  /** Returns a number in the unit @p declared, or NaN for invalid text. The arguments are those of
+   * in_declared_unit(). Throws InputError like it. */
+  double number_in_unit(const std::string &value, const std::string &declared, const std::string &what);
 } // namespace Voussoir
 
 #endif
