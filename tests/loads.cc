@@ -802,7 +802,13 @@ namespace
     const auto stages = static_stages("grout 140, fill 100,day 90 , grout 210");
     expect(stages.size() == 4 && stages[1].kind == StaticStage::Kind::fill && stages[2].value == 90.,
            "stages");
-    for (const char *bad : {"fill", "fill x", "fill 3 4", "empty 100", "fill -"})
+    const auto joints = static_stages("grout 140 at 0.5 MPa, cut base 2 by 10 mm");
+    expect(joints.size() == 2 && joints[0].value == 140. && joints[0].pressure == 5e5 &&
+               joints[1].kind == StaticStage::Kind::cut && joints[1].joint == "base 2" &&
+               joints[1].value == .01,
+           "stages of joints");
+    for (const char *bad :
+         {"fill", "fill x", "fill 3 4", "empty 100", "fill -", "day 3 at 1", "cut 3", "cut 3 by 0"})
       expect_error([&] { static_stages(bad); }, {"Statics/Stages", bad});
   }
 } // namespace

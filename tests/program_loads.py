@@ -155,15 +155,12 @@ def stages():
     crests = [row[names.index("crest_x")] for row in rows]
     expect(abs(crests[2] - .5 * (crests[1] + crests[3])) < 1e-6 * crests[3], f"half-way from 80 to 140 m: {crests}")
     # Lifts. Nothing is grouted at first: monoliths alone.
-    lifts, shown = result("lifts", *settings(Statics__Stages="fill 100, grout 210"))
+    lifts, _ = result("lifts", *settings(Statics__Stages="fill 100, grout 210"))
     names, rows = table("lifts/stages.csv")
     alone = rows[0][names.index("crest_x")]
     together, _ = result("together", *settings(Reservoir__Water_level=100, Reservoir__Added_mass="none"))
     print(f"    crest at 100 m: monoliths alone {1e3 * alone:.4f} mm, together {1e3 * together['static']['crest_displacement'][0]:.4f} mm")
     expect(alone > 1.2 * together["static"]["crest_displacement"][0], "monoliths alone move more")
-    overlaps = [row[names.index("max_overlap")] for row in rows]
-    expect(overlaps[0] > 0 == overlaps[-1], f"monoliths alone lean into each other, grouted ones do not: {overlaps}")
-    expect(("overlap by" in shown) == (max(overlaps) > 5e-3), f"{overlaps}: {shown}")
     # The pairs that are open and that slip, by the fields of the static state.
     result("sliding", *settings(Statics__Stages="fill 100", Joints__Model="FJA", Joints__Friction=.05, Output__Solution_interval=1))
     names, rows = table("sliding/stages.csv")

@@ -211,11 +211,11 @@ namespace Voussoir
     if (scene.statics.stages.empty())
       return;
     Table table;
-    table.columns = {"stage",      "share",      "level",     "crest_x",     "crest_y",    "crest_z",
-                     "open_pairs", "slip_pairs", "wet_pairs", "max_opening", "max_overlap"};
+    table.columns = {"stage",   "share",      "level",      "crest_x",   "crest_y",
+                     "crest_z", "open_pairs", "slip_pairs", "wet_pairs", "max_opening"};
     for (const StaticStep &s : run.statics.steps)
       table.rows.push_back({double(s.stage), s.share, s.level, s.crown[0], s.crown[1], s.crown[2],
-                            double(s.n_open), double(s.n_slip), double(s.n_wet), s.opening, s.overlap});
+                            double(s.n_open), double(s.n_slip), double(s.n_wet), s.opening});
     table.write(directory + "/stages.csv");
   }
 

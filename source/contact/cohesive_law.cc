@@ -149,7 +149,10 @@ namespace Voussoir
         return is_bonded(history.memory) ? -force[0] / (strength * history.area) : 0.;
       }
 
-      void apply_event(double *memory) const override { memory[condition] = end > 0. ? cracked : lost; }
+      void apply_event(double *memory, const JointEvent event) const override
+      {
+        memory[condition] = end > 0. && event == JointEvent::limit ? cracked : lost;
+      }
 
       void commit(const Vector3 &force, const Vector3 &gap, const PairHistory &history,
                   double *memory) const override

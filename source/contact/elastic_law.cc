@@ -120,12 +120,12 @@ namespace Voussoir
     return face->utilisation(of_face.force, of_face.gap, of_face.history);
   }
 
-  void ElasticLaw::apply_event(double *memory) const
+  void ElasticLaw::apply_event(double *memory, const JointEvent event) const
   {
     if (tension > 0.)
       memory[lost] = 1.;
     else
-      face->apply_event(memory + n_own);
+      face->apply_event(memory + n_own, event);
   }
 
   void ElasticLaw::commit(const Vector3 &force, const Vector3 &gap, const PairHistory &history,

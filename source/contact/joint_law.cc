@@ -31,7 +31,7 @@ namespace Voussoir
     return 0.;
   }
 
-  void JointLaw::apply_event(double *) const {}
+  void JointLaw::apply_event(double *, JointEvent) const {}
 
   void JointLaw::commit(const Vector3 &, const Vector3 &, const PairHistory &, double *) const {}
 

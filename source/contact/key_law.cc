@@ -98,7 +98,11 @@ namespace Voussoir
                    : 0.;
       }
 
-      void apply_event(double *memory) const override { ++memory[0]; }
+      void apply_event(double *memory, const JointEvent event) const override
+      {
+        if (event == JointEvent::limit)
+          ++memory[0];
+      }
 
       void commit(const Vector3 &, const Vector3 &gap, const PairHistory &history,
                   double *memory) const override

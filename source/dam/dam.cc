@@ -149,23 +149,43 @@ namespace Voussoir
   void Dam::choose_laws(const bool tie_all)
   {
     tied = true;
-    std::set<std::string> known = {"contraction"};
     for (const Joint &joint : joints)
     {
       joint_models.push_back(tie_all ? "tied" : scene.joints.model_of(joint));
+      initial_gaps.push_back(tie_all ? 0. : scene.joints.gap_of(joint));
       tied = tied && joint_models.back() == "tied";
       laws.of_joint.push_back(make_joint_law(joint_models.back(), scene.joints.law(scene.concrete.young)));
-      known.insert({std::to_string(joint.contraction_number()), joint.name(), joint.kind()});
+      if (initial_gaps.back() > 0. && joint_models.back() == "tied")
+        throw InputError("Entry \"Joints/Initial gaps\" has a gap of " + joint.name() +
+                         ", but this joint is tied. Set another model (\"Joints/Model\" or "
+                         "\"Joints/Overrides\"), or remove the gap.");
     }
-    for (const auto &[key, model] : scene.joints.overrides)
-      if (known.count(key) == 0)
-        throw InputError("Entry \"Joints/Overrides\" names " +
-                         (std::isdigit(static_cast<unsigned char>(key[0])) ? "joint " + key
-                                                                           : "the joint \"" + key + "\"") +
-                         ", but the dam has " + std::to_string(joints.size()) +
-                         " joints, and none with this number, name or kind (such as 1, contraction" +
-                         (joints.size() > n_joints ? ", base, " + joints.back().name() : "") +
-                         "). Correct or remove it.");
+    for (const auto &joint : scene.joints.overrides)
+      joints_named(joint.first, "Entry \"Joints/Overrides\" names ");
+    for (const auto &joint : scene.joints.gaps)
+      joints_named(joint.first, "Entry \"Joints/Initial gaps\" names ");
+  }
+
+  std::vector<std::size_t> Dam::joints_named(const std::string &key, const std::string &what) const
+  {
+    std::vector<std::size_t> named;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      if (key == std::to_string(joints[j].contraction_number()) || key == joints[j].name() || key == joints[j].kind())
+        named.push_back(j);
+    if (named.empty() && key != "contraction")
+      throw InputError(
+          what +
+          (std::isdigit(static_cast<unsigned char>(key[0])) ? "joint " + key : "the joint \"" + key + "\"") +
+          ", but the dam has " + std::to_string(joints.size()) +
+          " joints, and none with this number, name or kind (such as 1, contraction" +
+          (joints.size() > n_joints ? ", base, " + joints.back().name() : "") + "). Correct or remove it.");
+    return named;
+  }
+
+  bool Dam::is_tied(const std::size_t pair) const
+  {
+    return joint_models[structure.pairs[pair].joint] == "tied" ||
+           laws.of_pair[pair] == laws.of_joint.back().get();
   }
 
   bool Dam::is_one_body(const Scene &scene, const bool tied)

@@ -3,6 +3,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/nearest_name.h>
 #include <voussoir/base/number_text.h>
+#include <voussoir/base/units.h>
 #include <voussoir/dam/load_names.h>
 #include <voussoir/dam/load_parameters.h>
 
@@ -169,23 +170,41 @@ namespace Voussoir
 
   std::vector<StaticStage> static_stages(const std::string &text)
   {
+    using Kind = StaticStage::Kind;
+    const std::map<std::string, Kind> kinds = {
+        {"fill", Kind::fill}, {"grout", Kind::grout}, {"day", Kind::day}, {"cut", Kind::cut}};
     std::vector<StaticStage> stages;
     for (const std::string &item : items_of(text))
     {
-      const auto                blank = item.find(' ');
-      const std::string         word = item.substr(0, blank);
-      const std::vector<double> value =
-          blank == std::string::npos ? std::vector<double>() : numbers_in(item.substr(blank));
-      if (value.size() != 1 || (word != "fill" && word != "grout" && word != "day"))
+      const std::string what = "Entry \"Statics/Stages\" has \"" + item + "\"";
+      const auto        blank = item.find(' ');
+      const auto        kind = kinds.find(item.substr(0, blank));
+      std::string       of = blank == std::string::npos ? "" : item.substr(blank + 1);
+      StaticStage       stage{kind == kinds.end() ? Kind::fill : kind->second, std::nan("")};
+      if (const auto by = of.rfind(" by "); stage.kind == Kind::cut && by != std::string::npos)
+      {
+        stage.joint = of.substr(0, by);
+        stage.value = number_in_unit(of.substr(by + 4), "m", what + ", whose width");
+      }
+      else if (stage.kind != Kind::cut)
+      {
+        if (const auto at = of.rfind(" at "); stage.kind == Kind::grout && at != std::string::npos)
+        {
+          stage.pressure = number_in_unit(of.substr(at + 4), "Pa", what + ", whose pressure");
+          of.resize(at);
+        }
+        const std::vector<double> value = numbers_in(of);
+        stage.value = value.size() == 1 ? value[0] : std::nan("");
+      }
+      if (kind == kinds.end() || !std::isfinite(stage.value) || !std::isfinite(stage.pressure) ||
+          stage.pressure < 0. || (stage.kind == Kind::cut && stage.value <= 0.))
         throw InputError(
-            "Entry \"Statics/Stages\" has \"" + item +
-            "\"; a stage is \"fill Z\" (the reservoir to the level z, in m), \"grout Z\" (the "
-            "joints up to z) or \"day D\" (the temperatures of that day), as in \"grout 140, fill "
-            "100, grout 210\".");
-      const auto kind = word == "fill"    ? StaticStage::Kind::fill
-                        : word == "grout" ? StaticStage::Kind::grout
-                                          : StaticStage::Kind::day;
-      stages.push_back({kind, value[0]});
+            what +
+            "; a stage is \"fill Z\" (the reservoir to the level z, in m), \"grout Z\" or \"grout Z at P\" "
+            "(the joints up to z, with the pressure P of the fluid grout), \"cut J by W\" (joint J by a "
+            "saw of the width W) or \"day D\" (the temperatures of that day), as in \"grout 140 at "
+            "0.5 MPa, fill 100, grout 210, cut 5 by 10 mm\".");
+      stages.push_back(stage);
     }
     return stages;
   }

@@ -2,6 +2,7 @@
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
+#include <voussoir/base/units.h>
 #include <voussoir/contact/fclib_io.h>
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/scene.h>
@@ -9,6 +10,7 @@
 #include <voussoir/foundation/foundation_names.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <regex>
 #include <set>
@@ -82,6 +84,12 @@ namespace Voussoir
         "and 2, joint 3.2 the part of joint 3 between lifts 2. Joints are numbered from the right bank.",
         Patterns::Map(Patterns::Anything(), Patterns::Selection(joint_law_names())));
     prm.add_parameter(
+        "Initial gaps", gaps,
+        "Gaps between the faces of the joints before grouting, as \"3: 2 mm, 4: 1 mm, base: 1 mm\" [m]: number, "
+        "kind or name of the joints as in Overrides. The gap of a pair remains, without bond, until a stage grout "
+        "of Statics/Stages fills it. Reported openings include it: they count from closed faces.",
+        Patterns::Map(Patterns::Anything(), Patterns::Anything()));
+    prm.add_parameter(
         "Equations", equations_name,
         "Form of the joint equations. alart-curnier: slip angle of the trial force, always converges. paper: "
         "slip angle of the joint force, as printed. fischer-burmeister: other function. Both are for "
@@ -100,12 +108,37 @@ namespace Voussoir
     return result;
   }
 
+  namespace
+  {
+    /** Returns the value of a joint by its number, name or kind, in this order; otherwise @p other. */
+    const std::string &value_of(const std::map<std::string, std::string> &values, const Joint &joint,
+                                const std::string &other)
+    {
+      for (const std::string &key : {std::to_string(joint.contraction_number()), joint.name(), joint.kind()})
+        if (const auto found = values.find(key); found != values.end())
+          return found->second;
+      return other;
+    }
+
+    /** Returns an initial gap [m]. */
+    double gap_from(const std::string &value)
+    {
+      const double gap = number_in_unit(value, "m", "Entry \"Joints/Initial gaps\"");
+      if (!(gap >= 0. && std::isfinite(gap)))
+        throw InputError("Entry \"Joints/Initial gaps\" has the gap \"" + value +
+                         "\", which must be a length of at least 0, such as \"2 mm\".");
+      return gap;
+    }
+  } // namespace
+
   const std::string &JointParameters::model_of(const Joint &joint) const
   {
-    for (const std::string &key : {std::to_string(joint.contraction_number()), joint.name(), joint.kind()})
-      if (const auto found = overrides.find(key); found != overrides.end())
-        return found->second;
-    return model;
+    return value_of(overrides, joint, model);
+  }
+
+  double JointParameters::gap_of(const Joint &joint) const
+  {
+    return gap_from(value_of(gaps, joint, "0"));
   }
 
   bool JointParameters::any_reads(const std::string &entry) const
@@ -140,6 +173,8 @@ namespace Voussoir
 
   void JointParameters::check() const
   {
+    for (const auto &joint : gaps)
+      gap_from(joint.second);
     // KSM treats a flank as closed within 1e-9 of the key height. A step starts with the error of the
     // previous solution, about 1e-12 m. Smaller keys would start beyond their flanks, where the problem of
     // the pair takes 200 times as long, or does not converge.
@@ -185,13 +220,17 @@ namespace Voussoir
                       Patterns::Integer(1));
     prm.add_parameter("Gravity", gravity, "Acceleration of gravity [m/s^2].", {9.7, 9.9},
                       Patterns::Double(0.));
-    prm.add_parameter("Stages", stages,
-                      "Static stages before the final stage with Reservoir/Water level, such as \"grout 140, "
-                      "fill 100, day 90, grout 210\". fill Z: reservoir at the level Z [m]. grout Z: joints "
-                      "grouted up to the height Z [m]. Joints above carry no forces. Without a grout stage "
-                      "all joints are grouted at the start. day D: temperatures of the day D of "
-                      "Loads/Temperature/Table. Each stage has \"Water increments\" steps.",
-                      Patterns::Anything());
+    prm.add_parameter(
+        "Stages", stages,
+        "Static stages before the final stage with Reservoir/Water level, such as \"grout 140, "
+        "fill 100, day 90, grout 210 at 0.5 MPa, cut 5 by 10 mm\". fill Z: reservoir at the level "
+        "Z [m]. grout Z: joints grouted up to the height Z [m]; with \"at P\" the fluid grout "
+        "first presses on the faces with P [Pa]. Joints above have contact without friction. "
+        "Without a grout stage all joints are grouted at the start. cut J by W: the joints J "
+        "(number, kind or name) lose material of the width W [m] and their bond. day D: "
+        "temperatures of the day D of Loads/Temperature/Table. Each stage has \"Water "
+        "increments\" steps.",
+        Patterns::Anything());
     prm.leave_subsection();
   }
 

@@ -67,15 +67,16 @@ namespace Voussoir
         at.reservoir.level = std::min(at.reservoir.level, dam.model->points[i][2]);
     if (has_days) // no temperature load before the first day
       at.loads.temperature = TemperatureParameters();
-    double grouted = has_lifts ? -endless : endless;
+    double grouted = grouted_at_start = has_lifts ? -endless : endless;
     for (const StaticStage &stage : stages)
       switch (stage.kind)
       {
       case StaticStage::Kind::grout:
-        if (stage.value <= grouted)
-          throw InputError(entry + ": \"" + in_words("grout ", stage.value) +
-                           "\" is not above the previous lift. List the lifts in ascending order.");
+        add_grout(stage, at, grouted);
         grouted = stage.value;
+        break;
+      case StaticStage::Kind::cut:
+        add_cut(stage, at, grouted);
         break;
       case StaticStage::Kind::fill:
         check_level(at.reservoir.level = stage.value);
@@ -88,7 +89,34 @@ namespace Voussoir
       }
   }
 
-  void StaticPath::add_part(const std::string &name, const Scene &at, const double grouted)
+  void StaticPath::add_grout(const StaticStage &stage, const Scene &at, const double grouted)
+  {
+    if (stage.value <= grouted)
+      throw InputError("Entry \"Statics/Stages\": \"" + in_words("grout ", stage.value) +
+                       "\" is not above the previous lift. List the lifts in ascending order.");
+    if (stage.pressure == 0.)
+      return;
+    StaticPart &part = add_part(
+        in_words("grout ", stage.value) + in_words(" m at ", 1e-6 * stage.pressure) + " MPa", at, grouted);
+    part.fluid_to = stage.value;
+    part.pressure = stage.pressure;
+  }
+
+  void StaticPath::add_cut(const StaticStage &stage, const Scene &at, const double grouted)
+  {
+    const std::string entry = "Entry \"Statics/Stages\" cuts ";
+    StaticPart       &part =
+        add_part("cut " + stage.joint + in_words(" by ", 1e3 * stage.value) + " mm", at, grouted);
+    part.cut = dam.joints_named(stage.joint, entry);
+    part.width = stage.value;
+    for (const std::size_t j : part.cut)
+      if (dam.joint_models[j] == "tied")
+        throw InputError(entry + dam.joints[j].name() +
+                         ", but this joint is tied. Set another model (\"Joints/Model\" or "
+                         "\"Joints/Overrides\"), or remove the cut.");
+  }
+
+  StaticPart &StaticPath::add_part(const std::string &name, const Scene &at, const double grouted)
   {
     StaticPart part{name, at.reservoir.level, grouted,
                     Unknowns(3 * std::size_t(dam.structure.n_nodes()), 0.)};
@@ -96,6 +124,7 @@ namespace Voussoir
       for (std::size_t i = 0; load.is_raised && i < part.raised.size(); ++i)
         part.raised[i] += load.force[i];
     parts.push_back(std::move(part));
+    return parts.back();
   }
 
   void StaticPath::check_level(const double level) const
@@ -109,6 +138,11 @@ namespace Voussoir
          << " m is above the dam, whose top is at " << top << " m. Reduce the level.";
     if (level > top + 1e-6 * dam.size)
       throw InputError(text.str());
+  }
+
+  double StaticPath::grouted_before(const unsigned int step) const
+  {
+    return step == 0 ? grouted_at_start : part(step - 1).grouted;
   }
 
   double StaticPath::share(const unsigned int step) const
@@ -132,6 +166,10 @@ namespace Voussoir
     for (const StaticLoad &load : dam.loads)
       for (std::size_t i = 0; !load.is_raised && i < sum.size(); ++i)
         sum[i] += load.force[i];
+    for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
+      if (const double pressure = grout_pressure(step, p); pressure > 0.)
+        dam.structure.add_pair_force(dam.structure.pairs[p],
+                                     {{pressure * dam.structure.pairs[p].area, 0., 0.}}, sum);
     return sum;
   }
 
@@ -143,15 +181,27 @@ namespace Voussoir
            (share * depth(part(step)) + (1. - share) * before);
   }
 
-  PairLaws laws_up_to(const double grouted, const Dam &dam, const JointLaw &free)
+  double StaticPath::grout_pressure(const unsigned int step, const std::size_t pair) const
+  {
+    const double z = dam.structure.pairs[pair].place[2];
+    const bool   is_fluid = z > part(step).grouted && z <= part(step).fluid_to &&
+                          !dam.is_cast(dam.structure.pairs[pair]) && !dam.is_tied(pair);
+    return is_fluid ? share(step) * part(step).pressure : 0.;
+  }
+
+  double StaticPath::cut_width(const unsigned int step, const std::size_t joint) const
+  {
+    const std::vector<std::size_t> &cut = part(step).cut;
+    return std::find(cut.begin(), cut.end(), joint) == cut.end() ? 0. : part(step).width / increments;
+  }
+
+  PairLaws laws_up_to(const double grouted, const Dam &dam, const PairLaws &ungrouted)
   {
     PairLaws laws = dam.laws;
     for (std::size_t p = 0; p < laws.of_pair.size(); ++p)
-      if (dam.structure.pairs[p].place[2] > grouted &&
-          dam.joint_models[dam.structure.pairs[p].joint] != "tied" &&
-          dam.joints[dam.structure.pairs[p].joint].is_contraction() && // others are cast, not grouted
-          laws.of_pair[p] != dam.laws.of_joint.back().get())
-        laws.of_pair[p] = &free;
+      if (const Pair &pair = dam.structure.pairs[p];
+          pair.place[2] > grouted && !dam.is_cast(pair) && !dam.is_tied(p))
+        laws.of_pair[p] = ungrouted.of_pair[p];
     return laws;
   }
 } // namespace Voussoir

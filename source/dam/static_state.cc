@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/base/tensor3.h>
-#include <voussoir/contact/free_law.h>
+#include <voussoir/contact/elastic_law.h>
+#include <voussoir/contact/fja_law.h>
 #include <voussoir/dam/joint_water.h>
 #include <voussoir/dam/static_path.h>
 #include <voussoir/dam/static_state.h>
@@ -17,20 +18,6 @@ namespace Voussoir
   {
     constexpr double stiffest =
         4e10; // Young's modulus of concrete [Pa]; larger ones are those of rigid blocks
-    constexpr double usual_gap = 5e-3; // usual gap of joints before grouting [m]
-
-    /** Grouts the pairs between two heights: their gap is zero in the current state. */
-    void close_pairs(const Structure &structure, const std::vector<Joint> &joints, const double from,
-                     const double to, const Unknowns &u, Unknowns &closed, Unknowns &gap)
-    {
-      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-        if (const double z = structure.pairs[p].place[2];
-            z > from && z <= to && joints[structure.pairs[p].joint].is_contraction())
-        {
-          set(closed, p, structure.jump(structure.pairs[p], u));
-          set(gap, p, {});
-        }
-    }
 
     /** Computes the steps of the static load history. */
     class StaticHistory
@@ -42,7 +29,7 @@ namespace Voussoir
             sustained(dam.has_sustained_moduli() ? dam.sustained_structure() : Structure()),
             structure(dam.has_sustained_moduli() ? sustained : dam.structure),
             springs(dam.foundation->static_springs(structure)), base(dam.foundation->static_base(structure)),
-            path(dam), free(make_free_law())
+            path(dam)
       {
         const Scene &scene = dam.scene;
         if (dam.has_loose_blocks())
@@ -53,6 +40,11 @@ namespace Voussoir
         state.u.assign(3 * dam.structure.n_nodes(), 0.);
         state.memory = dam.laws.initial_memory();
         state.contact.converged = true;
+        for (std::size_t j = 0; j < dam.joints.size(); ++j)
+          ungrouted.of_joint.push_back(make_fja_law(0.));
+        ungrouted.assign(dam.structure.pairs);
+        for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
+          widen(p, dam.initial_gaps[dam.structure.pairs[p].joint]);
         if (scene.loads.uplift.joints && scene.loads.factor("uplift") != 0. && scene.reservoir.density > 0.)
           water = std::make_unique<JointWater>(*dam.model, dam.structure);
       }
@@ -62,9 +54,10 @@ namespace Voussoir
         for (unsigned int i = 0; i < path.n_steps(); ++i)
         {
           stop_if_asked();
-          const double up_to = path.part(i).grouted, before = i == 0 ? -INFINITY : path.part(i - 1).grouted;
-          if (i == 0 || up_to > before)
-            grout(before, up_to);
+          if (i == 0 || path.part(i).grouted > path.grouted_before(i))
+            grout(i);
+          for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
+            widen(p, path.cut_width(i, dam.structure.pairs[p].joint));
           state.contact += solve_step(i);
           record(i);
         }
@@ -99,10 +92,35 @@ namespace Voussoir
         state.modulus_share = 1. - dam.scene.sustained_ratio();
       }
 
-      void grout(const double before, const double up_to)
+      /** Moves the faces of a pair apart by removing the material or the grout between them. */
+      void widen(const std::size_t p, const double width)
       {
-        close_pairs(dam.structure, dam.joints, before, up_to, state.u, state.closed, gap);
-        grouted = up_to;
+        if (width == 0. || dam.is_tied(p))
+          return;
+        state.closed[3 * p] -= width;
+        gap[3 * p] += width;
+        dam.laws.lose_bond(p, state.memory);
+      }
+
+      /** Grouts the pairs of a step: their gap is zero in the current state. The grout that sets carries the force of
+       * the contact and of the fluid grout. */
+      void grout(const unsigned int i)
+      {
+        grouted = path.part(i).grouted;
+        for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
+        {
+          const Pair &pair = dam.structure.pairs[p];
+          if (pair.place[2] <= path.grouted_before(i) || pair.place[2] > grouted || dam.is_cast(pair))
+            continue;
+          if (i > 0)
+            state.force[3 * p] += path.grout_pressure(i - 1, p) * pair.area;
+          Vector3 now{};
+          if (const ElasticLaw *law = dam.laws.of_pair[p]->elastic_law())
+            now[0] = -law->compliance(pair.area)[0] * state.force[3 * p];
+          set(state.closed, p, dam.structure.jump(pair, state.u) - now);
+          set(gap, p, now);
+          dam.laws.restore_bond(p, state.memory);
+        }
         make_system();
       }
 
@@ -112,7 +130,7 @@ namespace Voussoir
         of_system.write_problems = parameters.write_problems && grouted == INFINITY;
         StepOperator operation;
         operation.proximal = proximal;
-        system = std::make_unique<JointSystem>(structure, laws_up_to(grouted, dam, *free), of_system,
+        system = std::make_unique<JointSystem>(structure, laws_up_to(grouted, dam, ungrouted), of_system,
                                                operation, springs, base.get());
       }
 
@@ -266,20 +284,13 @@ namespace Voussoir
                         water ? water->n_wet() : 0};
         for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
           if (const Pair &pair = dam.structure.pairs[p];
-              pair.place[2] <= part.grouted || !dam.joints[pair.joint].is_contraction())
+              pair.place[2] <= part.grouted || dam.is_cast(pair))
             step.opening = std::max(step.opening, gap[3 * p]);
-          else
-            step.overlap = std::max(step.overlap, -dam.structure.jump(pair, state.u)[0]);
         state.steps.push_back(step);
         if (path.ends_part(i) && (path.n_parts() > 1 || step.n_wet > 0))
           log.line("Stage     %s: crest %.1f mm downstream, %u pairs open, %u pairs under water pressure, "
                    "largest opening %.2f mm",
                    part.name.c_str(), 1e3 * state.crown[0], step.n_open, step.n_wet, 1e3 * step.opening);
-        if (path.ends_part(i) && step.overlap > usual_gap)
-          log.line("warning: stage %s: joints above the lift of %g m overlap by %.1f mm, more than the usual "
-                   "gap of joints before grouting. The program has no contact there. Add a grouting stage "
-                   "before this one (Statics/Stages).",
-                   part.name.c_str(), part.grouted, 1e3 * step.overlap);
       }
 
       const Dam                   &dam;
@@ -296,12 +307,12 @@ namespace Voussoir
       double least_proximal = 0.; ///< with a smaller eps the factors would be inaccurate [1/s^2]
       double grouted = -INFINITY; ///< height of the grouted joints [m]
 
-      const StaticPath                path;
-      const std::unique_ptr<JointLaw> free;
-      std::unique_ptr<JointWater>     water;
-      std::unique_ptr<JointSystem>    system;
-      Unknowns                        gap; ///< of the pairs, 3 each [m]
-      StaticState                     state;
+      const StaticPath             path;
+      JointLaws                    ungrouted; ///< contact without friction
+      std::unique_ptr<JointWater>  water;
+      std::unique_ptr<JointSystem> system;
+      Unknowns                     gap; ///< of the pairs, 3 each [m]
+      StaticState                  state;
     };
 
     /** Throws InputError for implausible displacements, see static_state(). */

@@ -85,6 +85,17 @@ namespace Voussoir
     return count;
   }
 
+  void PairLaws::restore_bond(const std::size_t pair, Unknowns &memory) const
+  {
+    std::fill_n(memory.begin() + memory_begin(pair), of_pair[pair]->n_memory(), 0.);
+  }
+
+  void PairLaws::lose_bond(const std::size_t pair, Unknowns &memory) const
+  {
+    if (of_pair[pair]->n_memory() > 0)
+      of_pair[pair]->apply_event(memory.data() + memory_begin(pair), JointEvent::cut);
+  }
+
   void PairLaws::commit(const Unknowns &start, const bool is_mean, const Unknowns &force, const Unknowns &gap,
                         Unknowns &memory) const
   {

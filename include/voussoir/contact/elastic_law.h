@@ -60,7 +60,7 @@ namespace Voussoir
     Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &applied,
                         unsigned char active) const override;
     double  utilisation(const Vector3 &force, const Vector3 &gap, const PairHistory &history) const override;
-    void    apply_event(double *memory) const override;
+    void    apply_event(double *memory, JointEvent event) const override;
     void    commit(const Vector3 &force, const Vector3 &gap, const PairHistory &history,
                    double *memory) const override;
     double  bond_energy(const Vector3 &gap, double area, const double *memory) const override;

@@ -28,6 +28,13 @@ namespace Voussoir
     unsigned char active;
   };
 
+  /** Event that changes the history variables of a pair. */
+  enum class JointEvent
+  {
+    limit, ///< JointLaw::utilisation() exceeds 1
+    cut    ///< the bond is lost without a crack: a saw cut, or a gap that grout did not fill
+  };
+
   /** Data of a pair that a joint law requires besides force and gap. */
   struct PairHistory
   {
@@ -150,8 +157,9 @@ namespace Voussoir
     /** Stores an event of the step, such as a crack or the contact of a key flank. The solver then solves the
      * step again with the new history variables, and begins with a zero force of the pair. The event follows
      * from the history variables alone. The default does nothing.
-     * @param memory n_memory() history variables of the pair, which the event changes */
-    virtual void apply_event(double *memory) const;
+     * @param memory n_memory() history variables of the pair, which the event changes
+     * @param event reason of the event */
+    virtual void apply_event(double *memory, JointEvent event = JointEvent::limit) const;
 
     /** Updates the history variables after a step is accepted. The default does nothing.
      * @param force force of the accepted solution [N]

@@ -48,6 +48,16 @@ namespace Voussoir
     /** Returns true if concrete or rock has other moduli in the static state than in the earthquake. */
     bool has_sustained_moduli() const;
 
+    /** Returns the indices in #joints of the joints with this number, name or kind. Throws InputError if there are
+     * none; @p what is the beginning of the message. */
+    std::vector<std::size_t> joints_named(const std::string &key, const std::string &what) const;
+
+    /** Returns true if the joint of a pair is cast, not grouted: a base or lift joint. */
+    bool is_cast(const Pair &pair) const { return !joints[pair.joint].is_contraction(); }
+
+    /** Returns true if a pair is tied, by the model of its joint or by the foundation. */
+    bool is_tied(std::size_t pair) const;
+
     /** Returns the structure of the static state: #structure with the sustained moduli. */
     Structure sustained_structure() const;
 
@@ -65,6 +75,7 @@ namespace Voussoir
     unsigned int             n_joints = 0;      ///< number of contraction joints, also if they are tied
     std::vector<Joint>       joints;            ///< all joints, by number; without faces: monolith_2 is 0
     std::vector<std::string> joint_models;      ///< names of the laws of #joints
+    std::vector<double>      initial_gaps;      ///< of #joints [m]
     double                   volume = 0.;       ///< of the concrete [m^3]
     double                   crest_length = 0.; ///< see Voussoir::crest_length() [m]
     double                   size = 0.;         ///< diagonal of the bounding box of the concrete [m]

@@ -93,12 +93,15 @@ namespace Voussoir
     {
       fill,  ///< the reservoir to this level [m]
       grout, ///< the joints up to this height [m]
-      day    ///< the temperature of this day of the table
+      day,   ///< the temperature of this day of the table
+      cut    ///< the material of a joint, with this width [m]
     } kind;
-    double value;
+    double      value;
+    double      pressure = 0.; ///< of the fluid grout [Pa]
+    std::string joint = "";    ///< number, name or kind of the joints that are cut
   };
 
-  /** "grout 140, fill 100, day 90" in this order. Throws InputError for anything else. */
+  /** "grout 140 at 0.5 MPa, fill 100, day 90, cut 5 by 10 mm" in this order. Throws InputError for anything else. */
   std::vector<StaticStage> static_stages(const std::string &text);
 } // namespace Voussoir
 

@@ -48,6 +48,7 @@ namespace Voussoir
     std::string                        model = "FJA";                    ///< joint law
     std::string                        equations_name = "alart-curnier"; ///< form of the joint equations
     std::map<std::string, std::string> overrides; ///< model by number, name or kind of a joint
+    std::map<std::string, std::string> gaps;      ///< "Initial gaps" by number, name or kind, with unit
     void                               add_parameters(Entries &prm);
     void                               check() const;
     void                               add_choices(ModelChoices &choices) const;
@@ -60,6 +61,9 @@ namespace Voussoir
 
     /** Returns the model of a joint: that of its number or name, otherwise of its kind, otherwise #model. */
     const std::string &model_of(const Joint &joint) const;
+
+    /** Returns the initial gap of a joint, with the priority of model_of() [m]. */
+    double gap_of(const Joint &joint) const;
   };
 
   /** Parameters of the subsection "Statics". */

@@ -21,7 +21,6 @@ namespace Voussoir
     Vector3      crown{};                           ///< displacement of the crest against the base [m]
     unsigned int n_open = 0, n_slip = 0, n_wet = 0; ///< pairs: open, slipping, under water pressure
     double       opening = 0.;                      ///< largest, of joints that are grouted [m]
-    double       overlap = 0.;                      ///< largest, of joints that are not grouted [m]
   };
 
   /** Static state: the equilibrium of dam, joints and foundation under the static loads, from which the
@@ -33,7 +32,7 @@ namespace Voussoir
     Unknowns                force;       ///< of the joints, 3 per pair [N]
     Unknowns                load;        ///< of all static loads, 3 per node [N]
     Unknowns                memory;      ///< history variables of the joint laws
-    Unknowns                closed;      ///< jumps at which the joints were grouted, 3 per pair [m]
+    Unknowns                closed;      ///< jumps at which the pairs are closed, 3 per pair [m]
     std::vector<double>     joint_water; ///< pressure in each pair [Pa], or empty
     std::vector<PairState>  pairs;
     ContactResult           contact; ///< sum over all steps

@@ -44,6 +44,10 @@ namespace Voussoir
     unsigned int revise(const Unknowns &start, bool is_mean, const Unknowns &gap, Unknowns &force,
                         Unknowns &memory) const;
 
+    /** Restores the bond of a pair, or removes it (JointEvent::cut). */
+    void restore_bond(std::size_t pair, Unknowns &memory) const;
+    void lose_bond(std::size_t pair, Unknowns &memory) const;
+
     /** Updates the history variables after a step is accepted. */
     void commit(const Unknowns &start, bool is_mean, const Unknowns &force, const Unknowns &gap,
                 Unknowns &memory) const;
