@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Effect of base joints on openings, slips, tension, base forces and cost of the quick start and rigid28.
+"""Effect of base or lift joints on openings, slips, tension, base forces and cost of the quick start and rigid28.
 
-    benchmarks/base_joint.py [SCENE...] [--duration 6] [--output output/base_joint] [--voussoir PROGRAM]
+    benchmarks/base_joint.py [SCENE...] [--lifts] [--duration 6] [--output output/base_joint] [--voussoir PROGRAM]
 
 Variants: base bonded; base joint with the law of the joints (FJA); base joint without slip (FJB); all joints elastic (20 and 10 GPa/m);
-full water pressure in open pairs of the base in the static state. Finished runs are not repeated. Prints a Markdown table. Cost: CPU time of the steps.
+full water pressure in open pairs of the base in the static state. With --lifts: three lift joints per monolith, tied, with the law of the joints,
+without slip, and together with a base joint. Finished runs are not repeated. Prints a Markdown table. Cost: CPU time of the steps.
 """
 
 import argparse
@@ -24,12 +25,21 @@ VARIANTS = {
     "base joint, water in open pairs": (BASE, "Loads/Uplift/Joints=true"),
 }
 
+LIFTS = "Mesh/Arch210/Lift joints=3"
+VARIANTS_OF_LIFTS = {
+    "lift joints tied": (LIFTS, "Joints/Overrides=lift: tied"),
+    "lift joints": (LIFTS,),
+    "lift joints, no slip": (LIFTS, "Joints/Overrides=lift: FJB"),
+    "lift and base joints": (LIFTS, BASE),
+}
 
-def of_joints(folder, first, last):
-    """Largest opening and slip of the joints from number `first` to `last` [mm]."""
+
+def of_joints(folder, names, kind):
+    """Largest opening and slip of the joints of a kind, "12.3; 4.5" [mm]; "" without such joints."""
     with open(folder / "joint_points.csv", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if first <= int(row["joint"]) <= last]
-    return [1e3 * max((float(row[column]) for row in rows), default=0.) for column in ("max_opening", "max_slip")]
+        rows = [row for row in csv.DictReader(file) if names[int(row["joint"]) - 1].startswith(kind)]
+    largest = [1e3 * max((float(row[column]) for row in rows), default=0.) for column in ("max_opening", "max_slip")]
+    return "; ".join(f"{value:.1f}" for value in largest) if rows else ""
 
 
 def largest_shear(folder):
@@ -44,27 +54,31 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     add_program_argument(parser)
     parser.add_argument("scenes", nargs="*", default=["quickstart", "rigid28"])
+    parser.add_argument("--lifts", action="store_true", help="the variants with lift joints")
     parser.add_argument("--duration", default="6")
     parser.add_argument("--output", type=Path, default=ROOT / "output" / "base_joint")
     options = parser.parse_args()
-    print("| Scene | Base | Joints: opening; slip [mm] | Base: opening; slip [mm] | Tension up; down [MPa] | Base shear [MN] | Newton steps | Cost |")
-    print("|---|---|---|---|---|---|---|---|")
+    kinds = {"joint": "Joints", "lift": "Lifts", "base": "Base"}
+    if not options.lifts:
+        del kinds["lift"]
+    columns = ["Scene", "Variant", *(f"{text}: opening; slip [mm]" for text in kinds.values()), "Tension up; down [MPa]", "Base shear [MN]", "Newton steps", "Cost"]
+    print("|", " | ".join(columns), "|")
+    print("|" + "---|" * len(columns))
     for scene in options.scenes:
         cost = None
-        for name, entries in VARIANTS.items():
+        for name, entries in (VARIANTS_OF_LIFTS if options.lifts else VARIANTS).items():
             folder = options.output / f"{scene}-{name.replace(' ', '-').replace(',', '')}"
             if not (folder / "summary.json").exists():
                 settings = [word for entry in (f"Motion/Duration={options.duration}", "Output/Figures=false", *entries) for word in ("--set", entry)]
                 run(options.voussoir, ROOT / "prm" / f"{scene}.prm", "--output", folder, "--overwrite", *settings)
             summary = json.loads((folder / "summary.json").read_text())
-            n, extremes = summary["mesh"]["joints"], summary["extremes"]
-            (opening, slip), (of_base, base_slip) = of_joints(folder, 1, n), of_joints(folder, n + 1, 10**6)
+            extremes, names = summary["extremes"], summary["mesh"]["joint_names"]
             seconds = summary["seconds"]["shaking_cpu"]
             cost = cost or seconds
             tension = "; ".join(f"{extremes[f'max_tension_{face}_away_from_base']['value'] / 1e6:.2f}" for face in ("upstream", "downstream"))
-            base = f"{of_base:.1f}; {base_slip:.1f}" if entries else ""
-            print(f"| {scene} | {name} | {opening:.1f}; {slip:.1f} | {base} | {tension} | {largest_shear(folder):.0f} | "
-                  f"{summary['newton_iterations']['mean']:.2f} | {seconds / cost:.2f} |", flush=True)
+            of_kinds = [of_joints(folder, names, kind) for kind in kinds]
+            print("|", " | ".join([scene, name, *of_kinds, tension, f"{largest_shear(folder):.0f}", f"{summary['newton_iterations']['mean']:.2f}",
+                                   f"{seconds / cost:.2f}"]), "|", flush=True)
 
 
 if __name__ == "__main__":

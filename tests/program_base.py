@@ -6,10 +6,7 @@
 """
 
 import math
-import signal
-import subprocess
 import sys
-import time
 from pathlib import Path
 
 GOLDEN = Path(__file__).resolve().parent / "golden"
@@ -229,12 +226,7 @@ def resume():
     more = [*ARCH, *BASE, *settings("Joints/Normal stiffness=1e11", "Joints/Adhesion=1 MPa", "Output/Checkpoint interval=20",
                                     "Output/Progress interval=10")]
     runs("scene.prm", "--output", "whole", *more)
-    process = subprocess.Popen([run_program.VOUSSOIR, "scene.prm", "--output", "parts", *more], stdout=subprocess.DEVNULL)
-    checkpoint = Path("parts/checkpoint.bin")
-    while not checkpoint.exists() and process.poll() is None:
-        time.sleep(.01)
-    process.send_signal(signal.SIGTERM)
-    process.wait()
+    run_program.interrupted("scene.prm", "parts", *more)
     runs("scene.prm", "--resume", "--output", "parts", *more)
     same_to_the_bit("whole", "parts")
 

@@ -7,10 +7,7 @@ which are in golden/grout_two_bars.csv and golden/saw_cut_bar.csv; an arch dam w
 """
 
 import csv
-import signal
-import subprocess
 import sys
-import time
 from pathlib import Path
 
 GOLDEN = Path(__file__).resolve().parent / "golden"
@@ -181,13 +178,8 @@ def resume():
     write_scene()
     more = [*ARCH, *settings("Output/Checkpoint interval=10", "Output/Progress interval=10", "Mesh/Arch210/Elements through=2")]
     runs("scene.prm", "--output", "whole", *more)
-    process = subprocess.Popen([run_program.VOUSSOIR, "scene.prm", "--output", "parts", *more], stdout=subprocess.DEVNULL)
-    checkpoint = Path("parts/checkpoint.bin")
-    while not checkpoint.exists() and process.poll() is None:
-        time.sleep(.001)
-    process.send_signal(signal.SIGTERM)
-    process.wait()
-    expect(checkpoint.exists(), "no checkpoint")
+    run_program.interrupted("scene.prm", "parts", *more)
+    expect(Path("parts/checkpoint.bin").exists(), "no checkpoint")
     runs("scene.prm", "--resume", "--output", "parts", *more)
     same_to_the_bit("whole", "parts")
 

@@ -69,6 +69,16 @@ def runs(*arguments, environment=None):
     return result.stdout
 
 
+def interrupted(scene, output, *arguments):
+    """A run that is stopped after its first checkpoint."""
+    process = subprocess.Popen([VOUSSOIR, scene, "--output", output, *arguments], stdout=subprocess.DEVNULL)
+    checkpoint = Path(output, "checkpoint.bin")
+    while not checkpoint.exists() and process.poll() is None:
+        time.sleep(.01)
+    process.send_signal(signal.SIGTERM)
+    process.wait()
+
+
 def refused(arguments, *parts):
     """The run must end with status 2 and a message that has all these parts."""
     result = voussoir(*arguments)

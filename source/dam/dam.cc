@@ -178,7 +178,8 @@ namespace Voussoir
           (std::isdigit(static_cast<unsigned char>(key[0])) ? "joint " + key : "the joint \"" + key + "\"") +
           ", but the dam has " + std::to_string(joints.size()) +
           " joints, and none with this number, name or kind (such as 1, contraction" +
-          (joints.size() > n_joints ? ", base, " + joints.back().name() : "") + "). Correct or remove it.");
+          (joints.size() > n_joints ? ", " + joints.back().kind() + ", " + joints.back().name() : "") +
+          "). Correct or remove it.");
     return named;
   }
 

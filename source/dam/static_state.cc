@@ -42,7 +42,7 @@ namespace Voussoir
         state.contact.converged = true;
         for (std::size_t j = 0; j < dam.joints.size(); ++j)
           ungrouted.of_joint.push_back(make_fja_law(0.));
-        ungrouted.assign(dam.structure.pairs);
+        ungrouted.assign(dam.structure);
         for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
           widen(p, dam.initial_gaps[dam.structure.pairs[p].joint]);
         if (scene.loads.uplift.joints && scene.loads.factor("uplift") != 0. && scene.reservoir.density > 0.)

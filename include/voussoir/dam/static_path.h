@@ -17,7 +17,7 @@ namespace Voussoir
     Unknowns    raised;       ///< loads with StaticLoad::is_raised at the end of the stage [N]
 
     double fluid_to = 0., pressure = 0.; ///< upper end of the fluid grout [m] and its pressure [Pa]
-    std::vector<std::size_t> cut;        ///< joints that are cut
+    std::vector<std::size_t> cut = {};   ///< joints that are cut
     double                   width = 0.; ///< of the cut [m]
   };
 
