@@ -61,7 +61,8 @@ def main():
     kinds = {"joint": "Joints", "lift": "Lifts", "base": "Base"}
     if not options.lifts:
         del kinds["lift"]
-    columns = ["Scene", "Variant", *(f"{text}: opening; slip [mm]" for text in kinds.values()), "Tension up; down [MPa]", "Base shear [MN]", "Newton steps", "Cost"]
+    columns = ["Scene", "Variant", *(f"{text}: opening; slip [mm]" for text in kinds.values()), "Tension up; down [MPa]", "Base shear [MN]",
+               "Newton steps", "Cost"]
     print("|", " | ".join(columns), "|")
     print("|" + "---|" * len(columns))
     for scene in options.scenes:

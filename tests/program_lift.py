@@ -91,6 +91,8 @@ def tied():
         entries = sections(given)
         entries["Statics"]["Self-weight"] = "staged"
         runs(scene(f"tied{named}", f"{named}.msh", **entries), "--output", f"tied{named}")
+    pairs = [summary(f"tied{named}")["mesh"]["pairs"] for named in (True, False)]
+    expect(pairs[0] == pairs[1], f"numbers of pairs: {pairs}")
     (names, one), (others, two) = (table(f"tied{named}/history.csv") for named in (True, False))
     largest = [max(abs(row[c]) for row in two) for c in range(len(names))]
     worst = max(abs(a - b) / scale for row, other in zip(one, two) for a, b, scale in zip(row, other, largest) if scale > 0)
@@ -122,12 +124,21 @@ def arch():
     """An arch dam with lifts on its base joint; the base carries what the bonded base of the dam without lifts carries."""
     write_scene()
     for name, more in (("lifts", ()), ("base", BASE), ("bond", settings("Joints/Overrides=lift: cohesive", "Joints/Strength=1 MPa", "Motion/Duration=0.5")),
-                       ("tied", settings("Joints/Overrides=contraction: tied"))):
+                       ("tied", settings("Joints/Overrides=contraction: tied")),
+                       ("stages", settings("Statics/Stages=grout 100, fill 150", "Motion/Duration=0.2"))):
         shown = runs("scene.prm", "--output", name, *ARCH, *LIFTS, *more)
         expect("lift joints" in shown, shown[:800])
         result = summary(name)
-        print(f"    {name}: largest opening {1e3 * result['extremes']['max_opening']['value']:.3f} mm, energy balance {no_energy_made(name):.1e}, {result['contact_path']}")
+        opening = 1e3 * result["extremes"]["max_opening"]["value"]
+        print(f"    {name}: largest opening {opening:.3f} mm, energy balance {no_energy_made(name):.1e}, {result['contact_path']}")
         expect(result["contact_path"]["smaller_step"] == 0, "reduced steps")
+    names, rows = table("lifts/joint_points.csv")
+    heights = {}
+    for row in rows:
+        joint = summary("lifts")["mesh"]["joint_names"][int(row[names.index("joint")]) - 1]
+        if joint.startswith("lift"):
+            heights.setdefault(joint.split(".")[1], set()).add(round(row[names.index("z")], 6))
+    expect(heights == {"1": {140.}}, f"lift joints at the heights {heights}")
     shown = runs("scene.prm", "--output", "probe", "--validate", *ARCH, *LIFTS, *settings("Joints/Overrides=lift 2.1: tied, joint 2.2: FJB, 1: tied"))
     expect("lift 2.1: tied" in shown, shown)
 

@@ -159,7 +159,7 @@ def draw_crest_bars(axes, run, quantity, top, limit=0.):
     last = sum(name[0].isdigit() for name in of_part if "." not in name) - 1  # of the contraction joints
     order = "right bank to the left" if run.joints["s"][0] <= run.joints["s"][max(last, 0)] else "left bank to the right"
     kinds = {"l": "lift joints", "b": "base joint"}
-    others = "".join(f"; {kind}: {text} of a monolith" for kind, text in kinds.items() if any(name[0] == kind for name in names))
+    others = "".join(f"; {kind}: {text}" for kind, text in kinds.items() if any(name[0] == kind for name in names))
     axes.set(xlabel=f"joint, from the {order}" + others, ylabel=f"maximum {quantity} [mm]")
     axes.set_ylim(0, 1.42 * max(top, 1e3 * limit if 1e3 * limit < 2. * top else 0.) or 1)
     axes.grid(False, axis="x")

@@ -232,7 +232,7 @@ def over_height(run, quantity, top):
         for number, joint in enumerate(sorted(shown)):
             z = table["z"][edge & (table["joint"] == joint)]
             order = np.argsort(z)
-            axes[0].plot(values[joint][order], z[order], **line(number), marker="osv^D*"[number], markersize=2.6, label=f"joint {joint}")
+            axes[0].plot(values[joint][order], z[order], **line(number), marker="osv^D*"[number], markersize=2.6, label=run.joint_name(joint))
         axes[0].set(xlabel=f"maximum {quantity} at the upstream face [mm]", ylabel="elevation z [m]", xlim=(0, 1.08 * top or 1.))
         axes[0].legend(loc="lower right", borderaxespad=0.2)
     return made

@@ -21,6 +21,8 @@
     return Object.fromEntries(await Promise.all(Object.entries(data).map(async ([name, value]) => [name, await unpacked(value)])));
   };
 
+  const nameOf = (data, joint) => Object.fromEntries(data.history.names)[joint];
+
   const numbers = (bytes, type) => new TYPES[type](bytes.buffer);
 
   // Integers over time, from their second differences: n of each time, low bytes before high bytes.
@@ -369,7 +371,7 @@
         this.colourBar();
         model.update();
       });
-      this.joints = select("joint", Object.keys(data.history.joints).map((joint) => [joint, joint]), "", (joint) => this.choose(Number(joint)));
+      this.joints = select("joint", Object.keys(data.history.joints).map((joint) => [joint, nameOf(data, joint).replace(/^joint /, "")]), "", (joint) => this.choose(Number(joint)));
       this.joints.parentNode.hidden = this.joints.options.length === 0;
       this.speed = select("speed", SPEEDS, 0.25, () => {});
       this.speed.parentNode.hidden = time.hidden;
@@ -438,9 +440,10 @@
       if (!columns) return;
       this.model.joint = joint;
       this.joints.value = String(joint);
+      const name = nameOf(this.data, joint);
       for (const [plot, quantity] of [[this.opening, "opening"], [this.slip, "slip"]])
-        plot.show(`Joint ${joint}: ${quantity} at the crest [mm]`, this.time, ["upstream", "downstream"].map((face) => values(columns[`${quantity}_${face}`])));
-      this.label.textContent = `joint ${joint}`;
+        plot.show(`${name[0].toUpperCase() + name.slice(1)}: ${quantity}${name.startsWith("joint ") ? " at the crest" : ""} [mm]`, this.time, ["upstream", "downstream"].map((face) => values(columns[`${quantity}_${face}`])));
+      this.label.textContent = name;
       this.model.update();
       this.place();
     }

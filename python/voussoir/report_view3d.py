@@ -217,6 +217,7 @@ def history_of(run):
                       min(8192, NUMBERS // (4 * len(joints) + 1)))
     result["time"] = packed(columns["time"], "<f4")
     result["joints"] = {joint: {name: numbers(columns[f"{name}_{joint}"]) for name in COLUMNS} for joint in joints}
+    result["names"] = [[joint, run.joint_name(int(joint))] for joint in joints]  # lists are not packed
     return result
 
 

@@ -82,6 +82,63 @@ namespace Voussoir
             "to 1, or \"Reservoir/Model\" to Westergaard.");
       check_plane_section(opened, scene.mesh.name());
     }
+
+    bool has_lifts(const std::vector<Joint> &joints)
+    {
+      return std::any_of(joints.begin(), joints.end(), [](const Joint &joint) { return joint.is_lift(); });
+    }
+
+    /** Ties all lift joints, or those with the model "tied" in @p models. */
+    void tie_lifts(const std::vector<Joint> &joints, const std::vector<std::string> *models,
+                   SolidModel &model)
+    {
+      tie_joints(model, joints.size(),
+                 [&](const unsigned int j)
+                 { return joints[j].is_lift() && (models == nullptr || (*models)[j] == "tied"); });
+    }
+
+    /** Groups and sorts the pairs: the lift and base joints of monolith m belong to the contraction joint m - 1. */
+    void group_by_monolith(const std::vector<Joint> &joints, Structure &structure)
+    {
+      structure.group_of_joint.resize(joints.size());
+      for (std::size_t j = 0; j < joints.size(); ++j)
+        structure.group_of_joint[j] = joints[j].is_contraction() ? joints[j].contraction_number() - 1
+                                                                 : std::max(0, joints[j].monolith_2() - 2);
+      std::stable_sort(structure.pairs.begin(), structure.pairs.end(),
+                       [&](const Pair &a, const Pair &b) {
+                         return std::make_pair(structure.group(a), a.joint) <
+                                std::make_pair(structure.group(b), b.joint);
+                       });
+    }
+
+    /** Returns the laws of pairs that share nodes with other pairs, per joint. Where joints cross, their conditions are
+     * redundant. The compliance of these laws makes the forces unique. It is that of a thin layer of concrete, and about
+     * 3e-2 of the flexibility of the concrete around a pair in a step of 10 ms. */
+    std::vector<std::unique_ptr<JointLaw>> laws_of_crossings(const Scene &scene, const Structure &structure,
+                                                             const std::vector<std::string> &models)
+    {
+      constexpr double          thickness = .2; // of the layer of concrete, in distances of the nodes
+      std::vector<double>       area(models.size(), 0.);
+      std::vector<unsigned int> n(models.size(), 0);
+      for (const auto &cluster : structure.clusters)
+        for (const unsigned int p : cluster)
+        {
+          area[structure.pairs[p].joint] += structure.pairs[p].area;
+          ++n[structure.pairs[p].joint];
+        }
+      std::vector<std::unique_ptr<JointLaw>> laws;
+      for (std::size_t j = 0; j < models.size() && !structure.clusters.empty(); ++j)
+      {
+        LawParameters parameters = scene.joints.law(scene.concrete.young);
+        const double  added = scene.concrete.young / (thickness * std::sqrt(area[j] / std::max(1u, n[j])));
+        for (double *stiffness : {&parameters.normal_stiffness, &parameters.tangential_stiffness})
+          *stiffness = n[j] == 0          ? *stiffness
+                       : *stiffness == 0. ? added
+                                          : 1. / (1. / *stiffness + 1. / added);
+        laws.push_back(make_joint_law(models[j], parameters));
+      }
+      return laws;
+    }
   } // namespace
 
   Dam::Dam(const Scene &scene, const bool tie_all) : scene(scene)
@@ -170,7 +227,8 @@ namespace Voussoir
   {
     std::vector<std::size_t> named;
     for (std::size_t j = 0; j < joints.size(); ++j)
-      if (key == std::to_string(joints[j].contraction_number()) || key == joints[j].name() || key == joints[j].kind())
+      if (key == std::to_string(joints[j].contraction_number()) || key == joints[j].name() ||
+          key == joints[j].kind())
         named.push_back(j);
     if (named.empty() && key != "contraction")
       throw InputError(
@@ -205,25 +263,13 @@ namespace Voussoir
     structure = assemble_structure(*model, materials, incompatible_modes);
     geometry = std::make_unique<DamGeometry>(*model, pairs, n_all, source);
     initial_stress.assign(model->n_nodes(), Stress{});
-    const auto is_lift = [&](const unsigned int j) { return joints[j].is_lift(); };
-    const bool has_lifts =
-        std::any_of(joints.begin(), joints.end(), [](const Joint &j) { return j.is_lift(); });
     if (scene.statics.self_weight == "staged")
-    {
-      // on a rigid base and in whole monoliths; later displacements are relative to this state
-      if (has_lifts)
-      {
-        tie_joints(*model, n_all, is_lift);
-        structure = assemble_structure(*model, materials, incompatible_modes);
-      }
-      stage_self_weight();
-    }
-    if (has_lifts)
+      stage_self_weight(); // on a rigid base; later displacements are relative to this state
+    if (has_lifts(joints))
     {
       model = std::make_unique<SolidModel>(opened, scene.elements.degree);
       model->plane_strain = scene.mesh.plane_strain;
-      tie_joints(*model, n_all,
-                 [&](const unsigned int j) { return is_lift(j) && joint_models[j] == "tied"; });
+      tie_lifts(joints, &joint_models, *model);
       structure = assemble_structure(*model, materials, incompatible_modes);
       pairs = find_pairs(*model, n_all);
     }
@@ -238,7 +284,7 @@ namespace Voussoir
         remove_base_pairs(pairs);
       geometry = std::make_unique<DamGeometry>(*model, pairs, n_all, source);
     }
-    if (tied && n_joints + has_lifts > 0)
+    if (tied && n_joints + has_lifts(joints) > 0)
     {
       tie_joints(*model, n_all);
       structure = assemble_structure(*model, materials, incompatible_modes);
@@ -247,7 +293,7 @@ namespace Voussoir
     {
       structure.pairs = std::move(pairs);
       open_base_joints();
-      open_lift_joints();
+      cross_joints();
       geometry = std::make_unique<DamGeometry>(*model, structure.pairs, n_all, source);
     }
     structure.mass_damping = scene.damping.mass_factor();
@@ -289,48 +335,33 @@ namespace Voussoir
                                         standing.count(pair.node_1) + standing.count(pair.node_2) > 0;
                                }),
                 pairs.end());
-    group_by_monolith();
+    group_by_monolith(joints, structure);
     has_open_bases = true;
     find_weight_on_joints();
   }
 
-  /** Checks the lift joints that are not tied, and finds the clusters of pairs where they cross other joints. */
-  void Dam::open_lift_joints()
+  /** Finds the clusters of pairs where joints cross, and checks that their joints can. */
+  void Dam::cross_joints()
   {
-    const auto is_open = [&](const Joint &joint)
-    { return joint.is_lift() && joint_models[joint.number - 1] != "tied"; };
-    if (std::none_of(joints.begin(), joints.end(), is_open))
-      return;
-    if (foundation->uses_rock())
-      throw InputError(
-          "The mesh has lift joints, which require a rigid foundation. Set \"Foundation/Model\" to rigid, "
-          "or \"Joints/Overrides\" to \"lift: tied\".");
-    group_by_monolith();
+    if (has_lifts(joints))
+      group_by_monolith(joints, structure);
     structure.clusters = clusters_of(structure.pairs);
+    has_open_lifts = std::any_of(joints.begin(), joints.end(),
+                                 [&](const Joint &joint)
+                                 { return joint.is_lift() && joint_models[joint.number - 1] != "tied"; });
+    if (foundation->uses_rock() && (has_open_lifts || !structure.clusters.empty()))
+      throw InputError("The mesh has lift joints, or joints that cross. They require a rigid foundation. Set "
+                       "\"Foundation/Model\" to rigid, or \"Joints/Overrides\" to \"lift: tied\".");
     for (const auto &cluster : structure.clusters)
       for (const unsigned int p : cluster)
         if (const unsigned int j = structure.pairs[p].joint; joint_models[j] == "KSM")
           throw InputError(
               "The law of " + joints[j].name() +
-              " is KSM, but the joint crosses lift joints, and shear "
-              "keys cannot cross joints. Set \"Joints/Overrides\" to \"lift: tied\", or the model of this "
-              "joint to FJA, FJB or cohesive.");
-    has_open_lifts = true;
-    find_weight_on_joints();
-  }
-
-  /** Groups and sorts the pairs: the lift and base joints of monolith m belong to the contraction joint m - 1. */
-  void Dam::group_by_monolith()
-  {
-    structure.group_of_joint.resize(joints.size());
-    for (std::size_t j = 0; j < joints.size(); ++j)
-      structure.group_of_joint[j] = joints[j].is_contraction() ? joints[j].contraction_number() - 1
-                                                               : std::max(0, joints[j].monolith_2() - 2);
-    std::stable_sort(structure.pairs.begin(), structure.pairs.end(),
-                     [&](const Pair &a, const Pair &b) {
-                       return std::make_pair(structure.group(a), a.joint) <
-                              std::make_pair(structure.group(b), b.joint);
-                     });
+              " is KSM, but the joint crosses other joints, and shear keys cannot cross joints. Set "
+              "\"Joints/Overrides\" to \"lift: tied\", or the model of this joint to FJA, FJB or "
+              "cohesive.");
+    if (has_open_lifts)
+      find_weight_on_joints();
   }
 
   /** Finds the load of the staged weight on free nodes of base and lift joints. Displacements are relative to the
@@ -381,36 +412,10 @@ namespace Voussoir
     return base;
   }
 
-  /** Makes the laws of pairs that share nodes with other pairs. Where joints cross, their conditions are redundant. The
-   * compliance of these laws makes the forces unique. It is that of a thin layer of concrete, and about 3e-2 of the
-   * flexibility of the concrete around a pair in a step of 10 ms. */
-  void Dam::make_laws_of_crossings()
-  {
-    constexpr double thickness = .2; // of the layer of concrete, in distances of the nodes
-    if (structure.clusters.empty())
-      return;
-    std::vector<double>       area(joints.size(), 0.);
-    std::vector<unsigned int> n(joints.size(), 0);
-    for (const auto &cluster : structure.clusters)
-      for (const unsigned int p : cluster)
-      {
-        area[structure.pairs[p].joint] += structure.pairs[p].area;
-        ++n[structure.pairs[p].joint];
-      }
-    for (std::size_t j = 0; j < joints.size(); ++j)
-    {
-      LawParameters parameters = scene.joints.law(scene.concrete.young);
-      const double  added = scene.concrete.young / (thickness * std::sqrt(area[j] / std::max(1u, n[j])));
-      for (double *stiffness : {&parameters.normal_stiffness, &parameters.tangential_stiffness})
-        *stiffness = n[j] == 0 ? *stiffness : *stiffness == 0. ? added : 1. / (1. / *stiffness + 1. / added);
-      laws.of_crossings.push_back(make_joint_law(joint_models[j], parameters));
-    }
-  }
-
   /** Assigns the laws of the pairs. Pairs at the base are tied if the foundation requires it. */
   void Dam::tie_base()
   {
-    make_laws_of_crossings();
+    laws.of_crossings = laws_of_crossings(scene, structure, joint_models);
     laws.assign(structure);
     if (laws.need_mean_force() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)
       throw InputError("The joint models " + joint_laws_of_mean_force() +
@@ -509,8 +514,14 @@ namespace Voussoir
     return mean;
   }
 
+  /** Computes stress and reactions of free-standing monoliths, whose lifts are tied, under their weight. */
   void Dam::stage_self_weight()
   {
+    if (has_lifts(joints))
+    {
+      tie_lifts(joints, nullptr, *model);
+      structure = assemble_structure(*model, materials, scene.elements.incompatible_modes);
+    }
     Unknowns     load(3 * structure.n_nodes(), 0.), u;
     const double weight = scene.loads.factor("weight") * scene.statics.gravity;
     add_weight(structure, weight, load);

@@ -22,14 +22,14 @@ namespace Voussoir
 
   Crossings::Crossings(const InterfaceOperator &W) : W(W)
   {
-    if (W.pair_clusters().empty() || !W.shares().are_trivial())
+    if (W.clusters.empty() || !W.shares().are_trivial())
       return;
     std::vector<unsigned int> group; // of each pair
     for (unsigned int g = 0; g < W.n_groups(); ++g)
       group.insert(group.end(), W.size(g) / 3, g);
     unknowns.resize(W.n_groups());
     columns.resize(W.n_groups());
-    for (const auto &pairs : W.pair_clusters())
+    for (const auto &pairs : W.clusters)
     {
       Cluster cluster{pairs, {}, {}, {}};
       for (const unsigned int q : pairs)

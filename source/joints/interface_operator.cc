@@ -12,8 +12,9 @@
 
 namespace Voussoir
 {
-  InterfaceOperator::InterfaceOperator(const std::vector<unsigned int> &n_pairs, Shares given)
-      : share(std::move(given)), offset(1, 0), coupled(n_pairs.size())
+  InterfaceOperator::InterfaceOperator(const std::vector<unsigned int> &n_pairs, Shares given,
+                                       std::vector<std::vector<unsigned int>> clusters)
+      : clusters(std::move(clusters)), share(std::move(given)), offset(1, 0), coupled(n_pairs.size())
   {
     for (const unsigned int n : n_pairs)
       offset.push_back(offset.back() + 3 * n);

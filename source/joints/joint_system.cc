@@ -86,7 +86,8 @@ namespace Voussoir
                            const bool single_factors)
       : structure(structure), parameters(parameters), laws(laws), step(step), is_static(step.mass == 0.),
         sides(structure.pairs.size()), group(groups_of_pairs(structure, is_static)),
-        W(pairs_per_group(structure, group), shares_of_joints(structure, group)),
+        W(pairs_per_group(structure, group), shares_of_joints(structure, group),
+          is_static ? std::vector<std::vector<unsigned int>>() : structure.clusters),
         n_solved(parameters.first_problem)
   {
     for (const JointLaw *law : laws.of_pair)
@@ -108,8 +109,6 @@ namespace Voussoir
     condense();
     if (base && is_static)
       make_whole();
-    if (!is_static)
-      W.set_clusters(structure.clusters);
     W.finish(is_static ? nullptr : base);
     solver = std::make_unique<ContactSolver>(W, laws.of_pair, parameters);
   }

@@ -10,6 +10,7 @@
 #include <map>
 #include <numeric>
 #include <sstream>
+#include <tuple>
 
 namespace Voussoir
 {
@@ -173,7 +174,8 @@ namespace Voussoir
 
   std::vector<Pair> find_pairs(const SolidModel &model, const unsigned int n_joints)
   {
-    std::vector<Pair> pairs;
+    std::vector<Pair>                                                   pairs;
+    std::map<std::tuple<bool, unsigned int, unsigned int>, std::size_t> pair_of; // by its nodes
     for (const NodePair &match : match_joint_nodes(model, n_joints))
     {
       Pair pair;
@@ -181,18 +183,15 @@ namespace Voussoir
       pair.node_2 = model.equation[match.node_2];
       if (pair.node_1 == pair.node_2) // both nodes fixed, or tied
         continue;
-      const auto same = std::find_if(pairs.begin(), pairs.end(),
-                                     [&](const Pair &other) {
-                                       return other.joint == match.joint && other.node_1 == pair.node_1 &&
-                                              other.node_2 == pair.node_2;
-                                     });
-      if (same != pairs.end()) // nodes that move together
-      {
-        same->area += match.area.norm();
-        continue;
-      }
       pair.joint = match.joint;
       pair.is_base = match.node_1 == rigid_ground;
+      const auto same =
+          pair_of.emplace(std::make_tuple(pair.is_base, pair.node_1, pair.node_2), pairs.size());
+      if (!same.second) // nodes that move together, also in joints between lifts that are tied
+      {
+        pairs[same.first->second].area += match.area.norm();
+        continue;
+      }
       pair.area = match.area.norm();
       for (unsigned int d = 0; d < 3; ++d)
         pair.place[d] = model.points[match.node_1 == rigid_ground ? match.node_2 : match.node_1][d];

@@ -270,8 +270,8 @@ namespace Voussoir
         "true: the base is a joint with the law of section Joints; on a rigid foundation only.");
     prm.add_parameter(
         "Lift joints", lift_joints,
-        "Number of lift joints in each monolith [-]. They lie between rows of elements and divide the rows into equal "
-        "parts.",
+        "Number of horizontal lift joints, at equal distances between bottom and crest [-]. A monolith has those that "
+        "lie above its base.",
         Integer(0, PhysicalId::max_lifts - 1));
     prm.add_parameter(
         "Smallest height", smallest_height,

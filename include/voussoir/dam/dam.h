@@ -121,10 +121,8 @@ namespace Voussoir
     void    assemble(const HexMesh &opened, const std::string &source);
     void    tie_base();
     void    open_base_joints();
-    void    open_lift_joints();
-    void    group_by_monolith();
+    void    cross_joints();
     void    find_weight_on_joints();
-    void    make_laws_of_crossings();
 
     Unknowns uplift_at_base() const;
     void     remove_base_pairs(std::vector<Pair> &pairs) const;

@@ -33,8 +33,13 @@ namespace Voussoir
 
     /** Creates an operator without blocks.
      * @param n_pairs number of pairs of each group
-     * @param share distribution of the groups over the processes */
-    explicit InterfaceOperator(const std::vector<unsigned int> &n_pairs, Shares share = Shares());
+     * @param share distribution of the groups over the processes
+     * @param clusters see #clusters */
+    explicit InterfaceOperator(const std::vector<unsigned int> &n_pairs, Shares share = Shares(),
+                               std::vector<std::vector<unsigned int>> clusters = {});
+
+    /** Clusters of pairs that share nodes, for the preconditioner (Crossings). */
+    const std::vector<std::vector<unsigned int>> clusters;
 
     /** Returns true if this process stores block (@p j, @p k): it owns group j or group k. */
     bool holds(const unsigned int j, const unsigned int k) const { return is_mine(j) || is_mine(k); }
@@ -119,12 +124,6 @@ namespace Voussoir
      * subtracted, and the block is rounded to single precision. */
     std::vector<double> own_block(unsigned int group) const;
 
-    /** Sets the clusters of pairs that share nodes, for the preconditioner. Call it before finish(). */
-    void set_clusters(const std::vector<std::vector<unsigned int>> &given) { clusters = given; }
-
-    /** Returns the clusters of pairs that share nodes. */
-    const std::vector<std::vector<unsigned int>> &pair_clusters() const { return clusters; }
-
     /** Copies the blocks to single precision and assigns the colours of the groups. Call it after all blocks
      * are filled. @p base: eliminated base nodes, whose part is subtracted; nullptr: none. */
     void finish(std::shared_ptr<const BaseElimination> base = nullptr);
@@ -144,7 +143,6 @@ namespace Voussoir
     void    find_colours();
 
     Shares                                                               share;
-    std::vector<std::vector<unsigned int>>                               clusters;
     std::vector<unsigned int>                                            offset;
     std::vector<std::vector<unsigned int>>                               coupled;
     std::map<std::pair<unsigned int, unsigned int>, std::vector<double>> blocks;
