@@ -141,6 +141,8 @@ def arch():
     expect(heights == {"1": {140.}}, f"lift joints at the heights {heights}")
     shown = runs("scene.prm", "--output", "probe", "--validate", *ARCH, *LIFTS, *settings("Joints/Overrides=lift 2.1: tied, joint 2.2: FJB, 1: tied"))
     expect("lift 2.1: tied" in shown, shown)
+    choices = runs("scene", "scene.prm", "--choices", *ARCH, *LIFTS)
+    expect("tied lift joints" in choices, choices)
 
 
 def resume():

@@ -20,8 +20,10 @@ namespace Voussoir
     }
     bool is_generated_without_joints(const Scene &scene)
     {
-      return is_arch210(scene) ? scene.mesh.arch210.n_joints == 0
-                               : scene.mesh.source == "arcs" && scene.mesh.arcs.complete_grid().n_joints == 0;
+      const auto has_none = [](const ArchGrid &grid)
+      { return grid.n_joints == 0 && grid.lift_joints == 0 && !grid.base_joint; };
+      return is_arch210(scene) ? has_none(scene.mesh.arch210)
+                               : scene.mesh.source == "arcs" && has_none(scene.mesh.arcs.complete_grid());
     }
     bool needs_rock(const Scene &scene)
     {

@@ -31,7 +31,7 @@ namespace Voussoir
     columns.resize(W.n_groups());
     for (const auto &pairs : W.clusters)
     {
-      Cluster cluster{pairs, {}, {}, {}};
+      Cluster cluster{pairs, {}, {}};
       for (const unsigned int q : pairs)
         for (unsigned int c = 0; c < 3; ++c)
         {
@@ -66,55 +66,58 @@ namespace Voussoir
     columns[to].push_back(std::move(copy));
   }
 
-  void Crossings::factorise(const std::vector<PairEquations> &equations)
+  void Crossings::invert(const std::vector<PairEquations> &equations)
   {
-    for_each_in_chunks(clusters.size(),
-                       [&](const std::size_t k)
-                       {
-                         Cluster  &cluster = clusters[k];
-                         const int n = cluster.n();
-                         cluster.lu.resize(cluster.W.size());
-                         cluster.pivots.resize(n);
-                         for (int j = 0; j < n; ++j)
-                           for (int i = 0; i < n; ++i)
-                           {
-                             const PairEquations &e = equations[cluster.pairs[i / 3]];
-                             const double        *g = e.d_gap.data() + 3 * (i % 3);
-                             const float         *w = cluster.W.data() + j * n + i - i % 3;
-                             const double         own = i / 3 == j / 3 ? e.d_force[3 * (i % 3) + j % 3] : 0.;
-                             cluster.lu[j * n + i] =
-                                 static_cast<float>(own + g[0] * w[0] + g[1] * w[1] + g[2] * w[2]);
-                           }
-                         int info = 0;
-                         sgetrf_(&n, &n, cluster.lu.data(), &n, cluster.pivots.data(), &info);
-                       });
+    for_each_in_chunks(
+        clusters.size(),
+        [&](const std::size_t k)
+        {
+          Cluster           &cluster = clusters[k];
+          const int          n = cluster.n();
+          std::vector<float> lu(cluster.W.size());
+          std::vector<int>   pivots(n);
+          for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i)
+            {
+              const PairEquations &e = equations[cluster.pairs[i / 3]];
+              const double        *g = e.d_gap.data() + 3 * (i % 3);
+              const float         *w = cluster.W.data() + j * n + i - i % 3;
+              const double         own = i / 3 == j / 3 ? e.d_force[3 * (i % 3) + j % 3] : 0.;
+              lu[j * n + i] = static_cast<float>(own + g[0] * w[0] + g[1] * w[1] + g[2] * w[2]);
+            }
+          int info = 0;
+          sgetrf_(&n, &n, lu.data(), &n, pivots.data(), &info);
+          cluster.inverse.assign(lu.size(), 0.f);
+          for (int i = 0; i < n; ++i)
+            cluster.inverse[i * n + i] = 1.f;
+          sgetrs_("N", &n, &n, lu.data(), &n, pivots.data(), cluster.inverse.data(), &n, &info);
+        });
   }
 
   void Crossings::correct(const std::vector<PairEquations> &equations, const std::vector<float> &v,
                           std::vector<float> &z, std::vector<float> &Wz) const
   {
     std::vector<float> change(z.size(), 0.f);
-    for_each_in_chunks(
-        clusters.size(),
-        [&](const std::size_t k)
-        {
-          const Cluster     &cluster = clusters[k];
-          const int          n = cluster.n(), one = 1;
-          std::vector<float> r(n);
-          for (int i = 0; i < n; ++i)
-          {
-            const unsigned int   p = cluster.pairs[i / 3];
-            const PairEquations &e = equations[p];
-            double               sum = v[3 * p + i % 3];
-            for (unsigned int c = 0; c < 3; ++c)
-              sum -= e.d_force[3 * (i % 3) + c] * z[3 * p + c] + e.d_gap[3 * (i % 3) + c] * Wz[3 * p + c];
-            r[i] = static_cast<float>(sum);
-          }
-          int info = 0;
-          sgetrs_("N", &n, &one, cluster.lu.data(), &n, cluster.pivots.data(), r.data(), &n, &info);
-          for (int i = 0; i < n; ++i)
-            change[3 * cluster.pairs[i / 3] + i % 3] = r[i];
-        });
+    for_each_in_chunks(clusters.size(),
+                       [&](const std::size_t k)
+                       {
+                         const Cluster     &cluster = clusters[k];
+                         const int          n = cluster.n();
+                         std::vector<float> r(n);
+                         for (int i = 0; i < n; ++i)
+                         {
+                           const unsigned int   p = cluster.pairs[i / 3];
+                           const PairEquations &e = equations[p];
+                           double               sum = v[3 * p + i % 3];
+                           for (unsigned int c = 0; c < 3; ++c)
+                             sum -= e.d_force[3 * (i % 3) + c] * z[3 * p + c] +
+                                    e.d_gap[3 * (i % 3) + c] * Wz[3 * p + c];
+                           r[i] = static_cast<float>(sum);
+                         }
+                         for (int j = 0; j < n; ++j)
+                           for (int i = 0; i < n; ++i)
+                             change[3 * cluster.pairs[i / 3] + i % 3] += cluster.inverse[j * n + i] * r[j];
+                       });
     for (std::size_t i = 0; i < z.size(); ++i)
       z[i] += change[i];
     for_each_parallel(W.n_groups(),

@@ -54,7 +54,7 @@ namespace Voussoir
       chain->factorise(new_equations);
       return W.n_groups();
     }
-    crossings.factorise(new_equations);
+    crossings.invert(new_equations);
     std::vector<unsigned int> made(W.n_groups(), 0);
     for_each_parallel(W.n_groups(), [&](const int g)
                       { made[g] = W.size(g) > 0 && W.is_mine(g) && joints[g].update(present(g)); });

@@ -18,11 +18,11 @@ namespace Voussoir
 
     bool is_empty() const { return clusters.empty(); }
 
-    /** Factorises the blocks of the clusters in J = d_force + d_gap W. @p equations: one per pair. */
-    void factorise(const std::vector<PairEquations> &equations);
+    /** Inverts the blocks of the clusters in J = d_force + d_gap W. @p equations: one per pair. */
+    void invert(const std::vector<PairEquations> &equations);
 
     /** Corrects @p z, an approximation of J^-1 v, and @p Wz = W z.
-     * @param equations those of factorise()
+     * @param equations those of invert()
      * @param v right-hand side, three values per pair */
     void correct(const std::vector<PairEquations> &equations, const std::vector<float> &v,
                  std::vector<float> &z, std::vector<float> &Wz) const;
@@ -31,8 +31,7 @@ namespace Voussoir
     struct Cluster
     {
       std::vector<unsigned int> pairs;
-      std::vector<float>        W, lu; ///< by column
-      std::vector<int>          pivots;
+      std::vector<float>        W, inverse; ///< of its block of J; by column
       int                       n() const { return 3 * static_cast<int>(pairs.size()); }
     };
     /** Columns of W between two groups that belong to clusters. */
