@@ -51,7 +51,7 @@ namespace
         monolith[node] = cell.volume;
       }
     for (const Joint &joint : joints_of(mesh))
-      expect(joint.monolith_1 == joint.number && joint.monolith_2 == joint.number + 1, "a joint's monoliths");
+      expect(joint.block_1 == joint.number && joint.block_2 == joint.number + 1, "a joint's monoliths");
   }
 
   void test_arch210()
@@ -238,9 +238,8 @@ namespace
     mesh.cells[1].volume = 3;
     mesh.cells[2].volume = 2;
     const auto joints = joints_of(open_joints(mesh));
-    expect(joints.size() == 2 && joints[0].number == 2 && joints[0].monolith_1 == 2 &&
-               joints[0].monolith_2 == 3 && joints[1].number == 3 && joints[1].monolith_1 == 1 &&
-               joints[1].monolith_2 == 3,
+    expect(joints.size() == 2 && joints[0].number == 2 && joints[0].block_1 == 2 && joints[0].block_2 == 3 &&
+               joints[1].number == 3 && joints[1].block_1 == 1 && joints[1].block_2 == 3,
            "joints of monoliths 1 3 2");
   }
 

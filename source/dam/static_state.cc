@@ -283,8 +283,7 @@ namespace Voussoir
                         n_of(PairState::slip),
                         water ? water->n_wet() : 0};
         for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
-          if (const Pair &pair = dam.structure.pairs[p];
-              pair.place[2] <= part.grouted || dam.is_cast(pair))
+          if (const Pair &pair = dam.structure.pairs[p]; pair.place[2] <= part.grouted || dam.is_cast(pair))
             step.opening = std::max(step.opening, gap[3 * p]);
         state.steps.push_back(step);
         if (path.ends_part(i) && (path.n_parts() > 1 || step.n_wet > 0))

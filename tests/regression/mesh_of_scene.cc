@@ -20,7 +20,7 @@ int main(int, char **argv)
   for (const auto &volume : volumes(mesh))
     std::printf("%s: %.12g thousand m^3\n", physical_name(3, volume.first).c_str(), volume.second / 1e3);
   for (const Joint &joint : joints_of(opened))
-    std::printf("joint %d between monoliths %d and %d\n", joint.number, joint.monolith_1, joint.monolith_2);
+    std::printf("joint %d between monoliths %d and %d\n", joint.number, joint.block_1, joint.block_2);
   const auto        box = bounding_box(mesh);
   const MeshQuality quality = mesh_quality(mesh, false);
   std::printf("from (%.9f, %.9f, %.9f) to (%.9f, %.9f, %.9f) m\n", box.first[0], box.first[1], box.first[2],
