@@ -133,8 +133,16 @@ def stress_bar(figure, contours, axes, levels, kind="principal", **place):
 # ---------------------------------------------------------------- joints
 
 def crest_values(run, quantity):
-    """Face -> the largest at the crest [mm], joint by joint."""
-    return {face: 1e3 * np.abs(run.joints[f"{quantity}_{face}"]) for face in FACES}
+    """Face -> the largest at the crest [mm], joint by joint; of lift joints the largest of all points."""
+    values = {face: 1e3 * np.abs(run.joints[f"{quantity}_{face}"]) for face in FACES}
+    is_lift = np.array([run.joint_name(joint).startswith("lift") for joint in run.joints["joint"]])
+    if is_lift.any():
+        points = run.table("joint_points.csv")
+        for row in np.flatnonzero(is_lift):
+            largest = 1e3 * points[f"max_{quantity}"][points["joint"] == run.joints["joint"][row]].max(initial=0.)
+            for face in FACES:
+                values[face][row] = largest
+    return values
 
 
 def common_top(runs, quantity):
@@ -158,7 +166,7 @@ def draw_crest_bars(axes, run, quantity, top, limit=0.):
     axes.set_xticks(number[::every], names[::every])
     last = sum(name[0].isdigit() for name in of_part if "." not in name) - 1  # of the contraction joints
     order = "right bank to the left" if run.joints["s"][0] <= run.joints["s"][max(last, 0)] else "left bank to the right"
-    kinds = {"l": "lift joints", "b": "base joint"}
+    kinds = {"l": "lift joints, largest of all points", "b": "base joint"}
     others = "".join(f"; {kind}: {text}" for kind, text in kinds.items() if any(name[0] == kind for name in names))
     axes.set(xlabel=f"joint, from the {order}" + others, ylabel=f"maximum {quantity} [mm]")
     axes.set_ylim(0, 1.42 * max(top, 1e3 * limit if 1e3 * limit < 2. * top else 0.) or 1)

@@ -58,6 +58,8 @@ def least_afterwards(run):
         if (match := re.fullmatch(r"opening_(?:upstream|downstream)_(\d+)", name)) and column.max() > 1e-4:
             least = float(column[column.argmax():].min())
             joint = int(match[1])
+            if run.joint_name(joint).startswith("lift"):
+                continue  # a lift joint has no crest
             found[joint] = max(found.get(joint, 0.), least if least > CLOSED * column.max() else 0.)
     return found
 

@@ -136,7 +136,8 @@ namespace Voussoir
     const EntryNames read = row_of(laws, present, "is no joint law", "The laws are:").entries;
     for (const LawRow &law : laws)
     {
-      if (law.name == present)
+      if (law.name == present ||
+          (choices.has_lift_joints && law.name == std::string("KSM"))) // no keys across lifts
         continue;
       std::map<std::string, std::string> entries = {{"Joints/Model", law.name}, {"Joints/Overrides", ""}};
       if (includes(law.entries, "Joints/Strength") && parameters.strength == 0.)

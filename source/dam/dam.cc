@@ -97,6 +97,29 @@ namespace Voussoir
                  { return joints[j].is_lift() && (models == nullptr || (*models)[j] == "tied"); });
     }
 
+    /** Returns the mesh without lifts if all lift joints are tied. @p merged_lifts: receives the keys of all joints
+     * in this case. */
+    HexMesh merge_tied_lifts(HexMesh opened, const Scene &scene, const bool tie_all,
+                             std::set<std::string> &merged_lifts)
+    {
+      const std::vector<Joint> all = joints_of(opened);
+      std::set<std::string>    lifts;
+      for (const Joint &joint : all)
+      {
+        if (joint.is_lift() && !tie_all && scene.joints.model_of(joint) != "tied")
+          return opened;
+        const std::vector<std::string> keys = joint.keys();
+        lifts.insert(keys.begin(), keys.end());
+      }
+      if (!has_lifts(all))
+        return opened;
+      merged_lifts = lifts;
+      HexMesh whole = close_joints(opened);
+      for (HexMesh::Cell &cell : whole.cells)
+        cell.volume = monolith_of(cell.volume);
+      return open_joints(whole);
+    }
+
     /** Groups and sorts the pairs: the lift and base joints of monolith m belong to the contraction joint m - 1. */
     void group_by_monolith(const std::vector<Joint> &joints, Structure &structure)
     {
@@ -149,7 +172,7 @@ namespace Voussoir
     groups = group_table(mesh);
     water_volumes = mesh.water;
     ungrouped = faces_without_group(mesh, scene.mesh.plane_strain);
-    const HexMesh opened = open_monoliths(mesh, source);
+    const HexMesh opened = open_monoliths(mesh, source, tie_all);
     choose_laws(tie_all);
     if (!tied || scene.statics.self_weight == "staged")
       check_base(opened, source);
@@ -180,7 +203,7 @@ namespace Voussoir
   }
 
   /** Returns the mesh of the monoliths with open joints. Sets the dimensions and numbers of the dam. */
-  HexMesh Dam::open_monoliths(const HexMesh &mesh, const std::string &source)
+  HexMesh Dam::open_monoliths(const HexMesh &mesh, const std::string &source, const bool tie_all)
   {
     const HexMesh concrete = monoliths_only(mesh);
     volume = Voussoir::volume(concrete);
@@ -190,11 +213,11 @@ namespace Voussoir
         std::hypot(box.second[0] - box.first[0], box.second[1] - box.first[1], box.second[2] - box.first[2]);
     n_cells = concrete.cells.size();
     n_monoliths = Voussoir::n_monoliths(concrete);
-    HexMesh opened = open_joints(concrete);
+    HexMesh opened = merge_tied_lifts(open_joints(concrete), scene, tie_all, merged_lifts);
     for (const Joint &joint : joints_of(opened))
     {
-      while (static_cast<int>(joints.size()) + 1 < joint.number)
-        joints.push_back({static_cast<int>(joints.size()) + 1, -1, 0});
+      for (int number = joints.size() + 1; number < joint.number; ++number)
+        joints.push_back({number, number, number + 1}); // without faces
       joints.push_back(joint);
       if (joint.is_contraction())
         n_joints = std::max<unsigned int>(n_joints, joint.contraction_number());
@@ -225,20 +248,26 @@ namespace Voussoir
 
   std::vector<std::size_t> Dam::joints_named(const std::string &key, const std::string &what) const
   {
-    std::vector<std::size_t> named;
+    std::vector<std::size_t>           named;
+    std::map<std::string, std::string> examples; // a name of each kind
     for (std::size_t j = 0; j < joints.size(); ++j)
-      if (key == std::to_string(joints[j].contraction_number()) || key == joints[j].name() ||
-          key == joints[j].kind())
+    {
+      const std::vector<std::string> keys = joints[j].keys();
+      if (std::find(keys.begin(), keys.end(), key) != keys.end())
         named.push_back(j);
-    if (named.empty() && key != "contraction")
-      throw InputError(
-          what +
-          (std::isdigit(static_cast<unsigned char>(key[0])) ? "joint " + key : "the joint \"" + key + "\"") +
-          ", but the dam has " + std::to_string(joints.size()) +
-          " joints, and none with this number, name or kind (such as 1, contraction" +
-          (joints.size() > n_joints ? ", " + joints.back().kind() + ", " + joints.back().name() : "") +
-          "). Correct or remove it.");
-    return named;
+      examples[joints[j].kind()] = keys[joints[j].is_contraction()];
+    }
+    if (!named.empty() || key == "contraction" || merged_lifts.count(key) > 0)
+      return named;
+    std::string text;
+    for (const auto &[kind, name] : examples)
+      text += (text.empty() ? "" : ", ") + name + ", " + kind;
+    throw InputError(
+        what +
+        (std::isdigit(static_cast<unsigned char>(key[0])) ? "joint " + key : "the joint \"" + key + "\"") +
+        ", but the dam has " + std::to_string(joints.size()) +
+        " joints, and none with this number, name or kind (such as " + (text.empty() ? "contraction" : text) +
+        "). Correct or remove it.");
   }
 
   bool Dam::is_tied(const std::size_t pair) const
@@ -415,6 +444,9 @@ namespace Voussoir
   /** Assigns the laws of the pairs. Pairs at the base are tied if the foundation requires it. */
   void Dam::tie_base()
   {
+    if (!structure.clusters.empty() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)
+      throw InputError("Joints cross at " + place(structure.pairs[structure.clusters[0][0]].place) +
+                       ", which requires \"Dynamics/Impact\" = mean-force, not " + scene.impact_rule + ".");
     laws.of_crossings = laws_of_crossings(scene, structure, joint_models);
     laws.assign(structure);
     if (laws.need_mean_force() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)
@@ -437,7 +469,11 @@ namespace Voussoir
         for (unsigned int c = 0; c < 6; ++c)
           initial_stress[i][c] += load.stress[i][c];
     if (has_loose_blocks() && !staged_reaction.empty())
-      loads.push_back({"self-weight in joints", false, 1., weight_on_joints, {}});
+      loads.push_back({has_base_joints() ? "self-weight at the base" : "self-weight in lift joints",
+                       false,
+                       1.,
+                       weight_on_joints,
+                       {}});
     if (has_base_joints() && scene.loads.uplift.base && scene.loads.factor("uplift") != 0.)
       loads.push_back({"uplift at the base", true, scene.loads.factor("uplift"), uplift_at_base(), {}});
     if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0.)

@@ -110,11 +110,11 @@ namespace Voussoir
 
   namespace
   {
-    /** Returns the value of a joint by its number, name or kind, in this order; otherwise @p other. */
+    /** Returns the value of a joint by its name, number or kind, in this order; otherwise @p other. */
     const std::string &value_of(const std::map<std::string, std::string> &values, const Joint &joint,
                                 const std::string &other)
     {
-      for (const std::string &key : {std::to_string(joint.contraction_number()), joint.name(), joint.kind()})
+      for (const std::string &key : joint.keys())
         if (const auto found = values.find(key); found != values.end())
           return found->second;
       return other;

@@ -90,6 +90,11 @@ namespace Voussoir
           cluster.inverse.assign(lu.size(), 0.f);
           for (int i = 0; i < n; ++i)
             cluster.inverse[i * n + i] = 1.f;
+          if (info != 0) // singular: no correction of this cluster
+          {
+            std::fill(cluster.inverse.begin(), cluster.inverse.end(), 0.f);
+            return;
+          }
           sgetrs_("N", &n, &n, lu.data(), &n, pivots.data(), cluster.inverse.data(), &n, &info);
         });
   }

@@ -174,8 +174,9 @@ namespace Voussoir
 
   std::vector<Pair> find_pairs(const SolidModel &model, const unsigned int n_joints)
   {
-    std::vector<Pair>                                                   pairs;
-    std::map<std::tuple<bool, unsigned int, unsigned int>, std::size_t> pair_of; // by its nodes
+    std::vector<Pair> pairs;
+    // by its nodes, and by its joint if one of them is fixed
+    std::map<std::tuple<unsigned int, unsigned int, unsigned int>, std::size_t> pair_of;
     for (const NodePair &match : match_joint_nodes(model, n_joints))
     {
       Pair pair;
@@ -185,8 +186,10 @@ namespace Voussoir
         continue;
       pair.joint = match.joint;
       pair.is_base = match.node_1 == rigid_ground;
-      const auto same =
-          pair_of.emplace(std::make_tuple(pair.is_base, pair.node_1, pair.node_2), pairs.size());
+      const auto same = pair_of.emplace(
+          std::make_tuple(pair.node_1 == rigid_ground || pair.node_2 == rigid_ground ? pair.joint + 1 : 0,
+                          pair.node_1, pair.node_2),
+          pairs.size());
       if (!same.second) // nodes that move together, also in joints between lifts that are tied
       {
         pairs[same.first->second].area += match.area.norm();

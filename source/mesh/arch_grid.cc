@@ -178,7 +178,8 @@ namespace Voussoir
         {
           const unsigned int last = i < n ? rows[i] : n_up;
           for (unsigned int k = first + 1; k <= last; ++k)
-            result[k] = ends[i] + (ends[i + 1] - ends[i]) * (k - first) / (last - first);
+            result[k] =
+                k == last ? ends[i + 1] : ends[i] + (ends[i + 1] - ends[i]) * (k - first) / (last - first);
           first = last;
         }
         return result;
@@ -308,6 +309,9 @@ namespace Voussoir
   void check_grid(const ArchShape &shape, const ArchGrid &grid, const std::string &section)
   {
     const std::string entry = "Entry \"" + section + "/";
+    if (grid.lift_joints > 0 && !grid.rows.empty())
+      throw InputError(entry + "Lift joints\" is " + std::to_string(grid.lift_joints) +
+                       ", but \"Rows\" gives the rows of elements. Set one of the two entries only.");
     if (grid.lift_joints >= grid.elements_up)
       throw InputError(entry + "Lift joints\" is " + std::to_string(grid.lift_joints) +
                        ", but the dam has only " + std::to_string(grid.elements_up) +

@@ -270,6 +270,14 @@ namespace Voussoir
     };
   } // namespace
 
+  std::vector<std::string> Joint::keys() const
+  {
+    std::vector<std::string> result = {name(), kind()};
+    if (!is_lift())
+      result.insert(result.begin() + 1, std::to_string(contraction_number()));
+    return result;
+  }
+
   std::string Joint::name() const
   {
     const auto in_lift = [](const int block)

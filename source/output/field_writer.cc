@@ -92,13 +92,13 @@ namespace Voussoir
           {
             ++n_lines;
             const Point<3> &p = model.points[i];
-            nodes << name << ',' << quad.monolith << ',' << p[0] << ',' << p[1] << ',' << p[2] << ','
-                  << geometry.arc_length(p);
+            nodes << name << ',' << monolith_of(quad.block) << ',' << p[0] << ',' << p[1] << ',' << p[2]
+                  << ',' << geometry.arc_length(p);
             for (const NodalField &field : fields)
               nodes << ',' << field.values[i];
             nodes << '\n';
           }
-        quads << name << ',' << quad.monolith;
+        quads << name << ',' << monolith_of(quad.block);
         for (const unsigned int i : quad.nodes)
           quads << ',' << line_of[i];
         quads << '\n';

@@ -86,7 +86,7 @@ namespace Voussoir
       for (const FaceQuad &quad : face_quads(model, static_cast<int>(surface)))
       {
         quads.push_back(static_cast<std::int32_t>(surface));
-        quads.push_back(static_cast<std::int32_t>(quad.monolith));
+        quads.push_back(static_cast<std::int32_t>(monolith_of(quad.block)));
         for (unsigned int k = 0; k < 4; ++k)
         {
           const unsigned int node = quad.nodes[quad.is_clockwise ? 3 - k : k];

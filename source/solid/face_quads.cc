@@ -29,9 +29,7 @@ namespace Voussoir
             for (unsigned int i = 0; i < degree; ++i)
             {
               const unsigned int *low = &lattice[j * per_side + i], *high = low + per_side;
-              quads.push_back({{{low[0], low[1], high[1], high[0]}},
-                               static_cast<unsigned int>(monolith_of(cell->material_id())),
-                               f % 2 == 0});
+              quads.push_back({{{low[0], low[1], high[1], high[0]}}, cell->material_id(), f % 2 == 0});
             }
         }
     return quads;

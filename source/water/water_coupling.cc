@@ -71,7 +71,7 @@ namespace Voussoir
       WetQuad wet;
       for (unsigned int k = 0; k < 4; ++k)
         wet.corners[k] = place_of(dam, quad.nodes[k]);
-      wet.monolith = quad.monolith;
+      wet.monolith = quad.block;
       result.push_back(wet);
     }
     return result;
@@ -108,7 +108,7 @@ namespace Voussoir
               quads[f].is_clockwise ? cross(along, up) : cross(up, along); // out of the water
           const unsigned int water = finder.find(p, wet[f].monolith);
           if (water == rigid_ground)
-            throw InputError("Mesh of the water: monolith " + std::to_string(wet[f].monolith) +
+            throw InputError("Mesh of the water: " + physical_name(3, wet[f].monolith) +
                              " has no water node near y = " + number_text(p[1]) +
                              " m, z = " + number_text(p[2]) +
                              " m. Reduce Reservoir/Element size, for example to " + number_text(.7 * h) +

@@ -73,7 +73,7 @@ namespace Voussoir
     std::size_t              n_cells = 0;       ///< number of concrete elements
     unsigned int             n_monoliths = 0;   ///< number of monoliths
     unsigned int             n_joints = 0;      ///< number of contraction joints, also if they are tied
-    std::vector<Joint>       joints;            ///< all joints, by number; without faces: monolith_2 is 0
+    std::vector<Joint>       joints;            ///< all joints, by number
     std::vector<std::string> joint_models;      ///< names of the laws of #joints
     std::vector<double>      initial_gaps;      ///< of #joints [m]
     double                   volume = 0.;       ///< of the concrete [m^3]
@@ -116,13 +116,14 @@ namespace Voussoir
     bool tied = false;      ///< true: all joints are tied, without pairs
 
   private:
-    HexMesh open_monoliths(const HexMesh &mesh, const std::string &source);
-    void    choose_laws(bool tie_all);
-    void    assemble(const HexMesh &opened, const std::string &source);
-    void    tie_base();
-    void    open_base_joints();
-    void    cross_joints();
-    void    find_weight_on_joints();
+    HexMesh open_monoliths(const HexMesh &mesh, const std::string &source, bool tie_all);
+
+    void choose_laws(bool tie_all);
+    void assemble(const HexMesh &opened, const std::string &source);
+    void tie_base();
+    void open_base_joints();
+    void cross_joints();
+    void find_weight_on_joints();
 
     Unknowns uplift_at_base() const;
     void     remove_base_pairs(std::vector<Pair> &pairs) const;
@@ -133,6 +134,9 @@ namespace Voussoir
     void                   stage_self_weight();
     void                   find_staged_reaction(double weight, const Unknowns &u);
     void                   find_lowest_base();
+
+    std::set<std::string>
+        merged_lifts; ///< keys of all joints, if lifts were merged because all lift joints are tied
 
     bool has_open_bases = false, has_open_lifts = false; ///< joints that are not tied
 

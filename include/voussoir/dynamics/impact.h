@@ -41,7 +41,7 @@ namespace Voussoir
   class Impact
   {
   public:
-    /** Inverts the masses. Throws InputError if pairs share nodes and the rule is not mean_force or none. */
+    /** Inverts the masses. Throws InputError if pairs share nodes and the rule is paper or impulse_consistent. */
     Impact(const Structure &structure, const JointLaws &laws, ImpactRule rule);
 
     /** Corrects the velocities and impulses of all pairs at the end of a step.

@@ -33,6 +33,9 @@ namespace Voussoir
       return is_contraction() && monolith_2() == monolith_1() + 1 ? monolith_1() : number;
     }
 
+    /** Returns the keys of the joint in input files, the most special first: name, number (not of lift joints), kind. */
+    std::vector<std::string> keys() const;
+
     /** Returns the standard name: "joint 3"; "joint 3.2" between the lifts 2 of the monoliths 3 and 4, "joint 3.2-1"
      * between the lifts 2 and 1; "lift 3.1" between the lifts 1 and 2 of monolith 3; "base 3" for the base joint of
      * monolith 3, "base 3.2" of its lift 2. */

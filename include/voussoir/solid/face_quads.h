@@ -10,8 +10,8 @@ namespace Voussoir
    * the cell has nodes inside its edges. */
   struct FaceQuad
   {
-    std::array<unsigned int, 4> nodes; ///< in order around the quadrilateral
-    unsigned int                monolith;
+    std::array<unsigned int, 4> nodes;        ///< in order around the quadrilateral
+    unsigned int                block;        ///< physical id of the volume, see monolith_of()
     bool                        is_clockwise; ///< order of the nodes, seen from outside of the cell
   };
 
