@@ -79,7 +79,7 @@ def closing(run, found):
         which = f"each of the {len(opened)} joints that open" if len(opened) > 1 else "the joint that opens"
         text = f"<b>Yes.</b> At the crest {which} closes again."
     else:
-        listed = ", ".join(f"{run.joint_name(joint)} ({number(open_[joint], 'mm')} mm)" for joint in sorted(open_, key=lambda joint: -open_[joint])[:6])
+        listed = ", ".join(f"{escape(run.joint_name(joint))} ({number(open_[joint], 'mm')} mm)" for joint in sorted(open_, key=lambda joint: -open_[joint])[:6])
         one = len(open_) == 1
         text = (f"<b>Not all.</b> Of {len(opened)} joints that open at the crest, {len(open_)} {'stays' if one else 'stay'} open from "
                 f"{'its' if one else 'their'} largest opening to the end of the run at {end:.2f} s, at least by: {listed}.")

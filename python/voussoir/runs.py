@@ -98,8 +98,9 @@ class Run:
     def joint_name(self, number, short=False):
         """joint 3, lift 2.1, or base 2 for the base joint of monolith 2; short: 3, l2.1 and b2."""
         mesh = self.summary.get("mesh", {})
-        if names := mesh.get("joint_names"):
-            name = names[int(number) - 1]
+        names = mesh.get("joint_names")
+        name = names[int(number) - 1] if isinstance(names, list) and 0 < number <= len(names) else None
+        if isinstance(name, str):
             return name.replace("joint ", "").replace("lift ", "l").replace("base ", "b") if short else name
         k = number - mesh.get("joints", number) - 1
         bases = mesh.get("base_joints", [])
