@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 
 namespace Voussoir
@@ -23,8 +24,9 @@ namespace Voussoir
     public:
       explicit AllNodesFree(SolidModel &model)
           : model(model), fixed(model.base_is_fixed), equation(model.equation),
-            first_equation(model.first_equation)
+            first_equation(model.first_equation), master(model.master)
       {
+        std::iota(model.master.begin(), model.master.end(), 0);
         model.free_base();
       }
       ~AllNodesFree()
@@ -32,6 +34,7 @@ namespace Voussoir
         model.base_is_fixed = fixed;
         model.equation.swap(equation);
         model.first_equation.swap(first_equation);
+        model.master.swap(master);
       }
       AllNodesFree(const AllNodesFree &) = delete;
       AllNodesFree &operator=(const AllNodesFree &) = delete;
@@ -39,7 +42,7 @@ namespace Voussoir
     private:
       SolidModel               &model;
       const bool                fixed;
-      std::vector<unsigned int> equation, first_equation;
+      std::vector<unsigned int> equation, first_equation, master;
     };
 
     Vector3 to(const Vector3 &centroid, const Point<3> &p)
