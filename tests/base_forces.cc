@@ -12,6 +12,7 @@
 #include "wedges.h"
 
 #include <cstring>
+#include <numeric>
 
 using namespace Voussoir;
 using namespace Testing;
@@ -75,6 +76,8 @@ namespace
   {
     explicit Whole(const Scene &scene) : dam(scene)
     {
+      std::iota(dam.model->master.begin(), dam.model->master.end(),
+                0); // each node alone, also of tied joints
       dam.model->free_base();
       structure = assemble_structure(*dam.model, dam.materials, scene.elements.incompatible_modes);
       load.assign(3 * structure.n_nodes(), 0.);

@@ -115,7 +115,7 @@ def joints(run):
     rows = table("run/joints.csv")
     largest = {int(row["joint"]): max(float(row[f"opening_{face}"]) for face in FACES) for row in rows}
     equal(worst_joints(run, 2), sorted(largest, key=lambda joint: -largest[joint]), "the worst joints")
-    half = SimpleNamespace(joints={name: .5 * column for name, column in run.joints.items()})
+    half = SimpleNamespace(joints={name: .5 * column for name, column in run.joints.items()}, joint_name=run.joint_name)
     for several in ([run, half], [half, run]):
         equal(common_top(several, "opening"), 1e3 * max(largest.values()), "the highest bar")
     equal(list(crest_values(run, "slip")["upstream"]), [1e3 * float(row["slip_upstream"]) for row in rows], "slips at the crest")
