@@ -262,6 +262,7 @@ namespace
     bad([](ArchGrid &grid) { grid.joint_places = {120}; }, "Joint chainages");
     bad([](ArchGrid &grid) { grid.rows = {0.5, 0.4}; }, "Rows");
     bad([](ArchGrid &grid) { grid.rows = {1}; }, "Rows");
+    bad([](ArchGrid &grid) { grid.lift_joints = 1; }, "Lift joints"); // with rows
     bad([](ArchGrid &grid) { grid.smallest_height = 0; }, "Smallest height");
     bad([](ArchGrid &grid) { grid.smallest_height = 40; }, "Smallest height");
     bad([](ArchGrid &grid) { grid.elements_along = 0; }, "Elements along");

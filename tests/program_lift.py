@@ -176,6 +176,9 @@ def arch():
     expect(heights == {"1": {140.}}, f"lift joints at the heights {heights}")
     shown = runs("scene.prm", "--output", "probe", "--validate", *ARCH, *LIFTS, *settings("Joints/Overrides=lift 2.1: tied, joint 2.2: FJB, 1: tied"))
     expect("lift 2.1: tied" in shown, shown)
+    # All lift joints are tied, and one part of a contraction joint: the other parts open.
+    runs("scene.prm", "--output", "part", *ARCH, *LIFTS, *settings("Joints/Overrides=lift: tied, joint 2.2: tied", "Motion/Duration=0.5"))
+    expect("joint 2.2" in summary("part")["mesh"]["joint_names"], "the tied part is no part any more")
     # Every monolith that is high enough has the joint, also where its height has a round-off.
     shown = runs("scene.prm", "--output", "all", "--validate", *ARCH, *settings("Mesh/Arch210/Joints=11", "Mesh/Arch210/Lift joints=1",
                  "Mesh/Arch210/Elements along=24", "Mesh/Arch210/Elements up=20"))
@@ -204,6 +207,9 @@ def refusals():
     refused(["scene.prm", *ARCH, *LIFTS, *settings("Dynamics/Impact=paper")], "Joints cross", "mean-force")
     refused(["scene.prm", *ARCH, *LIFTS, *settings("Joints/Overrides=lift 2.7: tied")], "lift 2.7")
     refused(["scene.prm", *ARCH, *settings("Mesh/Arch210/Lift joints=6")], "Lift joints", "6 rows")
+    for more in ("Joints/Initial gaps=lift 2.1: 1 mm", "Statics/Stages=cut lift 2.1 by 1 mm"):
+        refused(["scene.prm", *ARCH, *LIFTS, *settings("Joints/Overrides=lift: tied", more)], "lift 2.1", "tied")
+    refused(["scene.prm", *ARCH, *LIFTS, *settings("Joints/Overrides=99999999999999999999: tied")], "99999999999999999999")
     wall("gap.msh", 1, 2, 3)
     text = Path("gap.msh").read_text().replace("lift 3", "lift 4")
     Path("gap.msh").write_text(text)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The static solver of the rock: it solves what it is given, and halving the mesh hardly adds iterations.
+// The static solver of the rock: equilibrium; halving the mesh adds few iterations; coarse problems by CHOLMOD and ML.
 
 #include <voussoir/foundation/rock_statics.h>
 #include <voussoir/rock/rock_model.h>
@@ -21,9 +21,8 @@ namespace
     double       residual = 0., held = 0., middle = 0., part = 0.;
   };
 
-  /** Rock of 600 m x 600 m x 300 m of flat elements, n of them along its length, held but for its ground,
-   * whose middle is pushed. @p thin: those in the middle are like sheets under the ground, and all are as the
-   * dam's. */
+  /** Pushes the middle of the ground of 600 m x 600 m x 300 m of rock, of n x n x n flat elements. All other sides
+   * are held. @p thin: the elements in the middle are thin under the ground, and all elements have the dam's size. */
   Solved push(const unsigned int n, const bool thin = false, const MakeCoarseRock &solver = make_coarse_rock)
   {
     const double   h = 600. / n;

@@ -97,8 +97,28 @@ namespace Voussoir
                  { return joints[j].is_lift() && (models == nullptr || (*models)[j] == "tied"); });
     }
 
-    /** Returns the mesh without lifts if all lift joints are tied. @p merged_lifts: receives the keys of all joints
-     * in this case. */
+    /** Returns true if the entries for single joints have the same meaning in a dam without lifts. They may name lift
+     * joints that are tied, but no part of another joint. */
+    bool is_without_parts(const Scene &scene, const unsigned int n_joints)
+    {
+      const auto is_whole = [&](const std::string &key)
+      {
+        const bool is_number = std::isdigit(static_cast<unsigned char>(key[0])) && key.size() <= 4;
+        return key == "contraction" || key == "base" || (is_number && std::stoul(key) <= n_joints);
+      };
+      const auto has_whole = [&](const auto &entry) { return is_whole(entry.first); };
+      const auto is_tied_lift = [&](const auto &entry)
+      { return has_whole(entry) || entry.first.compare(0, 4, "lift") == 0; };
+      const auto is_no_cut_of_part = [&](const StaticStage &stage)
+      { return stage.kind != StaticStage::Kind::cut || is_whole(stage.joint); };
+      const std::vector<StaticStage> stages = static_stages(scene.statics.stages);
+      return std::all_of(scene.joints.overrides.begin(), scene.joints.overrides.end(), is_tied_lift) &&
+             std::all_of(scene.joints.gaps.begin(), scene.joints.gaps.end(), has_whole) &&
+             std::all_of(stages.begin(), stages.end(), is_no_cut_of_part);
+    }
+
+    /** Returns the mesh without lifts if all lift joints are tied and the entries for single joints allow it.
+     * @p merged_lifts: receives the keys of all joints in this case. */
     HexMesh merge_tied_lifts(HexMesh opened, const Scene &scene, const bool tie_all,
                              std::set<std::string> &merged_lifts)
     {
@@ -111,7 +131,7 @@ namespace Voussoir
         const std::vector<std::string> keys = joint.keys();
         lifts.insert(keys.begin(), keys.end());
       }
-      if (!has_lifts(all))
+      if (!has_lifts(all) || (!tie_all && !is_without_parts(scene, n_monoliths(opened) - 1)))
         return opened;
       merged_lifts = lifts;
       HexMesh whole = close_joints(opened);

@@ -11,8 +11,9 @@ namespace Voussoir
   /** Linear systems of Newton's method for the joints: J = d_force + d_gap W.
    *
    * GMRES in single precision, preconditioned by P = D + L. D has the diagonal blocks of the joints
-   * (JointBlock). Where joints cross, Crossings corrects the result. L has the couplings to joints of earlier colour; neighbouring joints have different
-   * colours. P is a block Gauss-Seidel iteration, in which joints of one colour run in parallel.
+   * (JointBlock). L has the couplings to joints of earlier colour; neighbouring joints have different colours. P is a
+   * block Gauss-Seidel iteration, in which joints of one colour run in parallel. Where joints cross, Crossings corrects
+   * the result.
    *
    * The preconditioner computes z = P^-1 v together with W z: JointBlock supplies W_jj z_j, and each coupling
    * is used in both directions while it is in the cache. A product J z = d_force z + d_gap W z therefore

@@ -61,7 +61,8 @@ namespace Voussoir
     /** Returns true if JointEnergy::fracture can be nonzero: a law has a bond. */
     bool have_bonds() const;
 
-    /** Returns the sum of friction_correction() of SurfacesLaw and ElasticLaw over all pairs [J]; 0 if @p is_mean is false.
+    /** Returns the sum of friction_correction() of SurfacesLaw and ElasticLaw over all pairs [J]; 0 if @p is_mean is
+     * false.
      * @p memory: history variables before commit(). */
     double friction_correction(const Unknowns &start, bool is_mean, const Unknowns &force,
                                const Unknowns &gap, const Unknowns &memory) const;

@@ -15,8 +15,9 @@ namespace Voussoir
   PairsByNode pairs_by_node(const std::vector<Pair> &pairs);
 
   /** Returns the pairs of the joints 1 to @p n_joints, joint after joint. A pair consists of coincident nodes
-   * of the two sides of a joint, or of the ground and a node of side 2 (base joints). Its frame is {n, a, b}: n from side 1 to side 2, b upwards in the
-   * joint, a = b x n. Pairs of two fixed nodes, or of nodes that move together, are omitted.
+   * of the two sides of a joint, or of the ground and a node of side 2 (base joints). The frame of the pair is
+   * {n, a, b}: n from side 1 to side 2, b upwards in the joint, a = b x n. Pairs of two fixed nodes, or of nodes that
+   * move together, are omitted.
    *
    * At an edge (normals of the faces differ by more than 20 degrees, as at meshed shear keys) the pair has
    * several planes. Its frame is that of the plane closest to the mean normal of the joint.
@@ -31,11 +32,12 @@ namespace Voussoir
   void tie_joints(SolidModel &model, unsigned int n_joints,
                   const std::function<bool(unsigned int)> &is_tied = nullptr);
 
-  /** Merges all bodies into one: coincident base nodes on the two sides of the joints 1 to @p n_joints move together. */
+  /** Merges all bodies into one: coincident base nodes on the two sides of the joints 1 to @p n_joints move
+   * together. */
   void tie_base_nodes(SolidModel &model, unsigned int n_joints);
 
-  /** Returns the clusters of pairs that share free nodes, as where joints cross: pairs that are connected by such nodes.
-   * A pair that shares no node belongs to no cluster. The pairs of a cluster ascend. */
+  /** Returns the clusters of pairs that are connected by common free nodes, as where joints cross. A cluster has at
+   * least two pairs, in ascending order. */
   std::vector<std::vector<unsigned int>> clusters_of(const std::vector<Pair> &pairs);
 } // namespace Voussoir
 

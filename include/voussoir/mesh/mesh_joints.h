@@ -33,12 +33,15 @@ namespace Voussoir
       return is_contraction() && monolith_2() == monolith_1() + 1 ? monolith_1() : number;
     }
 
-    /** Returns the keys of the joint in input files, the most special first: name, number (not of lift joints), kind. */
+    /** Returns the keys of the joint in input files, the most special first: name, number (not of lift joints),
+     * kind. */
     std::vector<std::string> keys() const;
 
-    /** Returns the standard name: "joint 3"; "joint 3.2" between the lifts 2 of the monoliths 3 and 4, "joint 3.2-1"
-     * between the lifts 2 and 1; "lift 3.1" between the lifts 1 and 2 of monolith 3; "base 3" for the base joint of
-     * monolith 3, "base 3.2" of its lift 2. */
+    /** Returns the standard name:
+     * - "joint 3" between the lowest lifts of the monoliths 3 and 4, "joint 3.2" between their lifts 2, "joint 3.2-1"
+     *   between lift 2 of monolith 3 and lift 1 of monolith 4;
+     * - "lift 3.1" between the lifts 1 and 2 of monolith 3;
+     * - "base 3" between the ground and monolith 3, "base 3.2" between the ground and its lift 2. */
     std::string name() const;
   };
 
@@ -50,8 +53,8 @@ namespace Voussoir
    *
    * Joint j lies between the monoliths j and j + 1, or their lowest lifts. Contacts of other blocks have the numbers
    * from n_monoliths() on, in the order of the monoliths and lifts. The base joints follow, one per block with faces in
-   * the surface "base joint". Nodes of the rock are not doubled: where a joint meets the rock, its sides share the base node and are
-   * tied there.
+   * the surface "base joint". Nodes of the rock are not doubled: where a joint meets the rock, its sides share the base
+   * node and are tied there.
    *
    * @param mesh conforming, with doubled nodes, or a mixture. It is closed first, so that all three give the
    * same mesh up to the numbers of the nodes. It must have passed check_mesh().
