@@ -171,6 +171,51 @@ def rock():
     expect(summary("rock")["energy_balance_error"] < 1e-5, "energy balance")
 
 
+def on_rock():
+    """A block on a base joint on rock. Stiff rock: the slip of a block after a pulse. Soft rock with and without mass: the base
+    carries the weight, less by the uplift; a monolith in two lifts moves with the same energy on both sides of its base."""
+    def box(file, lifts=1):
+        nodes, hexes, quads, _ = meshes.on_rock_parts(3., 18, (7, 11), 12, 2, 6)
+        names = {1: "monolith 1", 1000: "rock", 101: "monolith 1 lift 2"}
+        if lifts == 2:
+            hexes = [(101 if tag == 1 and min(nodes[n][2] for n in corners) > 1 else tag, corners) for tag, corners in hexes]
+        meshes.write(file, nodes, hexes, [(7 if tag == 1 else tag, corners) for tag, corners in quads], volumes=names)
+
+    box("box.msh")
+    box("lifts.msh", lifts=2)
+    mu, duration = .4, .2
+    peak = 1.5 * G * mu
+    exact = (peak - G * mu) * duration**2 / 2 * peak / (G * mu)
+    motion = pulse("pulse.txt", -peak, (1, 0, 0), duration, 1., .002)
+    _, rows = block("slide_on_rock", "box.msh", joints={"Friction": mu}, Motion=motion,
+                    Foundation={"Model": "massless", "Young's modulus": 1e12, "Poisson's ratio": 0})
+    slips = [row["residual_slip"] for row in rows]
+    print(f"    stiff rock: slip {exact:.5f} m, error {max(slips) / exact - 1:.1e}")
+    expect(abs(max(slips) / exact - 1) < 2e-3 and max(slips) - min(slips) < 1e-4 * exact, f"slips {min(slips)} to {max(slips)} m")
+    weight, level = 2400 * G * 12. * 12. * 6., 4.
+    for model in ("massless", "rock"):
+        for uplift in ("false", "true"):
+            name = f"{model}_{uplift}"
+            block(name, "box.msh", *settings(f"Loads/Uplift/Base={uplift}"), joints={"Friction": 1}, young=2e10,
+                  Foundation={"Model": model, "Young's modulus": 1e10}, Reservoir={"Water level": level, "Density": 1000, "Model": "none"})
+            names, rows = table(f"{name}/joint_pressures.csv")
+            carried = rows[0][names.index("mean_pressure")] * 144.
+            by_hand = weight - (1000 * G * level / 2 * 144. if uplift == "true" else 0.)
+            print(f"    {name}: the base carries {carried:.1f} N, by hand {by_hand:.1f} N")
+            expect(abs(carried / by_hand - 1) < 1e-6, f"{name}: the base carries {carried} N instead of {by_hand} N")
+            names, rows = table(f"{name}/blocks.csv")
+            reaction = -rows[0][names.index("N_1")]  # of dam and water, and of the footing of 15 mm
+            expect(abs(reaction / weight - 1) < 3e-3, f"{name}: the rock carries {reaction} N instead of {weight} N")
+        name = f"{model}_shaken"
+        runs(scene(name, "lifts.msh", **sections({"joints": {"Friction": .3}, "young": 2e10, "Motion": motion, "Foundation": {
+            "Model": model, "Young's modulus": 1e10}})), "--output", name)
+        result = summary(name)
+        expect(result["mesh"]["joint_names"] == ["lift 1.1", "base 1"], f"joints {result['mesh']['joint_names']}")
+        opening, slip = (result["extremes"][f"max_{what}"]["value"] for what in ("opening", "slip"))
+        print(f"    {name}: opening {1e3 * opening:.2f} mm, slip {1e3 * slip:.2f} mm, energy balance {result['energy_balance_error']:.1e}")
+        expect(result["energy_balance_error"] < 1e-8 and slip > .01, f"{name}: energy balance or slip")
+
+
 ARCH = settings("Mesh/Source=arch210", "Mesh/Arch210/Joints=3", "Mesh/Arch210/Elements along=16", "Mesh/Arch210/Elements up=6",
                 "Mesh/Arch210/Elements through=2", "Mesh/File=", "Reservoir/Water level=190", "Motion/Duration=1.5",
                 "Output/Envelope interval=0")
@@ -221,20 +266,23 @@ def same_to_the_bit_but_joints(a, b):
 
 
 def resume():
-    """Killed in the middle, it goes on with the elastic base as it was."""
+    """Killed in the middle, it goes on with the elastic base as it was, on the rigid base and on rock."""
     write_scene()
-    more = [*ARCH, *BASE, *settings("Joints/Normal stiffness=1e11", "Joints/Adhesion=1 MPa", "Output/Checkpoint interval=20",
-                                    "Output/Progress interval=10")]
-    runs("scene.prm", "--output", "whole", *more)
-    run_program.interrupted("scene.prm", "parts", *more)
-    runs("scene.prm", "--resume", "--output", "parts", *more)
-    same_to_the_bit("whole", "parts")
+    for base, given in (("rigid", ("Joints/Normal stiffness=1e11", "Joints/Adhesion=1 MPa")),
+                        ("massless", ("Foundation/Model=massless", "Mesh/Arch210/Lift joints=1"))):
+        more = [*ARCH, *BASE, *settings(*given, "Output/Checkpoint interval=20", "Output/Progress interval=10")]
+        shown = runs("scene.prm", "--output", f"whole_{base}", *more)
+        expect("4 base joints" in shown, shown[:800])
+        expect(summary(f"whole_{base}")["energy_balance_error"] < 1e-9, f"energy balance of {base}")
+        run_program.interrupted("scene.prm", f"parts_{base}", *more)
+        runs("scene.prm", "--resume", "--output", f"parts_{base}", *more)
+        same_to_the_bit(f"whole_{base}", f"parts_{base}")
 
 
 def refusals():
     """Base joints where they cannot be, joints that do not exist, laws that do not fit."""
     write_scene()
-    refused(["scene.prm", *ARCH, *BASE, *settings("Foundation/Model=massless")], "base joints", "rigid")
+    refused(["scene.prm", *ARCH, *BASE, *settings("Foundation/Model=massless", "Dynamics/Impact=none")], "Base joints on massless rock", "mean-force")
     refused(["scene.prm", *ARCH, *BASE, *settings("Joints/Overrides=base 9: tied")], "base 9", "7 joints")
     refused(["scene.prm", *ARCH, *settings("Joints/Overrides=base: tied")], "\"base\"", "contraction")
     refused(["scene.prm", *ARCH, *BASE, *settings("Loads/Uplift/Joints=true", "Loads/Uplift/Base=true")], "Uplift/Joints", "Uplift/Base")
@@ -244,4 +292,4 @@ def refusals():
 
 
 if __name__ == "__main__":
-    run_cases(crack, uplift, slice_at_rest, slide, rock, arch, resume, refusals)
+    run_cases(crack, uplift, slice_at_rest, slide, rock, on_rock, arch, resume, refusals)

@@ -23,7 +23,7 @@ namespace Voussoir
       explicit UpstreamHeel(const SolidModel &model)
       {
         for (unsigned int i = 0; i < model.n_nodes(); ++i)
-          if (model.on_surface(i, PhysicalId::upstream) && model.on_surface(i, PhysicalId::base))
+          if (model.on_surface(i, PhysicalId::upstream) && model.is_at_base(i))
             heel.emplace_back(model.points[i][1], model.points[i][2]);
         std::sort(heel.begin(), heel.end());
         if (heel.empty())

@@ -47,26 +47,29 @@ namespace Voussoir
                  of_reservoir = scene.reservoir.density * gravity * scene.loads.factor("water"),
                  of_tail = scene.loads.tail_water.density * gravity * scene.loads.factor("tail water");
     BaseUplift uplift{Unknowns(3 * std::size_t(model.n_nodes()), 0.), {}};
-    for_faces(model, PhysicalId::base, 8,
-              [&](const FEFaceValues<3> &values, const auto &dofs)
-              {
-                for (const unsigned int q : values.quadrature_point_indices())
-                {
-                  const double z = values.quadrature_point(q)[2];
-                  double       s = 0.;
-                  for (unsigned int i = 0; i < dofs.size(); ++i)
-                    s += values.shape_value(i, q) * place[dofs[i]];
-                  const double p = uplift_head(s, of_reservoir * std::max(0., scene.reservoir.level - z),
-                                               of_tail * std::max(0., tail - z), scene.loads.uplift);
-                  for (unsigned int c = 0; c < 3; ++c)
-                  {
-                    const double f = -factor * p * values.normal_vector(q)[c] * values.JxW(q);
-                    uplift.of_monolith[monolith_of(values.get_cell()->material_id())][c] += f;
-                    for (unsigned int i = 0; i < dofs.size(); ++i)
-                      uplift.force[3 * dofs[i] + c] += f * values.shape_value(i, q);
-                  }
-                }
-              });
+    const auto add_face = [&](const FEFaceValues<3> &values, const auto &dofs)
+    {
+      const int volume = values.get_cell()->material_id();
+      for (const unsigned int q : values.quadrature_point_indices())
+      {
+        const double z = values.quadrature_point(q)[2];
+        double       s = 0.;
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+          s += values.shape_value(i, q) * place[dofs[i]];
+        const double p = uplift_head(s, of_reservoir * std::max(0., scene.reservoir.level - z),
+                                     of_tail * std::max(0., tail - z), scene.loads.uplift);
+        for (unsigned int c = 0; c < 3 && !is_footing(volume); ++c)
+        {
+          const double f = -factor * p * values.normal_vector(q)[c] * values.JxW(q);
+          uplift.of_monolith[monolith_of(volume)][c] += f;
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            uplift.force[3 * dofs[i] + c] += f * values.shape_value(i, q);
+        }
+      }
+    };
+    for_faces(model, PhysicalId::base, 8, add_face);
+    for (const int above_footing : model.on_footings)
+      for_faces(model, above_footing, 8, add_face);
     return uplift;
   }
 } // namespace Voussoir

@@ -7,6 +7,7 @@
 #include <voussoir/dam/mesh_warnings.h>
 #include <voussoir/foundation/foundation_table.h>
 #include <voussoir/joints/pairs.h>
+#include <voussoir/mesh/footings.h>
 #include <voussoir/mesh/mesh_axes.h>
 #include <voussoir/mesh/mesh_groups.h>
 #include <voussoir/mesh/mesh_joints.h>
@@ -83,18 +84,20 @@ namespace Voussoir
       check_plane_section(opened, scene.mesh.name());
     }
 
-    bool has_lifts(const std::vector<Joint> &joints)
+    /** Returns true if monoliths have joints inside: lift joints, or base joints on footings. */
+    bool has_parts(const std::vector<Joint> &joints)
     {
-      return std::any_of(joints.begin(), joints.end(), [](const Joint &joint) { return joint.is_lift(); });
+      return std::any_of(joints.begin(), joints.end(),
+                         [](const Joint &joint) { return joint.is_inside_monolith(); });
     }
 
-    /** Ties all lift joints, or those with the model "tied" in @p models. */
-    void tie_lifts(const std::vector<Joint> &joints, const std::vector<std::string> *models,
+    /** Ties all joints inside monoliths, or those with the model "tied" in @p models. */
+    void tie_parts(const std::vector<Joint> &joints, const std::vector<std::string> *models,
                    SolidModel &model)
     {
       tie_joints(model, joints.size(),
                  [&](const unsigned int j)
-                 { return joints[j].is_lift() && (models == nullptr || (*models)[j] == "tied"); });
+                 { return joints[j].is_inside_monolith() && (models == nullptr || (*models)[j] == "tied"); });
     }
 
     /** Returns true if the entries for single joints have the same meaning in a dam without lifts. They may name lift
@@ -131,13 +134,22 @@ namespace Voussoir
         const std::vector<std::string> keys = joint.keys();
         lifts.insert(keys.begin(), keys.end());
       }
-      if (!has_lifts(all) || (!tie_all && !is_without_parts(scene, n_monoliths(opened) - 1)))
+      if (!has_parts(all) || (!tie_all && !is_without_parts(scene, n_monoliths(opened) - 1)))
         return opened;
       merged_lifts = lifts;
       HexMesh whole = close_joints(opened);
       for (HexMesh::Cell &cell : whole.cells)
         cell.volume = monolith_of(cell.volume);
       return open_joints(whole);
+    }
+
+    /** Returns true if a base joint of the opened mesh is not tied. */
+    bool has_open_base(const HexMesh &opened, const Scene &scene)
+    {
+      const std::vector<Joint> joints = joints_of(opened);
+      return std::any_of(joints.begin(), joints.end(),
+                         [&](const Joint &joint)
+                         { return joint.is_base() && scene.joints.model_of(joint) != "tied"; });
     }
 
     /** Groups and sorts the pairs: the lift and base joints of monolith m belong to the contraction joint m - 1. */
@@ -234,6 +246,8 @@ namespace Voussoir
     n_cells = concrete.cells.size();
     n_monoliths = Voussoir::n_monoliths(concrete);
     HexMesh opened = merge_tied_lifts(open_joints(concrete), scene, tie_all, merged_lifts);
+    if (concrete.cells.size() < mesh.cells.size() && !tie_all && has_open_base(opened, scene))
+      opened = with_footings(opened);
     for (const Joint &joint : joints_of(opened))
     {
       for (int number = joints.size() + 1; number < joint.number; ++number)
@@ -314,11 +328,11 @@ namespace Voussoir
     initial_stress.assign(model->n_nodes(), Stress{});
     if (scene.statics.self_weight == "staged")
       stage_self_weight(); // on a rigid base; later displacements are relative to this state
-    if (has_lifts(joints))
+    if (has_parts(joints))
     {
       model = std::make_unique<SolidModel>(opened, scene.elements.degree);
       model->plane_strain = scene.mesh.plane_strain;
-      tie_lifts(joints, &joint_models, *model);
+      tie_parts(joints, &joint_models, *model);
       structure = assemble_structure(*model, materials, incompatible_modes);
       pairs = find_pairs(*model, n_all);
     }
@@ -333,7 +347,7 @@ namespace Voussoir
         remove_base_pairs(pairs);
       geometry = std::make_unique<DamGeometry>(*model, pairs, n_all, source);
     }
-    if (tied && n_joints + has_lifts(joints) > 0)
+    if (tied && n_joints + has_parts(joints) > 0)
     {
       tie_joints(*model, n_all);
       structure = assemble_structure(*model, materials, incompatible_modes);
@@ -360,17 +374,20 @@ namespace Voussoir
     for (std::size_t j = 0; j < joints.size(); ++j)
       if (joints[j].is_base() && joint_models[j] != "tied")
         sides.insert(PhysicalId::joint_side_2 + joints[j].number);
-    if (sides.empty())
+    has_open_bases = !sides.empty();
+    if (!has_open_bases)
       return;
-    if (foundation->uses_rock())
-      throw InputError(
-          "The mesh has base joints (surface \"base joint\"), which require a rigid foundation. Set "
-          "\"Foundation/Model\" to rigid, or \"Joints/Overrides\" to \"base: tied\".");
     if (scene.loads.uplift.joints && scene.loads.uplift.base)
       throw InputError(
           "With base joints, either \"Loads/Uplift/Joints\" or \"Loads/Uplift/Base\" can be true: the "
           "full pressure in open pairs of the base, or the pressure below the whole base. Set one of "
           "them to false.");
+    if (foundation->base() == Foundation::Base::merged)
+      throw InputError(
+          "Base joints on massless rock require \"Dynamics/Impact\" = mean-force and "
+          "\"Contact/Write problems\" = false. Set these entries, or \"Joints/Overrides\" = base: tied.");
+    if (foundation->uses_rock()) // the joints lie between dam and footings
+      return;
     model->free_base_joints(sides);
     structure = assemble_structure(*model, materials, scene.elements.incompatible_modes);
     std::vector<Pair>     &pairs = structure.pairs = find_pairs(*model, joints.size());
@@ -385,22 +402,18 @@ namespace Voussoir
                                }),
                 pairs.end());
     group_by_monolith(joints, structure);
-    has_open_bases = true;
     find_weight_on_joints();
   }
 
   /** Finds the clusters of pairs where joints cross, and checks that their joints can. */
   void Dam::cross_joints()
   {
-    if (has_lifts(joints))
+    if (has_parts(joints))
       group_by_monolith(joints, structure);
     structure.clusters = clusters_of(structure.pairs);
     has_open_lifts = std::any_of(joints.begin(), joints.end(),
                                  [&](const Joint &joint)
                                  { return joint.is_lift() && joint_models[joint.number - 1] != "tied"; });
-    if (foundation->uses_rock() && (has_open_lifts || !structure.clusters.empty()))
-      throw InputError("The mesh has lift joints, or joints that cross. They require a rigid foundation. Set "
-                       "\"Foundation/Model\" to rigid, or \"Joints/Overrides\" to \"lift: tied\".");
     for (const auto &cluster : structure.clusters)
       for (const unsigned int p : cluster)
         if (const unsigned int j = structure.pairs[p].joint; joint_models[j] == "KSM")
@@ -409,17 +422,18 @@ namespace Voussoir
               " is KSM, but the joint crosses other joints, and shear keys cannot cross joints. Set "
               "\"Joints/Overrides\" to \"lift: tied\", or the model of this joint to FJA, FJB or "
               "cohesive.");
-    if (has_open_lifts)
+    if (has_open_lifts || (has_open_bases && foundation->uses_rock()))
       find_weight_on_joints();
   }
 
   /** Finds the load of the staged weight on free nodes of base and lift joints. Displacements are relative to the
-   * state after the self-weight, in which these joints already carry it. */
+   * state after the self-weight, in which these joints and the rock already carry it. */
   void Dam::find_weight_on_joints()
   {
     weight_on_joints.assign(3 * std::size_t(structure.n_nodes()), 0.);
     for (unsigned int i = 0; i < model->n_nodes() && !staged_reaction.empty(); ++i)
-      if (const unsigned int e = model->equation[i]; e != rigid_ground)
+      if (const unsigned int e = model->equation[i];
+          e != rigid_ground && !(foundation->uses_rock() && model->on_surface(i, PhysicalId::base)))
         for (unsigned int c = 0; c < 3; ++c)
           weight_on_joints[3 * e + c] -= staged_reaction[3 * i + c];
     structure.remove_held_forces(weight_on_joints);
@@ -513,7 +527,8 @@ namespace Voussoir
     inertia = inertial_loads(structure);
   }
 
-  /** Returns the forces of the uplift on free base nodes, three values per free node [N]. */
+  /** Returns the forces of the uplift on free base nodes, three values per free node [N]. The opposite forces act on
+   * footings. */
   Unknowns Dam::uplift_at_base() const
   {
     const BaseUplift uplift = base_uplift(scene, *model);
@@ -521,6 +536,10 @@ namespace Voussoir
     for (unsigned int i = 0; i < model->n_nodes(); ++i)
       for (unsigned int c = 0; c < 3 && model->equation[i] != rigid_ground; ++c)
         force[3 * model->equation[i] + c] += uplift.force[3 * i + c];
+    for (const Pair &pair : structure.pairs)
+      if (joints[pair.joint].is_base() && pair.node_1 != rigid_ground)
+        for (unsigned int c = 0; c < 3; ++c)
+          force[3 * pair.node_1 + c] -= force[3 * pair.node_2 + c];
     structure.remove_held_forces(force);
     return force;
   }
@@ -573,9 +592,9 @@ namespace Voussoir
   /** Computes stress and reactions of free-standing monoliths, whose lifts are tied, under their weight. */
   void Dam::stage_self_weight()
   {
-    if (has_lifts(joints))
+    if (has_parts(joints))
     {
-      tie_lifts(joints, nullptr, *model);
+      tie_parts(joints, nullptr, *model);
       structure = assemble_structure(*model, materials, scene.elements.incompatible_modes);
     }
     Unknowns     load(3 * structure.n_nodes(), 0.), u;
@@ -603,13 +622,14 @@ namespace Voussoir
     staged_reaction.assign(3 * std::size_t(model->n_nodes()), 0.);
     std::vector<dealii::types::global_dof_index> dofs(model->fe.n_dofs_per_cell());
     CellElasticity                               elasticity(model->fe, scene.elements.incompatible_modes);
-    std::vector<bool>                            in_lift(model->n_nodes(), false);
+    std::vector<bool>                            in_joint(model->n_nodes(), false);
     for (unsigned int i = 0; i < model->n_nodes(); ++i)
-      in_lift[i] = std::any_of(model->surfaces[i].begin(), model->surfaces[i].end(),
-                               [&](const int id)
-                               { return is_joint_side(id) && joints[number_of_joint(id) - 1].is_lift(); });
+      in_joint[i] =
+          std::any_of(model->surfaces[i].begin(), model->surfaces[i].end(),
+                      [&](const int id)
+                      { return is_joint_side(id) && joints[number_of_joint(id) - 1].is_inside_monolith(); });
     const auto is_fixed = [&](const auto node) { return model->equation[node] == rigid_ground; };
-    const auto is_held = [&](const auto node) { return is_fixed(node) || in_lift[node]; };
+    const auto is_held = [&](const auto node) { return is_fixed(node) || in_joint[node]; };
     for (const auto &cell : model->dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);

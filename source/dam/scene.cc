@@ -421,7 +421,7 @@ namespace Voussoir
     const auto refused = [&](const ModelChoice &choice) // by check()
     {
       const bool moves = !motion.abutments.empty(); // requires massless rock
-      return ((moves || choices.has_base_joints) && choice.entries.count("Foundation/Model") > 0) ||
+      return (moves && choice.entries.count("Foundation/Model") > 0) ||
              (hexes.water && reservoir.is_meshed() && choice.entries.count("Reservoir/Water level") > 0) ||
              (reservoir.is_acoustic() && choice.name == "twice the time step");
     };

@@ -14,9 +14,20 @@ namespace Voussoir
     /** Largest distance of a base node of the dam from its rock node, relative to the base's size [-]. */
     constexpr double coincidence = 1e-6;
 
+    /** Returns the thickness of the footings, which lie in the rock, or 0 without footings [m]. */
+    double footing_thickness(const SolidModel &dam)
+    {
+      for (const auto &cell : dam.dof_handler.active_cell_iterators())
+        if (is_footing(static_cast<int>(cell->material_id())))
+          return cell->minimum_vertex_distance();
+      return 0.;
+    }
+
     double size_of(const std::vector<std::array<double, 3>> &points)
     {
       double size = 0.;
+      if (points.empty())
+        return size;
       for (unsigned int d = 0; d < 3; ++d)
       {
         const auto by_component = [d](const auto &a, const auto &b) { return a[d] < b[d]; };
@@ -40,7 +51,8 @@ namespace Voussoir
         base.push_back({{dam.points[i][0], dam.points[i][1], dam.points[i][2]}});
       }
     std::map<unsigned int, std::set<unsigned int>> on_rock;
-    const PointFinder                  finder(points, base.empty() ? 0. : coincidence * size_of(base));
+    const double      tolerance = std::max(coincidence * size_of(base), 1.01 * footing_thickness(dam));
+    const PointFinder finder(points, tolerance);
     std::vector<std::array<double, 3>> lost;
     for (std::size_t i = 0; i < base.size(); ++i)
       if (const unsigned int rock = finder.find(base[i]); rock != PointFinder::none)

@@ -35,13 +35,15 @@ namespace Voussoir
     }
   } // namespace
 
-  BaseElimination::BaseElimination(const Structure &structure, Nodes given)
-      : structure(structure), nodes(std::move(given)), begin(structure.n_groups() + 1, 0), first(1, 0)
+  BaseElimination::BaseElimination(const Structure &structure, Nodes given,
+                                   const std::vector<unsigned int> &group)
+      : structure(structure), nodes(std::move(given)), group(group), begin(1, 0), first(1, 0)
   {
-    for (const Pair &pair : structure.pairs)
-      begin[structure.group(pair) + 1] += 3;
-    for (unsigned int j = 0; j < structure.n_groups(); ++j)
-      begin[j + 1] += begin[j];
+    for (const unsigned int g : group)
+    {
+      begin.resize(std::max<std::size_t>(begin.size(), g + 2), begin.back());
+      begin.back() += 3;
+    }
     for (const Body &body : structure.bodies)
     {
       first.push_back(place_in(nodes.node, body.first_node + body.n_nodes()));
@@ -77,8 +79,8 @@ namespace Voussoir
         const unsigned int node = side == 0 ? pair.node_1 : pair.node_2;
         if (node < body.first_node || node >= body.first_node + body.n_nodes()) // also if it is the ground
           continue;
-        const std::size_t    rows = n_rows(structure.group(pair)), row = 3 * p - begin[structure.group(pair)];
-        std::vector<double> &block = B[{structure.group(pair), b}];
+        const std::size_t    rows = n_rows(group[p]), row = 3 * p - begin[group[p]];
+        std::vector<double> &block = B[{group[p], b}];
         block.resize(rows * 3 * n_base_nodes(b), 0.);
         for (unsigned int k = 0; k < n_base_nodes(b); ++k)
         {

@@ -167,6 +167,8 @@ namespace Voussoir
       return "water";
     if (dimension == 3 && !is_monolith(id))
       return "rock " + std::to_string(id);
+    if (dimension == 3 && is_footing(id))
+      return "footing of " + physical_name(3, id - footing_of(0));
     if (dimension == 3)
       return "monolith " + std::to_string(monolith_of(id)) +
              (lift_of(id) > 1 ? " lift " + std::to_string(lift_of(id)) : "");

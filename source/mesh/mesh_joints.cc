@@ -163,10 +163,12 @@ namespace Voussoir
       }
     }
 
-    /** Order of blocks: by monolith, then by lift. */
+    /** Order of blocks: by monolith, footings first, then by lift. */
     bool is_before(const int block_1, const int block_2)
     {
-      return std::make_pair(monolith_of(block_1), block_1) < std::make_pair(monolith_of(block_2), block_2);
+      const auto place = [](const int block)
+      { return std::make_tuple(monolith_of(block), !is_footing(block), block); };
+      return place(block_1) < place(block_2);
     }
 
     struct InOrder
@@ -188,19 +190,24 @@ namespace Voussoir
         const auto  sides =
             std::minmax(mesh.cells[previous.cell].volume, mesh.cells[entry.cell].volume, is_before);
         if (entry.key == previous.key && sides.first != sides.second && is_monolith(sides.first) &&
-            is_monolith(sides.second))
+            is_monolith(sides.second) && !(is_footing(sides.first) && is_footing(sides.second)))
           joints[sides] = 0;
       }
+      std::vector<JointNumbers::value_type *> in_order; // base joints last
+      for (const bool of_base : {false, true})
+        for (auto &joint : joints)
+          if (is_footing(joint.first.first) == of_base)
+            in_order.push_back(&joint);
       int further = n_monoliths(mesh);
-      for (auto &joint : joints)
+      for (JointNumbers::value_type *joint : in_order)
       {
-        const auto &sides = joint.first;
+        const auto &sides = joint->first;
         const bool  is_lowest = lift_of(sides.first) == 1 && sides.second == sides.first + 1;
-        joint.second = is_lowest ? sides.first : further++;
-        if (joint.second > PhysicalId::max_joints)
+        joint->second = is_lowest ? sides.first : further++;
+        if (joint->second > PhysicalId::max_joints)
           throw InputError("mesh: the contact of " + physical_name(3, sides.first) + " and " +
                            physical_name(3, sides.second) + " would be joint " +
-                           std::to_string(joint.second) + ", but joints are numbered up to " +
+                           std::to_string(joint->second) + ", but joints are numbered up to " +
                            std::to_string(PhysicalId::max_joints) +
                            " only. Merge monoliths or lifts, or give adjacent monoliths successive numbers.");
       }

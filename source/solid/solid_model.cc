@@ -31,7 +31,7 @@ namespace Voussoir
     body_numbers.assign(numbers.begin(), numbers.end());
     for (const Joint &joint : joints_of(mesh))
       if (joint.is_base())
-        base_joints.insert(PhysicalId::joint_side_2 + joint.number);
+        (joint.block_1 == 0 ? base_joints : on_footings).insert(PhysicalId::joint_side_2 + joint.number);
     find_nodes();
     master.resize(points.size());
     std::iota(master.begin(), master.end(), 0);

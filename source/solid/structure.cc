@@ -11,8 +11,7 @@ namespace Voussoir
 {
   std::string Body::name() const
   {
-    return "monolith " + std::to_string(monolith_of(number)) +
-           (lift_of(number) > 1 ? " lift " + std::to_string(lift_of(number)) : "");
+    return physical_name(3, number);
   }
 
   void Structure::collect_interfaces()

@@ -144,6 +144,12 @@ def valley(file, n=40, n_up=24, half_width=40., low=0., high=40., top=60., thick
 
 
 def on_rock(file, cell, n, dam, layers, dam_cells, sides, zone=None):
+    """Writes on_rock_parts()."""
+    nodes, hexes, quads, volumes = on_rock_parts(cell, n, dam, layers, dam_cells, sides, zone)
+    write(file, nodes, hexes, quads, volumes=volumes)
+
+
+def on_rock_parts(cell, n, dam, layers, dam_cells, sides, zone=None):
     """zone(i, j, k): the zone of a cell of the rock, "" for none; k = -1 is the uppermost layer. A box of rock of n x n columns, `layers` deep, its top at z = 0, all cells cubes of edge `cell`; on the columns
     dam[0] <= i, j < dam[1] a block of concrete, `dam_cells` high. sides: the surface of the box's four sides."""
     number, nodes, hexes, quads, zones = {}, [], [], [], [""]
@@ -195,8 +201,7 @@ def on_rock(file, cell, n, dam, layers, dam_cells, sides, zone=None):
                             at[one], at[two] = at[one] + a, at[two] + b
                             corners.append(node(*at))
                         quads.append((surface, corners))
-    volumes = {1000 + i: f"rock {name}" for i, name in enumerate(zones) if name}
-    write(file, nodes, hexes, quads, volumes=volumes)
+    return nodes, hexes, quads, {1000 + i: f"rock {name}" for i, name in enumerate(zones) if name}
 
 
 def read(file):

@@ -32,7 +32,7 @@ namespace Voussoir
    * gap = (W - B H^-1 B^T) f_joints + b + B H^-1 (d - L u_0),
    *
    * where u_0 and b belong to zero forces at joints and base nodes. H couples the base nodes of one body, and
-   * the base nodes that R couples; its Cholesky factor is sparse. B has dense blocks by body and joint. */
+   * the base nodes that R couples; its Cholesky factor is sparse. B has dense blocks by body and group of pairs. */
   class BaseElimination
   {
   public:
@@ -45,8 +45,9 @@ namespace Voussoir
 
     /** Prepares the elimination. Call add_body() for all bodies, then factorise().
      * @param structure bodies and pairs; must outlive the object
-     * @param nodes base nodes and compliance of the support */
-    BaseElimination(const Structure &structure, Nodes nodes);
+     * @param nodes base nodes and compliance of the support
+     * @param group group of each pair, ascending */
+    BaseElimination(const Structure &structure, Nodes nodes, const std::vector<unsigned int> &group);
 
     /** Adds a body to H and B.
      * @param body index of the body
@@ -79,7 +80,7 @@ namespace Voussoir
     /** Subtracts B H^-1 B^T @p f from @p gap. @p f: joint forces [N]; @p gap: gaps [m], three values per pair. */
     void subtract(const double *f, double *gap) const;
 
-    /** Computes blocks of B H^-1 B^T for joints j <= k, counted from 0.
+    /** Computes blocks of B H^-1 B^T for groups j <= k, counted from 0.
      * @param wants called as wants(j, k); returns true if the block is required
      * @param take called as take(j, k, part); receives the part of one body in the block, by column [m/N] */
     template <class Wants, class Take> void for_blocks(const Wants &wants, const Take &take) const;
@@ -88,16 +89,17 @@ namespace Voussoir
     double memory() const;
 
   private:
-    using Key = std::pair<unsigned int, unsigned int>; ///< joint and body
+    using Key = std::pair<unsigned int, unsigned int>; ///< group and body
     unsigned int        n_base_nodes(const unsigned int body) const { return first[body + 1] - first[body]; }
-    unsigned int        n_rows(const unsigned int joint) const { return begin[joint + 1] - begin[joint]; }
+    unsigned int        n_rows(const unsigned int g) const { return begin[g + 1] - begin[g]; }
     std::vector<double> inverse_columns(unsigned int body) const;
     std::vector<double> product(const Key &rows, const std::vector<double> &columns, unsigned int n) const;
     std::vector<double> times_transposed(const std::vector<double> &columns, const Key &key) const;
 
     const Structure                   &structure;
     Nodes                              nodes;     ///< the compliance is moved to H
-    std::vector<unsigned int>          begin;     ///< first row of each joint
+    std::vector<unsigned int>          group;     ///< of each pair
+    std::vector<unsigned int>          begin;     ///< first row of each group
     std::vector<unsigned int>          first;     ///< first base node of each body
     std::vector<unsigned int>          interface; ///< per base node: its number in the interface of its body
     Structure                          H;         ///< stores the matrix H in its only body

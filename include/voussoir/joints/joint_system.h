@@ -139,6 +139,7 @@ namespace Voussoir
     std::vector<double>
     flexibility_of(unsigned int b, const std::vector<std::pair<unsigned int, unsigned int>> &sides_of_body);
     void          condense();
+    void          couple_footings();
     void          make_whole();
     Unknowns      gaps_without_forces(const Unknowns &offset, const Unknowns &base_force) const;
     void          release_joints(BaseOfStep &of_step) const;

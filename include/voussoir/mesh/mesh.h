@@ -75,6 +75,18 @@ namespace Voussoir
     return volume / PhysicalId::per_lift + 1;
   }
 
+  /** Returns the physical id of the footing of a block, see with_footings(). */
+  inline int footing_of(const int volume)
+  {
+    return volume + 100 * PhysicalId::per_lift;
+  }
+
+  /** Returns true if the physical id @p volume is that of a footing. */
+  inline bool is_footing(const int volume)
+  {
+    return lift_of(volume) > PhysicalId::max_lifts;
+  }
+
   /** Returns true if the physical id @p volume is that of a block of concrete, false for rock. */
   inline bool is_monolith(const int volume)
   {

@@ -15,12 +15,17 @@ namespace Voussoir
   {
     int number;
     int block_1,
-        block_2; ///< volumes, of the lower monolith or the lower lift first; block_1 is 0 for the ground
+        block_2; ///< volumes, of the lower monolith or the lower lift first; block_1 is 0 for the ground on a rigid
+                 ///< base, and the footing of block_2 on rock
 
     int  monolith_1() const { return monolith_of(block_1); }
     int  monolith_2() const { return monolith_of(block_2); }
-    bool is_base() const { return block_1 == 0; }
+    bool is_base() const { return block_1 == 0 || is_footing(block_1); }
     bool is_lift() const { return !is_base() && monolith_1() == monolith_2(); }
+    bool is_inside_monolith() const
+    {
+      return monolith_1() == monolith_2();
+    } ///< lift joints, base joints on footings
     bool is_contraction() const { return !is_base() && !is_lift(); }
 
     /** Returns "contraction", "lift" or "base". */

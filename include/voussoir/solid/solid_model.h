@@ -10,6 +10,7 @@
 #include <voussoir/solid/material.h>
 #include <voussoir/solid/structure.h>
 
+#include <algorithm>
 #include <set>
 
 namespace Voussoir
@@ -53,6 +54,14 @@ namespace Voussoir
       return surfaces[node].count(surface) > 0;
     }
 
+    /** Returns true if a node of the dam is on the base, or on a footing. */
+    bool is_at_base(const unsigned int node) const
+    {
+      return on_surface(node, PhysicalId::base) ||
+             std::any_of(surfaces[node].begin(), surfaces[node].end(),
+                         [&](const int id) { return on_footings.count(id) > 0; });
+    }
+
     /** Returns true if a face with this boundary id belongs to the surface; the base includes the base joints. */
     bool is_on(const int boundary_id, const int surface) const
     {
@@ -77,6 +86,7 @@ namespace Voussoir
     std::size_t n_zones;              ///< number of zones of the mesh, also those without cells in this model
     std::vector<unsigned int>  zone;  ///< index into HexMesh::zones of each active cell
     std::set<int>              base_joints;    ///< boundary ids of the base joints
+    std::set<int>              on_footings;    ///< boundary ids of the sides of the dam above footings
     std::set<int>              open_base;      ///< those of free_base_joints()
     std::vector<std::set<int>> surfaces;       ///< boundary ids of each node, and the base at base joints
     std::vector<unsigned int>  equation;       ///< free node number of each node; rigid_ground if fixed
