@@ -21,6 +21,19 @@ namespace Voussoir
         "true: report the uplift at the base. The pressure is that of the reservoir at the heel "
         "and that of the tail water at the toe, and linear between. The uplift of a bonded base changes "
         "neither displacements nor stresses (doc/loads.md); on base joints it is a load.");
+    prm.add_parameter(
+        "Below closed part", below_closed_part,
+        "Water pressure below the closed part of a base joint, if Joints is true. none: no pressure. "
+        "linear: from the full pressure at the next pair under water, or at the heel, to that of "
+        "the tail water at the toe.",
+        Patterns::Selection("none|linear"));
+    prm.add_parameter(
+        "In earthquake", in_earthquake,
+        "Water pressure in joints that the earthquake opens. unchanged: that of the static state. "
+        "none in new cracks: no pressure in pairs of base joints while they are open, if they were "
+        "closed in the static state. full: the pressure of the reservoir in open pairs with a "
+        "connection to the upstream face through open pairs.",
+        Patterns::Selection("unchanged|none in new cracks|full"));
     prm.add_parameter("Drain position", drain_position,
                       "Distance of the drains from the heel, divided by the thickness of the base [-].",
                       Patterns::Double(0., 1.));

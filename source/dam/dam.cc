@@ -509,7 +509,7 @@ namespace Voussoir
                        weight_on_joints,
                        {}});
     if (has_base_joints() && scene.loads.uplift.base && scene.loads.factor("uplift") != 0.)
-      loads.push_back({"uplift at the base", true, scene.loads.factor("uplift"), uplift_at_base(), {}});
+      loads.push_back({Voussoir::uplift_at_base, true, scene.loads.factor("uplift"), uplift_at_base(), {}});
     if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0.)
       added_mass = add_added_mass(*model, scene.reservoir, structure);
     if (const ReservoirParameters &r = scene.reservoir; r.is_meshed() && scene.loads.factor("water") != 0.)

@@ -41,46 +41,77 @@ namespace Voussoir
       }
   }
 
+  std::vector<bool> JointWater::reached(const std::vector<bool> &passes) const
+  {
+    std::vector<unsigned int> next;
+    std::vector<bool>         result(passes.size(), false);
+    const auto                reach = [&](const unsigned int p)
+    {
+      if (passes[p] && !result[p])
+      {
+        result[p] = true;
+        next.push_back(p);
+      }
+    };
+    for (unsigned int p = 0; p < passes.size(); ++p)
+      if (wet[p] || at_upstream[p])
+        reach(p);
+    while (!next.empty())
+    {
+      const unsigned int p = next.back();
+      next.pop_back();
+      for (const unsigned int q : neighbours[p])
+        reach(q);
+    }
+    return result;
+  }
+
   bool JointWater::spread(const std::vector<PairState> &states, const std::function<double(double)> &pressure)
   {
-    std::vector<unsigned int> reached;
+    std::vector<bool> passes(wet.size());
     for (unsigned int p = 0; p < wet.size(); ++p)
-      if (wet[p] || at_upstream[p])
-        reached.push_back(p);
-    std::vector<bool> seen(wet.size(), false);
-    bool              any_new = false;
-    while (!reached.empty())
-    {
-      const unsigned int p = reached.back();
-      reached.pop_back();
-      if (seen[p] || !(wet[p] || states[p] == PairState::open) ||
-          !(pressure(structure.pairs[p].place[2]) > 0.))
-        continue;
-      seen[p] = true;
-      any_new = any_new || !wet[p];
-      wet[p] = true;
-      reached.insert(reached.end(), neighbours[p].begin(), neighbours[p].end());
-    }
+      passes[p] = (wet[p] || states[p] == PairState::open) && pressure(structure.pairs[p].place[2]) > 0.;
+    const std::vector<bool> now = reached(passes);
+    bool                    any_new = false;
+    for (unsigned int p = 0; p < wet.size(); ++p)
+      if (now[p] && !wet[p])
+        wet[p] = any_new = true;
     return any_new;
   }
 
   void JointWater::add_forces(const std::function<double(double)> &pressure, Unknowns &load) const
   {
-    for (unsigned int p = 0; p < wet.size(); ++p)
-      if (wet[p])
-      {
-        const Pair &pair = structure.pairs[p];
-        structure.add_pair_force(pair, {{pressure(pair.place[2]) * pair.area, 0., 0.}}, load);
-      }
+    const std::vector<double> now = pressures(pressure);
+    for (unsigned int p = 0; p < now.size(); ++p)
+      if (now[p] != 0.)
+        structure.add_pair_force(structure.pairs[p], {{now[p] * structure.pairs[p].area, 0., 0.}}, load);
   }
 
   std::vector<double> JointWater::pressures(const std::function<double(double)> &pressure) const
   {
     std::vector<double> result(wet.size(), 0.);
     for (unsigned int p = 0; p < wet.size(); ++p)
-      if (wet[p])
-        result[p] = pressure(structure.pairs[p].place[2]);
+      result[p] = wet[p] ? pressure(structure.pairs[p].place[2]) : below_closed_part(p, pressure);
     return result;
+  }
+
+  /** Returns the pressure of seep() in a pair that is not under water pressure [Pa]. */
+  double JointWater::below_closed_part(const unsigned int                   p,
+                                       const std::function<double(double)> &pressure) const
+  {
+    if (place.empty() || place[p] < 0.)
+      return 0.;
+    const Pair  &pair = structure.pairs[p];
+    double       distance = 1e300;
+    unsigned int source = p;
+    for (unsigned int q = 0; q < wet.size(); ++q)
+      if (structure.pairs[q].joint == pair.joint && (wet[q] || at_upstream[q]))
+        if (const double d = norm(structure.pairs[q].place - pair.place); d < distance)
+          distance = d, source = q;
+    const double toe = at_toe(pair.place[2]), full = pressure(structure.pairs[source].place[2]);
+    if (full <= 0. || place[source] >= 1.)
+      return 0.;
+    return toe + (full - toe) * std::clamp((1. - place[p]) / (1. - place[source]), 0., 1.);
   }
 
   unsigned int JointWater::n_wet() const

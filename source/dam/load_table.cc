@@ -133,7 +133,13 @@ namespace Voussoir
       row.defined_by = "Loads/Uplift/Joints or Base";
       row.idle = {{"Loads/Uplift/Base is false",
                    [](const Scene &scene) { return !scene.loads.uplift.base; },
-                   {"Loads/Uplift/Drain position", "Loads/Uplift/Drain efficiency"}}};
+                   {"Loads/Uplift/Drain position", "Loads/Uplift/Drain efficiency"}},
+                  {"Loads/Uplift/Joints is false",
+                   [](const Scene &scene) { return !scene.loads.uplift.joints; },
+                   {"Loads/Uplift/Below closed part"}},
+                  {"Loads/Uplift/Joints and Base are false",
+                   [](const Scene &scene) { return !scene.loads.uplift.acts(); },
+                   {"Loads/Uplift/In earthquake"}}};
       return row;
     }
 

@@ -503,6 +503,10 @@ namespace Voussoir
       throw InputError(
           "Entry \"Dynamics/Error estimate\" requires a rigid base or massless rock, because rock with mass "
           "has its own time steps. Remove the entry, and use `voussoir accuracy` to estimate the error.");
+    if (loads.uplift.in_earthquake != "unchanged" && error_estimate)
+      throw InputError(
+          "Entry \"Dynamics/Error estimate\" requires \"Loads/Uplift/In earthquake\" = unchanged. "
+          "Remove one of the entries, or use `voussoir accuracy` to estimate the error.");
     if (foundation.model == "rock" && foundation.substeps > 1 && !foundation.is_subcycled())
       throw InputError("\"Foundation/Coupling\" = partition with \"Foundation/Substeps\" above 1 was removed "
                        "in version 0.4.0. Set \"Foundation/Coupling\" to auto or mean traction, or "

@@ -3,7 +3,7 @@
 #include <voussoir/base/tensor3.h>
 #include <voussoir/contact/elastic_law.h>
 #include <voussoir/contact/fja_law.h>
-#include <voussoir/dam/joint_water.h>
+#include <voussoir/dam/crack_water.h>
 #include <voussoir/dam/static_path.h>
 #include <voussoir/dam/static_state.h>
 
@@ -46,7 +46,7 @@ namespace Voussoir
         for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
           widen(p, dam.initial_gaps[dam.structure.pairs[p].joint]);
         if (scene.loads.uplift.joints && scene.loads.factor("uplift") != 0. && scene.reservoir.density > 0.)
-          water = std::make_unique<JointWater>(*dam.model, dam.structure);
+          water = std::make_unique<JointWater>(joint_water(dam));
       }
 
       StaticState solve()

@@ -172,6 +172,12 @@ namespace Voussoir
     ContactResult     total;
     unsigned int      round = 0;
     total.converged = true;
+    double sum = 0., stiffest = 1e-300; // the rock is at rest if the loads in base joints balance each other
+    for (std::size_t k = 0; k < load.size(); ++k)
+    {
+      sum += std::abs(load[k]);
+      stiffest = std::max(stiffest, springs[k]);
+    }
     for (; round < 60 && error > enough; ++round)
     {
       const ContactResult contact = solve_dam(with_springs(load, springs, base, r));
@@ -184,7 +190,7 @@ namespace Voussoir
       {
         solve_rock(r, part, u_rock, log);
         f = u_rock;
-        double most = slack, size = 1e-300;
+        double most = slack, size = std::max(10. * sum / stiffest, 1e-300);
         for (std::size_t k = 0; k < n; ++k)
         {
           f[k] -= base[k];

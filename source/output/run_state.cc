@@ -17,6 +17,12 @@ namespace Voussoir
 
   void RunState::start(const ContactParameters &parameters)
   {
+    if (const UpliftParameters &uplift = scene().loads.uplift;
+        n_steps > 0 && uplift.acts() && uplift.in_earthquake != "unchanged")
+    {
+      crack_water = std::make_unique<CrackWater>(*dam, statics);
+      dam->neighbours.push_back(crack_water.get());
+    }
     if (n_steps > 0)
       for (Neighbour *neighbour : dam->neighbours)
         neighbour->start(motion, grid(), statics.u);

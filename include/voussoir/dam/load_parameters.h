@@ -48,10 +48,11 @@ namespace Voussoir
   /** Water in joints that are open, and under the base. */
   struct UpliftParameters
   {
-    bool   joints = false, base = false;
-    double drain_position = .1, drain_efficiency = 0.; ///< of the thickness from upstream [-], [-]
-    void   add_parameters(Entries &prm);
-    bool   acts() const { return joints || base; }
+    bool        joints = false, base = false;
+    std::string below_closed_part = "none", in_earthquake = "unchanged"; ///< rules by name
+    double      drain_position = .1, drain_efficiency = 0.; ///< of the thickness from upstream [-], [-]
+    void        add_parameters(Entries &prm);
+    bool        acts() const { return joints || base; }
   };
 
   /** A force on the node nearest to a place. */

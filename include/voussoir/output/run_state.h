@@ -3,6 +3,7 @@
 #define voussoir_run_state_h
 
 #include <voussoir/dam/base_force.h>
+#include <voussoir/dam/crack_water.h>
 #include <voussoir/dam/static_state.h>
 #include <voussoir/dynamics/newmark.h>
 #include <voussoir/motion/ground_motion.h>
@@ -28,6 +29,8 @@ namespace Voussoir
     Unknowns u_before;               ///< displacement before the last step, three values per node [m]
     Vector3  base_velocity_before{}; ///< DynamicState::base_velocity before the last step [m/s]
     Unknowns acceleration; ///< mean absolute acceleration of the last step, three values per node [m/s^2]
+
+    std::unique_ptr<CrackWater> crack_water; ///< or null: the pressures in joints are constant
 
     /** Returns the scene of the dam. */
     const Scene &scene() const { return dam->scene; }

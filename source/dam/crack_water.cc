@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/dam/crack_water.h>
+#include <voussoir/dam/face_distance.h>
+
+#include <algorithm>
+#include <map>
+
+namespace Voussoir
+{
+  JointWater joint_water(const Dam &dam)
+  {
+    JointWater   water(*dam.model, dam.structure);
+    const Scene &scene = dam.scene;
+    if (scene.loads.uplift.below_closed_part != "linear")
+      return water;
+    const std::vector<double> in_thickness =
+        places_in_thickness(*dam.model, "Loads/Uplift/Below closed part");
+    std::map<unsigned int, double> of_node;
+    for (unsigned int i = 0; i < dam.model->n_nodes(); ++i)
+      of_node[dam.model->equation[i]] = in_thickness[i];
+    std::vector<double> place;
+    for (const Pair &pair : dam.structure.pairs)
+      place.push_back(dam.joints[pair.joint].is_base() ? of_node.at(pair.node_2) : -1.);
+    const TailWaterParameters &tail = scene.loads.tail_water;
+    const double weight = tail.density * scene.statics.gravity * scene.loads.factor("tail water") *
+                          scene.loads.factor("uplift");
+    water.seep(std::move(place),
+               [weight, level = tail.level](const double z) { return weight * std::max(0., level - z); });
+    return water;
+  }
+
+  CrackWater::CrackWater(const Dam &dam, const StaticState &statics)
+      : dam(dam), statics(statics), water(joint_water(dam)), at_rest(statics.joint_water)
+  {
+    const std::vector<Pair> &pairs = dam.structure.pairs;
+    at_rest.resize(pairs.size(), 0.);
+    change.assign(pairs.size(), 0.);
+    for (const StaticLoad &load : dam.loads)
+      for (std::size_t p = 0; load.name == uplift_at_base && p < pairs.size(); ++p)
+        if (dam.joints[pairs[p].joint].is_base())
+          at_rest[p] = dot(pairs[p].frame[0], get(load.force, pairs[p].node_2)) / pairs[p].area;
+  }
+
+  double CrackWater::full(const std::size_t pair) const
+  {
+    const Scene &scene = dam.scene;
+    return scene.loads.factor("uplift") * scene.loads.factor("water") * scene.reservoir.density *
+           scene.statics.gravity * std::max(0., scene.reservoir.level - dam.structure.pairs[pair].place[2]);
+  }
+
+  void CrackWater::advance(Unknowns &load)
+  {
+    for (std::size_t p = 0; p < change.size(); ++p)
+      if (const Pair &pair = dam.structure.pairs[p]; change[p] != 0.)
+        dam.structure.add_pair_force(pair, {{change[p] * pair.area, 0., 0.}}, load);
+  }
+
+  void CrackWater::update_from_dam(const DynamicState &state)
+  {
+    constexpr double         closed = 1e-7; // largest opening of a closed pair [m]
+    std::vector<bool>        open, passes;
+    const std::vector<Pair> &pairs = dam.structure.pairs;
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+    {
+      open.push_back(dam.structure.jump(pairs[p], state.u)[0] - statics.closed[3 * p] > closed);
+      passes.push_back(open[p] && full(p) > 0.);
+    }
+    const bool              is_full = dam.scene.loads.uplift.in_earthquake == "full";
+    const std::vector<bool> reached = water.reached(passes);
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+    {
+      const bool is_new =
+          open[p] && statics.pairs[p] != PairState::open && dam.joints[pairs[p].joint].is_base();
+      change[p] = is_full ? (reached[p] ? full(p) - at_rest[p] : 0.) : is_new ? -at_rest[p] : 0.;
+    }
+  }
+} // namespace Voussoir
