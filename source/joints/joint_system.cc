@@ -7,6 +7,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/contact/fclib_io.h>
 #include <voussoir/joints/friction_problem.h>
+#include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh.h>
 
 #include <algorithm>
@@ -89,7 +90,7 @@ namespace Voussoir
       : structure(structure), parameters(parameters), laws(laws), step(step), is_static(step.mass == 0.),
         sides(structure.pairs.size()), group(groups_of_pairs(structure, is_static)),
         W(pairs_per_group(structure, group), shares_of_joints(structure, group),
-          is_static ? std::vector<std::vector<unsigned int>>() : structure.clusters),
+          is_static ? std::vector<std::vector<unsigned int>>() : clusters_with_feet(structure)),
         n_solved(parameters.first_problem)
   {
     for (const JointLaw *law : laws.of_pair)

@@ -264,4 +264,45 @@ namespace Voussoir
         result.push_back(list);
     return result;
   }
+
+  std::vector<std::vector<unsigned int>> clusters_with_feet(const Structure &structure)
+  {
+    std::vector<std::vector<unsigned int>> clusters = structure.clusters;
+    const std::vector<Pair>               &pairs = structure.pairs;
+    std::vector<bool>                      taken(pairs.size(), clusters.empty());
+    for (const auto &cluster : clusters)
+      for (const unsigned int p : cluster)
+        taken[p] = true;
+    using Blocks = std::pair<unsigned int, unsigned int>;
+    std::vector<unsigned int>                   on_base;
+    std::map<Blocks, std::vector<unsigned int>> between;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      if (!taken[p] && pairs[p].is_base)
+        on_base.push_back(p);
+      else if (!taken[p])
+        between[std::minmax(structure.body_of(pairs[p].node_1), structure.body_of(pairs[p].node_2))]
+            .push_back(p);
+    for (const unsigned int p : on_base)
+      for (const unsigned int q : on_base)
+      {
+        const Blocks blocks(structure.body_of(pairs[p].node_2), structure.body_of(pairs[q].node_2));
+        if (taken[p] || taken[q] || blocks.first >= blocks.second || between.count(blocks) == 0 ||
+            norm(pairs[p].place - pairs[q].place) > 1e-6)
+          continue;
+        const auto distance = [&](const unsigned int r)
+        { return taken[r] ? 1e300 : norm(pairs[r].place - pairs[p].place); };
+        const std::vector<unsigned int> &list = between.at(blocks);
+        const unsigned int               nearest = *std::min_element(list.begin(), list.end(),
+                                                                     [&](const unsigned int r, const unsigned int s)
+                                                                     { return distance(r) < distance(s); });
+        std::vector<unsigned int>        foot = {p, q};
+        if (!taken[nearest])
+          foot.push_back(nearest);
+        for (const unsigned int r : foot)
+          taken[r] = true;
+        std::sort(foot.begin(), foot.end());
+        clusters.push_back(foot);
+      }
+    return clusters;
+  }
 } // namespace Voussoir

@@ -39,6 +39,10 @@ namespace Voussoir
   /** Returns the clusters of pairs that are connected by common free nodes, as where joints cross. A cluster has at
    * least two pairs, in ascending order. */
   std::vector<std::vector<unsigned int>> clusters_of(const std::vector<Pair> &pairs);
+
+  /** Returns Structure::clusters and, if there are any, the feet of contraction joints on the rigid ground: the base pairs
+   * of the two blocks at the same place, and the nearest pair between the blocks. */
+  std::vector<std::vector<unsigned int>> clusters_with_feet(const Structure &structure);
 } // namespace Voussoir
 
 #endif
