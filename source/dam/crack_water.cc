@@ -1,34 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/dam/crack_water.h>
-#include <voussoir/dam/face_distance.h>
 
 #include <algorithm>
-#include <map>
 
 namespace Voussoir
 {
-  JointWater joint_water(const Dam &dam)
-  {
-    JointWater   water(*dam.model, dam.structure);
-    const Scene &scene = dam.scene;
-    if (scene.loads.uplift.below_closed_part != "linear")
-      return water;
-    const std::vector<double> in_thickness =
-        places_in_thickness(*dam.model, "Loads/Uplift/Below closed part");
-    std::map<unsigned int, double> of_node;
-    for (unsigned int i = 0; i < dam.model->n_nodes(); ++i)
-      of_node[dam.model->equation[i]] = in_thickness[i];
-    std::vector<double> place;
-    for (const Pair &pair : dam.structure.pairs)
-      place.push_back(dam.joints[pair.joint].is_base() ? of_node.at(pair.node_2) : -1.);
-    const TailWaterParameters &tail = scene.loads.tail_water;
-    const double weight = tail.density * scene.statics.gravity * scene.loads.factor("tail water") *
-                          scene.loads.factor("uplift");
-    water.seep(std::move(place),
-               [weight, level = tail.level](const double z) { return weight * std::max(0., level - z); });
-    return water;
-  }
-
   CrackWater::CrackWater(const Dam &dam, const StaticState &statics)
       : dam(dam), statics(statics), water(joint_water(dam)), at_rest(statics.joint_water)
   {

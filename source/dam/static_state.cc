@@ -3,7 +3,7 @@
 #include <voussoir/base/tensor3.h>
 #include <voussoir/contact/elastic_law.h>
 #include <voussoir/contact/fja_law.h>
-#include <voussoir/dam/crack_water.h>
+#include <voussoir/dam/joint_water.h>
 #include <voussoir/dam/static_path.h>
 #include <voussoir/dam/static_state.h>
 

@@ -8,9 +8,6 @@
 
 namespace Voussoir
 {
-  /** Returns the water in the joints before any static load, by the rules of the scene. */
-  JointWater joint_water(const Dam &dam);
-
   /** Water pressure in joints during the earthquake, by the rule "Loads/Uplift/In earthquake". The pressures of a step
    * follow from the openings at the end of the previous step. */
   class CrackWater : public Neighbour

@@ -9,6 +9,8 @@
 
 namespace Voussoir
 {
+  class Dam;
+
   /** Water pressure in joints. Water enters an open pair from the upstream face, or from a pair under
    * water pressure on the same element face. It does not leave the pair again. Below the closed part of a base joint
    * there is no pressure, or a linear one. */
@@ -55,6 +57,9 @@ namespace Voussoir
 
     double below_closed_part(unsigned int p, const std::function<double(double)> &pressure) const;
   };
+
+  /** Returns the water in the joints before any static load, by the rules of the scene. */
+  JointWater joint_water(const Dam &dam);
 } // namespace Voussoir
 
 #endif
