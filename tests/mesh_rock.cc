@@ -8,6 +8,7 @@
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/grading.h>
 #include <voussoir/mesh/mesh_joints.h>
+#include <voussoir/mesh/coincident.h>
 #include <voussoir/mesh/mesh_source.h>
 
 #include <cstdio>
@@ -257,6 +258,23 @@ namespace
     expect(!upstream.empty() && upstream == downstream, "sections differ");
   }
 
+  /** A larger block adds layers: it contains all nodes of the smaller one. */
+  void test_nested()
+  {
+    MeshParameters p = parameters(5, 30, 10, 1);
+    const HexMesh  small = make_mesh(p, "");
+    for (double *length : {&p.arch210_rock.upstream, &p.arch210_rock.downstream, &p.arch210_rock.sides,
+                           &p.arch210_rock.depth})
+      *length = 420;
+    const HexMesh large = make_mesh(p, "");
+    expect_close(bounding_box(large).first[2], -420., 1e-12, "depth of the larger block");
+    expect(large.nodes.size() > 2 * small.nodes.size(), "larger block");
+    const PointFinder finder(large.nodes, 1e-9);
+    for (const auto &node : small.nodes)
+      expect(finder.find(node) != PointFinder::none, "node of the smaller block at " + place(node));
+    expect_lines(large, p.arch210_rock.n_layers);
+  }
+
   void test_files()
   {
     MeshParameters p = parameters(5, 12, 4, 1);
@@ -425,6 +443,7 @@ int main()
               {"depth", test_depth},
               {"grading", test_grading},
               {"section", test_section},
+              {"nested", test_nested},
               {"files", test_files},
               {"bad lines", test_bad_lines},
               {"bad meshes", test_bad_meshes},

@@ -245,6 +245,55 @@ def on_rock():
         expect(result["energy_balance_error"] < 1e-8 and slip > .01, f"{name}: energy balance or slip")
 
 
+def rock_edges():
+    """Base joints on rock with bonded parts, tied joints and bends of the base."""
+    nodes, hexes, quads, _ = meshes.on_rock_parts(3., 18, (7, 11), 12, 2, 6)
+    names = {1: "monolith 1", 2: "monolith 2", 1000: "rock"}
+    middle = lambda corners, axis: sum(nodes[n][axis] for n in corners) / len(corners)
+
+    def box(file, on_joint, bend=0., monoliths=1):
+        """on_joint: whether the base is a joint at x, y. bend: slope of both halves of the base along y."""
+        lowered = lambda z: max(0., 1. + min(0., z) / 36.)
+        moved = [(x, y, z + bend * abs(y) * max(0., 1. - abs(y) / 27.) * lowered(z)) for x, y, z in nodes]
+        meshes.write(file, moved, [(2 if tag == 1 and monoliths == 2 and middle(c, 1) > 0 else tag, c) for tag, c in hexes],
+                     [(7 if tag == 1 and on_joint(middle(c, 0), middle(c, 1)) else tag, c) for tag, c in quads], volumes=names)
+
+    def run(name, mesh, *arguments, weight="staged", model="massless", **more):
+        entries = sections({"joints": {"Friction": .5}, "young": 2e10, "Foundation": {"Model": model, "Young's modulus": 1e10}, **more})
+        entries["Statics"]["Self-weight"] = weight
+        runs(scene(name, mesh, **entries), "--output", name, *arguments)
+        tables = [dict(zip(head, rows[0])) for head, rows in (table(f"{name}/{file}.csv") for file in ("history", "blocks"))]
+        return [tables[0][f"crest_{axis}"] for axis in "xyz"], tables[1]
+
+    water = {"Reservoir": {"Water level": 4., "Density": 1000, "Model": "none"}}
+    box("half.msh", lambda x, y: x < 0)
+    box("bend.msh", lambda x, y: True, bend=.3)
+    box("whole.msh", lambda x, y: True)
+    box("bonded.msh", lambda x, y: False)
+    moved, _ = run("half", "half.msh")
+    expect(max(map(abs, moved)) < 1e-12, f"staged weight moves a dam with a bonded half by {moved} m")
+    reactions = [-run(f"half_{uplift}", "half.msh", *settings(f"Loads/Uplift/Base={uplift}"), weight="monolithic", **water)[1]["N_1"]
+                 for uplift in ("false", "true")]
+    print(f"    bonded half: reaction {reactions[0]:.0f} N, with uplift {reactions[1]:.0f} N")
+    expect(abs(reactions[1] / reactions[0] - 1) < 1e-6, f"reactions {reactions}")
+    motion = pulse("pulse.txt", -3., (.5, 1, 0), .2, .4, .005)
+    run("bend", "bend.msh", Motion=motion)
+    result = summary("bend")
+    print(f"    bend of 33 degrees: slip {1e3 * result['extremes']['max_slip']['value']:.3f} mm, {result['contact_path']}")
+    expect(result["contact_path"]["smaller_step"] == 0 and result["energy_balance_error"] < 1e-9, "bend")
+    for model in ("massless", "rock"):
+        one, two = (run(f"{model}_{mesh}", f"{mesh}.msh", *more, weight="monolithic", model=model, **water)[0]
+                    for mesh, more in (("whole", settings("Joints/Overrides=base: tied")), ("bonded", ())))
+        expect(one == two, f"{model}: tied base {one} m, bonded base {two} m")
+    slips = []
+    for sign in (1, -1):  # mirror images
+        box(f"mirror{sign}.msh", lambda x, y, sign=sign: sign * y > 0, monoliths=2)
+        run(f"mirror{sign}", f"mirror{sign}.msh", Motion=pulse(f"mirror{sign}.txt", -6., (0, sign, 0), .2, .3, .005))
+        slips.append(summary(f"mirror{sign}")["extremes"]["max_slip"]["value"])
+    print(f"    one of two monoliths on a base joint: slip {1e3 * slips[0]:.4f} mm, mirrored {1e3 * slips[1]:.4f} mm")
+    expect(slips[0] > 1e-3 and abs(slips[1] / slips[0] - 1) < 1e-6, f"slips of mirror images {slips}")
+
+
 ARCH = settings("Mesh/Source=arch210", "Mesh/Arch210/Joints=3", "Mesh/Arch210/Elements along=16", "Mesh/Arch210/Elements up=6",
                 "Mesh/Arch210/Elements through=2", "Mesh/File=", "Reservoir/Water level=190", "Motion/Duration=1.5",
                 "Output/Envelope interval=0")
@@ -321,4 +370,4 @@ def refusals():
 
 
 if __name__ == "__main__":
-    run_cases(crack, uplift, slice_at_rest, slide, rock, on_rock, arch, resume, refusals)
+    run_cases(crack, uplift, slice_at_rest, slide, rock, on_rock, rock_edges, arch, resume, refusals)

@@ -229,7 +229,8 @@ namespace Voussoir
     {
       const auto stands = [&](const unsigned int node)
       { return node == rigid_ground || block_at.count(node) > 0; };
-      if (pairs[p].is_base && !joint_water.empty()) // the water in open pairs is a part of the reaction
+      if (dam.joints[pairs[p].joint].is_base() &&
+          !joint_water.empty()) // the water in open pairs is a part of the reaction
         add_crack_water(pairs[p], joint_water[p] * pairs[p].area);
       const bool first = stands(pairs[p].node_1), second = stands(pairs[p].node_2);
       if (first == second || (part != nullptr && !part->contains(pairs[p].place)))
@@ -241,6 +242,18 @@ namespace Voussoir
       lone.push_back({p, b, first ? 1. : -1.});
       water.push_back(joint_water.empty() ? 0. : joint_water[p] * pairs[p].area);
     }
+  }
+
+  std::vector<double> BaseForces::uplift_by(const std::vector<double> &pressure) const
+  {
+    std::vector<double> result(of_block.size(), 0.);
+    for (std::size_t p = 0; p < pressure.size(); ++p)
+      if (const Pair &pair = dam.structure.pairs[p];
+          dam.joints[pair.joint].is_base() && pair.node_1 != rigid_ground)
+        for (std::size_t b = 0; b < of_block.size(); ++b)
+          if (of_block[b].monolith == dam.joints[pair.joint].monolith_2())
+            result[b] += pressure[p] * pair.area * dot(pair.frame[0], of_block[b].axes[2]);
+    return result;
   }
 
   void BaseForces::add_crack_water(const Pair &pair, const double force)
@@ -292,6 +305,13 @@ namespace Voussoir
         if (const unsigned int b = block[i]; b != rigid_ground)
           add_force(constant[b], -share[i], to(of_block[b].centroid, model.points[i]),
                     get(load.force, model.equation[i]));
+    for (const StaticLoad &load : dam.loads) // at the border of a bonded part of the base
+      for (unsigned int i = 0;
+           load.name == uplift_at_base && dam.foundation->uses_rock() && i < model.n_nodes(); ++i)
+        if (const unsigned int b = block[i];
+            b != rigid_ground && !is_footing(model.body_numbers[model.body[i]]))
+          add_force(constant[b], -share[i], to(of_block[b].centroid, model.points[i]),
+                    get(load.force, equation[i]));
     if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0.)
       add_added_mass(model, scene.reservoir, whole);
   }

@@ -52,13 +52,14 @@ namespace Voussoir
     return d < 1. ? at_drains + (s - d) / (1. - d) * (toe - at_drains) : at_drains;
   }
 
-  BaseUplift base_uplift(const Scene &scene, const SolidModel &model)
+  BaseUplift base_uplift(const Scene &scene, const SolidModel &model, const std::set<int> &closed)
   {
     const std::vector<double> place = places_in_thickness(model, "Loads/Uplift/Base");
     const double              factor = scene.loads.factor("uplift"), gravity = scene.statics.gravity,
                  tail = scene.loads.tail_water.level,
                  of_reservoir = scene.reservoir.density * gravity * scene.loads.factor("water"),
                  of_tail = scene.loads.tail_water.density * gravity * scene.loads.factor("tail water");
+    bool       has_force = model.on_footings.empty();
     BaseUplift uplift{Unknowns(3 * std::size_t(model.n_nodes()), 0.), {}};
     const auto add_face = [&](const FEFaceValues<3> &values, const auto &dofs)
     {
@@ -75,14 +76,17 @@ namespace Voussoir
         {
           const double f = -factor * p * values.normal_vector(q)[c] * values.JxW(q);
           uplift.of_monolith[monolith_of(volume)][c] += f;
-          for (unsigned int i = 0; i < dofs.size(); ++i)
+          for (unsigned int i = 0; i < dofs.size() && has_force; ++i)
             uplift.force[3 * dofs[i] + c] += f * values.shape_value(i, q);
         }
       }
     };
     for_faces(model, PhysicalId::base, 8, add_face);
     for (const int above_footing : model.on_footings)
+    {
+      has_force = closed.count(above_footing) == 0;
       for_faces(model, above_footing, 8, add_face);
+    }
     return uplift;
   }
 } // namespace Voussoir

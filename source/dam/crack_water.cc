@@ -11,6 +11,7 @@ namespace Voussoir
     const std::vector<Pair> &pairs = dam.structure.pairs;
     at_rest.resize(pairs.size(), 0.);
     change.assign(pairs.size(), 0.);
+    of_step = change;
     for (const StaticLoad &load : dam.loads)
       for (std::size_t p = 0; load.name == uplift_at_base && p < pairs.size(); ++p)
         if (dam.joints[pairs[p].joint].is_base())
@@ -26,6 +27,7 @@ namespace Voussoir
 
   void CrackWater::advance(Unknowns &load)
   {
+    of_step = change;
     for (std::size_t p = 0; p < change.size(); ++p)
       if (const Pair &pair = dam.structure.pairs[p]; change[p] != 0.)
         dam.structure.add_pair_force(pair, {{change[p] * pair.area, 0., 0.}}, load);
@@ -47,7 +49,8 @@ namespace Voussoir
     {
       const bool is_new =
           open[p] && statics.pairs[p] != PairState::open && dam.joints[pairs[p].joint].is_base();
-      change[p] = is_full ? (reached[p] ? full(p) - at_rest[p] : 0.) : is_new ? -at_rest[p] : 0.;
+      const bool has_water = reached[p] && (is_new || dam.scene.loads.uplift.joints);
+      change[p] = is_full ? (has_water ? full(p) - at_rest[p] : 0.) : is_new ? -at_rest[p] : 0.;
     }
   }
 } // namespace Voussoir

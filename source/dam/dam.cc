@@ -410,6 +410,7 @@ namespace Voussoir
   {
     if (has_parts(joints))
       group_by_monolith(joints, structure);
+    remove_keys_at_base();
     structure.clusters = clusters_of(structure.pairs);
     has_open_lifts = std::any_of(joints.begin(), joints.end(),
                                  [&](const Joint &joint)
@@ -420,10 +421,28 @@ namespace Voussoir
           throw InputError(
               "The law of " + joints[j].name() +
               " is KSM, but the joint crosses other joints, and shear keys cannot cross joints. Set "
-              "\"Joints/Overrides\" to \"lift: tied\", or the model of this joint to FJA, FJB or "
+              "\"Joints/Overrides\" to \"lift: tied\" or \"base: tied\", or the model of this joint to FJA, FJB or "
               "cohesive.");
     if (has_open_lifts || (has_open_bases && foundation->uses_rock()))
       find_weight_on_joints();
+  }
+
+  /** Removes the pairs of contraction joints with shear keys at nodes of base joints: keys cannot cross joints. */
+  void Dam::remove_keys_at_base()
+  {
+    std::set<unsigned int> standing;
+    for (const Pair &pair : structure.pairs)
+      if (joints[pair.joint].is_base())
+        standing.insert(pair.node_2);
+    std::vector<Pair> &pairs = structure.pairs;
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                               [&](const Pair &pair)
+                               {
+                                 return joints[pair.joint].is_contraction() &&
+                                        joint_models[pair.joint] == "KSM" &&
+                                        standing.count(pair.node_1) + standing.count(pair.node_2) > 0;
+                               }),
+                pairs.end());
   }
 
   /** Finds the load of the staged weight on free nodes of base and lift joints. Displacements are relative to the
@@ -436,6 +455,9 @@ namespace Voussoir
           e != rigid_ground && !(foundation->uses_rock() && model->on_surface(i, PhysicalId::base)))
         for (unsigned int c = 0; c < 3; ++c)
           weight_on_joints[3 * e + c] -= staged_reaction[3 * i + c];
+    for (const Pair &pair : structure.pairs) // at the border of a bonded part of the base
+      if (joints[pair.joint].is_base() && pair.node_1 != rigid_ground && staged_reaction.size() > 0)
+        set(weight_on_joints, pair.node_2, Vector3{} - get(weight_on_joints, pair.node_1));
     structure.remove_held_forces(weight_on_joints);
   }
 
@@ -462,7 +484,8 @@ namespace Voussoir
   {
     const std::set<unsigned int> base = nodes_of_base();
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
-                               [&](const Pair &pair) { return base.count(pair.node_1) > 0; }),
+                               [&](const Pair &pair)
+                               { return base.count(pair.node_1) > 0 && base.count(pair.node_2) > 0; }),
                 pairs.end());
   }
 
@@ -491,7 +514,7 @@ namespace Voussoir
       base = nodes_of_base();
     laws.of_joint.push_back(make_joint_law("tied", LawParameters()));
     for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-      if (base.count(structure.pairs[p].node_1) > 0)
+      if (base.count(structure.pairs[p].node_1) > 0 && base.count(structure.pairs[p].node_2) > 0)
         laws.of_pair[p] = laws.of_joint.back().get();
   }
 
@@ -531,7 +554,11 @@ namespace Voussoir
    * footings. */
   Unknowns Dam::uplift_at_base() const
   {
-    const BaseUplift uplift = base_uplift(scene, *model);
+    std::set<int> closed;
+    for (const Joint &joint : joints)
+      if (joint.is_base() && joint_models[joint.number - 1] == "tied")
+        closed.insert(PhysicalId::joint_side_2 + joint.number);
+    const BaseUplift uplift = base_uplift(scene, *model, closed);
     Unknowns         force(3 * std::size_t(structure.n_nodes()), 0.);
     for (unsigned int i = 0; i < model->n_nodes(); ++i)
       for (unsigned int c = 0; c < 3 && model->equation[i] != rigid_ground; ++c)

@@ -111,7 +111,7 @@ namespace Voussoir
         if (const double d = norm(structure.pairs[q].place - pair.place); d < distance)
           distance = d, source = q;
     const double toe = at_toe(pair.place[2]), full = pressure(structure.pairs[source].place[2]);
-    if (full <= 0. || place[source] >= 1.)
+    if (place[source] >= 1.)
       return 0.;
     return toe + (full - toe) * std::clamp((1. - place[p]) / (1. - place[source]), 0., 1.);
   }

@@ -86,10 +86,12 @@ namespace Voussoir
   {
   }
 
-  Unknowns RockStaticState::springs(const Structure &structure) const
+  Unknowns RockStaticState::springs(const Structure &structure)
   {
     Unknowns result(3 * structure.n_nodes(), 0.);
     double   largest = 0.;
+    for (const Body &body : structure.bodies)
+      has_footings = has_footings || is_footing(body.number);
     for (const Body &body : structure.bodies)
       for (const BaseNode &base_node : base_nodes)
         for (const unsigned int node : base_node.nodes)
@@ -190,7 +192,7 @@ namespace Voussoir
       {
         solve_rock(r, part, u_rock, log);
         f = u_rock;
-        double most = slack, size = std::max(10. * sum / stiffest, 1e-300);
+        double most = slack, size = has_footings ? 10. * sum / stiffest : 1e-300;
         for (std::size_t k = 0; k < n; ++k)
         {
           f[k] -= base[k];

@@ -148,7 +148,8 @@ namespace Voussoir
           mean += node.second;
         for (const auto &node : joints[j].area)
         {
-          const bool         is_base = joints[j].is_base;
+          const bool is_base = joints[j].is_base;
+          const bool is_flat = is_base || model.on_footings.count(PhysicalId::joint_side_2 + j + 1) > 0;
           const unsigned int partner =
               is_base ? node.first : partner_of(node.first, node.second.norm(), model, free, j);
           free.erase(partner);
@@ -157,7 +158,7 @@ namespace Voussoir
                            [&](const Tensor<1, 3> &x, const Tensor<1, 3> &y)
                            { return x * mean / x.norm() > y * mean / y.norm() + 1e-9 * mean.norm(); });
           matched.push_back({j, is_base ? rigid_ground : node.first, partner, node.second,
-                             parts.size() > 1 && !is_base ? parts : std::vector<Tensor<1, 3>>()});
+                             parts.size() > 1 && !is_flat ? parts : std::vector<Tensor<1, 3>>()});
         }
       }
       return matched;
@@ -231,7 +232,8 @@ namespace Voussoir
   {
     std::vector<std::pair<unsigned int, unsigned int>> together;
     for (const NodePair &match : match_joint_nodes(model, n_joints))
-      if (match.node_1 != rigid_ground && model.on_surface(match.node_1, PhysicalId::base))
+      if (match.node_1 != rigid_ground && model.on_surface(match.node_1, PhysicalId::base) &&
+          model.on_surface(match.node_2, PhysicalId::base))
         together.emplace_back(match.node_1, match.node_2);
     model.merge(together, true);
   }

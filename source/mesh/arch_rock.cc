@@ -55,9 +55,30 @@ namespace Voussoir
       }
 
       /** Returns the distance of the layers at the side face from the end of the dam [m]. */
-      double side_length(const unsigned int bank) const { return y_side[bank] - n * h_side - y_end[bank]; }
+      double side_length(const unsigned int bank) const { return y_side[bank] - side.width() - y_end[bank]; }
 
-      double layer_size(const double extent) const { return std::min(rock.element_size, extent / (n + 6)); }
+      /** Layers of equal elements along a face of the block. */
+      struct Layers
+      {
+        double       size = 0.; ///< [m]
+        unsigned int count = 0;
+        double       width() const { return count * size; } ///< [m]
+      };
+
+      /** Returns the layers of a block of the given @p extent [m]. An extent above the height of the dam adds layers only:
+       * the elements at the dam do not depend on the block. */
+      Layers layers(const double extent) const
+      {
+        const double inner = std::min(extent, rock.height),
+                     size = std::min(rock.element_size, inner / (n + 6));
+        return {size, n + static_cast<unsigned int>(std::lround((extent - inner) / size))};
+      }
+
+      /** Returns the length of the block that layers() gives for an extent [m]. */
+      double length(const double extent, const Layers &layers) const
+      {
+        return std::min(extent, rock.height) + (layers.count - n) * layers.size;
+      }
 
       /** Computes the faces of the block, the element sizes at the faces and the numbers of elements. */
       void measure()
@@ -73,13 +94,13 @@ namespace Voussoir
             y_side[0] = std::max(y_side[0], -y);
             y_side[1] = std::max(y_side[1], y);
           }
-        h_upstream = layer_size(rock.upstream);
-        h_downstream = layer_size(rock.downstream);
-        h_side = layer_size(rock.sides);
-        h_bottom = layer_size(rock.depth);
-        x_upstream = x_min - rock.upstream;
-        x_downstream = x_max + rock.downstream;
-        z_bottom = bottom - rock.depth;
+        upstream = layers(rock.upstream);
+        downstream = layers(rock.downstream);
+        side = layers(rock.sides);
+        below = layers(rock.depth);
+        x_upstream = x_min - length(rock.upstream, upstream);
+        x_downstream = x_max + length(rock.downstream, downstream);
+        z_bottom = bottom - length(rock.depth, below);
         plateau = valley.back()[1];
         valley.front()[1] = plateau;
         y_end = {-valley.front()[0], valley.back()[0]};
@@ -93,10 +114,10 @@ namespace Voussoir
           for (unsigned int c = 0; c <= n_columns; ++c)
           {
             const double length = is_upstream
-                                      ? base_node(c, 0)[0] - x_upstream - n * h_upstream
-                                      : x_downstream - n * h_downstream - base_node(c, n_dam_layers)[0];
+                                      ? base_node(c, 0)[0] - x_upstream - upstream.width()
+                                      : x_downstream - downstream.width() - base_node(c, n_dam_layers)[0];
             wanted = std::max(wanted, n_graded(length, base_size(c, is_upstream),
-                                               is_upstream ? h_upstream : h_downstream, largest));
+                                               is_upstream ? upstream.size : downstream.size, largest));
             limit = std::min<unsigned int>(limit, std::ceil(length / smallest));
           }
           return std::clamp(limit, 2u, wanted);
@@ -106,17 +127,18 @@ namespace Voussoir
         measure_sides();
         // The dispersion of waves from below increases with the square of the cell height and with the path.
         // Rock deeper than the valley therefore has lower cells.
-        const double below_valley = bottom - z_bottom - n * h_bottom, above = plateau - bottom;
-        const double tallest =
-            std::max(smallest, largest * std::sqrt(std::min(1., 2. * above / (above + rock.depth))));
+        const double below_valley = bottom - z_bottom - below.width(), above = plateau - bottom;
+        const double tallest = std::max(
+            smallest,
+            largest * std::sqrt(std::min(1., 2. * above / (above + std::min(rock.depth, rock.height)))));
         n_down = std::clamp<unsigned int>(std::ceil(below_valley / smallest), 2,
-                                          n_graded(above + below_valley, surface_size, h_bottom, tallest));
+                                          n_graded(above + below_valley, surface_size, below.size, tallest));
 
-        first_column = n + n_side;
-        first_layer = n + n_upstream;
+        first_column = side.count + n_side;
+        first_layer = upstream.count + n_upstream;
         n_i = n_columns + 2 * first_column;
-        n_j = first_layer + n_dam_layers + n_downstream + n;
-        n_k = n_down + n;
+        n_j = first_layer + n_dam_layers + n_downstream + downstream.count;
+        n_k = n_down + below.count;
         surface.assign((n_i + 1) * (n_j + 1), Vector{});
       }
 
@@ -127,9 +149,9 @@ namespace Voussoir
         n_side = 0;
         for (const unsigned int bank : {0, 1})
         {
-          y_side[bank] += rock.sides;
+          y_side[bank] += length(rock.sides, side);
           n_side =
-              std::max(n_side, n_graded(side_length(bank), column_size[bank], h_side, rock.element_size));
+              std::max(n_side, n_graded(side_length(bank), column_size[bank], side.size, rock.element_size));
         }
       }
 
@@ -149,10 +171,10 @@ namespace Voussoir
             const unsigned int start = is_upstream ? first_layer : first_layer + n_dam_layers;
             const unsigned int m = is_upstream ? n_upstream : n_downstream;
             const double       face = is_upstream ? x_upstream : x_downstream;
-            const double       h = is_upstream ? h_upstream : h_downstream;
+            const Layers      &outer = is_upstream ? upstream : downstream;
             const Vector       from = ground(i, start);
-            const double       length = std::abs(face - direction * (n * h) - from[0]);
-            const auto         d = graded(m, length, base_size(c, is_upstream), h);
+            const double       length = std::abs(face - direction * outer.width() - from[0]);
+            const auto         d = graded(m, length, base_size(c, is_upstream), outer.size);
             for (unsigned int t = 1; t < m; ++t)
             {
               const double f = fade(d[t] / length);
@@ -160,9 +182,9 @@ namespace Voussoir
                                                   valley[c][0] + f * (from[1] - valley[c][0]),
                                                   valley[c][1] + f * (from[2] - valley[c][1])};
             }
-            for (unsigned int t = 0; t <= n; ++t)
-              ground(i, start + direction * (m + n - t)) = {face - direction * (t * h), valley[c][0],
-                                                            valley[c][1]};
+            for (unsigned int t = 0; t <= outer.count; ++t)
+              ground(i, start + direction * (m + outer.count - t)) = {face - direction * (t * outer.size),
+                                                                      valley[c][0], valley[c][1]};
           }
         }
       }
@@ -170,19 +192,18 @@ namespace Voussoir
       /** Returns x of the layers on the side face [m]. @p end: column of the dam at this bank. */
       std::vector<double> straight_layers(const unsigned int end, const double bend)
       {
-        const double upper = x_upstream + n * h_upstream, lower = x_downstream - n * h_downstream;
+        const double upper = x_upstream + upstream.width(), lower = x_downstream - downstream.width();
         const double h =
             std::max(base_size(end, true), std::min(surface_size, 0.1 * (lower - upper) / n_dam_layers));
         const double        middle = 0.5 * (base_node(end, 0)[0] + base_node(end, n_dam_layers)[0]) + bend;
         const double        first = middle - 0.5 * n_dam_layers * h, last = middle + 0.5 * n_dam_layers * h;
         std::vector<double> x(n_j + 1);
-        for (unsigned int t = 0; t <= n; ++t)
-        {
-          x[t] = x_upstream + t * h_upstream;
-          x[n_j - t] = x_downstream - t * h_downstream;
-        }
-        const auto before = graded(n_upstream, first - upper, h, h_upstream);
-        const auto after = graded(n_downstream, lower - last, h, h_downstream);
+        for (unsigned int t = 0; t <= upstream.count; ++t)
+          x[t] = x_upstream + t * upstream.size;
+        for (unsigned int t = 0; t <= downstream.count; ++t)
+          x[n_j - t] = x_downstream - t * downstream.size;
+        const auto before = graded(n_upstream, first - upper, h, upstream.size);
+        const auto after = graded(n_downstream, lower - last, h, downstream.size);
         for (unsigned int t = 0; t < n_upstream; ++t)
           x[first_layer - t] = first - before[t];
         for (unsigned int t = 0; t < n_downstream; ++t)
@@ -194,12 +215,12 @@ namespace Voussoir
 
       /** Computes the ground beyond the end of the dam on the right (@p side = 0) or the left bank (1). The
        * layers continue in the direction of the dam and bend to the direction of y. */
-      void make_side(const unsigned int side)
+      void make_side(const unsigned int bank_number)
       {
-        const int          bank = side == 1 ? 1 : -1;
-        const unsigned int end = side == 1 ? first_column + n_columns : first_column;
-        const double       length = side_length(side);
-        const auto         d = graded(n_side, length, column_size[side], h_side);
+        const int          bank = bank_number == 1 ? 1 : -1;
+        const unsigned int end = bank_number == 1 ? first_column + n_columns : first_column;
+        const double       length = side_length(bank_number);
+        const auto         d = graded(n_side, length, column_size[bank_number], side.size);
         const auto         slope = [&](const unsigned int j)
         {
           const Vector &inside = ground(end - bank, j);
@@ -209,20 +230,21 @@ namespace Voussoir
         const auto   x = straight_layers(end - first_column, 0.2 * length * dam_slope);
         for (unsigned int j = 0; j <= n_j; ++j)
         {
-          const bool   is_straight = j <= n || j + n >= n_j;
+          const bool   is_straight = j <= upstream.count || j + downstream.count >= n_j;
           const double leaving = dam_slope * fade(distance(j));
           const Vector from = ground(end, j);
           for (unsigned int t = 1; t < n_side; ++t)
           {
             const double eta = d[t] / length, f = fade(eta);
-            ground(end + bank * t, j) = {is_straight ? x[j]
-                                                     : f * from[0] + (1 - f) * x[j] +
-                                                           leaving * length * eta * (1 - eta) * (1 - eta),
-                                         bank * (y_end[side] + d[t]) + f * (from[1] - bank * y_end[side]),
-                                         plateau + f * (from[2] - plateau)};
+            ground(end + bank * t, j) = {
+                is_straight ? x[j]
+                            : f * from[0] + (1 - f) * x[j] + leaving * length * eta * (1 - eta) * (1 - eta),
+                bank * (y_end[bank_number] + d[t]) + f * (from[1] - bank * y_end[bank_number]),
+                plateau + f * (from[2] - plateau)};
           }
-          for (unsigned int t = 0; t <= n; ++t)
-            ground(end + bank * (n_side + n - t), j) = {x[j], bank * (y_side[side] - t * h_side), plateau};
+          for (unsigned int t = 0; t <= side.count; ++t)
+            ground(end + bank * (n_side + side.count - t),
+                   j) = {x[j], bank * (y_side[bank_number] - t * side.size), plateau};
         }
       }
 
@@ -258,10 +280,10 @@ namespace Voussoir
         const double       column = (y_end[0] + y_end[1]) / n_columns;
         const unsigned int n_sweeps = std::min(1000., std::ceil(std::pow(100 / column, 2)));
         for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
-          for (unsigned int j = n + 1; j + n < n_j; ++j)
+          for (unsigned int j = upstream.count + 1; j + downstream.count < n_j; ++j)
           {
-            Vector before = ground(n, j);
-            for (unsigned int i = n + 1; i + n < n_i; ++i)
+            Vector before = ground(side.count, j);
+            for (unsigned int i = side.count + 1; i + side.count < n_i; ++i)
             {
               const double share = 1 - fade(std::max(distance(j), distance_of_column(i)));
               const Vector here = ground(i, j), &after = ground(i + 1, j);
@@ -284,7 +306,7 @@ namespace Voussoir
           for (unsigned int j = 0; j <= n_j; ++j)
           {
             const Vector top = ground(i, j);
-            const auto   d = graded(n_down, top[2] - z_bottom - n * h_bottom, surface_size, h_bottom);
+            const auto   d = graded(n_down, top[2] - z_bottom - below.width(), surface_size, below.size);
             const bool   is_base = i >= first_column && i <= first_column + n_columns && j >= first_layer &&
                                  j <= first_layer + n_dam_layers;
             for (unsigned int k = 0; k <= n_k; ++k)
@@ -297,7 +319,7 @@ namespace Voussoir
               }
               node = mesh.nodes.size();
               mesh.nodes.push_back(
-                  {top[0], top[1], k < n_down ? top[2] - d[k] : z_bottom + (n_k - k) * h_bottom});
+                  {top[0], top[1], k < n_down ? top[2] - d[k] : z_bottom + (n_k - k) * below.size});
             }
           }
       }
@@ -353,8 +375,8 @@ namespace Voussoir
       const double                       bottom; ///< z of the lowest arc [m]
       std::vector<std::array<double, 2>> valley; // (y, z) of each column of the dam
       const unsigned int                 n_columns, n_dam_layers, n;
-      double                h_upstream, h_downstream, h_side, h_bottom;  // sizes in the boundary layers [m]
-      double                x_upstream, x_downstream, z_bottom, plateau; // [m]
+      Layers                             upstream, downstream, side, below;
+      double                             x_upstream, x_downstream, z_bottom, plateau; // [m]
       std::array<double, 2> y_side, y_end; // |y| of the side faces and of the ends of the dam, by bank [m]
       double                surface_size;  // of the elements below the ground [m]
       std::array<double, 2> column_size;   // of the elements at the ends of the dam, by bank [m]

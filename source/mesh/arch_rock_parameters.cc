@@ -76,6 +76,7 @@ namespace Voussoir
   ArchRockParameters ArchRockParameters::complete(const double height) const
   {
     ArchRockParameters result = *this;
+    result.height = height;
     for (double *length : {&result.upstream, &result.downstream, &result.sides, &result.depth})
       if (*length == 0)
         *length = height;

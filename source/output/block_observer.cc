@@ -11,7 +11,8 @@ namespace Voussoir
 
   void BlockObserver::follow()
   {
-    run.with_last_step([this](const StepOfDam &step) { blocks.follow(step); });
+    const std::vector<double> water = run.crack_water ? run.crack_water->acting() : std::vector<double>();
+    run.with_last_step([&](const StepOfDam &step) { blocks.follow(step, water); });
   }
 
   void BlockObserver::report(Log &log) const

@@ -24,9 +24,10 @@ namespace Voussoir
     }
   }
 
-  void BlockRecorder::follow(const StepOfDam &step)
+  void BlockRecorder::follow(const StepOfDam &step, const std::vector<double> &water)
   {
     now = forces.of(step);
+    more = forces.uplift_by(water);
   }
 
   void BlockRecorder::record(const double time)
@@ -49,7 +50,7 @@ namespace Voussoir
       most.shear.raise(std::hypot(force.shear[0], force.shear[1]), time, base.centroid);
       if (!has_safety())
         continue;
-      row.push_back(sliding_safety(base, force, friction, cohesion));
+      row.push_back(safety_of(b));
       lower(most.safety, row.back());
     }
     history.rows.push_back(row);
@@ -64,9 +65,10 @@ namespace Voussoir
     return least;
   }
 
-  double BlockRecorder::last_safety_of(const std::size_t b) const
+  double BlockRecorder::safety_of(const std::size_t b) const
   {
-    const BlockBase &base = forces.bases()[b];
+    BlockBase base = forces.bases()[b];
+    base.uplift += more[b];
     return sliding_safety(base, resultants(base, now[b]), friction, cohesion);
   }
 
@@ -74,7 +76,7 @@ namespace Voussoir
   {
     std::pair<double, int> least{std::numeric_limits<double>::infinity(), 0};
     for (std::size_t b = 0; b < now.size(); ++b)
-      least = std::min(least, {last_safety_of(b), forces.bases()[b].monolith});
+      least = std::min(least, {safety_of(b), forces.bases()[b].monolith});
     return least;
   }
 
@@ -100,7 +102,7 @@ namespace Voussoir
           .add("min_compression", of(extremes[b].least_compression))
           .add("max_shear", of(extremes[b].shear));
       if (has_safety())
-        json.add("min_sliding_safety", of(extremes[b].safety)).add("end_sliding_safety", last_safety_of(b));
+        json.add("min_sliding_safety", of(extremes[b].safety)).add("end_sliding_safety", safety_of(b));
       blocks.add("monolith " + std::to_string(base.monolith), json);
     }
     return blocks;

@@ -208,7 +208,7 @@ namespace Voussoir
     Extreme result{std::numeric_limits<double>::quiet_NaN()}; // no nodes on the surface
     bool    found = false;
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
-      if (surface == 0 || model.on_surface(i, surface))
+      if ((surface == 0 || model.on_surface(i, surface)) && !is_footing(model.body_numbers[model.body[i]]))
       {
         const double x = largest ? maximum[i] : minimum[i];
         if (!found || (largest ? x > result.value : x < result.value))

@@ -134,7 +134,8 @@ namespace Voussoir
     std::vector<bool> reached(grid.triangulation.n_vertices(), false);
     for (const auto &cell : grid.triangulation.active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
-        if (const auto face = cell->face(f); face->at_boundary() && face->boundary_id() == PhysicalId::base)
+        if (const auto face = cell->face(f);
+            face->at_boundary() && is_base(static_cast<int>(face->boundary_id())))
           for (const unsigned int v : face->vertex_indices())
             reached[face->vertex_index(v)] = true;
     return cells_about(grid, std::move(reached), n_layers);

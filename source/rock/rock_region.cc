@@ -124,7 +124,9 @@ namespace Voussoir
         RockRegionParameters plane = of_sections(parameters);
         plane.rock.centre[0] = section.nodes[0][0]; // the section has its own source point
         RockModel slice = make_rock_model(section, plane.rock, tie_layer(section, 0));
-        auto      motion = make_region(slice, plane, split_of_section(slice, 0, model, split));
+        for (BoundaryLine &line : slice.lines)
+          line.distance *= 2.; // plane waves spread as r^(-1/2), those of a source in space as 1/r
+        auto motion = make_region(slice, plane, split_of_section(slice, 0, model, split));
         shake(*motion, slice, plane, wave, n_steps); // without sections of its own
         field->add_section(std::move(slice), std::move(motion), 0);
       }

@@ -73,6 +73,10 @@ namespace Voussoir
     /** Returns the bases by ascending number of the monolith. */
     const std::vector<BlockBase> &bases() const { return of_block; }
 
+    /** Returns the compression of each base by water in base joints on footings [N], which is part of its force.
+     * @param pressure in each pair [Pa], or empty */
+    std::vector<double> uplift_by(const std::vector<double> &pressure) const;
+
     /** Returns the wrench on each base, about its centroid. */
     std::vector<Wrench> of(const StepOfDam &step) const;
 

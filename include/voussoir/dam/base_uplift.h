@@ -6,6 +6,7 @@
 #include <voussoir/solid/solid_model.h>
 
 #include <map>
+#include <set>
 
 namespace Voussoir
 {
@@ -27,8 +28,9 @@ namespace Voussoir
     std::map<int, Vector3> of_monolith; ///< resultant of each monolith, by number [N]
   };
 
-  /** Returns the uplift by uplift_head(), with the factors of the load combination. */
-  BaseUplift base_uplift(const Scene &scene, const SolidModel &model);
+  /** Returns the uplift by uplift_head(), with the factors of the load combination. @p closed: surfaces above footings
+   * whose base joints are tied. On rock with footings, only the other base joints have forces. */
+  BaseUplift base_uplift(const Scene &scene, const SolidModel &model, const std::set<int> &closed = {});
 } // namespace Voussoir
 
 #endif

@@ -18,7 +18,10 @@ namespace Voussoir
 
     void                               advance(Unknowns &load) override;
     void                               update_from_dam(const DynamicState &state) override;
-    std::vector<std::vector<double> *> state() override { return {&change}; }
+    std::vector<std::vector<double> *> state() override { return {&change, &of_step}; }
+
+    /** Returns the change of the pressure in each pair from the static state to the last step [Pa]. */
+    const std::vector<double> &acting() const { return of_step; }
 
   private:
     double full(std::size_t pair) const;
@@ -27,7 +30,8 @@ namespace Voussoir
     const StaticState  &statics;
     JointWater          water;
     std::vector<double> at_rest; ///< pressure in each pair in the static state [Pa]
-    std::vector<double> change;  ///< of the pressure in each pair [Pa]
+    std::vector<double> change,
+        of_step; ///< of the pressure in each pair: in the next and in the last step [Pa]
   };
 } // namespace Voussoir
 

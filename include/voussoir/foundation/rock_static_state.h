@@ -24,7 +24,7 @@ namespace Voussoir
 
     /** Returns the springs at the base nodes, see BaseSupport::static_springs(). They are ten times as stiff
      * as the stiffest base node of the monoliths in x. */
-    Unknowns springs(const Structure &structure) const;
+    Unknowns springs(const Structure &structure);
 
     /** Computes the static state of dam and rock. Arguments, result and exceptions are those of
      * BaseSupport::solve_static(). The first call creates the solver of the rock, which later calls use
@@ -49,7 +49,8 @@ namespace Voussoir
     const RockModel             &model;
     const std::vector<BaseNode> &base_nodes;
     const double                 ratio;
-    std::unique_ptr<RockStatics> rock;            ///< solver of the rock, from the first solve() on
+    std::unique_ptr<RockStatics> rock; ///< solver of the rock, from the first solve() on
+    bool                         has_footings = false;
     unsigned int                 n_solutions = 0; ///< number of solutions of the rock so far
   };
 } // namespace Voussoir

@@ -19,6 +19,7 @@ namespace Voussoir
                0; ///< distance of the boundary from the outermost base node [m]; 0: height of the dam
     double       sides = 0, depth = 0; ///< likewise; depth: below the base [m]
     double       element_size = 0;     ///< far from the dam [m]; 0: 22/210 of the height
+    double       height = 0;           ///< of the dam [m]; set by complete()
     unsigned int n_layers = 6;         ///< layers of equal elements along the artificial boundary
 
     /** Declares the subsection "Rock" of the current subsection. Lengths of 0 are allowed if @p or_from_height. */

@@ -17,8 +17,10 @@ namespace Voussoir
      * @param joint_water water pressure in each pair [Pa]; empty: none */
     BlockRecorder(Dam &dam, const std::vector<double> &joint_water);
 
-    /** Computes the forces on the bases. @p step: end of a step of the dam, or the static state. */
-    void follow(const StepOfDam &step);
+    /** Computes the forces on the bases.
+     * @param step end of a step of the dam, or the static state
+     * @param water change of the water pressure in each pair from the static state [Pa], or empty */
+    void follow(const StepOfDam &step, const std::vector<double> &water = {});
 
     /** Adds the forces of the last follow() to history and extremes. @p time: present time [s]. */
     void record(double time);
@@ -43,7 +45,7 @@ namespace Voussoir
     template <class Archive> void serialize(Archive &archive, unsigned int) { archive &history &extremes; }
 
   private:
-    double last_safety_of(std::size_t base) const;
+    double safety_of(std::size_t b) const;
 
     struct Extremes ///< over time, of one monolith
     {
@@ -55,7 +57,8 @@ namespace Voussoir
     };
     const double          friction, cohesion; ///< of the base [-], [Pa]
     const BaseForces      forces;
-    std::vector<Wrench>   now;      ///< per base
+    std::vector<double>   more; ///< uplift in the last step without that of the static state, per base [N]
+    std::vector<Wrench>   now;  ///< per base
     std::vector<Extremes> extremes; ///< per base
   };
 } // namespace Voussoir
