@@ -166,6 +166,25 @@ namespace Voussoir
                        });
     }
 
+    /** Removes the pairs of contraction joints with shear keys at nodes of base joints: keys cannot cross joints. */
+    void remove_keys_at_base(const std::vector<Joint> &joints, const std::vector<std::string> &joint_models,
+                             Structure &structure)
+    {
+      std::set<unsigned int> standing;
+      for (const Pair &pair : structure.pairs)
+        if (joints[pair.joint].is_base())
+          standing.insert(pair.node_2);
+      std::vector<Pair> &pairs = structure.pairs;
+      pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                                 [&](const Pair &pair)
+                                 {
+                                   return joints[pair.joint].is_contraction() &&
+                                          joint_models[pair.joint] == "KSM" &&
+                                          standing.count(pair.node_1) + standing.count(pair.node_2) > 0;
+                                 }),
+                  pairs.end());
+    }
+
     /** Returns the laws of pairs that share nodes with other pairs, per joint. Where joints cross, their conditions are
      * redundant. The compliance of these laws makes the forces unique. It is that of a thin layer of concrete, and about
      * 3e-2 of the flexibility of the concrete around a pair in a step of 10 ms. */
@@ -410,7 +429,7 @@ namespace Voussoir
   {
     if (has_parts(joints))
       group_by_monolith(joints, structure);
-    remove_keys_at_base();
+    remove_keys_at_base(joints, joint_models, structure);
     structure.clusters = clusters_of(structure.pairs);
     has_open_lifts = std::any_of(joints.begin(), joints.end(),
                                  [&](const Joint &joint)
@@ -425,24 +444,6 @@ namespace Voussoir
               "cohesive.");
     if (has_open_lifts || (has_open_bases && foundation->uses_rock()))
       find_weight_on_joints();
-  }
-
-  /** Removes the pairs of contraction joints with shear keys at nodes of base joints: keys cannot cross joints. */
-  void Dam::remove_keys_at_base()
-  {
-    std::set<unsigned int> standing;
-    for (const Pair &pair : structure.pairs)
-      if (joints[pair.joint].is_base())
-        standing.insert(pair.node_2);
-    std::vector<Pair> &pairs = structure.pairs;
-    pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
-                               [&](const Pair &pair)
-                               {
-                                 return joints[pair.joint].is_contraction() &&
-                                        joint_models[pair.joint] == "KSM" &&
-                                        standing.count(pair.node_1) + standing.count(pair.node_2) > 0;
-                               }),
-                pairs.end());
   }
 
   /** Finds the load of the staged weight on free nodes of base and lift joints. Displacements are relative to the

@@ -125,12 +125,8 @@ namespace Voussoir
         n_upstream = count_lines(true);
         n_downstream = count_lines(false);
         measure_sides();
-        // The dispersion of waves from below increases with the square of the cell height and with the path.
-        // Rock deeper than the valley therefore has lower cells.
         const double below_valley = bottom - z_bottom - below.width(), above = plateau - bottom;
-        const double tallest = std::max(
-            smallest,
-            largest * std::sqrt(std::min(1., 2. * above / (above + std::min(rock.depth, rock.height)))));
+        const double tallest = std::max(smallest, largest);
         n_down = std::clamp<unsigned int>(std::ceil(below_valley / smallest), 2,
                                           n_graded(above + below_valley, surface_size, below.size, tallest));
 

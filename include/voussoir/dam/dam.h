@@ -123,7 +123,6 @@ namespace Voussoir
     void tie_base();
     void open_base_joints();
     void cross_joints();
-    void remove_keys_at_base();
     void find_weight_on_joints();
 
     Unknowns uplift_at_base() const;
