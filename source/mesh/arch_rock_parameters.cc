@@ -20,6 +20,7 @@ namespace Voussoir
         Bool());
     const std::string from = std::string(" [m], from the outermost base nodes of the dam to the artificial "
                                          "boundary.") +
+                             " Above the height of the dam it is rounded to whole elements." +
                              (or_from_height ? " 0: height of the dam." : "");
     const UsualRange usual{50., 2000., or_from_height};
     const double     least = or_from_height ? 0. : 50.;
