@@ -303,6 +303,10 @@ BASE = settings("Mesh/Arch210/Base joint=true")
 def arch():
     """An arch dam on its base joint: tied it is the bonded dam, and its base carries what it weighs."""
     write_scene()
+    for name, more in (("alone", ()), ("with_rock", ("Mesh/Arch210/Rock/Enabled=true",))):
+        runs("scene.prm", "--output", name, *ARCH, *BASE, *settings("Motion/Duration=0.3", *more))
+    nodes = [summary(name)["mesh"]["nodes"] for name in ("alone", "with_rock")]
+    expect(nodes[0] == nodes[1], f"footings on a rigid base: {nodes} nodes")
     runs("scene.prm", "--output", "bonded", *ARCH)
     runs("scene.prm", "--output", "tied", *ARCH, *BASE, *settings("Joints/Overrides=base: tied"))
     same_to_the_bit_but_joints("bonded", "tied")

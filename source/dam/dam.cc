@@ -265,7 +265,7 @@ namespace Voussoir
     n_cells = concrete.cells.size();
     n_monoliths = Voussoir::n_monoliths(concrete);
     HexMesh opened = merge_tied_lifts(open_joints(concrete), scene, tie_all, merged_lifts);
-    if (concrete.cells.size() < mesh.cells.size() && !tie_all && has_open_base(opened, scene))
+    if (scene.foundation.model != "rigid" && !tie_all && has_open_base(opened, scene))
       opened = with_footings(opened);
     for (const Joint &joint : joints_of(opened))
     {
