@@ -128,8 +128,8 @@ namespace Voussoir
       {
         ContactParameters of_system = parameters;
         of_system.write_problems = parameters.write_problems && grouted == INFINITY;
-        if (dam.has_base_joints() && dam.foundation->uses_rock())
-          of_system.tolerance *= .1; // the forces of base joints determine the displacements of the rock
+        if (dam.has_base_joints() && dam.scene.foundation.model == "rock")
+          of_system.tolerance *= .01; // the forces of base joints determine the displacements of the rock
         StepOperator operation;
         operation.proximal = proximal;
         system = std::make_unique<JointSystem>(structure, laws_up_to(grouted, dam, ungrouted), of_system,
