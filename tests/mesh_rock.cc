@@ -5,10 +5,10 @@
 #include "mesh_testing.h"
 
 #include <voussoir/mesh/boundary_lines.h>
+#include <voussoir/mesh/coincident.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/grading.h>
 #include <voussoir/mesh/mesh_joints.h>
-#include <voussoir/mesh/coincident.h>
 #include <voussoir/mesh/mesh_source.h>
 
 #include <cstdio>
@@ -263,8 +263,8 @@ namespace
   {
     MeshParameters p = parameters(5, 30, 10, 1);
     const HexMesh  small = make_mesh(p, "");
-    for (double *length : {&p.arch210_rock.upstream, &p.arch210_rock.downstream, &p.arch210_rock.sides,
-                           &p.arch210_rock.depth})
+    for (double *length :
+         {&p.arch210_rock.upstream, &p.arch210_rock.downstream, &p.arch210_rock.sides, &p.arch210_rock.depth})
       *length = 420;
     const HexMesh large = make_mesh(p, "");
     expect_close(bounding_box(large).first[2], -420., 1e-12, "depth of the larger block");
