@@ -100,7 +100,7 @@ def is_expression(text):
         elif c in ")]}" and (not open_ones or open_ones.pop() + c not in ("()", "[]", "{}")):
             return False
     text = re.sub(r"\+\+$|--$", "", text.strip())
-    return not open_ones and not re.search(r"^[/%,=<>|?:)]|[-+*/%,=<>&|?:(]$|(?<!\d)\.$|;|^return\b|(?<![=!<>+\-*/%&|^])=(?!=)", text)
+    return not open_ones and not re.search(r"^[/%,=<>|?:)]|[-+*/%,=<>&|?:(]$|(?<!\d)\.$|;|^(return|if|for|while|else)\b|(?<![=!<>+\-*/%&|^])=(?!=)", text)
 
 
 def binds_less(text, before, after):

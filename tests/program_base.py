@@ -92,6 +92,15 @@ def uplift():
         exact = 2 * force / width * (3 * moment / force / width - 1)
         print(f"    uplift {base}: stress at the heel {found:.0f} Pa, by hand {exact:.0f} Pa")
         expect(abs(found - exact) < 5e-3 * force / width, f"stress at the heel {found} Pa instead of {exact} Pa")
+    tail, head = 4., 1000 * G * 4.
+    for level in (0., 2.):  # of the reservoir
+        more["Reservoir"]["Water level"] = level
+        block(f"tail{level}", "block.msh", *settings("Loads/Uplift/Joints=true", "Loads/Uplift/Below closed part=linear", f"Loads/Tail water/Level={tail}"),
+              **more)
+        names, rows = table(f"tail{level}/joint_pressures.csv")
+        carried, exact = width * rows[0][names.index("mean_pressure")], weight - width * (head + 1000 * G * level) / 2
+        print(f"    tail water of {tail} m, reservoir of {level} m: the base carries {carried:.0f} N, by hand {exact:.0f} N")
+        expect(abs(carried / exact - 1) < 1e-4, f"the base carries {carried} N instead of {exact} N")
     level = 7.8
     more["Reservoir"]["Water level"] = level
     _, rows = block("crack_water", "block.msh", *friction, *settings("Loads/Uplift/Joints=true"), **more)
@@ -243,6 +252,43 @@ def on_rock():
         opening, slip = (result["extremes"][f"max_{what}"]["value"] for what in ("opening", "slip"))
         print(f"    {name}: opening {1e3 * opening:.2f} mm, slip {1e3 * slip:.2f} mm, energy balance {result['energy_balance_error']:.1e}")
         expect(result["energy_balance_error"] < 1e-8 and slip > .01, f"{name}: energy balance or slip")
+        lowest = result["extremes"]["max_compression"]["place"][2]
+        expect(lowest >= 0, f"{name}: the largest compression is in the footing, at z = {lowest} m")
+
+
+def rock_water():
+    """Water in base joints on rock: sliding safety of the contact forces, also with pressures that change."""
+    nodes, hexes, quads, _ = meshes.on_rock_parts(1., 18, (6, 12), 6, 12, 6)
+    quads = [(7 if tag == 1 else tag, corners) for tag, corners in quads]
+    meshes.write("massless.msh", nodes, hexes, quads, volumes={1: "monolith 1", 1000: "rock"})
+    Path("rock.msh").write_bytes(Path("massless.msh").read_bytes())
+    meshes.write("rigid.msh", nodes, [cell for cell in hexes if cell[0] == 1], [face for face in quads if face[0] in (2, 3, 4, 7)])
+
+    def run(name, level, uplift, model, joints, young, **more):
+        entries = sections({"joints": joints, "young": 2e10, "Reservoir": {"Water level": level, "Density": 1000, "Model": "none"},
+                            "Foundation": {"Model": model, "Young's modulus": young, "Poisson's ratio": 0}, **more})
+        shown = runs(scene(name, f"{model}.msh", **entries), "--output", name, *settings("Limits/Base friction=1", *(f"Loads/Uplift/{entry}" for entry in uplift)))
+        return shown, *(dict(zip(head, zip(*rows))) for head, rows in (table(f"{name}/{file}.csv") for file in ("blocks", "joint_pressures")))
+
+    stiff = {"Friction": 10, "Normal stiffness": "1e10", "Tangential stiffness": "1e10"}
+    for model in ("massless", "rock"):
+        for level in (10., 11.4):  # closed, open at the heel
+            shown, forces, joint = run(f"{model}{level}", level, ("Joints=true",), model, stiff, 1e10)
+            by_hand = joint["mean_pressure"][0] * 36. / abs(forces["V_stream_1"][0])
+            print(f"    {model}, level {level} m: sliding safety {forces['safety_1'][0]:.5f}, by hand {by_hand:.5f}")  # the footing weighs 4e-4 of the block
+            expect(abs(forces["safety_1"][0] / by_hand - 1) < 1e-3, f"sliding safety {forces['safety_1'][0]} instead of {by_hand}")
+    motion = pulse("rock.txt", -6., (1, 0, 0), .15, .3, .001)
+    safety = {}
+    for rule in ("unchanged", "full"):
+        for model in ("rigid", "massless"):
+            _, forces, _ = run(f"{model}_{rule}", 4., ("Joints=true", f"In earthquake={rule}"), model, {"Friction": 10}, 1e12,
+                               Motion=motion, Damping={"Ratio": .05})
+            tilted = forces["safety_1"][80:140]  # the heel is open
+            safety[model, rule] = sorted(tilted)[len(tilted) // 2]
+        print(f"    tilted, {rule}: median of the safety {safety['rigid', rule]:.4f} on a rigid base, {safety['massless', rule]:.4f} on stiff rock")
+    less = [safety[model, "full"] / safety[model, "unchanged"] for model in ("rigid", "massless")]
+    # By hand 0.95 for a rigid block of uniform density: the uplift U reduces the normal force by 0.85 U and the shear by 0.3 U.
+    expect(abs(less[0] - .95) < .03 and abs(less[1] / less[0] - 1) < .03, f"water in the crack changes the safety by the factors {less}")
 
 
 def rock_edges():
@@ -313,6 +359,14 @@ def arch():
     for name, more in (("bonded_rock", ()), ("tied_rock", (*BASE, *settings("Joints/Overrides=base: tied")))):
         runs("scene.prm", "--output", name, *ARCH, *more, *settings("Foundation/Model=massless", "Motion/Duration=0.3"))
     same_to_the_bit_but_joints("bonded_rock", "tied_rock")
+    for rule in ("unchanged", "full"):  # on a bonded base there are no cracks, and the contraction joints have waterstops
+        runs("scene.prm", "--output", rule, *ARCH, *settings("Loads/Uplift/Base=true", f"Loads/Uplift/In earthquake={rule}", "Motion/Duration=0.3"))
+    same_to_the_bit_but_joints("unchanged", "full")
+    runs("scene.prm", "--output", "keys", *ARCH, *BASE, *settings("Foundation/Model=massless", "Joints/Model=KSM", "Joints/Overrides=base: FJA",
+                                                                  "Motion/Duration=0.3"))
+    expect(summary("keys")["energy_balance_error"] < 1e-9, "energy balance with keys on rock")
+    shown = runs("scene.prm", "--output", "no_base", "--validate", *ARCH, *settings("Loads/Uplift/Joints=true", "Loads/Uplift/Below closed part=linear"))
+    expect("Below closed part\" has no effect" in shown, shown[-800:])
     for name, more in (("rigid", ()), ("elastic", ("Joints/Normal stiffness=1e11", "Joints/Tangential stiffness=5e10")),
                        ("adhesive", ("Joints/Adhesion=2 MPa", "Joints/Overrides=contraction: FJB")),
                        ("bond", ("Joints/Overrides=base: cohesive", "Joints/Strength=1 MPa", "Joints/Fracture energy=200"))):
@@ -374,4 +428,4 @@ def refusals():
 
 
 if __name__ == "__main__":
-    run_cases(crack, uplift, slice_at_rest, slide, rock, on_rock, rock_edges, arch, resume, refusals)
+    run_cases(crack, uplift, slice_at_rest, slide, rock, on_rock, rock_water, rock_edges, arch, resume, refusals)

@@ -169,7 +169,7 @@ def arch():
         expect(result["contact_path"]["smaller_step"] == 0, "reduced steps")
     linear = summary("base")["newton_iterations"]["linear_iterations_mean"]
     print(f"    base: {linear:.2f} linear iterations per step")
-    expect(linear < 7.15, "feet of contraction joints are no clusters")  # 7.55
+    expect(linear < 7.15, "the ends of contraction joints on the base are no clusters")  # 7.55
     names, rows = table("lifts/joint_points.csv")
     heights = {}
     for row in rows:

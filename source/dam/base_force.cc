@@ -248,8 +248,7 @@ namespace Voussoir
   {
     std::vector<double> result(of_block.size(), 0.);
     for (std::size_t p = 0; p < pressure.size(); ++p)
-      if (const Pair &pair = dam.structure.pairs[p];
-          dam.joints[pair.joint].is_base() && pair.node_1 != rigid_ground)
+      if (const Pair &pair = dam.structure.pairs[p]; dam.joints[pair.joint].is_base())
         for (std::size_t b = 0; b < of_block.size(); ++b)
           if (of_block[b].monolith == dam.joints[pair.joint].monolith_2())
             result[b] += pressure[p] * pair.area * dot(pair.frame[0], of_block[b].axes[2]);
@@ -306,8 +305,8 @@ namespace Voussoir
           add_force(constant[b], -share[i], to(of_block[b].centroid, model.points[i]),
                     get(load.force, model.equation[i]));
     for (const StaticLoad &load : dam.loads) // at the border of a bonded part of the base
-      for (unsigned int i = 0;
-           load.name == uplift_at_base && dam.foundation->uses_rock() && i < model.n_nodes(); ++i)
+      for (unsigned int i = 0; load.name == uplift_load && dam.foundation->uses_rock() && i < model.n_nodes();
+           ++i)
         if (const unsigned int b = block[i];
             b != rigid_ground && !is_footing(model.body_numbers[model.body[i]]))
           add_force(constant[b], -share[i], to(of_block[b].centroid, model.points[i]),

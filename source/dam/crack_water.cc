@@ -13,7 +13,7 @@ namespace Voussoir
     change.assign(pairs.size(), 0.);
     of_step = change;
     for (const StaticLoad &load : dam.loads)
-      for (std::size_t p = 0; load.name == uplift_at_base && p < pairs.size(); ++p)
+      for (std::size_t p = 0; load.name == uplift_load && p < pairs.size(); ++p)
         if (dam.joints[pairs[p].joint].is_base())
           at_rest[p] = dot(pairs[p].frame[0], get(load.force, pairs[p].node_2)) / pairs[p].area;
   }

@@ -249,6 +249,10 @@ namespace Voussoir
     foundation->add_mass(structure);
     for (const auto &probe : scene.output.probe_places())
       probe_node(*model, probe.first, {probe.second[0], probe.second[1], probe.second[2]});
+    if (!has_open_bases && scene.loads.uplift.joints && scene.loads.uplift.below_closed_part != "none")
+      mesh_warnings.push_back(
+          "Entry \"Loads/Uplift/Below closed part\" has no effect: the dam has no base joint that can "
+          "open. Remove it, or add base joints (surface \"base joint\").");
     find_lowest_base();
     check_water_level();
   }
@@ -533,7 +537,7 @@ namespace Voussoir
                        weight_on_joints,
                        {}});
     if (has_base_joints() && scene.loads.uplift.base && scene.loads.factor("uplift") != 0.)
-      loads.push_back({Voussoir::uplift_at_base, true, scene.loads.factor("uplift"), uplift_at_base(), {}});
+      loads.push_back({uplift_load, true, scene.loads.factor("uplift"), uplift_at_base(), {}});
     if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0.)
       added_mass = add_added_mass(*model, scene.reservoir, structure);
     if (const ReservoirParameters &r = scene.reservoir; r.is_meshed() && scene.loads.factor("water") != 0.)

@@ -19,13 +19,22 @@ namespace Voussoir
     constexpr double stiffest =
         4e10; // Young's modulus of concrete [Pa]; larger ones are those of rigid blocks
 
+    /** Returns the parameters of the contact solver in the static state. The forces of base joints determine the
+     * displacements of rock with mass, and their errors those of the iterations between dam and rock. */
+    ContactParameters in_statics(const Dam &dam, ContactParameters parameters)
+    {
+      if (dam.has_base_joints() && dam.scene.foundation.model == "rock")
+        parameters.tolerance *= .01;
+      return parameters;
+    }
+
     /** Computes the steps of the static load history. */
     class StaticHistory
     {
     public:
       StaticHistory(Dam &dam, const ContactParameters &parameters, Log &log,
                     const std::function<void()> &stop_if_asked)
-          : dam(dam), parameters(parameters), log(log), stop_if_asked(stop_if_asked),
+          : dam(dam), parameters(in_statics(dam, parameters)), log(log), stop_if_asked(stop_if_asked),
             sustained(dam.has_sustained_moduli() ? dam.sustained_structure() : Structure()),
             structure(dam.has_sustained_moduli() ? sustained : dam.structure),
             springs(dam.foundation->static_springs(structure)), base(dam.foundation->static_base(structure)),
@@ -128,8 +137,6 @@ namespace Voussoir
       {
         ContactParameters of_system = parameters;
         of_system.write_problems = parameters.write_problems && grouted == INFINITY;
-        if (dam.has_base_joints() && dam.scene.foundation.model == "rock")
-          of_system.tolerance *= .01; // the forces of base joints determine the displacements of the rock
         StepOperator operation;
         operation.proximal = proximal;
         system = std::make_unique<JointSystem>(structure, laws_up_to(grouted, dam, ungrouted), of_system,
@@ -257,9 +264,8 @@ namespace Voussoir
               message << "stage \"" << path.part(i).name << "\", ";
             message << "step " << i % n + 1 << " of " << n << "." << largest_error(dam.structure, result)
                     << " The residual is " << result.residual << " of the joint forces and "
-                    << result.residual_over_load
-                    << " of the load (limit \"Contact/Tolerance\" = " << parameters.tolerance << "), after "
-                    << result.iterations
+                    << result.residual_over_load << " of the load (limit " << parameters.tolerance
+                    << ", from \"Contact/Tolerance\"), after " << result.iterations
                     << " Newton steps. Increase \"Statics/Water increments\" or \"Contact/Maximum "
                        "iterations\".";
             throw ComputationError(message.str());

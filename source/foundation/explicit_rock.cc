@@ -66,7 +66,8 @@ namespace Voussoir
     RockParameters rock = region_parameters(parameters, centre, 0.).rock;
     rock.incompatible_modes = incompatible_modes;
     model = make_rock_part(mesh, rock, find, parameters.n_substeps());
-    static_state = std::make_unique<RockStaticState>(model, at_base, parameters.sustained_ratio());
+    static_state = std::make_unique<RockStaticState>(model, at_base, parameters.sustained_ratio(),
+                                                     !dam.on_footings.empty());
     mesh = HexMesh(); // no longer needed
     release_free_memory();
     RayleighDamping damping;

@@ -81,17 +81,15 @@ namespace Voussoir
   } // namespace
 
   RockStaticState::RockStaticState(const RockModel &model, const std::vector<BaseNode> &base_nodes,
-                                   const double ratio)
-      : model(model), base_nodes(base_nodes), ratio(ratio)
+                                   const double ratio, const bool has_footings)
+      : model(model), base_nodes(base_nodes), ratio(ratio), has_footings(has_footings)
   {
   }
 
-  Unknowns RockStaticState::springs(const Structure &structure)
+  Unknowns RockStaticState::springs(const Structure &structure) const
   {
     Unknowns result(3 * structure.n_nodes(), 0.);
     double   largest = 0.;
-    for (const Body &body : structure.bodies)
-      has_footings = has_footings || is_footing(body.number);
     for (const Body &body : structure.bodies)
       for (const BaseNode &base_node : base_nodes)
         for (const unsigned int node : base_node.nodes)

@@ -60,24 +60,20 @@ namespace Voussoir
       /** Layers of equal elements along a face of the block. */
       struct Layers
       {
-        double       size = 0.; ///< [m]
+        double       size = 0.; ///< of an element [m]
         unsigned int count = 0;
+        double       extent = 0.;                           ///< from the base to the face of the block [m]
         double       width() const { return count * size; } ///< [m]
       };
 
-      /** Returns the layers of a block of the given @p extent [m]. An extent above the height of the dam adds layers only:
-       * the elements at the dam do not depend on the block. */
+      /** Returns the layers of a block of the given @p extent [m]. An extent above the height of the dam only adds
+       * layers: the elements at the dam do not depend on the block. */
       Layers layers(const double extent) const
       {
-        const double inner = std::min(extent, rock.height),
-                     size = std::min(rock.element_size, inner / (n + 6));
-        return {size, n + static_cast<unsigned int>(std::lround((extent - inner) / size))};
-      }
-
-      /** Returns the length of the block that layers() gives for an extent [m]. */
-      double length(const double extent, const Layers &layers) const
-      {
-        return std::min(extent, rock.height) + (layers.count - n) * layers.size;
+        const double       inner = std::min(extent, rock.height);
+        const double       size = std::min(rock.element_size, inner / (n + 6));
+        const unsigned int more = std::lround((extent - inner) / size);
+        return {size, n + more, inner + more * size};
       }
 
       /** Computes the faces of the block, the element sizes at the faces and the numbers of elements. */
@@ -98,9 +94,9 @@ namespace Voussoir
         downstream = layers(rock.downstream);
         side = layers(rock.sides);
         below = layers(rock.depth);
-        x_upstream = x_min - length(rock.upstream, upstream);
-        x_downstream = x_max + length(rock.downstream, downstream);
-        z_bottom = bottom - length(rock.depth, below);
+        x_upstream = x_min - upstream.extent;
+        x_downstream = x_max + downstream.extent;
+        z_bottom = bottom - below.extent;
         plateau = valley.back()[1];
         valley.front()[1] = plateau;
         y_end = {-valley.front()[0], valley.back()[0]};
@@ -126,9 +122,8 @@ namespace Voussoir
         n_downstream = count_lines(false);
         measure_sides();
         const double below_valley = bottom - z_bottom - below.width(), above = plateau - bottom;
-        const double tallest = std::max(smallest, largest);
         n_down = std::clamp<unsigned int>(std::ceil(below_valley / smallest), 2,
-                                          n_graded(above + below_valley, surface_size, below.size, tallest));
+                                          n_graded(above + below_valley, surface_size, below.size, largest));
 
         first_column = side.count + n_side;
         first_layer = upstream.count + n_upstream;
@@ -145,7 +140,7 @@ namespace Voussoir
         n_side = 0;
         for (const unsigned int bank : {0, 1})
         {
-          y_side[bank] += length(rock.sides, side);
+          y_side[bank] += side.extent;
           n_side =
               std::max(n_side, n_graded(side_length(bank), column_size[bank], side.size, rock.element_size));
         }

@@ -73,7 +73,7 @@ namespace Voussoir
     /** Returns the bases by ascending number of the monolith. */
     const std::vector<BlockBase> &bases() const { return of_block; }
 
-    /** Returns the compression of each base by water in base joints on footings [N], which is part of its force.
+    /** Returns the compression of each base by the water in base joints [N], which is a part of its force.
      * @param pressure in each pair [Pa], or empty */
     std::vector<double> uplift_by(const std::vector<double> &pressure) const;
 

@@ -29,7 +29,7 @@ namespace Voussoir
     Vector3 resultant() const;
   };
 
-  constexpr const char *uplift_at_base = "uplift at the base"; ///< name of the load on base joints
+  constexpr const char *uplift_load = "uplift at the base"; ///< name of the load on base joints
 
   /** Static load of an input file. */
   struct LoadRow

@@ -19,12 +19,14 @@ namespace Voussoir
      *
      * @param model rock model with its stiffness matrix
      * @param base_nodes base nodes of the dam
-     * @param ratio factor of the stiffness matrix: sustained over Young's modulus [-] */
-    RockStaticState(const RockModel &model, const std::vector<BaseNode> &base_nodes, double ratio);
+     * @param ratio factor of the stiffness matrix: sustained over Young's modulus [-]
+     * @param has_footings the dam stands on footings, see with_footings() */
+    RockStaticState(const RockModel &model, const std::vector<BaseNode> &base_nodes, double ratio,
+                    bool has_footings = false);
 
     /** Returns the springs at the base nodes, see BaseSupport::static_springs(). They are ten times as stiff
      * as the stiffest base node of the monoliths in x. */
-    Unknowns springs(const Structure &structure);
+    Unknowns springs(const Structure &structure) const;
 
     /** Computes the static state of dam and rock. Arguments, result and exceptions are those of
      * BaseSupport::solve_static(). The first call creates the solver of the rock, which later calls use
@@ -49,8 +51,8 @@ namespace Voussoir
     const RockModel             &model;
     const std::vector<BaseNode> &base_nodes;
     const double                 ratio;
-    std::unique_ptr<RockStatics> rock; ///< solver of the rock, from the first solve() on
-    bool                         has_footings = false;
+    const bool                   has_footings;
+    std::unique_ptr<RockStatics> rock;            ///< solver of the rock, from the first solve() on
     unsigned int                 n_solutions = 0; ///< number of solutions of the rock so far
   };
 } // namespace Voussoir

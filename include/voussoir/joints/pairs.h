@@ -40,8 +40,8 @@ namespace Voussoir
    * least two pairs, in ascending order. */
   std::vector<std::vector<unsigned int>> clusters_of(const std::vector<Pair> &pairs);
 
-  /** Returns Structure::clusters and, if there are any, the feet of contraction joints on the rigid ground: the base pairs
-   * of the two blocks at the same place, and the nearest pair between the blocks. */
+  /** Returns Structure::clusters. If there are any, the lower ends of contraction joints on the rigid ground are added:
+   * the base pairs of the two blocks at the same place, and the nearest pair between the blocks. */
   std::vector<std::vector<unsigned int>> clusters_with_feet(const Structure &structure);
 } // namespace Voussoir
 

@@ -22,10 +22,8 @@ namespace Voussoir
     int  monolith_2() const { return monolith_of(block_2); }
     bool is_base() const { return block_1 == 0 || is_footing(block_1); }
     bool is_lift() const { return !is_base() && monolith_1() == monolith_2(); }
-    bool is_inside_monolith() const
-    {
-      return monolith_1() == monolith_2();
-    } ///< lift joints, base joints on footings
+    /** Returns true for lift joints and base joints on footings. */
+    bool is_inside_monolith() const { return monolith_1() == monolith_2(); }
     bool is_contraction() const { return !is_base() && !is_lift(); }
 
     /** Returns "contraction", "lift" or "base". */
