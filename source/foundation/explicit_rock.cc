@@ -38,12 +38,34 @@ namespace Voussoir
       : parameters(site.parameters), mesh(site.parameters.volumes_by_material(site.mesh)),
         source(site.source), generated_in(site.generated_in), incompatible_modes(site.incompatible_modes)
   {
+    read_incidence(parameters.incidence); // reports errors before any work
     if (site.degree != 1)
       throw InputError("Foundation/Model = rock requires Elements/Degree = 1, not " +
                        std::to_string(site.degree) +
                        ", because dam and rock share their nodes. Set \"Elements/Degree\" to 1, or "
                        "\"Foundation/Model\" to massless.");
   }
+
+  namespace
+  {
+    /** Returns the centre of the base at the height of its lowest node, where the waves arrive together [m]. */
+    Vector3 foot_of_dam(const RockModel &model, const std::vector<BaseNode> &at_base, const Vector3 &centre)
+    {
+      double lowest = std::numeric_limits<double>::max();
+      for (const BaseNode &f : at_base)
+        lowest = std::min(lowest, model.points[f.rock][2]);
+      return {{centre[0], centre[1], lowest}};
+    }
+
+    /** Returns the travel times of the waves with motion in x, y and z to the foot of the dam [s]. */
+    Vector3 times_to(const RockModel &model, const Vector3 &foot, const Incidence &incidence)
+    {
+      if (incidence.is_vertical() || model.columns.empty())
+        return travel_times(model, foot[2]);
+      const double time = arrival_time(model, incidence, foot);
+      return {{time, time, time}};
+    }
+  } // namespace
 
   void ExplicitRock::add_stiffness(const SolidModel &dam, Structure &)
   {
@@ -68,6 +90,8 @@ namespace Voussoir
     model = make_rock_part(mesh, rock, find, parameters.n_substeps());
     static_state = std::make_unique<RockStaticState>(model, at_base, parameters.sustained_ratio(),
                                                      !dam.on_footings.empty());
+    arrives = times_to(model, foot_of_dam(model, at_base, centre),
+                       region_parameters(parameters, centre, 0.).incidence);
     mesh = HexMesh(); // no longer needed
     release_free_memory();
     RayleighDamping damping;
@@ -98,14 +122,6 @@ namespace Voussoir
     return existing(static_state).solve(solve, springs, u, load, log);
   }
 
-  Vector3 ExplicitRock::arrival() const
-  {
-    double lowest = std::numeric_limits<double>::max();
-    for (const BaseNode &f : at_base)
-      lowest = std::min(lowest, model.points[f.rock][2]);
-    return travel_times(model, lowest);
-  }
-
   /** P waves enter later than the slower S waves, so that all components of the ground motion arrive at the
    * lowest base node at the same time. */
   void ExplicitRock::make_rock(const GroundMotion &outcrop, const TimeGrid &steps, const double delay,
@@ -115,8 +131,9 @@ namespace Voussoir
     release_free_memory();
     grid = steps;
     delay_of_region = delay;
-    const RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
-    RockSplit                  split(work_of_nodes(model, near_base));
+    RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
+    p.incidence = timed(model, p.incidence, foot_of_dam(model, at_base, centre));
+    RockSplit split(work_of_nodes(model, near_base));
     split.step_everywhere(rock_nodes(at_base));
     if (!split.is_trivial() && !near_base.empty())
     {
@@ -128,7 +145,6 @@ namespace Voussoir
     }
     region = make_region(model, p, std::move(split));
     const IncidentWave wave = incident_wave(outcrop);
-    const Vector3      arrives = arrival();
     const double       wait = delay + arrives[0] - arrives[2];
     rising = [wave, delay, wait](const double t)
     {
@@ -178,10 +194,10 @@ namespace Voussoir
 
   std::unique_ptr<ValleyMotion> ExplicitRock::valley(const std::vector<Vector3> &places)
   {
-    return std::make_unique<ValleyOnRock>(
-        make_free_field(model, region_parameters(parameters, centre, grid.substep()), rising,
-                        grid.n_substeps() + 3),
-        places, grid, delay_of_region);
+    RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
+    p.incidence = timed(model, p.incidence, foot_of_dam(model, at_base, centre));
+    return std::make_unique<ValleyOnRock>(make_free_field(model, p, rising, grid.n_substeps() + 3), places,
+                                          grid, delay_of_region);
   }
 
   void ExplicitRock::finish_step(const double time)
@@ -199,8 +215,9 @@ namespace Voussoir
   void ExplicitRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
   {
     check_rock_step(steps, steps_per_sample, dt_critical);
-    check_boundary(parameters, region_parameters(parameters, centre, steps.substep()), model,
-                   rock_nodes(at_base), dt_critical);
+    const RockRegionParameters region_at = region_parameters(parameters, centre, steps.substep());
+    check_boundary(parameters, region_at, model, rock_nodes(at_base), dt_critical);
+    check_waves(model, region_at);
   }
 
   void ExplicitRock::report(Log &log, const TimeGrid &steps) const

@@ -23,6 +23,13 @@ namespace Voussoir
         "the ground surface.",
         Selection("sections|columns"));
     prm.add_parameter(
+        "Incidence", incidence,
+        "Directions of the incident waves. vertical: all components of the motion rise vertically. Otherwise a list of plane "
+        "waves, such as \"SV 30 90, P 20 90 0.5\": type, angle from the vertical [deg], azimuth of the horizontal direction of "
+        "propagation from x to y [deg] and, if the wave arrives later than the others, the delay [s]. P carries the "
+        "vertical component of the motion, SV the horizontal component along the azimuth, SH the horizontal component normal to it. "
+        "Azimuth 90: from the right to the left bank.");
+    prm.add_parameter(
         "Nodal quadrature everywhere", nodal_everywhere,
         "true: nodal (Gauss-Lobatto) quadrature in all rock elements except those of \"Layers at the dam\". "
         "This is the fastest option, and it makes the free field by sections exact. false: nodal quadrature "

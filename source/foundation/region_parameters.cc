@@ -23,6 +23,7 @@ namespace Voussoir
     result.dt = dt;
     result.boundary = p.boundary;
     result.free_field = p.free_field;
+    result.incidence = {read_incidence(p.incidence), centre};
     return result;
   }
 } // namespace Voussoir

@@ -46,6 +46,10 @@ namespace Voussoir
     log.line("          %u nodes; boundary %s, free field by %s",
              static_cast<unsigned int>(model.points.size()), parameters.boundary.c_str(),
              parameters.free_field.c_str());
+    log.line("          10 elements or more per shear wave up to %.2g Hz (95 %% of the elements)",
+             .1 / model.largest_crossing);
+    if (parameters.incidence != "vertical")
+      log.line("          incident waves: %s", parameters.incidence.c_str());
     if (grid.n > 0)
       log.line("          the earthquake arrives at the lowest base node after %.3f s", delay);
     const std::string warning =

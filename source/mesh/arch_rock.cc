@@ -122,8 +122,9 @@ namespace Voussoir
         n_downstream = count_lines(false);
         measure_sides();
         const double below_valley = bottom - z_bottom - below.width(), above = plateau - bottom;
-        n_down = std::clamp<unsigned int>(std::ceil(below_valley / smallest), 2,
-                                          n_graded(above + below_valley, surface_size, below.size, largest));
+        n_down = std::clamp<unsigned int>(
+            std::ceil(below_valley / smallest), 2,
+            n_graded(above + below_valley, surface_size, below.size, rock.element_size));
 
         first_column = side.count + n_side;
         first_layer = upstream.count + n_upstream;

@@ -4,6 +4,8 @@
 #include <voussoir/mesh/coincident.h>
 #include <voussoir/rock/arrival.h>
 #include <voussoir/rock/free_field.h>
+#include <voussoir/rock/free_field_column.h>
+#include <voussoir/rock/oblique_column.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,16 +16,28 @@ namespace Voussoir
 {
   struct FreeField::Section
   {
-    RockModel                       model;
-    std::unique_ptr<ExplicitRegion> region;
-    unsigned int                    direction;
-    double                          plane; ///< coordinate along the direction [m]
-    std::unique_ptr<PointFinder>    nodes; ///< nodes projected along the direction
+    std::vector<Vector3>                        points; ///< nodes [m]
+    std::vector<std::unique_ptr<SectionMotion>> motions;
+    unsigned int                                direction;
+    double                                      plane; ///< coordinate along the direction [m]
+    std::unique_ptr<PointFinder>                nodes; ///< nodes projected along the direction
 
-    std::array<double, 3> projected(std::array<double, 3> place) const
+    Vector3 projected(Vector3 place) const
     {
       place[direction] = 0.;
       return place;
+    }
+
+    Vector3 displacement(const unsigned int node, const Vector3 &place) const
+    {
+      Vector3 result{};
+      for (const auto &motion : motions)
+      {
+        const Vector3 u = motion->displacement(node, place[direction]);
+        for (unsigned int c = 0; c < 3; ++c)
+          result[c] += u[c];
+      }
+      return result;
     }
   };
 
@@ -45,8 +59,30 @@ namespace Voussoir
     }
   } // namespace
 
+  namespace
+  {
+    /** Returns corners of a box around the model, with a margin for places one cell outside [m]. */
+    std::pair<Vector3, Vector3> surroundings(const RockModel &model)
+    {
+      Vector3 first = model.points.front(), last = first;
+      for (const Vector3 &p : model.points)
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          first[d] = std::min(first[d], p[d]);
+          last[d] = std::max(last[d], p[d]);
+        }
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        const double margin = .5 * (last[d] - first[d]);
+        first[d] -= margin;
+        last[d] += margin;
+      }
+      return {first, last};
+    }
+  } // namespace
+
   FreeField::FreeField(const RockModel &model, const RayleighDamping &damping, const double dt,
-                       const unsigned int n_steps, const IncidentWave &wave)
+                       const unsigned int n_steps, const IncidentWave &wave, const Incidence &incidence)
   {
     if (model.columns.empty())
       throw InputError(
@@ -54,69 +90,79 @@ namespace Voussoir
           "Put the bottom faces of the rock into the surface \"artificial boundary\" (id 6).");
     double lowest = std::numeric_limits<double>::max();
     for (const RockColumn &column : model.columns)
-      lowest = std::min(lowest, entrance(column));
-
-    std::vector<unsigned int> different; // columns of the model
-    for (unsigned int c = 0; c < model.columns.size(); ++c)
     {
-      const RockColumn &column = model.columns[c];
-      unsigned int      k = 0;
-      while (k < different.size() && !same(column, model.columns[different[k]]))
+      lowest = std::min(lowest, entrance(column));
+      unsigned int k = 0;
+      while (k < grounds.size() && !same(column, grounds[k]))
         ++k;
       number.push_back(k);
-      if (k == different.size())
+      if (k < grounds.size())
+        continue;
+      grounds.push_back(column);
+      if (column.z.back() > grounds[highest].z.back())
+        highest = k;
+    }
+    columns.resize(grounds.size());
+    const ColumnRun run{damping, dt, n_steps, wave, lowest};
+    if (incidence.is_vertical())
+      make_column = [run](const RockColumn &column) -> std::unique_ptr<GroundColumn>
       {
-        different.push_back(c);
         Vector3 delay = wave_speeds(column.material.front());
         for (double &d : delay)
-          d = (entrance(column) - lowest) / d;
-        columns.push_back(std::make_unique<FreeFieldColumn>(column, damping, dt, n_steps, wave, delay));
-        if (columns[k]->z().back() > columns[highest]->z().back())
-          highest = k;
-      }
-    }
+          d = (entrance(column) - run.lowest) / d;
+        return std::make_unique<FreeFieldColumn>(column, run.damping, run.dt, run.n_steps, run.wave, delay);
+      };
+    else
+      make_column = [run, incidence, box = surroundings(model),
+                     half_space = grounds[highest].material.front()](
+                        const RockColumn &column) -> std::unique_ptr<GroundColumn>
+      { return std::make_unique<ObliqueColumn>(column, run, incidence, half_space, box); };
+    columns[highest] = make_column(grounds[highest]);
   }
 
   FreeField::~FreeField() = default;
 
-  void FreeField::add_section(RockModel model, std::unique_ptr<ExplicitRegion> region,
+  void FreeField::add_section(const RockModel &model, std::vector<std::unique_ptr<SectionMotion>> motions,
                               const unsigned int direction)
   {
     auto section = std::make_unique<Section>();
-    section->model = std::move(model);
-    section->region = std::move(region);
+    section->points = model.points;
+    section->motions = std::move(motions);
     section->direction = direction;
-    const auto &points = section->model.points;
-    section->plane = points.front()[direction];
-    double size = 0.;
-    for (const auto &p : points)
-      size = std::max(size, std::abs(p[2] - points.front()[2]));
-    std::vector<std::array<double, 3>> places;
-    for (const auto &p : points)
+    section->plane = section->points.front()[direction];
+    double               size = 0.;
+    std::vector<Vector3> places;
+    for (const Vector3 &p : section->points)
+    {
+      size = std::max(size, std::abs(p[2] - section->points.front()[2]));
       places.push_back(section->projected(p));
+    }
     section->nodes = std::make_unique<PointFinder>(places, 1e-6 * size);
     sections.push_back(std::move(section));
   }
 
-  FreeField::Point FreeField::in_column(const unsigned int column, const double z) const
+  FreeField::Point FreeField::at_level(const unsigned int column, const int level, const Vector3 &place)
   {
-    const FreeFieldColumn     &c = *columns[column];
-    const std::vector<double> &height = c.z();
+    if (!columns[column])
+      columns[column] = make_column(grounds[column]);
+    return {nullptr, no_node, column, {{level}}, {{1., 0., 0., 0.}}, place};
+  }
+
+  FreeField::Point FreeField::in_column(const unsigned int column, const Vector3 &place)
+  {
+    const std::vector<double> &height = grounds[column].z;
+    const double               z = place[2];
     const unsigned int         n = std::min<std::size_t>(4, height.size());
-    Point                      point{{}, {{1., 0., 0., 0.}}, column};
     const unsigned int         above = std::lower_bound(height.begin(), height.end(), z) - height.begin();
     for (unsigned int k = above == 0 ? 0 : above - 1; k <= above && k < height.size(); ++k)
       if (std::abs(height[k] - z) < 1e-9 * (height.back() - height.front()))
-      {
-        for (unsigned int i = 0; i < 4; ++i)
-          point.value[i] = c.displacement(k);
-        return point;
-      }
+        return at_level(column, k, place);
     // Cubic interpolation.
+    Point              point = at_level(column, 0, place);
     const unsigned int first = std::min<std::size_t>(above < 2 ? 0 : above - 2, height.size() - n);
     for (unsigned int i = 0; i < 4; ++i)
     {
-      point.value[i] = c.displacement(first + std::min(i, n - 1));
+      point.level[i] = first + std::min(i, n - 1);
       point.weight[i] = i < n ? 1. : 0.;
       for (unsigned int j = 0; j < n; ++j)
         if (i < n && j != i)
@@ -143,21 +189,17 @@ namespace Voussoir
     }
     if (nearest == nullptr)
       return false;
-    for (unsigned int i = 0; i < 4; ++i)
-      point.value[i] = nearest->region->displacement().data() + 3 * std::size_t(node);
-    point.weight = {{1., 0., 0., 0.}};
-    point.column = no_node;
+    point = Point();
+    point.section = nearest;
+    point.node = node;
+    point.place = place;
     return true;
   }
 
-  FreeField::Point FreeField::of_line(const RockModel &model, const unsigned int line,
-                                      const unsigned int k) const
+  FreeField::Point FreeField::of_line(const RockModel &model, const unsigned int line, const Vector3 &place)
   {
-    const RockModel::Place place = model.place[line];
-    if (place.column == no_node)
-      return in_column(highest, model.points[model.lines[line].nodes[k]][2]);
-    const unsigned int column = number[place.column];
-    return in_column(column, columns[column]->z()[place.level]);
+    const RockModel::Place at = model.place[line];
+    return at.column == no_node ? in_column(highest, place) : at_level(number[at.column], at.level, place);
   }
 
   void FreeField::add_lines(const RockModel &model, const unsigned int n)
@@ -169,9 +211,17 @@ namespace Voussoir
       for (unsigned int k = 0; k < n && all; ++k)
         all = in_section(model.points[model.lines[line].nodes[k]], found[k]);
       for (unsigned int k = 0; k < n && !all; ++k)
-        found[k] = of_line(model, line, k);
+        found[k] = of_line(model, line, model.points[model.lines[line].nodes[k]]);
       points.insert(points.end(), found.begin(), found.end());
     }
+  }
+
+  void FreeField::add_end_of_line(const RockModel &model, const unsigned int line, const Vector3 &place,
+                                  const bool is_below)
+  {
+    const unsigned int column = model.place[line].column;
+    points.push_back(is_below ? at_level(column == no_node ? highest : number[column], -1, place)
+                              : of_line(model, line, place));
   }
 
   void FreeField::add_nodes(const RockModel &model, const std::vector<unsigned int> &nodes)
@@ -186,8 +236,8 @@ namespace Voussoir
       Point      point;
       const auto found = line_of.find(node);
       if (!in_section(model.points[node], point))
-        point = found == line_of.end() ? in_column(highest, model.points[node][2])
-                                       : of_line(model, found->second.first, found->second.second);
+        point = found == line_of.end() ? in_column(highest, model.points[node])
+                                       : of_line(model, found->second.first, model.points[node]);
       points.push_back(point);
     }
   }
@@ -198,7 +248,7 @@ namespace Voussoir
     is_split = true;
     std::vector<double> work;
     for (const auto &column : columns)
-      work.push_back(column->motion().size());
+      work.push_back(column ? column->motion().size() : 0.);
     share = Shares(work);
     find_partners();
   }
@@ -242,7 +292,7 @@ namespace Voussoir
     for_each_parallel(n,
                       [&](const int c)
                       {
-                        if (!is_split || share.is_mine(c))
+                        if (columns[c] && (!is_split || share.is_mine(c)))
                           columns[c]->advance();
                       });
     for (Partner &partner : partners)
@@ -254,7 +304,8 @@ namespace Voussoir
           {partner.rank, partner.out.data(), partner.out.size(), partner.in.data(), partner.in.size()});
     }
     for (const auto &section : sections)
-      section->region->begin_step({}, {}, messages);
+      for (const auto &motion : section->motions)
+        motion->begin_step(messages);
   }
 
   void FreeField::end_step()
@@ -266,11 +317,13 @@ namespace Voussoir
       {
         Unknowns &motion = columns[c]->motion();
         std::copy_n(from, motion.size(), motion.begin());
+        columns[c]->received();
         from += motion.size();
       }
     }
     for (const auto &section : sections)
-      section->region->end_step({});
+      for (const auto &motion : section->motions)
+        motion->end_step();
   }
 
   void FreeField::evaluate(Unknowns &u) const
@@ -279,15 +332,26 @@ namespace Voussoir
     const int n = is_split ? kept.size() : points.size();
 #pragma omp parallel for schedule(static)
     for (int k = 0; k < n; ++k)
-      for (unsigned int c = 0; c < 3; ++c)
+    {
+      const std::size_t i = is_split ? kept[k] : k;
+      const Vector3     value = displacement(points[i]);
+      std::copy(value.begin(), value.end(), u.begin() + 3 * i);
+    }
+  }
+
+  Vector3 FreeField::displacement(const Point &point) const
+  {
+    if (point.section != nullptr)
+      return point.section->displacement(point.node, point.place);
+    Vector3 u{};
+    for (unsigned int j = 0; j < 4; ++j)
+      if (point.weight[j] != 0.)
       {
-        const std::size_t i = is_split ? kept[k] : k;
-        const Point      &p = points[i];
-        u[3 * i + c] = p.weight[0] * p.value[0][c];
-        for (unsigned int j = 1; j < 4; ++j)
-          if (p.weight[j] != 0.)
-            u[3 * i + c] += p.weight[j] * p.value[j][c];
+        const Vector3 at = columns[point.column]->displacement(point.level[j], point.place);
+        for (unsigned int c = 0; c < 3; ++c)
+          u[c] += point.weight[j] * at[c];
       }
+    return u;
   }
 
   Unknowns FreeField::upstream(const std::vector<Vector3> &places)
@@ -301,7 +365,7 @@ namespace Voussoir
       {
         const auto distance = [&](const std::array<double, 3> &p)
         { return std::hypot(p[1] - place[1], p[2] - place[2]); };
-        const auto &points = section->model.points;
+        const auto &points = section->points;
         upstream_nodes.push_back(std::min_element(points.begin(), points.end(),
                                                   [&](const auto &a, const auto &b)
                                                   { return distance(a) < distance(b); }) -
@@ -309,37 +373,38 @@ namespace Voussoir
       }
     Unknowns result;
     for (std::size_t i = 0; i < places.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-        if (section != nullptr)
-          result.push_back(section->region->displacement()[3 * std::size_t(upstream_nodes[i]) + c]);
-        else
-        {
-          const Point point = in_column(highest, places[i][2]);
-          result.push_back(0.);
-          for (unsigned int j = 0; j < 4; ++j)
-            result.back() += point.weight[j] * point.value[j][c];
-        }
+    {
+      Vector3 u;
+      if (section != nullptr)
+        u = section->displacement(upstream_nodes[i], section->points[upstream_nodes[i]]);
+      else
+        u = displacement(in_column(highest, places[i]));
+      result.insert(result.end(), u.begin(), u.end());
+    }
     return result;
   }
 
   void FreeField::gather_on_root()
   {
     for (unsigned int c = 0; is_split && c < columns.size(); ++c)
-      for (auto *array : columns[c]->state())
+      for (auto *array : columns[c] ? columns[c]->state() : std::vector<std::vector<double> *>())
         Ranks::broadcast(array->data(), array->size(), share.owner(c));
     for (const auto &section : sections)
-      section->region->gather_on_root();
+      for (const auto &motion : section->motions)
+        motion->gather_on_root();
   }
 
   std::vector<std::vector<double> *> FreeField::state()
   {
     std::vector<std::vector<double> *> arrays;
     for (const auto &column : columns)
-      for (auto *array : column->state())
-        arrays.push_back(array);
+      if (column)
+        for (auto *array : column->state())
+          arrays.push_back(array);
     for (const auto &section : sections)
-      for (auto *array : section->region->state())
-        arrays.push_back(array);
+      for (const auto &motion : section->motions)
+        for (auto *array : motion->state())
+          arrays.push_back(array);
     return arrays;
   }
 } // namespace Voussoir

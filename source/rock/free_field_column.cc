@@ -6,16 +6,12 @@
 
 namespace Voussoir
 {
-  namespace
+  unsigned int endless_length(const Vector3 &courant, const unsigned int n_steps)
   {
-    /** Returns the number of cells for which no reflection returns within @p n_steps steps. The forerunners
-     * of the front decay like those of an Airy function, over (number of cells)^(1/3). */
-    unsigned int endless_length(const Vector3 &courant, const unsigned int n_steps)
-    {
-      const double path = .5 * n_steps * *std::max_element(courant.begin(), courant.end());
-      return static_cast<unsigned int>(path + 10. * std::cbrt(path)) + 50;
-    }
-  } // namespace
+    // The forerunners of the front decay like those of an Airy function, over (number of cells)^(1/3).
+    const double path = .5 * n_steps * *std::max_element(courant.begin(), courant.end());
+    return static_cast<unsigned int>(path + 10. * std::cbrt(path)) + 50;
+  }
 
   EndlessColumn::EndlessColumn(const Vector3 &courant, const RayleighDamping &damping, const double dt,
                                const unsigned int n_steps)
@@ -84,8 +80,14 @@ namespace Voussoir
     }
     mass[0] += .5 * column.material[0].density * (height[1] - height[0]);
     std::copy(stiffness.begin(), stiffness.begin() + 3, bottom_stiffness.begin());
-    u.assign(3 * n, 0.);
+    u.assign(3 * (n + 1), 0.);
     w = x = u;
+  }
+
+  Vector3 FreeFieldColumn::displacement(const int level, const Vector3 &) const
+  {
+    const double *at = level < 0 ? &u[u.size() - 3] : &u[3 * std::size_t(level)];
+    return {{at[0], at[1], at[2]}};
   }
 
   Vector3 FreeFieldColumn::incident(const double t) const
@@ -132,6 +134,7 @@ namespace Voussoir
       left[c] = next_left[c];
       at_bottom[c] = next_bottom[c];
       entering[c] = next_entering[c];
+      u[3 * n + c] = entering[c] + left[c];
     }
   }
 

@@ -3,7 +3,7 @@
 #include <voussoir/mesh/coincident.h>
 #include <voussoir/rock/boundary_table.h>
 #include <voussoir/rock/rock_region.h>
-#include <voussoir/rock/sections.h>
+#include <voussoir/rock/zone_forces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -110,25 +110,68 @@ namespace Voussoir
     }
   } // namespace
 
+  namespace
+  {
+    double height(const HexMesh &mesh)
+    {
+      const auto box = bounding_box(mesh);
+      return box.second[2] - box.first[2];
+    }
+
+    /** Adds the section through one side of the model to @p field, if the side exists. */
+    void add_section(FreeField &field, const HexMesh &section, const RockModel &model,
+                     const RockRegionParameters &parameters, const IncidentWave &wave,
+                     const unsigned int n_steps, const RockSplit &split)
+    {
+      RockRegionParameters plane = of_sections(parameters);
+      plane.rock.centre[0] = section.nodes[0][0]; // the section has its own source point
+      const RockModel    inner = make_rock_model(section, plane.rock, tie_layer(section, 0));
+      const unsigned int n = layers_of_zone(section, parameters.width_of_zone * height(section),
+                                            make_boundary(plane)->n_layers() + 1);
+      const WideSection  wide = widened(section, 0, n);
+      plane.rock.nodal_layers += n;
+      RockModel slice = make_rock_model(wide.mesh, plane.rock, tie_layer(wide.mesh, 0));
+      for (BoundaryLine &line : slice.lines)
+        line.distance *= 2.; // plane waves spread as r^(-1/2), those of a source in space as 1/r
+      auto motion = make_region(slice, plane, split_of_section(slice, 0, model, split));
+      auto forces = std::make_unique<ZoneForces>(wide, slice, inner, 0, plane, wave, n_steps);
+      std::vector<std::unique_ptr<SectionMotion>> motions;
+      motions.push_back(std::make_unique<StraightSection>(std::move(motion), std::move(forces)));
+      field.add_section(slice, std::move(motions), 0);
+    }
+  } // namespace
+
+  void check_waves(const RockModel &model, const RockRegionParameters &parameters)
+  {
+    const bool has_sections =
+        parameters.free_field == "sections" &&
+        std::any_of(model.faces.begin(), model.faces.end(),
+                    [](const BoundaryFace &face) { return std::abs(face.normal[0]) > .7; });
+    for (const PlaneWave &wave : parameters.incidence.waves)
+    {
+      for (const RockColumn &column : model.columns)
+        check_incidence(wave, column.material, model.columns.front().material.front());
+      if (has_sections && std::abs(std::sin(wave.angle) * std::cos(wave.azimuth)) > 1e-9)
+        throw InputError(
+            "\"Foundation/Incidence\": a wave has a component along the valley (x). With "
+            "\"Foundation/Free field\" = sections the waves must rise vertically or across the valley: set their "
+            "azimuth to 90 or -90 degrees. If the ground is level, set \"Foundation/Free field\" to columns.");
+    }
+  }
+
   std::unique_ptr<FreeField> make_free_field(const RockModel &model, const RockRegionParameters &parameters,
                                              const IncidentWave &wave, const unsigned int n_steps,
                                              const RockSplit &split)
   {
-    auto field = std::make_unique<FreeField>(model, parameters.damping, parameters.dt, n_steps, wave);
+    check_waves(model, parameters);
+    auto field = std::make_unique<FreeField>(model, parameters.damping, parameters.dt, n_steps, wave,
+                                             parameters.incidence);
     if (parameters.free_field == "sections")
       for (const int sense : {-1, 1})
       {
         const HexMesh section = extruded_section(model, 0, sense);
-        if (section.cells.empty())
-          continue;
-        RockRegionParameters plane = of_sections(parameters);
-        plane.rock.centre[0] = section.nodes[0][0]; // the section has its own source point
-        RockModel slice = make_rock_model(section, plane.rock, tie_layer(section, 0));
-        for (BoundaryLine &line : slice.lines)
-          line.distance *= 2.; // plane waves spread as r^(-1/2), those of a source in space as 1/r
-        auto motion = make_region(slice, plane, split_of_section(slice, 0, model, split));
-        shake(*motion, slice, plane, wave, n_steps); // without sections of its own
-        field->add_section(std::move(slice), std::move(motion), 0);
+        if (!section.cells.empty())
+          add_section(*field, section, model, parameters, wave, n_steps, split);
       }
     else if (parameters.free_field != "columns")
       throw InputError("There is no free field \"" + parameters.free_field +

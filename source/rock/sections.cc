@@ -72,4 +72,136 @@ namespace Voussoir
       }
     return section;
   }
+
+  namespace
+  {
+    /** Face of a section, with the cell behind it. */
+    struct EdgeFace
+    {
+      const HexMesh::Face *face;
+      unsigned int         cell, axis;
+      int                  sense; ///< the outward normal has the direction sense times axis
+
+      bool has(const unsigned int node) const
+      {
+        return std::find(face->nodes.begin(), face->nodes.end(), node) != face->nodes.end();
+      }
+    };
+
+    /** Returns the node of a cell at the other end of the edge that leads from the corner @p v to the face, or
+     * away from the face. */
+    unsigned int across(const EdgeFace &edge, const HexMesh::Cell &cell, const unsigned int v)
+    {
+      const unsigned int first = v / 4 * 4;
+      for (const unsigned int w : {first + (v + 1) % 4, first + (v + 3) % 4, (v + 4) % 8})
+        if (edge.has(cell.nodes[w]) != edge.has(cell.nodes[v]))
+          return cell.nodes[w];
+      return cell.nodes[v];
+    }
+
+    std::vector<EdgeFace> edge_faces(const HexMesh &section)
+    {
+      const FaceTable       table(section);
+      std::vector<EdgeFace> result;
+      for (const HexMesh::Face &face : section.faces)
+      {
+        EdgeFace      edge{&face, table.owners(face.nodes).first->cell, 0, 1};
+        const Vector3 outward = centre(section, face.nodes) - centre(section, section.cells[edge.cell].nodes);
+        for (unsigned int d = 1; d < 3; ++d)
+          if (std::abs(outward[d]) > std::abs(outward[edge.axis]))
+            edge.axis = d;
+        edge.sense = outward[edge.axis] < 0. ? -1 : 1;
+        result.push_back(edge);
+      }
+      return result;
+    }
+
+    /** Extrudes the faces of one side of the section along the axis. */
+    void extrude(WideSection &wide, const unsigned int axis, const int sense, const unsigned int n_layers)
+    {
+      const HexMesh                                     before = wide.mesh;
+      HexMesh                                          &mesh = wide.mesh;
+      std::map<unsigned int, std::vector<unsigned int>> copies; // node -> itself and its copies in the layers
+      const auto copy = [&](const unsigned int node, const unsigned int inside)
+      {
+        std::vector<unsigned int> &line = copies[node];
+        if (!line.empty())
+          return;
+        line.push_back(node);
+        for (unsigned int k = 1; k <= n_layers; ++k)
+        {
+          line.push_back(mesh.nodes.size());
+          mesh.nodes.push_back(before.nodes[node]);
+          mesh.nodes.back()[axis] += k * (before.nodes[node][axis] - before.nodes[inside][axis]);
+          wide.root.push_back(wide.root[node]);
+          wide.is_below.push_back(wide.is_below[node] || axis == 2);
+        }
+      };
+      const std::vector<EdgeFace>                     edges = edge_faces(before);
+      std::set<std::pair<unsigned int, unsigned int>> other_edges; // of faces with another direction
+      mesh.faces.clear();
+      for (const EdgeFace &edge : edges)
+        if (edge.axis != axis || edge.sense != sense)
+        {
+          mesh.faces.push_back(*edge.face);
+          for (unsigned int i = 0; i < 4; ++i)
+            other_edges.insert(std::minmax(edge.face->nodes[i], edge.face->nodes[(i + 1) % 4]));
+        }
+      for (const EdgeFace &edge : edges)
+        if (edge.axis == axis && edge.sense == sense)
+        {
+          const HexMesh::Cell &cell = before.cells[edge.cell];
+          for (unsigned int v = 0; v < 8; ++v)
+            if (edge.has(cell.nodes[v]))
+              copy(cell.nodes[v], across(edge, cell, v));
+          for (unsigned int k = 1; k <= n_layers; ++k)
+          {
+            HexMesh::Cell added = cell;
+            for (unsigned int v = 0; v < 8; ++v)
+              added.nodes[v] =
+                  edge.has(cell.nodes[v]) ? copies[cell.nodes[v]][k] : copies[across(edge, cell, v)][k - 1];
+            mesh.cells.push_back(added);
+          }
+          HexMesh::Face outer = *edge.face;
+          for (unsigned int i = 0; i < 4; ++i)
+          {
+            const unsigned int a = edge.face->nodes[i], b = edge.face->nodes[(i + 1) % 4];
+            outer.nodes[i] = copies[a][n_layers];
+            for (unsigned int k = 1; k <= n_layers && other_edges.count(std::minmax(a, b)); ++k)
+              mesh.faces.push_back(
+                  {{copies[a][k - 1], copies[b][k - 1], copies[b][k], copies[a][k]}, PhysicalId::artificial});
+          }
+          mesh.faces.push_back(outer);
+        }
+    }
+  } // namespace
+
+  WideSection widened(const HexMesh &section, const unsigned int direction, const unsigned int n_layers)
+  {
+    WideSection wide{section,
+                     {},
+                     std::vector<bool>(section.nodes.size(), false),
+                     section.nodes.size(),
+                     section.cells.size()};
+    for (unsigned int i = 0; i < section.nodes.size(); ++i)
+      wide.root.push_back(i);
+    extrude(wide, 1 - direction, -1, n_layers);
+    extrude(wide, 1 - direction, 1, n_layers);
+    extrude(wide, 2, -1, n_layers);
+    return wide;
+  }
+
+  unsigned int layers_of_zone(const HexMesh &section, const double width, const unsigned int least)
+  {
+    double size = 0.;
+    for (const EdgeFace &edge : edge_faces(section))
+    {
+      const HexMesh::Cell &cell = section.cells[edge.cell];
+      for (unsigned int v = 0; v < 8; ++v)
+        if (edge.has(cell.nodes[v]))
+          size = std::max(size, std::abs(section.nodes[cell.nodes[v]][edge.axis] -
+                                         section.nodes[across(edge, cell, v)][edge.axis]));
+    }
+    return size > 0. ? std::max<unsigned int>(least, std::lround(width / size)) : least;
+  }
 } // namespace Voussoir

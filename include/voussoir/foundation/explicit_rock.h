@@ -39,7 +39,7 @@ namespace Voussoir
     /** Returns the travel times of the upward waves to the lowest base node: S waves with motion in x and y,
      * P wave with motion in z [s]. The waves enter one element below the lowest rock node. Must be called
      * after add_stiffness(). */
-    Vector3 arrival() const;
+    Vector3 arrival() const { return arrives; }
 
     /** Returns the time at which the ground motion arrives at the lowest base node: the travel time of the S
      * waves, arrival()[0] [s]. All components arrive at this time, because the faster P wave enters the rock
@@ -115,6 +115,7 @@ namespace Voussoir
     std::array<double, 3> centre{};         ///< mean position of the base, source of scattered waves [m]
     RockModel             model;            ///< after start() without stiffness matrix
     std::vector<BaseNode> at_base;          ///< base nodes, ascending by rock node
+    Vector3               arrives{};        ///< arrival() [s]
     double                dt_critical = 0.; ///< critical time step of the rock [s]
 
     std::unique_ptr<RockStaticState> static_state; ///< from add_stiffness() to start()

@@ -22,6 +22,7 @@ namespace Voussoir
     ZoneEntry    zones;                                       ///< materials of named rock volumes
     double       mass_damping = 0., stiffness_damping = 2e-5; ///< Rayleigh damping [1/s], [s]
     std::string  boundary = "mtf3", free_field = "sections";  ///< see boundary_table.h; sections or columns
+    std::string  incidence = "vertical";                      ///< see read_incidence()
     bool         nodal_everywhere = true;                     ///< nodal quadrature, except at the dam
     unsigned int nodal_layers = 6;  ///< element layers of nodal quadrature at the artificial boundary
     unsigned int layers_at_dam = 3; ///< element layers with the dam's quadrature at the base

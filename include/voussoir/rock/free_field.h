@@ -2,9 +2,12 @@
 #ifndef voussoir_free_field_h
 #define voussoir_free_field_h
 
-#include <voussoir/rock/explicit_region.h>
-#include <voussoir/rock/free_field_column.h>
+#include <voussoir/rock/ground_column.h>
+#include <voussoir/rock/incident_field.h>
+#include <voussoir/rock/incident_wave.h>
+#include <voussoir/rock/plane_wave.h>
 #include <voussoir/rock/rock_model.h>
+#include <voussoir/rock/section_motion.h>
 
 #include <memory>
 
@@ -12,7 +15,7 @@ namespace Voussoir
 {
   /** Free-field motion: motion of the ground without dam and topography, integrated in step with the region.
    * It consists of columns of layered ground and of sections through the valley. A section is an extruded
-   * slice of the mesh. It is a region of its own with columns at its sides. */
+   * slice of the mesh, with a motion of its own. Its motions for waves of different slownesses are added. */
   class FreeField : public IncidentField
   {
   public:
@@ -22,19 +25,24 @@ namespace Voussoir
      * @param dt time step of the rock [s]
      * @param n_steps largest number of steps of the run
      * @param wave incident wave
+     * @param incidence directions of the waves
      *
-     * Throws InputError if the artificial boundary has no bottom. */
+     * Throws InputError if the artificial boundary has no bottom, and for waves that do not propagate in the rock. */
     FreeField(const RockModel &model, const RayleighDamping &damping, double dt, unsigned int n_steps,
-              const IncidentWave &wave);
+              const IncidentWave &wave, const Incidence &incidence = {});
     ~FreeField() override;
 
     /** Adds a section. Points of lines take the motion of the section if their position agrees with a node of
      * the section in both directions other than @p direction (0: x, 1: y). Call it before points are added.
      */
-    void add_section(RockModel section, std::unique_ptr<ExplicitRegion> region, unsigned int direction);
+    void add_section(const RockModel &section, std::vector<std::unique_ptr<SectionMotion>> motions,
+                     unsigned int direction);
 
     /** Adds the first @p n nodes of every line as points, line after line. */
     void add_lines(const RockModel &model, unsigned int n);
+
+    /** Adds the first node of a line as a point at the given place or, if @p is_below, the place one cell below the foot of its column. */
+    void add_end_of_line(const RockModel &model, unsigned int line, const Vector3 &place, bool is_below);
 
     /** Adds the given nodes as points. Nodes of lines move like their line. */
     void add_nodes(const RockModel &model, const std::vector<unsigned int> &nodes);
@@ -53,7 +61,7 @@ namespace Voussoir
      * @p places: the same in all calls; the x coordinate does not count. Not after split_up(). */
     Unknowns upstream(const std::vector<Vector3> &places);
 
-    unsigned int n_columns() const { return static_cast<unsigned int>(columns.size()); }
+    unsigned int n_columns() const { return static_cast<unsigned int>(grounds.size()); }
 
     std::vector<std::vector<double> *> state() override;
     void                               gather_on_root() override;
@@ -62,9 +70,12 @@ namespace Voussoir
     struct Section;
     struct Point
     {
-      const double         *value[4]; ///< three components each
-      std::array<double, 4> weight;
-      unsigned int          column = no_node; ///< column that the point follows, or no_node
+      const Section        *section = nullptr;        ///< section that the point follows, or null
+      unsigned int          node = no_node;           ///< of the section
+      unsigned int          column = no_node;         ///< column that the point follows, or no_node
+      std::array<int, 4>    level{};                  ///< of the column
+      std::array<double, 4> weight{{1., 0., 0., 0.}}; ///< per level
+      Vector3               place{};                  ///< [m]
     };
 
     /** Columns exchanged with another process: this process integrates give, the other one take. */
@@ -75,12 +86,18 @@ namespace Voussoir
       std::vector<double>       out, in; ///< displacements of the columns [m]
     };
 
-    void  find_partners();
-    Point in_column(unsigned int column, double z) const;
-    bool  in_section(const std::array<double, 3> &place, Point &point) const;
-    Point of_line(const RockModel &model, unsigned int line, unsigned int k) const;
+    void    find_partners();
+    Point   in_column(unsigned int column, const Vector3 &place);
+    Point   at_level(unsigned int column, int level, const Vector3 &place);
+    Vector3 displacement(const Point &point) const;
+    bool    in_section(const Vector3 &place, Point &point) const;
+    Point   of_line(const RockModel &model, unsigned int line, const Vector3 &place);
 
-    std::vector<std::unique_ptr<FreeFieldColumn>> columns;
+    /** Creates a column of the model at rest. */
+    std::function<std::unique_ptr<GroundColumn>(const RockColumn &)> make_column;
+
+    std::vector<RockColumn>                    grounds; ///< different columns of the model
+    std::vector<std::unique_ptr<GroundColumn>> columns; ///< per ground; null if no point follows it
     std::vector<unsigned int>             number; ///< per column of the model: index of its equal in columns
     unsigned int                          highest = 0;
     std::vector<std::unique_ptr<Section>> sections;

@@ -2,6 +2,7 @@
 #ifndef voussoir_free_field_column_h
 #define voussoir_free_field_column_h
 
+#include <voussoir/rock/ground_column.h>
 #include <voussoir/rock/incident_wave.h>
 #include <voussoir/rock/rock_model.h>
 
@@ -9,6 +10,10 @@ namespace Voussoir
 {
   /** Returns the speeds of vertically propagating waves with motion in x, y and z: S, S and P [m/s]. */
   Vector3 wave_speeds(const Material &material);
+
+  /** Returns the number of cells of a uniform line from whose end no reflection returns to the beginning within @p n_steps
+   * steps. @p courant: Courant numbers of its waves. */
+  unsigned int endless_length(const Vector3 &courant, unsigned int n_steps);
 
   /** Uniform half-space of one-dimensional cells, driven at its first node. Its length is chosen so that no
    * reflection returns within the given number of steps. The integration is explicit, as in the region. */
@@ -38,7 +43,7 @@ namespace Voussoir
 
   /** Motion of horizontally layered ground in a discrete column. The total motion of a flat region equals it
    * up to round-off. Below the lowest node the ground continues with the properties of the lowest cell. */
-  class FreeFieldColumn
+  class FreeFieldColumn : public GroundColumn
   {
   public:
     /** Creates a column at rest. @p delay: travel time of the S (x, y) and P (z) waves until the wave enters
@@ -46,17 +51,15 @@ namespace Voussoir
     FreeFieldColumn(const RockColumn &column, const RayleighDamping &damping, double dt, unsigned int n_steps,
                     const IncidentWave &wave, const Vector3 &delay);
 
-    /** Advances the column by one time step. */
-    void advance();
+    void    advance() override;
+    Vector3 displacement(int level, const Vector3 &place) const override;
 
-    const std::vector<double> &z() const { return height; } ///< heights of the nodes, ascending [m]
-    const double              *displacement(const unsigned int level) const
+    std::vector<double> &motion() override
     {
-      return &u[3 * level];
-    }                                           ///< three components [m]
-    std::vector<double> &motion() { return u; } ///< displacement of all levels, three components each [m]
+      return u;
+    } ///< displacement of all levels and one cell below [m]
 
-    std::vector<std::vector<double> *> state();
+    std::vector<std::vector<double> *> state() override;
 
   private:
     Vector3 incident(double t) const;
@@ -69,7 +72,8 @@ namespace Voussoir
     Vector3         delay, bottom_stiffness;
     EndlessColumn   rising,
         leaving; ///< incident wave above its entrance; wave that leaves below the lowest node
-    std::vector<double> u, w, x;
+    std::vector<double> u, w,
+        x;                     ///< three values per node; the last three of u: one cell below the lowest node
     std::vector<double> below; ///< incident wave one cell below and at the lowest node, leaving wave;
                                ///< displacement one cell below in the previous step
     std::vector<double> time;  ///< [s], one value

@@ -53,6 +53,8 @@ namespace Voussoir
     unsigned int           n_cells_at_dam = 0; ///< number of cells in RockParameters::layers_at_dam
     unsigned int           n_nodal_at_dam =
         0; ///< number of these cells that lie in the layers at the artificial boundary
+    double largest_crossing =
+        0.; ///< time of a shear wave along the longest edge of a cell, of 95 % of the cells [s]
     std::vector<double>       mass;    ///< lumped mass of each node [kg]
     std::vector<BoundaryLine> lines;   ///< one line per node of the artificial boundary
     std::vector<BoundaryFace> faces;   ///< faces of the artificial boundary

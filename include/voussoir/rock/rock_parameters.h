@@ -2,7 +2,7 @@
 #ifndef voussoir_rock_parameters_h
 #define voussoir_rock_parameters_h
 
-#include <voussoir/solid/material.h>
+#include <voussoir/rock/plane_wave.h>
 
 #include <array>
 #include <functional>
@@ -50,6 +50,12 @@ namespace Voussoir
      * ground at the side faces. sections: slices of the mesh where the upstream and downstream faces
      * cut the valley. */
     std::string free_field = "sections";
+
+    Incidence incidence; ///< directions of the incident waves, with delays by timed()
+
+    /** Width of the zone around a section that carries the scattered motion only, relative to the height of the
+     * section [-]. A wider zone changes the motion of the valley of arch210 by less than 1 % (doc/boundary.md). */
+    double width_of_zone = .75;
   };
 } // namespace Voussoir
 

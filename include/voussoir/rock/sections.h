@@ -15,6 +15,24 @@ namespace Voussoir
    * artificial boundary where other artificial faces meet the side. The mesh is empty if there is no such
    * side. The model must not have tied nodes. */
   HexMesh extruded_section(const RockModel &model, unsigned int direction, int sense);
+
+  /** Section with a zone of cells beyond its artificial faces, and the free field of the nodes. */
+  struct WideSection
+  {
+    HexMesh                   mesh; ///< nodes and cells of the section come first
+    std::vector<unsigned int> root; ///< per node: node of the section from which it was extruded, or itself
+    std::vector<bool>         is_below; ///< per node: whether the extrusion of root went downward, too
+    std::size_t               n_nodes, n_cells; ///< of the section
+  };
+
+  /** Returns a section with a zone of @p n_layers of cells beside and below. The cells of the zone have the size of
+   * the outermost cells of the section. The faces of the section are replaced by those of the zone.
+   * @p section: result of extruded_section() with the same @p direction */
+  WideSection widened(const HexMesh &section, unsigned int direction, unsigned int n_layers);
+
+  /** Returns the number of layers of cells at the artificial faces of a section that have the given @p width
+   * [m] together, but not less than @p least. */
+  unsigned int layers_of_zone(const HexMesh &section, double width, unsigned int least);
 } // namespace Voussoir
 
 #endif
