@@ -61,10 +61,10 @@ namespace Voussoir
 
   namespace
   {
-    /** Returns corners of a box around the model, with a margin for places one cell outside [m]. */
-    std::pair<Vector3, Vector3> surroundings(const RockModel &model)
+    /** Returns corners of a box around the model and another place, with a margin for places one cell outside [m]. */
+    std::pair<Vector3, Vector3> surroundings(const RockModel &model, const Vector3 &other)
     {
-      Vector3 first = model.points.front(), last = first;
+      Vector3 first = other, last = other;
       for (const Vector3 &p : model.points)
         for (unsigned int d = 0; d < 3; ++d)
         {
@@ -113,7 +113,7 @@ namespace Voussoir
         return std::make_unique<FreeFieldColumn>(column, run.damping, run.dt, run.n_steps, run.wave, delay);
       };
     else
-      make_column = [run, incidence, box = surroundings(model),
+      make_column = [run, incidence, box = surroundings(model, incidence.centre),
                      half_space = grounds[highest].material.front()](
                         const RockColumn &column) -> std::unique_ptr<GroundColumn>
       { return std::make_unique<ObliqueColumn>(column, run, incidence, half_space, box); };
@@ -326,7 +326,7 @@ namespace Voussoir
         motion->end_step();
   }
 
-  void FreeField::evaluate(Unknowns &u) const
+  void FreeField::evaluate(Unknowns &u, const double later) const
   {
     u.resize(3 * points.size());
     const int n = is_split ? kept.size() : points.size();
@@ -334,12 +334,12 @@ namespace Voussoir
     for (int k = 0; k < n; ++k)
     {
       const std::size_t i = is_split ? kept[k] : k;
-      const Vector3     value = displacement(points[i]);
+      const Vector3     value = displacement(points[i], later);
       std::copy(value.begin(), value.end(), u.begin() + 3 * i);
     }
   }
 
-  Vector3 FreeField::displacement(const Point &point) const
+  Vector3 FreeField::displacement(const Point &point, const double later) const
   {
     if (point.section != nullptr)
       return point.section->displacement(point.node, point.place);
@@ -347,7 +347,7 @@ namespace Voussoir
     for (unsigned int j = 0; j < 4; ++j)
       if (point.weight[j] != 0.)
       {
-        const Vector3 at = columns[point.column]->displacement(point.level[j], point.place);
+        const Vector3 at = columns[point.column]->displacement(point.level[j], point.place, later);
         for (unsigned int c = 0; c < 3; ++c)
           u[c] += point.weight[j] * at[c];
       }

@@ -84,7 +84,7 @@ namespace Voussoir
     w = x = u;
   }
 
-  Vector3 FreeFieldColumn::displacement(const int level, const Vector3 &) const
+  Vector3 FreeFieldColumn::displacement(const int level, const Vector3 &, double) const
   {
     const double *at = level < 0 ? &u[u.size() - 3] : &u[3 * std::size_t(level)];
     return {{at[0], at[1], at[2]}};

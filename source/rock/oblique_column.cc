@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/rock/arrival.h>
+#include <voussoir/rock/cubic_in_time.h>
 #include <voussoir/rock/explicit_region.h>
 #include <voussoir/rock/free_field_column.h>
 #include <voussoir/rock/oblique_column.h>
@@ -153,7 +154,7 @@ namespace Voussoir
     void        keep(const double *motion);
     void        substep(double t);
     std::size_t n_values() const { return 2 * (n_levels + 1); }
-    void        add(unsigned int node, const Vector3 &place, Vector3 &u) const;
+    void        add(unsigned int node, const Vector3 &place, double later, Vector3 &u) const;
     double      sample(unsigned int node, unsigned int component, double step) const;
   };
 
@@ -207,24 +208,18 @@ namespace Voussoir
     std::copy_n(values, n_values(), &ring[n_values() * (std::size_t(clock[0]) % n_kept)]);
   }
 
-  /** Returns a component at a time in steps, by cubic interpolation of the samples kept. */
+  /** Returns a component at a time in steps. */
   double ObliqueColumn::Part::sample(const unsigned int node, const unsigned int component,
                                      const double step) const
   {
-    const long   first = static_cast<long>(std::floor(step)) - 1;
-    const double f = step - first - 1.; // 0 to 1, between the second and the third sample
-    const double weight[4] = {-f * (f - 1.) * (f - 2.) / 6., (f + 1.) * (f - 1.) * (f - 2.) / 2.,
-                              -(f + 1.) * f * (f - 2.) / 2., (f + 1.) * f * (f - 1.) / 6.};
-    double       result = 0.;
-    for (unsigned int j = 0; j < 4; ++j)
-      if (const long k = first + j; k > 0)
-        result += weight[j] * ring[n_values() * (std::size_t(k) % n_kept) + 2 * node + component];
-    return result;
+    return cubic_in_time(step, [&](const std::size_t k)
+                         { return ring[n_values() * (k % n_kept) + 2 * node + component]; });
   }
 
-  void ObliqueColumn::Part::add(const unsigned int node, const Vector3 &place, Vector3 &u) const
+  void ObliqueColumn::Part::add(const unsigned int node, const Vector3 &place, const double later,
+                                Vector3 &u) const
   {
-    const double step = clock[0] - lead - p * (x * place[0] + y * place[1] - origin) / dt;
+    const double step = clock[0] - lead + (later - p * (x * place[0] + y * place[1] - origin)) / dt;
     const double rest = sample(node, 1, step);
     const double along = is_sh() ? 0. : sample(node, 0, step + .5 / n_substeps);
     u[0] += is_sh() ? -y * rest : x * along;
@@ -315,11 +310,11 @@ namespace Voussoir
     }
   }
 
-  Vector3 ObliqueColumn::displacement(const int level, const Vector3 &place) const
+  Vector3 ObliqueColumn::displacement(const int level, const Vector3 &place, const double later) const
   {
     Vector3 u{};
     for (const auto &part : parts)
-      part->add(level + 1, place, u);
+      part->add(level + 1, place, later, u);
     return u;
   }
 

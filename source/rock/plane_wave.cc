@@ -88,26 +88,43 @@ namespace Voussoir
     return waves;
   }
 
+  namespace
+  {
+    /** Throws InputError if the horizontal slowness, or that along the valley, is not below 1/c of each layer. */
+    void check_slowness(const PlaneWave &wave, const bool is_along, const PlaneWave::Type type,
+                        const std::vector<Material> &layers, const Material &half_space)
+    {
+      const double p = (is_along ? std::abs(std::cos(wave.azimuth)) : 1.) * wave.slowness(half_space);
+      for (const Material &m : layers)
+      {
+        const double c = speed(type, m);
+        if (p * p * c * c <= 1. - least_mass)
+          continue;
+        const double       limit = std::asin(std::sqrt(1. - least_mass) * std::sin(wave.angle) / (p * c));
+        std::ostringstream text;
+        text << "\"Foundation/Incidence\": the wave of type "
+             << (wave.type == PlaneWave::P    ? "P"
+                 : wave.type == PlaneWave::SV ? "SV"
+                                              : "SH")
+             << " at " << wave.angle / degree
+             << " degrees is beyond the critical angle: " << (type == PlaneWave::P ? "P" : "S")
+             << " waves with its horizontal slowness" << (is_along ? " along the valley" : "")
+             << " do not propagate in rock with " << c << " m/s. Use an angle below " << limit / degree
+             << " degrees.";
+        throw InputError(text.str());
+      }
+    }
+  } // namespace
+
   void check_incidence(const PlaneWave &wave, const std::vector<Material> &layers, const Material &half_space)
   {
-    const double p = wave.slowness(half_space);
-    for (const Material &m : layers)
-    {
-      const double c = wave.type == PlaneWave::SH ? s_wave_speed(m) : p_wave_speed(m);
-      if (p * p * c * c <= 1. - least_mass)
-        continue;
-      const double limit =
-          std::asin(std::min(1., std::sqrt(1. - least_mass) * std::sin(wave.angle) / (p * c)));
-      std::ostringstream text;
-      text << "\"Foundation/Incidence\": the wave of type "
-           << (wave.type == PlaneWave::P    ? "P"
-               : wave.type == PlaneWave::SV ? "SV"
-                                            : "SH")
-           << " at " << wave.angle / degree
-           << " degrees is beyond the critical angle: " << (wave.type == PlaneWave::SH ? "S" : "P")
-           << " waves with its horizontal slowness do not propagate in rock with " << c
-           << " m/s. Use an angle below " << limit / degree << " degrees.";
-      throw InputError(text.str());
-    }
+    check_slowness(wave, false, wave.type == PlaneWave::SH ? PlaneWave::SH : PlaneWave::P, layers,
+                   half_space);
+  }
+
+  void check_incidence_along(const PlaneWave &wave, const std::vector<Material> &layers,
+                             const Material &half_space)
+  {
+    check_slowness(wave, true, PlaneWave::P, layers, half_space);
   }
 } // namespace Voussoir

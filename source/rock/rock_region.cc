@@ -2,6 +2,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/mesh/coincident.h>
 #include <voussoir/rock/boundary_table.h>
+#include <voussoir/rock/oblique_section.h>
 #include <voussoir/rock/rock_region.h>
 #include <voussoir/rock/zone_forces.h>
 
@@ -118,7 +119,42 @@ namespace Voussoir
       return box.second[2] - box.first[2];
     }
 
-    /** Adds the section through one side of the model to @p field, if the side exists. */
+    /** Waves with one slowness along the valley. */
+    struct WaveGroup
+    {
+      double    p; ///< [s/m]
+      Incidence incidence;
+    };
+
+    std::vector<WaveGroup> groups_of(const Incidence &incidence, const Material &half_space)
+    {
+      std::vector<WaveGroup> groups;
+      if (incidence.is_vertical())
+        return {{0., incidence}};
+      for (const PlaneWave &wave : incidence.waves)
+      {
+        const double q = wave.slowness(half_space), exact = q * std::cos(wave.azimuth);
+        const double p = std::abs(exact) > 1e-9 * q ? exact : 0.; // across the valley
+        auto         group =
+            std::find_if(groups.begin(), groups.end(),
+                         [p](const WaveGroup &g) { return std::abs(g.p - p) <= 1e-12 * std::abs(p); });
+        if (group == groups.end())
+          group = groups.insert(group, {p, {{}, incidence.centre}});
+        group->incidence.waves.push_back(wave);
+      }
+      return groups;
+    }
+
+    /** Returns smallest and largest x of the model [m]. */
+    std::array<double, 2> length_of(const RockModel &model)
+    {
+      std::array<double, 2> result = {{model.points[0][0], model.points[0][0]}};
+      for (const Vector3 &point : model.points)
+        result = {{std::min(result[0], point[0]), std::max(result[1], point[0])}};
+      return result;
+    }
+
+    /** Adds the section through one side of the model to @p field. */
     void add_section(FreeField &field, const HexMesh &section, const RockModel &model,
                      const RockRegionParameters &parameters, const IncidentWave &wave,
                      const unsigned int n_steps, const RockSplit &split)
@@ -133,10 +169,23 @@ namespace Voussoir
       RockModel slice = make_rock_model(wide.mesh, plane.rock, tie_layer(wide.mesh, 0));
       for (BoundaryLine &line : slice.lines)
         line.distance *= 2.; // plane waves spread as r^(-1/2), those of a source in space as 1/r
-      auto motion = make_region(slice, plane, split_of_section(slice, 0, model, split));
-      auto forces = std::make_unique<ZoneForces>(wide, slice, inner, 0, plane, wave, n_steps);
       std::vector<std::unique_ptr<SectionMotion>> motions;
-      motions.push_back(std::make_unique<StraightSection>(std::move(motion), std::move(forces)));
+      for (const WaveGroup &group : groups_of(parameters.incidence, model.columns.front().material.front()))
+      {
+        plane.incidence = group.incidence;
+        const std::array<double, 2> reach = length_of(model);
+        const unsigned int          ahead =
+            group.p == 0. ? 0
+                                   : ObliqueSection::steps_ahead(group.p, plane.incidence.centre[0], reach, plane.dt);
+        auto strip = std::make_unique<ZoneStrip>(wide, slice, inner, 0, plane, wave, n_steps + ahead);
+        if (group.p == 0.)
+          motions.push_back(std::make_unique<StraightSection>(
+              make_region(slice, plane, split_of_section(slice, 0, model, split)),
+              std::make_unique<ZoneForces>(std::move(strip), plane)));
+        else
+          motions.push_back(std::make_unique<ObliqueSection>(wide, RockModel(slice), std::move(strip), plane,
+                                                             group.p, reach));
+      }
       field.add_section(slice, std::move(motions), 0);
     }
   } // namespace
@@ -148,15 +197,13 @@ namespace Voussoir
         std::any_of(model.faces.begin(), model.faces.end(),
                     [](const BoundaryFace &face) { return std::abs(face.normal[0]) > .7; });
     for (const PlaneWave &wave : parameters.incidence.waves)
-    {
       for (const RockColumn &column : model.columns)
-        check_incidence(wave, column.material, model.columns.front().material.front());
-      if (has_sections && std::abs(std::sin(wave.angle) * std::cos(wave.azimuth)) > 1e-9)
-        throw InputError(
-            "\"Foundation/Incidence\": a wave has a component along the valley (x). With "
-            "\"Foundation/Free field\" = sections the waves must rise vertically or across the valley: set their "
-            "azimuth to 90 or -90 degrees. If the ground is level, set \"Foundation/Free field\" to columns.");
-    }
+      {
+        const Material &half_space = model.columns.front().material.front();
+        check_incidence(wave, column.material, half_space);
+        if (has_sections)
+          check_incidence_along(wave, column.material, half_space);
+      }
   }
 
   std::unique_ptr<FreeField> make_free_field(const RockModel &model, const RockRegionParameters &parameters,

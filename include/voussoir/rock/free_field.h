@@ -54,7 +54,11 @@ namespace Voussoir
     /** Begins a step; see IncidentField::begin_step(). */
     void begin_step(std::vector<Ranks::Message> &messages) override;
     void end_step() override;
-    void evaluate(Unknowns &u) const override;
+    void evaluate(Unknowns &u) const override { evaluate(u, 0.); }
+
+    /** Stores the displacement of the points in @p u at a time after the current one, from -1 to 1 steps [s]. Other times than
+     * the current one are for oblique waves, and for points without a section. */
+    void evaluate(Unknowns &u, double later) const;
 
     /** Returns the current displacement of the ground at places of the valley upstream, three values per place [m]. The
      * nearest node of the section with the smallest x is used; without sections, the highest column.
@@ -89,7 +93,7 @@ namespace Voussoir
     void    find_partners();
     Point   in_column(unsigned int column, const Vector3 &place);
     Point   at_level(unsigned int column, int level, const Vector3 &place);
-    Vector3 displacement(const Point &point) const;
+    Vector3 displacement(const Point &point, double later = 0.) const;
     bool    in_section(const Vector3 &place, Point &point) const;
     Point   of_line(const RockModel &model, unsigned int line, const Vector3 &place);
 

@@ -52,7 +52,7 @@ namespace Voussoir
                     const IncidentWave &wave, const Vector3 &delay);
 
     void    advance() override;
-    Vector3 displacement(int level, const Vector3 &place) const override;
+    Vector3 displacement(int level, const Vector3 &place, double later) const override;
 
     std::vector<double> &motion() override
     {

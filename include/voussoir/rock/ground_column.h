@@ -30,8 +30,9 @@ namespace Voussoir
 
     /** Returns the displacement at the current time [m].
      * @param level index of the node, from below; -1: one cell below the lowest node
-     * @param place x and y count if the waves are oblique [m] */
-    virtual Vector3 displacement(int level, const Vector3 &place) const = 0;
+     * @param place x and y count if the waves are oblique [m]
+     * @param later time after the current one, from -1 to 1 steps [s]; only for oblique waves */
+    virtual Vector3 displacement(int level, const Vector3 &place, double later) const = 0;
 
     /** Returns the values of a step that another process requires, which calls received() when it has them. */
     virtual std::vector<double> &motion() = 0;

@@ -78,7 +78,7 @@ namespace Voussoir
     ~ObliqueColumn() override;
 
     void    advance() override;
-    Vector3 displacement(int level, const Vector3 &place) const override;
+    Vector3 displacement(int level, const Vector3 &place, double later) const override;
 
     std::vector<double> &motion() override { return latest; }
     void                 received() override;

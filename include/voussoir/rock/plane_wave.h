@@ -52,6 +52,9 @@ namespace Voussoir
    * (P and SV) or 1/c_s (SH) of each layer. @p half_space: rock that the slowness refers to. */
   void check_incidence(const PlaneWave &wave, const std::vector<Material> &layers,
                        const Material &half_space);
+  /** Throws InputError if the slowness of the wave along the valley (x) is not below 1/c_p of each layer, as sections require. */
+  void check_incidence_along(const PlaneWave &wave, const std::vector<Material> &layers,
+                             const Material &half_space);
 } // namespace Voussoir
 
 #endif

@@ -20,8 +20,7 @@ namespace Voussoir
    * leave the sections. */
   RockRegionParameters of_sections(const RockRegionParameters &parameters);
 
-  /** Throws InputError if an incident wave does not propagate in the rock, or has a component along the valley
-   * that sections do not support. */
+  /** Throws InputError if an incident wave does not propagate in the rock. */
   void check_waves(const RockModel &model, const RockRegionParameters &parameters);
 
   /** Creates the free field, without points. @p split: distribution of the region. Throws InputError for an

@@ -3,9 +3,8 @@
 #define voussoir_zone_forces_h
 
 #include <voussoir/rock/explicit_region.h>
-#include <voussoir/rock/free_field.h>
 #include <voussoir/rock/section_motion.h>
-#include <voussoir/rock/sections.h>
+#include <voussoir/rock/zone_strip.h>
 
 namespace Voussoir
 {
@@ -17,30 +16,19 @@ namespace Voussoir
   class ZoneForces
   {
   public:
-    /** Creates the forces.
-     * @param wide section with a zone; @p model: its model
-     * @param section model of the section alone, whose columns give the free field
-     * @param direction of the section (0: x, 1: y)
-     * The other arguments are those of make_free_field(). */
-    ZoneForces(const WideSection &wide, const RockModel &model, const RockModel &section,
-               unsigned int direction, const RockRegionParameters &parameters, const IncidentWave &wave,
-               unsigned int n_steps);
+    explicit ZoneForces(std::unique_ptr<ZoneStrip> strip, const RockRegionParameters &parameters);
 
     /** Advances the free field by one step; see IncidentField::begin_step(). */
-    void begin_step(std::vector<Ranks::Message> &messages) { field.begin_step(messages); }
+    void begin_step(std::vector<Ranks::Message> &messages) { strip->field.begin_step(messages); }
     /** Completes the step of begin_step() and stores the forces in @p force, three values per node of the model [N]. */
     void end_step(Unknowns &force);
 
     std::vector<std::vector<double> *> state();
 
   private:
-    FreeField                     field; ///< its points are the nodes of the strip
-    double                        dt, stiffness_damping;
-    std::vector<unsigned int>     node;      ///< node of the model per node of the strip
-    std::vector<bool>             is_inside; ///< per node of the strip: whether it belongs to the section
-    std::size_t                   n_nodes;   ///< of the model
-    std::vector<double>           before;    ///< displacement of the free field in the previous step [m]
-    std::unique_ptr<RockOperator> strip;     ///< stiffness of the cells of the zone at the section
+    std::unique_ptr<ZoneStrip> strip;
+    double                     dt, stiffness_damping;
+    std::vector<double>        before; ///< displacement of the free field in the previous step [m]
   };
 
   /** Motion of a section under waves without a slowness along the valley: an explicit region with a zone. */
