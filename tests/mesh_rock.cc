@@ -214,9 +214,10 @@ namespace
 
   void test_depth()
   {
-    const double usual = dispersion(210);
+    const double usual = dispersion(210), height = 210;
     for (const double depth : {315., 420., 630.})
-      expect(dispersion(depth) < 1.6 * usual, "waves disperse more in deeper rock");
+      expect(dispersion(depth) / (depth + height) < 1.01 * usual / (210 + height),
+             "waves disperse more per length of their path in deeper rock");
   }
 
   /** The cubic that fades from 1 to 0, level at both ends; sizes between two neighbours, each at most 1.35

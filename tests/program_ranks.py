@@ -157,6 +157,21 @@ def checkpoint():
         same_bits(name, f"{name}_whole")
 
 
+def oblique():
+    """Waves across, along and at an angle to the valley: several ranks give the same bits, also after a rank is killed."""
+    write_scene()
+    arguments = [*ROCK, *settings("Foundation/Incidence=SV 15 90, SH 20 0, P 10 30 0.01")]
+    any_number("oblique", (2, 3), *arguments)
+    any_number("columns", (3,), *arguments, *settings("Foundation/Free field=columns"))
+    any_number("oblique_water", (2,), *arguments, *WATER)
+    arguments += settings("Output/Checkpoint interval=40", "Motion/Duration=2")
+    killed(2, "killed", *arguments)
+    status, _, error = on_ranks(3, "scene.prm", "--output", "killed", "--resume", *arguments)
+    expect(status == 0, error)
+    runs("scene.prm", "--output", "whole", *arguments, environment={"OMP_NUM_THREADS": "1"})
+    same_bits("killed", "whole")
+
+
 def last_write():
     """The last files cannot be written: the state that is kept is that of all ranks, also of the rock, and all there is to
     tell of it."""
@@ -232,4 +247,4 @@ def errors():
 
 
 if __name__ == "__main__":
-    run_cases(rigid, rock, problems, checkpoint, last_write, stopped, errors)
+    run_cases(rigid, rock, problems, checkpoint, oblique, last_write, stopped, errors)

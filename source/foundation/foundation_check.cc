@@ -4,6 +4,7 @@
 #include <voussoir/foundation/region_parameters.h>
 #include <voussoir/mesh/boundary_lines.h>
 #include <voussoir/rock/boundary_table.h>
+#include <voussoir/rock/growth.h>
 #include <voussoir/rock/rock_region.h>
 
 #include <algorithm>
@@ -97,11 +98,13 @@ namespace Voussoir
                       const double dt_critical)
   {
     const auto boundary = make_boundary(region);
-    boundary->check(region, dt_critical);
+    boundary->check(region);
+    check_growth(region, dt_critical);
     if (has_other_sections(parameters))
       try
       {
-        make_boundary(of_sections(region))->check(of_sections(region), dt_critical);
+        make_boundary(of_sections(region))->check(of_sections(region));
+        check_growth(of_sections(region), dt_critical);
       }
       catch (const InputError &error)
       {

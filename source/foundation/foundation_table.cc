@@ -83,6 +83,16 @@ namespace Voussoir
     for (const char *name : {"mtf2", "viscous-spring"})
       if (boundary != name)
         choices.add("foundation", "boundary " + std::string(name), {{"Foundation/Boundary", name}});
+    if (incidence == "vertical")
+      for (const auto &[from, azimuth] :
+           {std::pair<const char *, const char *>("right bank", "90"), {"upstream", "0"}})
+      {
+        std::string waves;
+        for (const char *type : {"SV 15 ", ", SH 15 ", ", P 15 "})
+          waves += std::string(type) + azimuth;
+        choices.add("foundation", "waves at 15 degrees from " + std::string(from),
+                    {{"Foundation/Incidence", waves}});
+      }
     if (coupling != "partition" && substeps > 0)
       choices.add("foundation", "twice the rock steps", "Foundation/Substeps", 2. * n_substeps());
   }

@@ -7,7 +7,7 @@
 
 namespace Voussoir
 {
-  void ArtificialBoundary::check(const RockRegionParameters &, double) const {}
+  void ArtificialBoundary::check(const RockRegionParameters &) const {}
 
   std::string ArtificialBoundary::warning(const RockRegionParameters &) const
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/rock/slowness_coupling.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Voussoir
@@ -39,6 +40,25 @@ namespace Voussoir
         }
       }
     }
+    merge();
+  }
+
+  /** Adds up the entries of the same nodes and sorts them by nodes. */
+  void SlownessCoupling::merge()
+  {
+    const auto place = [](const Entry &e) { return std::make_pair(e.i, e.j); };
+    std::stable_sort(entries.begin(), entries.end(),
+                     [&](const Entry &a, const Entry &b) { return place(a) < place(b); });
+    std::size_t n = 0;
+    for (const Entry e : entries)
+      if (n > 0 && place(entries[n - 1]) == place(e))
+      {
+        entries[n - 1].y += e.y;
+        entries[n - 1].z += e.z;
+      }
+      else
+        entries[n++] = e;
+    entries.resize(n);
   }
 
   void SlownessCoupling::add_along(const Unknowns &w, Unknowns &force) const

@@ -75,44 +75,6 @@ namespace Voussoir
                          "\"Foundation/Stiffness damping\" to at least " +
                          number(damping) + " s (0.2 times the rock time step).");
     }
-
-    constexpr double near_critical = .9; ///< share of the critical time step [-]
-
-    /** Returns the stiffness damping that orders from 2 on require for a high Poisson's ratio, divided by the
-     * rock time step. Near the critical time step it is larger, for Gauss points at the dam or free faces
-     * that cut the boundary. The values are measured: doc/boundary.md and tests/boundary_stability.cc. */
-    double needed_damping(const double poisson, const bool is_near)
-    {
-      if (poisson < (is_near ? .3 : .31))
-        return 0.;
-      return is_near ? (poisson > .32 ? .02 : .01) : (poisson > .4 ? .01 : .005);
-    }
-
-    /** Throws InputError if rock with a high Poisson's ratio has less damping than it requires. @p critical:
-     * critical time step [s]. */
-    void check_poisson(const RockRegionParameters &p, const double critical)
-    {
-      double poisson = 0.;
-      for (const auto &material : p.rock.materials)
-        poisson = std::max(poisson, material.second.poisson);
-      const bool   is_near = p.dt > near_critical * critical;
-      const double share = needed_damping(poisson, is_near);
-      if (p.damping.stiffness >= .99 * share * p.dt)
-        return;
-      throw InputError(
-          "The transmitting boundary " + p.boundary +
-          " is unstable with this damping in rock whose Poisson's ratio is " + number(poisson) +
-          " (the largest of \"Foundation/Poisson's ratio\" and \"Foundation/Zones\"; the time step "
-          "of the rock is " +
-          number(p.dt / critical) +
-          " of the critical one). Set \"Foundation/Stiffness damping\" to at least " + number(share * p.dt) +
-          " s (" + number(share) + " times the rock time step)" +
-          (is_near ? ", or to " + number(needed_damping(poisson, false)) +
-                         " times the rock time step with a rock time step of at most " +
-                         number(near_critical) + " of the critical one"
-                   : "") +
-          ", or set \"Foundation/Boundary\" to viscous-spring.");
-    }
   } // namespace
 
   TransmittingBoundary::TransmittingBoundary(TransmittingFormula given)
@@ -126,12 +88,9 @@ namespace Voussoir
     return formula.order() > 3 ? formula.n_nodes() : usual; // measured: tests/boundary_stability.cc
   }
 
-  void TransmittingBoundary::check(const RockRegionParameters &parameters,
-                                   const double                critical_time_step) const
+  void TransmittingBoundary::check(const RockRegionParameters &parameters) const
   {
     check_quadrature(parameters, n_layers());
-    if (formula.order() > 1)
-      check_poisson(parameters, critical_time_step);
   }
 
   std::string TransmittingBoundary::warning(const RockRegionParameters &p) const

@@ -71,9 +71,8 @@ namespace Voussoir
      * the boundary also supplies energy to the rock. */
     virtual bool absorbs() const { return true; }
 
-    /** Checks the parameters for stability. @p critical_time_step: of the rock [s]. Throws InputError for a
-     * combination that is known to be unstable. */
-    virtual void check(const RockRegionParameters &parameters, double critical_time_step) const;
+    /** Throws InputError for parameters that are known to be unstable. check_growth() measures others. */
+    virtual void check(const RockRegionParameters &parameters) const;
 
     /** Returns a warning for the user if the boundary may be unstable with these parameters; otherwise an
      * empty string. */

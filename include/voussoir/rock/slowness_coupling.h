@@ -32,6 +32,7 @@ namespace Voussoir
       unsigned int i, j;
       double       y, z;
     };
+    void               merge();
     std::vector<Entry> entries;
   };
 } // namespace Voussoir

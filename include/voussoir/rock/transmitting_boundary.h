@@ -19,9 +19,8 @@ namespace Voussoir
     /** Returns 6 for orders up to 3, and 2 N + 1 for a higher order N: one more than each line has. */
     unsigned int n_layers() const override;
 
-    /** Throws InputError in two unstable cases (doc/boundary.md): Gauss points near the boundary, and a high
-     * Poisson's ratio without sufficient damping. */
-    void check(const RockRegionParameters &parameters, double critical_time_step) const override;
+    /** Throws InputError for Gauss points near the boundary, which are unstable (doc/boundary.md). */
+    void check(const RockRegionParameters &parameters) const override;
 
     /** Returns a warning for Gauss points near the boundary (orders 3 and 4: anywhere, since large boxes are
      * unstable), or for a formula without a term against drift. */
