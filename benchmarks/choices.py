@@ -6,7 +6,7 @@
 
 Groups: quickstart, joints28 (mesh and time step together), steps (time step and rule of impact), steps28 (28 joints), estimate,
 estimate28 (Dynamics/Error estimate), elements, solvers, boundary, free_field, box (its sizes), box_tied (without joints), box_static,
-rock_cells, rock_layers, rock_steps. On rock the motion ends in 0.2 s, and half a second of rest follows: what rises from
+rock_cells, rock28_cells, rock_layers, rock_steps. On rock the motion ends in 0.2 s, and half a second of rest follows: what rises from
 the bottom is all at the dam before the end, whatever the depth.
 The measures are those of `voussoir accuracy`: largest openings of the joints (root of the sum of squares), means of the
 tension envelope over nine zones of each face; over the strongest seconds of the scene's motion. Each group has a
@@ -32,7 +32,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.ticker import LogLocator
 
-RIGID, ROCK, MANY = (ROOT / "prm" / f"{name}.prm" for name in ("coarse", "rock_fja", "rigid28"))
+RIGID, ROCK, MANY, ROCK_MANY = (ROOT / "prm" / f"{name}.prm" for name in ("coarse", "rock_fja", "rigid28", "rock28"))
 STEPS = "Dynamics/Steps per sample"
 CHARTS = ("quickstart", "steps", "elements")  # that doc/accuracy.md shows
 SIDES = ("Upstream", "Downstream", "Sides", "Depth")
@@ -109,6 +109,9 @@ def groups():
         "box_static": (ROCK, {**nested, "Motion/Source": "none"}, boxes, box(630), nested_far + ", the static state alone"),
         "rock_cells": (ROCK, {**rock, STEPS: 8}, [("cells", f"{size} m", {"Mesh/Arch210/Rock/Element size": size}) for size in (30, 22)],
                        {"Mesh/Arch210/Rock/Element size": 15}, "cells of 15 m"),
+        "rock28_cells": (ROCK_MANY, {"Foundation/Substeps": 0},
+                         [("cells", f"{size} m", {"Mesh/Arch210/Rock/Element size": size}) for size in (12, 14, 16, 22, 26)],
+                         {"Mesh/Arch210/Rock/Element size": 9}, "cells of 9 m"),
         "rock_layers": (ROCK, {**rock, STEPS: 8}, at_dam, {**mesh(90, 30, 3), layers: 4}, "90 x 30 x 3 elements, 4 layers"),
         "rock_steps": (ROCK, rock, [("dam at its own step", f"{10 / n:g} ms, {6 // n} of the rock",
                                      {STEPS: n, "Foundation/Substeps": 6 // n}) for n in (1, 2)]
@@ -130,7 +133,7 @@ class Runs:
         seed = [] if options.seed is None else ["--set", f"Motion/Seed={options.seed}"]
         run(options.voussoir, "motion", scene, "--output", self.directory / "whole.csv", *seed)
         part, _ = strongest(np.loadtxt(self.directory / "whole.csv", delimiter=",", skiprows=1), options.seconds)
-        if scene == ROCK:
+        if scene in (ROCK, ROCK_MANY):
             part = at_rest_after(part)
         np.savetxt(self.directory / "motion.csv", part, delimiter=",")
         self.common = {"Motion/Source": "file", "Motion/File": self.directory / "motion.csv", "Output/Checkpoint interval": 0, "Motion/Duration": -1,

@@ -7,6 +7,8 @@
 
 #include <voussoir/rock/arrival.h>
 
+#include <complex>
+
 namespace
 {
   using namespace Boxes;
@@ -383,23 +385,42 @@ namespace
     return result;
   }
 
+  /** Difference of two motions at the frequency eta c_s / (2 a), a = 6, relative to the second: components x (SH) or y and z (SV). */
+  double difference_at(const double eta, const bool is_sh, const std::vector<double> &u,
+                       const std::vector<double> &v)
+  {
+    constexpr unsigned int            n_values = 3 * 13;
+    std::vector<std::complex<double>> error(n_values), size(n_values);
+    for (std::size_t k = 0; k < u.size(); ++k)
+    {
+      const double               t = .13 * (k / n_values + 1.);
+      const std::complex<double> phase = std::exp(std::complex<double>(0., -pi * eta / 6. * t));
+      error[k % n_values] += phase * (u[k] - v[k]);
+      size[k % n_values] += phase * v[k];
+    }
+    double of_error = 0., of_size = 0.;
+    for (unsigned int k = 0; k < n_values; ++k)
+      if ((k % 3 == 0) == is_sh)
+      {
+        of_error += std::norm(error[k]);
+        of_size += std::norm(size[k]);
+      }
+    return std::sqrt(of_error / of_size);
+  }
+
   /** The free field of a valley hardly depends on the width of the zone. Its error is that of a zone of the least width before. */
   void width_of_zone()
   {
     const auto far = motion_of_valley(8.), near = motion_of_valley(.75), least = motion_of_valley(0.);
-    for (unsigned int c = 0; c < 2; ++c)
-    {
-      double error = 0., without = 0., size = 0.;
-      for (std::size_t k = c; k < far.size(); k += 3)
+    for (const bool is_sh : {true, false})
+      for (const double eta : {.1, .15, .2, .3, .5})
       {
-        error += (near[k] - far[k]) * (near[k] - far[k]);
-        without += (least[k] - far[k]) * (least[k] - far[k]);
-        size += far[k] * far[k];
+        const std::string name =
+            std::string(is_sh ? ", SH" : ", SV") + ", eta " + std::to_string(eta).substr(0, 4);
+        below("motion of a valley, zone of .75 heights against 8" + name,
+              difference_at(eta, is_sh, near, far), .01);
+        note("  zone of 2N + 1 cells" + name, difference_at(eta, is_sh, least, far));
       }
-      const std::string name = std::string(", ") + "xy"[c];
-      below("motion of a valley, zone of .75 heights against 8, rms" + name, std::sqrt(error / size), .01);
-      note("  zone of 2N + 1 cells" + name, std::sqrt(without / size));
-    }
   }
 
   void refuses()

@@ -279,14 +279,76 @@ namespace
     below("flat region, " + free_field + ", " + name + ": total - columns / peak", d.error / d.peak, 2e-3);
   }
 
+  Vector3 valley(const double i, const double j, const double k)
+  {
+    const double y = j - 10., depth = std::abs(y) < 6. ? 2.5 * (1. + std::cos(pi * y / 6.)) : 0.;
+    return {{i, y, k < 6. ? k : 6. + (k - 6.) * (8. - depth) / 8.}};
+  }
+
+  /** The motion of the valley decays after the waves have passed, also near the critical angle. */
+  void long_run(const std::string &boundary, const double nu, const double share_of_critical,
+                const double damping)
+  {
+    const double critical = std::asin(std::sqrt((1. - 2. * nu) / (2. - 2. * nu))) / degree;
+    auto         p = parameters({wave_of("SV", share_of_critical * critical, 0.)}, nu);
+    p.dt = .13;
+    p.boundary = boundary;
+    p.free_field = "sections";
+    p.damping.stiffness = damping * p.dt;
+    p.rock.centre = p.incidence.centre = {{1., 0., 9.}};
+    const RockModel model = make_rock_model(box({2, 20, 14}, open_box, valley), p.rock);
+    p.incidence = timed(model, p.incidence, p.rock.centre);
+    constexpr unsigned int n = 8000;
+    const auto             field = make_free_field(model, p, pulses, n);
+    std::vector<Vector3>   places;
+    for (unsigned int j = 4; j <= 16; ++j)
+      places.push_back(valley(0., j, 14.));
+    double peak = 0., end = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      field->advance();
+      if (i % 10 != 0)
+        continue;
+      for (const double u : field->upstream(places))
+      {
+        peak = std::max(peak, std::abs(u));
+        if (!(i < n - 1000 && std::isfinite(u)))
+          end = std::max(end, std::isfinite(u) ? std::abs(u) : HUGE_VAL);
+      }
+    }
+    below("valley, " + boundary + ", SV at " + Columns::text(share_of_critical) +
+              " of the critical angle, Poisson's ratio " + Columns::text(nu) + ": motion at the end / peak",
+          end / peak, 1e-3);
+  }
+
+  /** The motion upstream belongs to x of the centre, with sections and with columns. */
+  void upstream()
+  {
+    auto            p = parameters({wave_of("SV", 20., 0.)});
+    const RockModel model = make_rock_model(box({8, 10, 9}, open_box, unit_cells), p.rock);
+    p.incidence = timed(model, p.incidence, p.rock.centre);
+    const auto columns = make_free_field(model, p, pulses, 800);
+    p.free_field = "sections";
+    const auto                 sections = make_free_field(model, p, pulses, 800);
+    const std::vector<Vector3> places = {{{-400., 4., 9.}}, {{-3., 6., 5.}}};
+    double                     error = 0., peak = 0.;
+    for (unsigned int i = 0; i < 800; ++i)
+    {
+      columns->advance();
+      sections->advance();
+      const Unknowns u = columns->upstream(places), v = sections->upstream(places);
+      for (std::size_t k = 0; k < u.size(); ++k)
+      {
+        error = std::max(error, std::abs(u[k] - v[k]));
+        peak = std::max(peak, std::abs(u[k]));
+      }
+    }
+    below("level ground, motion upstream: sections - columns / peak", error / peak, 2e-3);
+  }
+
   /** A valley along x: the region has the motion of the section, which is delayed along x. */
   void prismatic(const std::vector<PlaneWave> &waves, const std::string &name, const double limit)
   {
-    const auto valley = [](const double i, const double j, const double k) -> Vector3
-    {
-      const double y = j - 10., depth = std::abs(y) < 6. ? 2.5 * (1. + std::cos(pi * y / 6.)) : 0.;
-      return {{i, y, k < 6. ? k : 6. + (k - 6.) * (8. - depth) / 8.}};
-    };
     auto p = parameters(waves);
     p.dt = .13;
     p.boundary = "mtf2";
@@ -349,6 +411,8 @@ namespace
     };
     expect_message("refused: SV beyond the critical angle", "below 35.2",
                    [&] { run("SV 36 90", "columns"); });
+    expect_message("refused: SV almost at the critical angle along the valley", "below 34.6",
+                   [&] { run("SV 35 0", "sections"); });
     expect_message("refused: SH at a grazing angle", "critical", [&] { run("SH 89 90", "columns"); });
     expect_message("refused: SH beyond the critical angle along the valley", "along the valley",
                    [&] { run("SH 45 0", "sections"); });
@@ -367,7 +431,10 @@ namespace
 int main()
 {
   return Columns::run_all(
-      {closed_form, level_ground, vertical, [] { flat_region("columns", {wave_of("P", 30., 20.)}, "P 30"); },
+      {closed_form,
+       level_ground,
+       vertical,
+       [] { flat_region("columns", {wave_of("P", 30., 20.)}, "P 30"); },
        [] { flat_region("columns", {wave_of("SV", 20., -140.)}, "SV 20"); },
        [] { flat_region("columns", {wave_of("SH", 60., 30.)}, "SH 60"); },
        [] {
@@ -378,11 +445,17 @@ int main()
        [] {
          flat_region("sections", {wave_of("SH", 25., 20.), wave_of("P", 40., -50.)}, "SH 25 and P 40");
        },
-       prismatic_across, [] { prismatic({wave_of("P", 21., 0.)}, "P 21 along", 2e-3); },
+       prismatic_across,
+       [] { prismatic({wave_of("P", 21., 0.)}, "P 21 along", 2e-3); },
        [] { prismatic({wave_of("SV", 21., 0.)}, "SV 21 along", 2e-3); },
        [] { prismatic({wave_of("SV", 30., 0.)}, "SV 30 along", 2e-3); },
        [] {
          prismatic({wave_of("SH", 25., 180.), wave_of("P", 45., 120.)}, "SH 25 upstream and P 45", 2e-3);
        },
+       upstream,
+       [] { long_run("mtf3", .25, .97, 0.); },
+       [] { long_run("mtf3", .25, .98, .01); },
+       [] { long_run("mtf2", .33, .97, .01); },
+       [] { long_run("viscous-spring", .25, .9, .01); },
        refuses});
 }

@@ -57,12 +57,16 @@ namespace Voussoir
       return {{centre[0], centre[1], lowest}};
     }
 
-    /** Returns the travel times of the waves with motion in x, y and z to the foot of the dam [s]. */
+    /** Returns the travel times of the waves with motion in x, y and z to the foot of the dam, those of oblique waves with the
+     * largest delay [s]. */
     Vector3 times_to(const RockModel &model, const Vector3 &foot, const Incidence &incidence)
     {
       if (incidence.is_vertical() || model.columns.empty())
         return travel_times(model, foot[2]);
-      const double time = arrival_time(model, incidence, foot);
+      double latest = 0.;
+      for (const PlaneWave &wave : incidence.waves)
+        latest = std::max(latest, wave.delay);
+      const double time = latest + arrival_time(model, incidence, foot);
       return {{time, time, time}};
     }
   } // namespace

@@ -3,6 +3,9 @@
 #include <voussoir/foundation/rock_report.h>
 #include <voussoir/rock/artificial_boundary.h>
 #include <voussoir/rock/boundary_table.h>
+#include <voussoir/rock/plane_wave.h>
+
+#include <algorithm>
 
 namespace Voussoir
 {
@@ -37,6 +40,27 @@ namespace Voussoir
                 ? ", and in large rock a transmitting boundary of order 3 or 4 may be unstable"
                 : "");
     }
+
+    /** Writes directions of the waves to the log, with a warning if a component of the motion has no wave. */
+    void report_waves(const FoundationParameters &parameters, Log &log)
+    {
+      const std::vector<PlaneWave> waves = read_incidence(parameters.incidence);
+      if (waves.empty())
+        return;
+      log.line("          incident waves: %s", parameters.incidence.c_str());
+      const auto is_missing = [&](const PlaneWave::Type type) {
+        return std::none_of(waves.begin(), waves.end(),
+                            [type](const PlaneWave &w) { return w.type == type; });
+      };
+      const std::string missing = std::string(is_missing(PlaneWave::P) ? " P" : "") +
+                                  (is_missing(PlaneWave::SV) ? " SV" : "") +
+                                  (is_missing(PlaneWave::SH) ? " SH" : "");
+      if (!missing.empty())
+        log.line(
+            "warning: \"Foundation/Incidence\" has no wave of the type%s, so the component of the ground motion that it "
+            "carries does not enter (P: vertical, SV: along the azimuth, SH: normal to it)",
+            missing.c_str());
+    }
   } // namespace
 
   void report_rock(const FoundationParameters &parameters, const RockModel &model, const TimeGrid &grid,
@@ -48,8 +72,7 @@ namespace Voussoir
              parameters.free_field.c_str());
     log.line("          10 elements or more per shear wave up to %.2g Hz (95 %% of the elements)",
              .1 / model.largest_crossing);
-    if (parameters.incidence != "vertical")
-      log.line("          incident waves: %s", parameters.incidence.c_str());
+    report_waves(parameters, log);
     if (grid.n > 0)
       log.line("          the earthquake arrives at the lowest base node after %.3f s", delay);
     const std::string warning =

@@ -43,6 +43,11 @@ namespace Voussoir
     }
   } // namespace
 
+  Material half_space_of(const RockModel &model)
+  {
+    return highest_column(model).material.front();
+  }
+
   Vector3 travel_times(const RockModel &model, const double z)
   {
     Vector3 times{};
@@ -62,14 +67,14 @@ namespace Voussoir
       double first = wave.along(to);
       for (const Vector3 &point : model.points)
         first = std::min(first, wave.along(point));
-      return wave.slowness(highest_column(model).material.front()) * (wave.along(to) - first);
+      return wave.slowness(half_space_of(model)) * (wave.along(to) - first);
     }
   } // namespace
 
   double travel_time(const RockModel &model, const PlaneWave &wave, const Vector3 &to)
   {
     const RockColumn &column = highest_column(model);
-    const double      p = wave.slowness(column.material.front());
+    const double      p = wave.slowness(half_space_of(model));
     return time_along(model, wave, to) + time_through(column, lowest_entrance(model), to[2],
                                                       [&](const Material &m)
                                                       { return wave.vertical_slowness(m, p); });

@@ -83,6 +83,7 @@ namespace Voussoir
 
   FreeField::FreeField(const RockModel &model, const RayleighDamping &damping, const double dt,
                        const unsigned int n_steps, const IncidentWave &wave, const Incidence &incidence)
+      : centre(incidence.centre)
   {
     if (model.columns.empty())
       throw InputError(
@@ -114,7 +115,7 @@ namespace Voussoir
       };
     else
       make_column = [run, incidence, box = surroundings(model, incidence.centre),
-                     half_space = grounds[highest].material.front()](
+                     half_space = incidence.half_space.value_or(grounds[highest].material.front())](
                         const RockColumn &column) -> std::unique_ptr<GroundColumn>
       { return std::make_unique<ObliqueColumn>(column, run, incidence, half_space, box); };
     columns[highest] = make_column(grounds[highest]);
@@ -376,9 +377,9 @@ namespace Voussoir
     {
       Vector3 u;
       if (section != nullptr)
-        u = section->displacement(upstream_nodes[i], section->points[upstream_nodes[i]]);
+        u = section->displacement(upstream_nodes[i], {{centre[0], places[i][1], places[i][2]}});
       else
-        u = displacement(in_column(highest, places[i]));
+        u = displacement(in_column(highest, {{centre[0], places[i][1], places[i][2]}}));
       result.insert(result.end(), u.begin(), u.end());
     }
     return result;

@@ -12,8 +12,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** The transmitting formula grows under waves with a slowness without this damping, relative to the time step. */
-    constexpr double least_damping = .005;
+    constexpr double near_critical = .9; ///< largest share of the critical time step
 
     /** Sets the apparent speeds c / sqrt(1 - p^2 c^2) of waves in the section. */
     void set_apparent_speeds(RockModel &model, const double p)
@@ -23,6 +22,19 @@ namespace Voussoir
           *c /= std::sqrt(1. - p * p * *c * *c);
     }
   } // namespace
+
+  double ObliqueSection::least_damping(const std::map<int, Material> &materials, const double p)
+  {
+    double result = 0.;
+    for (const auto &[volume, m] : materials)
+    {
+      const double c_p = p_wave_speed(m), c_s = s_wave_speed(m);
+      const double square = c_p * c_p * (1. - p * p * c_s * c_s) / (c_s * c_s * (1. - p * p * c_p * c_p));
+      const double apparent = (square - 2.) / (2. * (square - 1.)); // Poisson's ratio
+      result = std::max(result, apparent > .4 ? .01 : apparent > .3 ? .005 : 0.);
+    }
+    return result;
+  }
 
   unsigned int ObliqueSection::steps_ahead(const double p, const double origin,
                                            const std::array<double, 2> &reach, const double dt)
@@ -52,9 +64,9 @@ namespace Voussoir
     }
     u.assign(3 * mass.size(), 0.);
     w = x = K_x = u;
-    damping.stiffness = std::max(damping.stiffness, least_damping * dt);
     constexpr double of_iteration = 1.02; // largest_frequency() is a lower bound
-    n_substeps = std::ceil(dt / critical_time_step(of_iteration * largest_frequency(), damping));
+    n_substeps =
+        std::ceil(dt / (near_critical * critical_time_step(of_iteration * largest_frequency(), damping)));
     set_apparent_speeds(model, p);
     boundary = make_boundary(parameters.boundary);
     boundary->attach(model, parameters.rock.centre, dt / n_substeps);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/mesh/coincident.h>
+#include <voussoir/rock/arrival.h>
 #include <voussoir/rock/boundary_table.h>
 #include <voussoir/rock/oblique_section.h>
 #include <voussoir/rock/rock_region.h>
@@ -126,20 +127,20 @@ namespace Voussoir
       Incidence incidence;
     };
 
-    std::vector<WaveGroup> groups_of(const Incidence &incidence, const Material &half_space)
+    std::vector<WaveGroup> groups_of(const Incidence &incidence)
     {
       std::vector<WaveGroup> groups;
       if (incidence.is_vertical())
         return {{0., incidence}};
       for (const PlaneWave &wave : incidence.waves)
       {
-        const double q = wave.slowness(half_space), exact = q * std::cos(wave.azimuth);
+        const double q = wave.slowness(*incidence.half_space), exact = q * std::cos(wave.azimuth);
         const double p = std::abs(exact) > 1e-9 * q ? exact : 0.; // across the valley
         auto         group =
             std::find_if(groups.begin(), groups.end(),
                          [p](const WaveGroup &g) { return std::abs(g.p - p) <= 1e-12 * std::abs(p); });
         if (group == groups.end())
-          group = groups.insert(group, {p, {{}, incidence.centre}});
+          group = groups.insert(group, {p, {{}, incidence.centre, incidence.half_space}});
         group->incidence.waves.push_back(wave);
       }
       return groups;
@@ -154,6 +155,25 @@ namespace Voussoir
       return result;
     }
 
+    /** Returns the motion of a section under waves with the slowness @p p along the valley. */
+    std::unique_ptr<SectionMotion> oblique_section(const WideSection &wide, const RockModel &slice,
+                                                   const RockModel &inner, RockRegionParameters plane,
+                                                   const double p, const RockModel &model,
+                                                   const IncidentWave &wave, const unsigned int n_steps)
+    {
+      if (make_boundary(plane)->nodes_per_line() == 0)
+      {
+        plane.boundary = RockRegionParameters().boundary;
+        plane.boundary_maker = nullptr;
+      }
+      plane.damping.stiffness = std::max(plane.damping.stiffness,
+                                         ObliqueSection::least_damping(plane.rock.materials, p) * plane.dt);
+      const std::array<double, 2> reach = length_of(model);
+      const unsigned int ahead = ObliqueSection::steps_ahead(p, plane.incidence.centre[0], reach, plane.dt);
+      auto strip = std::make_unique<ZoneStrip>(wide, slice, inner, 0, plane, wave, n_steps + ahead);
+      return std::make_unique<ObliqueSection>(wide, slice, std::move(strip), plane, p, reach);
+    }
+
     /** Adds the section through one side of the model to @p field. */
     void add_section(FreeField &field, const HexMesh &section, const RockModel &model,
                      const RockRegionParameters &parameters, const IncidentWave &wave,
@@ -161,30 +181,28 @@ namespace Voussoir
     {
       RockRegionParameters plane = of_sections(parameters);
       plane.rock.centre[0] = section.nodes[0][0]; // the section has its own source point
-      const RockModel    inner = make_rock_model(section, plane.rock, tie_layer(section, 0));
-      const unsigned int n = layers_of_zone(section, parameters.width_of_zone * height(section),
-                                            make_boundary(plane)->n_layers() + 1);
-      const WideSection  wide = widened(section, 0, n);
-      plane.rock.nodal_layers += n;
+      const std::string usual = RockRegionParameters().boundary;
+      const RockModel   inner = make_rock_model(section, plane.rock, tie_layer(section, 0));
+      const WideSection wide =
+          widened(section, 0, parameters.width_of_zone * height(section),
+                  std::max(make_boundary(plane)->n_layers(), make_boundary(usual)->n_layers()) + 1);
+      plane.rock.nodal_layers += wide.n_layers;
       RockModel slice = make_rock_model(wide.mesh, plane.rock, tie_layer(wide.mesh, 0));
       for (BoundaryLine &line : slice.lines)
         line.distance *= 2.; // plane waves spread as r^(-1/2), those of a source in space as 1/r
       std::vector<std::unique_ptr<SectionMotion>> motions;
-      for (const WaveGroup &group : groups_of(parameters.incidence, model.columns.front().material.front()))
+      for (const WaveGroup &group : groups_of(parameters.incidence))
       {
         plane.incidence = group.incidence;
-        const std::array<double, 2> reach = length_of(model);
-        const unsigned int          ahead =
-            group.p == 0. ? 0
-                                   : ObliqueSection::steps_ahead(group.p, plane.incidence.centre[0], reach, plane.dt);
-        auto strip = std::make_unique<ZoneStrip>(wide, slice, inner, 0, plane, wave, n_steps + ahead);
         if (group.p == 0.)
+        {
+          auto strip = std::make_unique<ZoneStrip>(wide, slice, inner, 0, plane, wave, n_steps);
           motions.push_back(std::make_unique<StraightSection>(
               make_region(slice, plane, split_of_section(slice, 0, model, split)),
               std::make_unique<ZoneForces>(std::move(strip), plane)));
+        }
         else
-          motions.push_back(std::make_unique<ObliqueSection>(wide, RockModel(slice), std::move(strip), plane,
-                                                             group.p, reach));
+          motions.push_back(oblique_section(wide, slice, inner, plane, group.p, model, wave, n_steps));
       }
       field.add_section(slice, std::move(motions), 0);
     }
@@ -197,20 +215,24 @@ namespace Voussoir
         std::any_of(model.faces.begin(), model.faces.end(),
                     [](const BoundaryFace &face) { return std::abs(face.normal[0]) > .7; });
     for (const PlaneWave &wave : parameters.incidence.waves)
+    {
+      const Material half_space = half_space_of(model);
       for (const RockColumn &column : model.columns)
-      {
-        const Material &half_space = model.columns.front().material.front();
         check_incidence(wave, column.material, half_space);
+      for (const auto &material : parameters.rock.materials)
         if (has_sections)
-          check_incidence_along(wave, column.material, half_space);
-      }
+          check_incidence_along(wave, {material.second}, half_space);
+    }
   }
 
-  std::unique_ptr<FreeField> make_free_field(const RockModel &model, const RockRegionParameters &parameters,
+  std::unique_ptr<FreeField> make_free_field(const RockModel &model, const RockRegionParameters &given,
                                              const IncidentWave &wave, const unsigned int n_steps,
                                              const RockSplit &split)
   {
-    check_waves(model, parameters);
+    check_waves(model, given);
+    RockRegionParameters parameters = given;
+    if (!parameters.incidence.is_vertical())
+      parameters.incidence.half_space = half_space_of(model);
     auto field = std::make_unique<FreeField>(model, parameters.damping, parameters.dt, n_steps, wave,
                                              parameters.incidence);
     if (parameters.free_field == "sections")

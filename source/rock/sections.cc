@@ -176,7 +176,27 @@ namespace Voussoir
     }
   } // namespace
 
-  WideSection widened(const HexMesh &section, const unsigned int direction, const unsigned int n_layers)
+  namespace
+  {
+    /** Returns the number of layers of cells that have the given width on one side of the section, but not less than @p least. */
+    unsigned int layers_of_zone(const HexMesh &section, const unsigned int axis, const int sense,
+                                const double width, const unsigned int least)
+    {
+      double size = 0.;
+      for (const EdgeFace &edge : edge_faces(section))
+      {
+        const HexMesh::Cell &cell = section.cells[edge.cell];
+        for (unsigned int v = 0; v < 8 && edge.axis == axis && edge.sense == sense; ++v)
+          if (edge.has(cell.nodes[v]))
+            size = std::max(size, std::abs(section.nodes[cell.nodes[v]][axis] -
+                                           section.nodes[across(edge, cell, v)][axis]));
+      }
+      return size > 0. ? std::max<unsigned int>(least, std::lround(width / size)) : least;
+    }
+  } // namespace
+
+  WideSection widened(const HexMesh &section, const unsigned int direction, const double width,
+                      const unsigned int least)
   {
     WideSection wide{section,
                      {},
@@ -185,23 +205,13 @@ namespace Voussoir
                      section.cells.size()};
     for (unsigned int i = 0; i < section.nodes.size(); ++i)
       wide.root.push_back(i);
-    extrude(wide, 1 - direction, -1, n_layers);
-    extrude(wide, 1 - direction, 1, n_layers);
-    extrude(wide, 2, -1, n_layers);
-    return wide;
-  }
-
-  unsigned int layers_of_zone(const HexMesh &section, const double width, const unsigned int least)
-  {
-    double size = 0.;
-    for (const EdgeFace &edge : edge_faces(section))
+    for (const auto &[axis, sense] :
+         {std::pair<unsigned int, int>(1 - direction, -1), {1 - direction, 1}, {2, -1}})
     {
-      const HexMesh::Cell &cell = section.cells[edge.cell];
-      for (unsigned int v = 0; v < 8; ++v)
-        if (edge.has(cell.nodes[v]))
-          size = std::max(size, std::abs(section.nodes[cell.nodes[v]][edge.axis] -
-                                         section.nodes[across(edge, cell, v)][edge.axis]));
+      const unsigned int n = layers_of_zone(section, axis, sense, width, least);
+      extrude(wide, axis, sense, n);
+      wide.n_layers = std::max(wide.n_layers, n);
     }
-    return size > 0. ? std::max<unsigned int>(least, std::lround(width / size)) : least;
+    return wide;
   }
 } // namespace Voussoir

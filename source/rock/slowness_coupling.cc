@@ -10,6 +10,7 @@ namespace Voussoir
                                      const std::map<int, Material> &materials, const double p)
       : mass_along(model.points.size(), 0.), mass_across(mass_along)
   {
+    std::vector<double> mass(model.points.size(), 0.); // by nodal quadrature [kg]
     for (const HexMesh::Cell &cell : mesh.cells)
     {
       const Material &m = materials.at(cell.volume);
@@ -33,12 +34,26 @@ namespace Voussoir
                      z[3] = {(previous[1] - next[1]) / J, -previous[1] / J, next[1] / J};
         mass_along[node[0]] += w * p * p * (lambda + 2. * mu);
         mass_across[node[0]] += w * p * p * mu;
+        mass[node[0]] += w * m.density;
         for (unsigned int k = 0; k < 3; ++k)
         {
           entries.push_back({node[0], node[k], p * w * lambda * y[k], p * w * lambda * z[k]});
           entries.push_back({node[k], node[0], -p * w * mu * y[k], -p * w * mu * z[k]});
         }
       }
+    }
+    // The masses of the model have other quadrature points. Near the critical angle the difference could be negative; the share of
+    // the mass is below one.
+    const auto limit = [](const double all, const double nodal, double &subtracted)
+    {
+      const double share = nodal > 0. ? subtracted / nodal : 0.;
+      if (all - subtracted < .5 * all * (1. - share))
+        subtracted = all * share;
+    };
+    for (std::size_t i = 0; i < mass.size(); ++i)
+    {
+      limit(model.mass[i], mass[i], mass_along[i]);
+      limit(model.mass[i], mass[i], mass_across[i]);
     }
     merge();
   }

@@ -14,6 +14,9 @@ namespace Voussoir
    * which also supplies the free field of the bottom. Returns zeros if the model has no columns. */
   Vector3 travel_times(const RockModel &model, double z);
 
+  /** Returns the lowest rock of the column with the highest top. The angles of incident waves refer to this rock. */
+  Material half_space_of(const RockModel &model);
+
   /** Returns the travel time of a plane wave from the side of the rock that it reaches first to the place
    * @p to [s]. The path follows the same column. */
   double travel_time(const RockModel &model, const PlaneWave &wave, const Vector3 &to);

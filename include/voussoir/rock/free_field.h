@@ -61,7 +61,8 @@ namespace Voussoir
     void evaluate(Unknowns &u, double later) const;
 
     /** Returns the current displacement of the ground at places of the valley upstream, three values per place [m]. The
-     * nearest node of the section with the smallest x is used; without sections, the highest column.
+     * nearest node of the section with the smallest x is used; without sections, the highest column. All places have
+     * the delay of Incidence::centre along the valley.
      * @p places: the same in all calls; the x coordinate does not count. Not after split_up(). */
     Unknowns upstream(const std::vector<Vector3> &places);
 
@@ -96,6 +97,8 @@ namespace Voussoir
     Vector3 displacement(const Point &point, double later = 0.) const;
     bool    in_section(const Vector3 &place, Point &point) const;
     Point   of_line(const RockModel &model, unsigned int line, const Vector3 &place);
+
+    Vector3 centre; ///< Incidence::centre
 
     /** Creates a column of the model at rest. */
     std::function<std::unique_ptr<GroundColumn>(const RockColumn &)> make_column;

@@ -19,10 +19,10 @@ namespace Voussoir
     /** Creates the motion at rest.
      * @param wide section with a zone; @p model: its model
      * @param strip strip of the zone at the section, with the waves
-     * @param parameters of the section; the waves have the slowness @p p [s/m]
+     * @param parameters of the section, with a transmitting boundary; the waves have the slowness @p p [s/m]
      * @param reach smallest and largest x of displacement() [m]
      *
-     * Throws InputError if waves with this slowness do not propagate in the rock. */
+     * Throws InputError if P waves with this slowness do not propagate in the rock; see check_incidence_along(). */
     ObliqueSection(const WideSection &wide, RockModel model, std::unique_ptr<ZoneStrip> strip,
                    const RockRegionParameters &parameters, double p, const std::array<double, 2> &reach);
 
@@ -31,6 +31,10 @@ namespace Voussoir
     Vector3 displacement(unsigned int node, double x) const override;
 
     std::vector<std::vector<double> *> state() override;
+
+    /** Returns the stiffness damping that the transmitting formula requires in the section, relative to the time step. It follows
+     * from Poisson's ratio of the apparent wave speeds (doc/boundary.md). */
+    static double least_damping(const std::map<int, Material> &materials, double p);
 
     /** Returns the number of steps that the section is ahead, for a slowness p and a step dt. */
     static unsigned int steps_ahead(double p, double origin, const std::array<double, 2> &reach, double dt);

@@ -5,6 +5,7 @@
 #include <voussoir/base/tensor3.h>
 #include <voussoir/solid/material.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,9 @@ namespace Voussoir
   {
     std::vector<PlaneWave> waves;  ///< empty: vertical incidence, all components of the motion
     Vector3                centre; ///< place at which the waves arrive together, except for their delays [m]
+
+    /** Rock below all layers, to which the angles refer. Without a value, the lowest rock of the highest column. */
+    std::optional<Material> half_space = {};
 
     bool is_vertical() const { return waves.empty(); }
   };

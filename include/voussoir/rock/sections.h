@@ -23,16 +23,16 @@ namespace Voussoir
     std::vector<unsigned int> root; ///< per node: node of the section from which it was extruded, or itself
     std::vector<bool>         is_below; ///< per node: whether the extrusion of root went downward, too
     std::size_t               n_nodes, n_cells; ///< of the section
+    unsigned int              n_layers = 0;     ///< largest number of layers of the zone on a side
   };
 
-  /** Returns a section with a zone of @p n_layers of cells beside and below. The cells of the zone have the size of
-   * the outermost cells of the section. The faces of the section are replaced by those of the zone.
-   * @p section: result of extruded_section() with the same @p direction */
-  WideSection widened(const HexMesh &section, unsigned int direction, unsigned int n_layers);
-
-  /** Returns the number of layers of cells at the artificial faces of a section that have the given @p width
-   * [m] together, but not less than @p least. */
-  unsigned int layers_of_zone(const HexMesh &section, double width, unsigned int least);
+  /** Returns a section with a zone of cells beside and below. The cells of the zone have the size of the outermost
+   * cells of the section. The faces of the section are replaced by those of the zone.
+   * @param section result of extruded_section() with the same @p direction
+   * @param direction of the section
+   * @param width width of the zone, rounded to whole cells [m]
+   * @param least least number of layers on each side */
+  WideSection widened(const HexMesh &section, unsigned int direction, double width, unsigned int least);
 } // namespace Voussoir
 
 #endif
