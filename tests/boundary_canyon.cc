@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Semicircular canyon under SH waves at 0, 30 and 60 degrees against the exact series (Trifunac 1973, Bull. Seismol. Soc.
-// Am. 63, 1267-1281).
+// Semicircular canyon under SH waves at 0, 30 and 60 degrees against the exact series (Trifunac 1973, Bull.
+// Seismol. Soc. Am. 63, 1267-1281).
 
 #include "../benchmarks/boundary_canyon.h"
 #include "column.h"
@@ -17,7 +17,8 @@ namespace
     return n == 0 ? -f(1, x) : .5 * (f(n - 1, x) - f(n + 1, x));
   }
 
-  /** Amplitude of the antiplane displacement at a place over that of the incident wave. The wave travels in the direction of x.
+  /** Amplitude of the antiplane displacement at a place over that of the incident wave. The wave travels in
+   * the direction of x.
    * @p k: wave number times the radius 1; depth is positive downward. */
   double exact(const double k, const double angle, const double x, const double depth)
   {
@@ -66,7 +67,8 @@ namespace
 
   constexpr double frequencies[] = {.25, .5, 1., 2.}; ///< eta = 2 a over the wavelength
 
-  /** Root mean square error of the amplitudes at wall and ground, over that of level ground, for each frequency. */
+  /** Root mean square error of the amplitudes at wall and ground, over that of level ground, for each
+   * frequency. */
   std::vector<double> errors(const double angle)
   {
     const HexMesh mesh = whole_canyon(.05, 3.);

@@ -318,8 +318,8 @@ namespace
       note(what + ": variation along the valley / peak", error / peak);
   }
 
-  /** A valley that changes along x: FreeField::upstream() has the motion of the free field at the nodes with the smallest
-   * x. */
+  /** A valley that changes along x: FreeField::upstream() has the motion of the free field at the nodes
+   * with the smallest x. */
   void varying_valley()
   {
     auto p = parameters("mtf2", true);
@@ -360,7 +360,8 @@ namespace
     Columns::between("  section downstream - section upstream / peak", other / peak, .01, 10.);
   }
 
-  /** Returns the motion across a valley at 13 points of the ground, in a section with a zone of the given width. */
+  /** Returns the motion across a valley at 13 points of the ground, in a section with a zone of the given
+   * width. */
   std::vector<double> motion_of_valley(const double width_of_zone)
   {
     auto p = parameters("mtf3", true);
@@ -385,7 +386,8 @@ namespace
     return result;
   }
 
-  /** Difference of two motions at the frequency eta c_s / (2 a), a = 6, relative to the second: components x (SH) or y and z (SV). */
+  /** Difference of two motions at the frequency eta c_s / (2 a), a = 6, relative to the second: components x
+   * (SH) or y and z (SV). */
   double difference_at(const double eta, const bool is_sh, const std::vector<double> &u,
                        const std::vector<double> &v)
   {
@@ -408,7 +410,8 @@ namespace
     return std::sqrt(of_error / of_size);
   }
 
-  /** The free field of a valley hardly depends on the width of the zone. Its error is that of a zone of the least width before. */
+  /** The free field of a valley hardly depends on the width of the zone. Its error is that of a zone of the
+   * least width before. */
   void width_of_zone()
   {
     const auto far = motion_of_valley(8.), near = motion_of_valley(.75), least = motion_of_valley(0.);

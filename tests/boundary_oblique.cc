@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plane waves at an angle: motion of level ground against the closed form, at the surface and at depth; a flat region and a
-// prismatic valley against their free field; the limits of the angle.
+// Plane waves at an angle: motion of level ground against the closed form, at the surface and at depth; a
+// flat region and a prismatic valley against their free field; the limits of the angle.
 
 #include "box.h"
 #include "column.h"
@@ -27,9 +27,10 @@ namespace
     return read_incidence(type + " " + std::to_string(angle) + " " + std::to_string(azimuth))[0];
   }
 
-  /** Level ground of unit rock under a plane wave, in closed form. The axes are s, along the horizontal direction of propagation,
-   * n normal to it, and z. The reflected waves follow from the motion of the surface (Aki and Richards 2002, Quantitative
-   * Seismology, 2nd ed., section 5.2.2), or from the condition that the surface has no traction. */
+  /** Level ground of unit rock under a plane wave, in closed form. The axes are s, along the horizontal
+   * direction of propagation, n normal to it, and z. The reflected waves follow from the motion of the
+   * surface (Aki and Richards 2002, Quantitative Seismology, 2nd ed., section 5.2.2), or from the condition
+   * that the surface has no traction. */
   class LevelGround
   {
   public:
@@ -66,7 +67,8 @@ namespace
                (is_p ? alpha * q_p : -p) * in - alpha * q_p * p_out + p * s_out}};
     }
 
-    /** Largest traction of the surface for a unit amplitude of strain, which must vanish: a check of the formulas. */
+    /** Largest traction of the surface for a unit amplitude of strain, which must vanish: a check of the
+     * formulas. */
     double traction() const
     {
       if (type == PlaneWave::SH)
@@ -125,7 +127,8 @@ namespace
     return p;
   }
 
-  /** Level ground at the surface and at half of the depth against the closed form: largest error relative to the incident wave. */
+  /** Level ground at the surface and at half of the depth against the closed form: largest error relative to
+   * the incident wave. */
   double error_of_ground(const PlaneWave &wave, const double nu)
   {
     auto            p = parameters({wave}, nu);
@@ -146,7 +149,8 @@ namespace
     const double      late =
         wave.slowness(unit_rock(nu)) * (wave.along({{1., 2., 0.}}) - wave.along(top)); // at the nodes
     const double x = std::cos(wave.azimuth), y = std::sin(wave.azimuth);
-    // The motion of the file along the direction of the wave has the amplitude of its pulse times this factor.
+    // The motion of the file along the direction of the wave has the amplitude of its pulse times this
+    // factor.
     const double scale = wave.type == PlaneWave::P ? 1. : wave.type == PlaneWave::SV ? x + y : x - y;
     Unknowns     u;
     double       error = 0.;

@@ -173,8 +173,8 @@ namespace
   }
 
   /** Rock of high Poisson's ratio near the critical step with the dam's elements at the dam, or with free
-   * vertical faces, grows with a damping that is enough without these or farther from the critical step. All rows
-   * that grow in long runs are refused. The proposed damping is stable. */
+   * vertical faces, grows with a damping that is enough without these or farther from the critical step.
+   * All rows that grow in long runs are refused. The proposed damping is stable. */
   void poisson_near_critical()
   {
     struct Case

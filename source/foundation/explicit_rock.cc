@@ -48,8 +48,10 @@ namespace Voussoir
 
   namespace
   {
-    /** Returns the centre of the base at the height of its lowest node, where the waves arrive together [m]. */
-    Vector3 foot_of_dam(const RockModel &model, const std::vector<BaseNode> &at_base, const Vector3 &centre)
+    /** Returns the centre of the base at the height of its lowest node, where the waves arrive together [m].
+     * */
+    Vector3 lowest_base_place(const RockModel &model, const std::vector<BaseNode> &at_base,
+                              const Vector3 &centre)
     {
       double lowest = std::numeric_limits<double>::max();
       for (const BaseNode &f : at_base)
@@ -57,16 +59,16 @@ namespace Voussoir
       return {{centre[0], centre[1], lowest}};
     }
 
-    /** Returns the travel times of the waves with motion in x, y and z to the foot of the dam, those of oblique waves with the
-     * largest delay [s]. */
-    Vector3 times_to(const RockModel &model, const Vector3 &foot, const Incidence &incidence)
+    /** Returns the travel times of the waves with motion in x, y and z to the lowest base node, those of
+     * oblique waves with the largest delay [s]. */
+    Vector3 times_to(const RockModel &model, const Vector3 &place, const Incidence &incidence)
     {
       if (incidence.is_vertical() || model.columns.empty())
-        return travel_times(model, foot[2]);
+        return travel_times(model, place[2]);
       double latest = 0.;
       for (const PlaneWave &wave : incidence.waves)
         latest = std::max(latest, wave.delay);
-      const double time = latest + arrival_time(model, incidence, foot);
+      const double time = latest + arrival_time(model, incidence, place);
       return {{time, time, time}};
     }
   } // namespace
@@ -94,7 +96,7 @@ namespace Voussoir
     model = make_rock_part(mesh, rock, find, parameters.n_substeps());
     static_state = std::make_unique<RockStaticState>(model, at_base, parameters.sustained_ratio(),
                                                      !dam.on_footings.empty());
-    arrives = times_to(model, foot_of_dam(model, at_base, centre),
+    arrives = times_to(model, lowest_base_place(model, at_base, centre),
                        region_parameters(parameters, centre, 0.).incidence);
     mesh = HexMesh(); // no longer needed
     release_free_memory();
@@ -136,7 +138,7 @@ namespace Voussoir
     grid = steps;
     delay_of_region = delay;
     RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
-    p.incidence = timed(model, p.incidence, foot_of_dam(model, at_base, centre));
+    p.incidence = timed(model, p.incidence, lowest_base_place(model, at_base, centre));
     RockSplit split(work_of_nodes(model, near_base));
     split.step_everywhere(rock_nodes(at_base));
     if (!split.is_trivial() && !near_base.empty())
@@ -199,7 +201,7 @@ namespace Voussoir
   std::unique_ptr<ValleyMotion> ExplicitRock::valley(const std::vector<Vector3> &places)
   {
     RockRegionParameters p = region_parameters(parameters, centre, grid.substep());
-    p.incidence = timed(model, p.incidence, foot_of_dam(model, at_base, centre));
+    p.incidence = timed(model, p.incidence, lowest_base_place(model, at_base, centre));
     return std::make_unique<ValleyOnRock>(make_free_field(model, p, rising, grid.n_substeps() + 3), places,
                                           grid, delay_of_region);
   }

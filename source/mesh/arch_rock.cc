@@ -66,8 +66,8 @@ namespace Voussoir
         double       width() const { return count * size; } ///< [m]
       };
 
-      /** Returns the layers of a block of the given @p extent [m]. An extent above the height of the dam only adds
-       * layers: the elements at the dam do not depend on the block. */
+      /** Returns the layers of a block of the given @p extent [m]. An extent above the height of the dam
+       * only adds layers: the elements at the dam do not depend on the block. */
       Layers layers(const double extent) const
       {
         const double       inner = std::min(extent, rock.height);

@@ -28,7 +28,8 @@ namespace Voussoir
       return result;
     }
 
-    /** Adds up the time through the layers of a column from the height @p at to @p z. @p slowness: of a layer [s/m]. */
+    /** Adds up the time through the layers of a column from the height @p at to @p z. @p slowness: of a layer
+     * [s/m]. */
     template <class Slowness>
     double time_through(const RockColumn &column, double at, const double z, const Slowness &slowness)
     {
@@ -61,7 +62,8 @@ namespace Voussoir
 
   namespace
   {
-    /** Returns the time that a wave needs from the first side of the rock to a place at the same height [s]. */
+    /** Returns the time that a wave needs from the first side of the rock to a place at the same height [s].
+     * */
     double time_along(const RockModel &model, const PlaneWave &wave, const Vector3 &to)
     {
       double first = wave.along(to);

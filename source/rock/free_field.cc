@@ -61,7 +61,8 @@ namespace Voussoir
 
   namespace
   {
-    /** Returns corners of a box around the model and another place, with a margin for places one cell outside [m]. */
+    /** Returns corners of a box around the model and another place, with a margin for places one cell outside
+     * [m]. */
     std::pair<Vector3, Vector3> surroundings(const RockModel &model, const Vector3 &other)
     {
       Vector3 first = other, last = other;

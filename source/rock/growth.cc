@@ -26,8 +26,8 @@ namespace Voussoir
       return result;
     }
 
-    /** Returns the box: artificial boundary at the largest x and y and at the bottom, the base of a dam on 2 x 2 cells of
-     * the ground at the opposite corner. */
+    /** Returns the box: artificial boundary at the largest x and y and at the bottom, the base of a dam on
+     * 2 x 2 cells of the ground at the opposite corner. */
     HexMesh box()
     {
       const auto node = [](const unsigned int i, const unsigned int j, const unsigned int k)
@@ -104,8 +104,8 @@ namespace Voussoir
                          const bool is_symmetric)
   {
     constexpr unsigned int n_steps = 24000, interval = 400;
-    // Bounds of the energy relative to that of the noise. The noise contains each motion by more than the smaller bound. Stable
-    // motions may first grow by 1e9.
+    // Bounds of the energy relative to that of the noise. The noise contains each motion by more than the
+    // smaller bound. Stable motions may first grow by 1e9.
     constexpr double     decayed = 1e-9, grown = 1e30;
     RockRegionParameters p = parameters;
     Material             material;
@@ -115,7 +115,7 @@ namespace Voussoir
     p.rock.materials = {{rock_volume, material}};
     p.rock.centre = {{0., 0., double(n)}};
     if (!is_symmetric)
-      p.rock.layers_at_dam = 0; // a dam does not stand at the edge of two free vertical faces
+      p.rock.layers_at_dam = 0; // real rock has no dam at the edge of two free vertical faces
     const RockModel model = make_rock_model(box(), p.rock);
     set_step(model, parameters, critical_time_step, p);
     const auto          region = noisy_region(model, p, is_symmetric);

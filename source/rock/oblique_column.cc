@@ -51,8 +51,8 @@ namespace Voussoir
 
   double ObliqueLine::largest_frequency(const std::vector<Cell> &cells, const double p, const bool is_sh)
   {
-    // The frequencies of the column are bounded by those of its cells. Those of a cell follow from two pairs: sum of u_s with
-    // difference of u_z, and the reverse.
+    // The frequencies of the column are bounded by those of its cells. Those of a cell follow from two
+    // pairs: sum of u_s with difference of u_z, and the reverse.
     double square = 0.;
     for (const Cell &cell : cells)
     {
@@ -234,7 +234,8 @@ namespace Voussoir
   {
   }
 
-  /** Sets the number of steps that the column is ahead of the region and the number of steps that it keeps, for places in a box. */
+  /** Sets the number of steps that the column is ahead of the region and the number of steps that it keeps,
+   * for places in a box. */
   void ObliqueColumn::Part::set_times(const Vector3 &first, const Vector3 &last)
   {
     double least = 0., most = 0.; // delay in the box [s]
@@ -249,7 +250,8 @@ namespace Voussoir
     n_kept = lead + std::ceil(most / dt) + 6;
   }
 
-  /** Creates the lines. @p cells: one cell below the column, whose properties the half-spaces have, and those of the column. */
+  /** Creates the lines. @p cells: one cell below the column, whose properties the half-spaces have, and those
+   * of the column. */
   void ObliqueColumn::Part::set_lines(const std::vector<ObliqueLine::Cell> &cells,
                                       const RayleighDamping &damping, const unsigned int n_steps)
   {

@@ -79,8 +79,9 @@ namespace Voussoir
       end_step();
   }
 
-  /** Largest circular frequency of the equations without damping [1/s], by power iterations. With the unknowns (u_x, w_yz) the
-   * equations have the form y'' = -A y, and A is symmetric in the scalar product (K_x, M_yz). */
+  /** Largest circular frequency of the equations without damping [1/s], by power iterations. With the
+   * unknowns (u_x, w_yz) the equations have the form y'' = -A y, and A is symmetric in the scalar product
+   * (K_x, M_yz). */
   double ObliqueSection::largest_frequency() const
   {
     constexpr unsigned int n_iterations = 200;
@@ -123,7 +124,8 @@ namespace Voussoir
     return std::sqrt(square);
   }
 
-  /** Sets force to the forces of the free field at the time @p later after the current step of the field, with substeps
+  /** Sets force to the forces of the free field at the time @p later after the current step of the field,
+   * with substeps
    * @p step [s]. */
   void ObliqueSection::set_forces_of_zone(const double later, const double step)
   {

@@ -11,8 +11,9 @@ namespace Voussoir
   {
     constexpr double degree = 3.14159265358979323846 / 180.;
 
-    /** Least 1 - p^2 c^2, which the masses of a column and of a section are proportional to. The transmitting boundary of sections
-     * was unstable with 0.004 and stable with 0.035 (tests/boundary_oblique.cc). */
+    /** Least 1 - p^2 c^2, which the masses of a column and of a section are proportional to. The
+     * transmitting boundary of sections was unstable with 0.004 and stable with 0.035
+     * (tests/boundary_oblique.cc). */
     constexpr double least_mass = 1e-3, least_mass_of_section = .03;
 
     double speed(const PlaneWave::Type type, const Material &m)
@@ -91,7 +92,8 @@ namespace Voussoir
 
   namespace
   {
-    /** Throws InputError if the horizontal slowness, or that along the valley, is not below 1/c of each layer. */
+    /** Throws InputError if the horizontal slowness, or that along the valley, is not below 1/c of each
+     * layer. */
     void check_slowness(const PlaneWave &wave, const bool is_along, const PlaneWave::Type type,
                         const std::vector<Material> &layers, const Material &half_space)
     {

@@ -29,7 +29,8 @@ namespace Voussoir
       return kind;
     }
 
-    /** Returns the time that a shear wave needs along the longest edge of a cell: not more than this for 95 % of the cells [s]. */
+    /** Returns the time that a shear wave needs along the longest edge of a cell: not more than this for 95 %
+     * of the cells [s]. */
     double largest_crossing(const RockGrid &grid, const RockParameters &parameters)
     {
       std::vector<double> times;

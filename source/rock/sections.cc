@@ -88,8 +88,8 @@ namespace Voussoir
       }
     };
 
-    /** Returns the node of a cell at the other end of the edge that leads from the corner @p v to the face, or
-     * away from the face. */
+    /** Returns the node of a cell at the other end of the edge that leads from the corner @p v to the face,
+     * or away from the face. */
     unsigned int across(const EdgeFace &edge, const HexMesh::Cell &cell, const unsigned int v)
     {
       const unsigned int first = v / 4 * 4;
@@ -178,7 +178,8 @@ namespace Voussoir
 
   namespace
   {
-    /** Returns the number of layers of cells that have the given width on one side of the section, but not less than @p least. */
+    /** Returns the number of layers of cells that have the given width on one side of the section, but not
+     * less than @p least. */
     unsigned int layers_of_zone(const HexMesh &section, const unsigned int axis, const int sense,
                                 const double width, const unsigned int least)
     {

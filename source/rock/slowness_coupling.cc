@@ -19,7 +19,8 @@ namespace Voussoir
       const double thickness = std::abs(mesh.nodes[cell.nodes[0]][0] - mesh.nodes[cell.nodes[4]][0]);
       for (unsigned int a = 0; a < 4; ++a)
       {
-        // The quadrature point at corner a, with local axes along the edges to the next and the previous corner.
+        // The quadrature point at corner a, with local axes along the edges to the next and the previous
+        // corner.
         const unsigned int corner[3] = {a, (a + 1) % 4, (a + 3) % 4};
         Vector3            x[3];
         unsigned int       node[3];
@@ -42,8 +43,8 @@ namespace Voussoir
         }
       }
     }
-    // The masses of the model have other quadrature points. Near the critical angle the difference could be negative; the share of
-    // the mass is below one.
+    // The masses of the model have other quadrature points. Near the critical angle the difference could be
+    // negative; the share of the mass is below one.
     const auto limit = [](const double all, const double nodal, double &subtracted)
     {
       const double share = nodal > 0. ? subtracted / nodal : 0.;

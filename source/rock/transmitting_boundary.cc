@@ -61,8 +61,8 @@ namespace Voussoir
       return !rock.nodal_everywhere || rock.layers_at_dam > 0;
     }
 
-    /** Throws InputError for Gauss points at a transmitting boundary, which
-     * are unstable (tests/boundary_stability.cc). */
+    /** Throws InputError for Gauss points at a transmitting boundary, which are unstable
+     * (tests/boundary_stability.cc). */
     void check_quadrature(const RockRegionParameters &p, const unsigned int layers)
     {
       const double damping = .2 * p.dt;

@@ -49,11 +49,12 @@ namespace Voussoir
     /** Returns the critical time step of the rock, with its damping [s]; 0 before add_stiffness(). */
     double critical_time_step() const { return dt_critical; }
 
-    /** Returns the number of steps within the critical time step, at most 100 (check() refuses larger steps). */
+    /** Returns the number of steps within the critical time step, at most 100 (check() refuses larger steps).
+     * */
     unsigned int needed_substeps(double dt) const override;
 
-    /** Returns the free field of the section upstream, or of the highest column. It has its own integration, ahead of the
-     * rock. */
+    /** Returns the free field of the section upstream, or of the highest column. It has its own
+     * integration, ahead of the rock. */
     std::unique_ptr<ValleyMotion> valley(const std::vector<Vector3> &places) override;
 
     // Static state by RockStaticState. Must be called after add_stiffness() and before start().
@@ -61,9 +62,8 @@ namespace Voussoir
     ContactResult solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
                                Unknowns &load, Log &log) override;
 
-    /** Throws InputError in these cases:
-     *  - the time step of the rock exceeds the critical one,
-     *  - the artificial boundary would be unstable (ArtificialBoundary::check()) or is too close to the
+    /** Throws InputError in these cases: - the time step of the rock exceeds the critical one, - the
+     * artificial boundary would be unstable (ArtificialBoundary::check()) or is too close to the
      *    base. */
     void check(const TimeGrid &grid, unsigned int steps_per_sample) const override;
 

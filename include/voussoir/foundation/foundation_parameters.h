@@ -37,7 +37,8 @@ namespace Voussoir
     /** Returns the ratio of sustained and Young's modulus, for all zones of the rock [-]. */
     double sustained_ratio() const { return sustained > 0. ? sustained / rock.young : 1.; }
 
-    /** Returns true if the rock is subcycled with a constant force per time step of the dam (SubcycledRock). */
+    /** Returns true if the rock is subcycled with a constant force per time step of the dam (SubcycledRock).
+     * */
     bool is_subcycled() const { return coupling == "mean traction" || (coupling == "auto" && substeps > 1); }
 
     /** Declares the entries of the subsection. */

@@ -27,7 +27,8 @@ namespace Voussoir
      * @param wave incident wave
      * @param incidence directions of the waves
      *
-     * Throws InputError if the artificial boundary has no bottom, and for waves that do not propagate in the rock. */
+     * Throws InputError if the artificial boundary has no bottom, and for waves that do not propagate in the
+     * rock. */
     FreeField(const RockModel &model, const RayleighDamping &damping, double dt, unsigned int n_steps,
               const IncidentWave &wave, const Incidence &incidence = {});
     ~FreeField() override;
@@ -41,7 +42,8 @@ namespace Voussoir
     /** Adds the first @p n nodes of every line as points, line after line. */
     void add_lines(const RockModel &model, unsigned int n);
 
-    /** Adds the first node of a line as a point at the given place or, if @p is_below, the place one cell below the foot of its column. */
+    /** Adds the first node of a line as a point at the given place or, if @p is_below, the place one cell
+     * below the lowest node of its column. */
     void add_end_of_line(const RockModel &model, unsigned int line, const Vector3 &place, bool is_below);
 
     /** Adds the given nodes as points. Nodes of lines move like their line. */
@@ -56,13 +58,13 @@ namespace Voussoir
     void end_step() override;
     void evaluate(Unknowns &u) const override { evaluate(u, 0.); }
 
-    /** Stores the displacement of the points in @p u at a time after the current one, from -1 to 1 steps [s]. Other times than
-     * the current one are for oblique waves, and for points without a section. */
+    /** Stores the displacement of the points in @p u at a time after the current one, from -1 to 1 steps
+     * [s]. Other times than the current one are for oblique waves, and for points without a section. */
     void evaluate(Unknowns &u, double later) const;
 
-    /** Returns the current displacement of the ground at places of the valley upstream, three values per place [m]. The
-     * nearest node of the section with the smallest x is used; without sections, the highest column. All places have
-     * the delay of Incidence::centre along the valley.
+    /** Returns the current displacement of the ground at places of the valley upstream, three values per
+     * place [m]. The nearest node of the section with the smallest x is used; without sections, the highest
+     * column. All places have the delay of Incidence::centre along the valley.
      * @p places: the same in all calls; the x coordinate does not count. Not after split_up(). */
     Unknowns upstream(const std::vector<Vector3> &places);
 

@@ -11,8 +11,8 @@ namespace Voussoir
   /** Returns the speeds of vertically propagating waves with motion in x, y and z: S, S and P [m/s]. */
   Vector3 wave_speeds(const Material &material);
 
-  /** Returns the number of cells of a uniform line from whose end no reflection returns to the beginning within @p n_steps
-   * steps. @p courant: Courant numbers of its waves. */
+  /** Returns the number of cells of a uniform line from whose end no reflection returns to the beginning
+   * within @p n_steps steps. @p courant: Courant numbers of its waves. */
   unsigned int endless_length(const Vector3 &courant, unsigned int n_steps);
 
   /** Uniform half-space of one-dimensional cells, driven at its first node. Its length is chosen so that no

@@ -9,7 +9,7 @@
 
 namespace Voussoir
 {
-  /** What columns of ground have in common. */
+  /** Settings that all columns of ground share. */
   struct ColumnRun
   {
     RayleighDamping damping;
@@ -34,7 +34,8 @@ namespace Voussoir
      * @param later time after the current one, from -1 to 1 steps [s]; only for oblique waves */
     virtual Vector3 displacement(int level, const Vector3 &place, double later) const = 0;
 
-    /** Returns the values of a step that another process requires, which calls received() when it has them. */
+    /** Returns the values of a step that another process requires, which calls received() when it has them.
+     * */
     virtual std::vector<double> &motion() = 0;
     virtual void                 received() {}
 

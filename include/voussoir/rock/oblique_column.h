@@ -12,15 +12,16 @@
 
 namespace Voussoir
 {
-  /** Discrete column of layered ground in which all fields have the form U(z, t - p s), with the horizontal slowness p
-   * and the coordinate s along the horizontal direction of propagation. Derivatives along s are -p times derivatives in time. With
-   * nodal quadrature the equations of the components u_s and u_z are (doc/boundary.md)
+  /** Discrete column of layered ground in which all fields have the form U(z, t - p s), with the horizontal
+   * slowness p and the coordinate s along the horizontal direction of propagation. Derivatives along s are
+   * -p times derivatives in time. With nodal quadrature the equations of the components u_s and u_z are
+   * (doc/boundary.md)
    *
    *   M_s u_s'' = -K_s u_s - G u_z',   M_z u_z'' = -K_z u_z + G' u_s',
    *
-   * with the masses V (rho - p^2 (lambda + 2 mu)) and V (rho - p^2 mu). u_s lives at half steps and u_z at whole steps, so
-   * the scheme is explicit, and stable below the critical time step. SH waves have one component with the mass of
-   * u_z and the stiffness of u_s.
+   * with the masses V (rho - p^2 (lambda + 2 mu)) and V (rho - p^2 mu). u_s lives at half steps and u_z at
+   * whole steps, so the scheme is explicit, and stable below the critical time step. SH waves have one
+   * component with the mass of u_z and the stiffness of u_s.
    *
    * The motion of the first node is prescribed, the last node is free. */
   class ObliqueLine
@@ -33,7 +34,8 @@ namespace Voussoir
       Material material;
     };
 
-    /** Creates a line at rest. @p is_sh: one horizontal component, which takes the place of u_z. @p dt: time step [s]. */
+    /** Creates a line at rest. @p is_sh: one horizontal component, which takes the place of u_z. @p dt: time
+     * step [s]. */
     ObliqueLine(const std::vector<Cell> &cells, double p, bool is_sh, const RayleighDamping &damping,
                 double dt);
 
@@ -61,9 +63,10 @@ namespace Voussoir
     std::vector<double> s, w_s, z, w_z;           ///< displacements and velocities half a step later [m, m/s]
   };
 
-  /** Motion of layered ground under plane waves that rise at an angle. The total motion of a flat region equals it up to the
-   * error of the elements along the ground. Each wave has a column of its own, with uniform half-spaces above the
-   * entrance for the incident wave and below the lowest node for the leaving one, as in FreeFieldColumn. */
+  /** Motion of layered ground under plane waves that rise at an angle. The total motion of a flat region
+   * equals it up to the error of the elements along the ground. Each wave has a column of its own, with
+   * uniform half-spaces above the entrance for the incident wave and below the lowest node for the leaving
+   * one, as in FreeFieldColumn. */
   class ObliqueColumn : public GroundColumn
   {
   public:

@@ -9,10 +9,11 @@
 
 namespace Voussoir
 {
-  /** Motion of a section under waves with a slowness p along the valley (x): U(y, z, t - p x), with the equations of
-   * SlownessCoupling. u_x lives at half steps and u_y, u_z at whole steps, so the scheme is explicit. The section has a zone that
-   * carries the scattered motion only. It is ahead of the region and keeps the motion of the last steps, from which
-   * displacement() interpolates. Every process integrates the whole section. */
+  /** Motion of a section under waves with a slowness p along the valley (x): U(y, z, t - p x), with the
+   * equations of SlownessCoupling. u_x lives at half steps and u_y, u_z at whole steps, so the scheme is
+   * explicit. The section has a zone that carries the scattered motion only. It is ahead of the region and
+   * keeps the motion of the last steps, from which displacement() interpolates. Every process integrates
+   * the whole section. */
   class ObliqueSection : public SectionMotion
   {
   public:
@@ -22,7 +23,8 @@ namespace Voussoir
      * @param parameters of the section, with a transmitting boundary; the waves have the slowness @p p [s/m]
      * @param reach smallest and largest x of displacement() [m]
      *
-     * Throws InputError if P waves with this slowness do not propagate in the rock; see check_incidence_along(). */
+     * Throws InputError if P waves with this slowness do not propagate in the rock; see
+     * check_incidence_along(). */
     ObliqueSection(const WideSection &wide, RockModel model, std::unique_ptr<ZoneStrip> strip,
                    const RockRegionParameters &parameters, double p, const std::array<double, 2> &reach);
 
@@ -32,8 +34,8 @@ namespace Voussoir
 
     std::vector<std::vector<double> *> state() override;
 
-    /** Returns the stiffness damping that the transmitting formula requires in the section, relative to the time step. It follows
-     * from Poisson's ratio of the apparent wave speeds (doc/boundary.md). */
+    /** Returns the stiffness damping that the transmitting formula requires in the section, relative to the
+     * time step. It follows from Poisson's ratio of the apparent wave speeds (doc/boundary.md). */
     static double least_damping(const std::map<int, Material> &materials, double p);
 
     /** Returns the number of steps that the section is ahead, for a slowness p and a step dt. */

@@ -53,8 +53,9 @@ namespace Voussoir
 
     Incidence incidence; ///< directions of the incident waves, with delays by timed()
 
-    /** Width of the zone around a section that carries the scattered motion only, relative to the height of the
-     * section [-]. A wider zone changes the motion of the valley of arch210 by less than 1 % (doc/boundary.md). */
+    /** Width of the zone around a section that carries the scattered motion only, relative to the height of
+     * the section [-]. A wider zone changes the motion of the valley of arch210 by less than 1 %
+     * (doc/boundary.md). */
     double width_of_zone = .75;
   };
 } // namespace Voussoir

@@ -19,7 +19,8 @@ namespace Voussoir
     virtual void begin_step(std::vector<Ranks::Message> &messages) = 0;
     virtual void end_step() = 0;
 
-    /** Returns the displacement of a node of the section at the current time, at the coordinate @p x along the valley [m]. */
+    /** Returns the displacement of a node of the section at the current time, at the coordinate @p x along
+     * the valley [m]. */
     virtual Vector3 displacement(unsigned int node, double x) const = 0;
 
     /** Returns all state variables, for checkpoints. */

@@ -26,8 +26,8 @@ namespace Voussoir
     unsigned int              n_layers = 0;     ///< largest number of layers of the zone on a side
   };
 
-  /** Returns a section with a zone of cells beside and below. The cells of the zone have the size of the outermost
-   * cells of the section. The faces of the section are replaced by those of the zone.
+  /** Returns a section with a zone of cells beside and below. The cells of the zone have the size of the
+   * outermost cells of the section. The faces of the section are replaced by those of the zone.
    * @param section result of extruded_section() with the same @p direction
    * @param direction of the section
    * @param width width of the zone, rounded to whole cells [m]

@@ -51,7 +51,8 @@ namespace Voussoir
     const TransmittingFormula &transmitting_formula() const { return formula; }
 
   private:
-    /** Computes the motion of the boundary nodes. Template argument: n_points as a constant for the compiler, or 0. */
+    /** Computes the motion of the boundary nodes. Template argument: n_points as a constant for the compiler,
+     * or 0. */
     template <unsigned int known> void move_nodes(const RegionStep &step);
 
     TransmittingFormula       formula;

@@ -8,11 +8,12 @@
 
 namespace Voussoir
 {
-  /** Forces of the free field on a section with a zone (widened()). The nodes of the section have the total motion u, the
-   * nodes of the zone the scattered motion u - u_0. The forces act where both meet: with the stiffness K of the
-   * cells of the zone they are -K_be u_0e at the nodes b of the section and K_eb u_0b at the nodes e of the zone
-   * (domain reduction method, Bielak and Christiano 1984, Earthq. Eng. Struct. Dyn. 12, 107-119). Waves that the
-   * section scatters thus leave through the zone, and the free field does not cross the zone. */
+  /** Forces of the free field on a section with a zone (widened()). The nodes of the section have the total
+   * motion u, the nodes of the zone the scattered motion u - u_0. The forces act where both meet: with the
+   * stiffness K of the cells of the zone they are -K_be u_0e at the nodes b of the section and K_eb u_0b at
+   * the nodes e of the zone (domain reduction method, Bielak and Christiano 1984, Earthq. Eng. Struct. Dyn.
+   * 12, 107-119). Waves that the section scatters thus leave through the zone, and the free field does not
+   * cross the zone. */
   class ZoneForces
   {
   public:
@@ -20,7 +21,8 @@ namespace Voussoir
 
     /** Advances the free field by one step; see IncidentField::begin_step(). */
     void begin_step(std::vector<Ranks::Message> &messages) { strip->field.begin_step(messages); }
-    /** Completes the step of begin_step() and stores the forces in @p force, three values per node of the model [N]. */
+    /** Completes the step of begin_step() and stores the forces in @p force, three values per node of the
+     * model [N]. */
     void end_step(Unknowns &force);
 
     std::vector<std::vector<double> *> state();
