@@ -111,6 +111,11 @@ def binds_less(text, before, after):
     ends = not after.strip() or after.lstrip()[0] in ";,)]}:"
     if re.search(r"[+\-*/%&|^]=", inner):
         return not ends
+    first, last = after.lstrip()[:2], before[-2:]
+    if "?" in inner and (ends is False or re.search(r"[|&<>!=]=?$|[-+*/%]$", before) and not re.search(r"(?<![=!<>])=$", before)):
+        return True
+    if "||" in inner and "?" not in inner and ("&&" in (first, last) or last.endswith("!")):
+        return True
     weak, factor = r"(?<=[\w\s])\s*[-+]\s*(?=[\w.:])(?<!\de-)(?<!\de\+)", r"[*/%](?!=)"
     return bool(re.search(weak, inner.strip()) and (re.match(factor, after.lstrip()) or re.search(r"[-*/%]$", before))
                 or re.search(factor, inner) and before.endswith("/"))

@@ -34,51 +34,16 @@ namespace
     return {{ricker(t, .05, 30.), .7 * ricker(t, .04, 35.), .5 * ricker(t, .06, 28.)}};
   }
 
-  /** NaN if one of them is. */
+  /** Returns the larger number, or NaN if a number is NaN. */
   double larger(const double a, const double b)
   {
     return a >= b ? a : b;
   }
 
-  struct Result
+  Difference run(const HexMesh &mesh, const RockRegionParameters &p, const unsigned int n_steps,
+                 const std::string &expected_of)
   {
-    double error = 0., peak = 0., energy_error = 0.;
-  };
-
-  /** Largest difference between the region and the free field @p expected_of, at all nodes. */
-  Result run(const HexMesh &mesh, const RockRegionParameters &p, const unsigned int n_steps,
-             const std::string &expected_of)
-  {
-    const RockModel model = make_rock_model(mesh, p.rock);
-    auto            region = make_region(model, p);
-    shake(*region, model, p, pulse, n_steps);
-    region->keep_energy();
-
-    RockRegionParameters other = p;
-    other.free_field = expected_of;
-    const auto                field = make_free_field(model, other, pulse, n_steps);
-    std::vector<unsigned int> all(model.points.size());
-    for (unsigned int i = 0; i < all.size(); ++i)
-      all[i] = i;
-    field->add_nodes(model, all);
-    Unknowns expected;
-    Result   result;
-    double   largest = 0.;
-    for (unsigned int i = 0; i < n_steps; ++i)
-    {
-      region->advance();
-      field->advance();
-      field->evaluate(expected);
-      for (unsigned int k = 0; k < expected.size(); ++k)
-      {
-        result.error = larger(result.error, std::abs(region->displacement()[k] - expected[k]));
-        result.peak = larger(result.peak, std::abs(expected[k]));
-      }
-      largest = std::max(largest, region->energy().kinetic + region->energy().strain);
-      result.energy_error = larger(result.energy_error, std::abs(region->energy().balance()));
-    }
-    result.energy_error /= largest;
-    return result;
+    return difference(make_rock_model(mesh, p.rock), p, pulse, expected_of, n_steps);
   }
 
   constexpr int stiff = rock + 1; ///< the volume of the half-space below a layer
@@ -115,11 +80,11 @@ namespace
     auto p = parameters(boundary, nodal);
     p.damping = damping;
     p.free_field = free_field;
-    const Result r = run(box({14, 13, 12}, open_box, unit_cells), p, 400, "columns");
+    const Difference r = run(box({14, 13, 12}, open_box, unit_cells), p, 400, "columns");
     below("flat, " + boundary + ", " + free_field + (nodal ? ", nodal" : ", Gauss inside") +
               (damping.stiffness > 0. ? ", damped" : "") + ": total - free field / peak",
           r.error / r.peak, 1e-10);
-    below("  energy account / largest energy", r.energy_error, 1e-10);
+    below("  energy balance / largest energy", r.energy_error, 1e-10);
   }
 
   /** Motion at the ground above is twice the incident wave. */
@@ -148,9 +113,9 @@ namespace
     below("  P", error_p, .01);
   }
 
-  /** A layer of thickness H on a half-space amplifies harmonic waves from below by 2/|cos kH + i sin kH (rho
-   * c)_1 / (rho c)_2|: at c/4H by twice the ratio of the impedances, 4.4 for a layer of 1 and 1 on 2 and 1.1;
-   * at c/2H by 2, as no layer. */
+  /** A layer of thickness H on a half-space amplifies harmonic waves from below. The factor is
+   * 2/|cos kH + i sin kH (rho c)_1 / (rho c)_2|. At c/4H the factor is twice the ratio of the impedances, 4.4
+   * for a layer of 1 and 1 on 2 and 1.1. At c/2H the factor is 2, as without a layer. */
   void layer_on_half_space()
   {
     auto p = layered(parameters("mtf2", true));
@@ -187,13 +152,13 @@ namespace
   {
     auto p = layered(parameters(boundary, true));
     p.free_field = free_field;
-    const Result r = run(layered(box({14, 13, 12}, open_box, unit_cells), 8.), p, 400, "columns");
+    const Difference r = run(layered(box({14, 13, 12}, open_box, unit_cells), 8.), p, 400, "columns");
     below("flat, two layers, " + boundary + ", " + free_field + ": total - free field / peak",
           r.error / r.peak, 1e-10);
-    below("  energy account / largest energy", r.energy_error, 1e-10);
+    below("  energy balance / largest energy", r.energy_error, 1e-10);
   }
 
-  /** Where the rock's bottom is deeper, the wave enters earlier: the level ground moves as one. */
+  /** The wave enters earlier where the bottom of the rock is deeper, so the level ground moves as one. */
   void stepped_bottom()
   {
     auto p = parameters("mtf2", true);
@@ -242,7 +207,7 @@ namespace
     }
     below("arrival of S and P, two layers: error [s]", error, 1e-12);
 
-    // A ramp of the incident wave: its middle is at the ground when the times say so.
+    // A ramp of the incident wave: its middle is at the ground at these times.
     p.free_field = "columns";
     FreeField  field(model, p.damping, p.dt, 400,
                      [](const double t) -> Vector3
@@ -310,7 +275,7 @@ namespace
     if (free_field == "sections" && nodal)
     {
       below(what + ": total - section / peak", error / peak, 1e-9);
-      const Result r = run(mesh, p, 300, p.free_field);
+      const Difference r = run(mesh, p, 300, p.free_field);
       below("  total - free field / peak", r.error / r.peak, 1e-9);
       below("  total - motion of the valley upstream / peak", off_upstream / peak, 1e-9);
     }
@@ -410,8 +375,7 @@ namespace
     return std::sqrt(of_error / of_size);
   }
 
-  /** The free field of a valley hardly depends on the width of the zone. Its error is that of a zone of the
-   * least width before. */
+  /** The free field of a valley is almost independent of the width of the zone. */
   void width_of_zone()
   {
     const auto far = motion_of_valley(8.), near = motion_of_valley(.75), least = motion_of_valley(0.);

@@ -27,7 +27,7 @@ namespace
       const Result r = run(p, quarter(p), n_long);
       below(name + ", nodal quadrature: max |u| after " + std::to_string(r.steps) + " steps / peak",
             r.end / r.peak, 1e-6);
-      below("  energy account / largest energy", r.energy_error, 1e-8);
+      below("  energy balance / largest energy", r.energy_error, 1e-8);
     }
     auto p = parameters("mtf2");
     p.rock.nodal_everywhere = false;
@@ -64,7 +64,7 @@ namespace
       p.rock.nodal_layers = region_parameters(scene, p.rock.centre, p.dt).rock.nodal_layers;
       const RockModel model = quarter(p);
       const Result    early = run(p, model, n_long / 4), late = run(p, model, n_long);
-      below(name + ", all of it the dam's elements but " + std::to_string(p.rock.nodal_layers) +
+      below(name + ", elements of the dam except in " + std::to_string(p.rock.nodal_layers) +
                 " layers: max |u| / peak",
             late.end / late.peak, 1e-2);
       below("  late / early", late.end / early.end, 2.);
@@ -172,9 +172,8 @@ namespace
     return "";
   }
 
-  /** Rock of high Poisson's ratio near the critical step with the dam's elements at the dam, or with free
-   * vertical faces, grows with a damping that is enough without these or farther from the critical step.
-   * All rows that grow in long runs are refused. The proposed damping is stable. */
+  /** Rock of high Poisson's ratio grows near the critical step. Elements of the dam and free vertical faces
+   * require more damping. All rows that grow in long runs are refused. The proposed damping is stable. */
   void poisson_near_critical()
   {
     struct Case

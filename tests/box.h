@@ -7,11 +7,10 @@
 #include "grids.h"
 #include "testing.h"
 
-#include <voussoir/rock/rock_region.h>
+#include <voussoir/rock/growth.h>
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <vector>
 
 namespace Boxes
@@ -45,17 +44,8 @@ namespace Boxes
   inline double noise_growth(const RockModel &model, const RockRegionParameters &parameters,
                              const unsigned int n_steps = 2000, const std::vector<unsigned int> &fixed = {})
   {
-    const auto region = make_region(model, parameters);
-    region->fix(fixed);
-    std::mt19937 engine(7);
-    Unknowns     u(3 * std::size_t(region->n_nodes()), 0.), v = u;
-    for (double &x : v)
-      x = engine() / 2147483647.5 - 1.;
-    for (const BoundaryLine &line : model.lines)
-      std::fill_n(v.begin() + 3 * std::size_t(line.nodes[0]), 3, 0.);
-    region->keep_energy();
-    region->start(u, v);
-    double early = 0.;
+    const auto region = region_with_noise(model, parameters, fixed);
+    double     early = 0.;
     for (unsigned int i = 1; i <= n_steps; ++i)
     {
       region->advance();
@@ -65,6 +55,51 @@ namespace Boxes
         return HUGE_VAL;
     }
     return region->energy().kinetic / early;
+  }
+
+  /** Differences between a region and a free field. */
+  struct Difference
+  {
+    double error = 0.,
+           peak = 0.;         ///< largest difference and largest motion of the free field, at all nodes [m]
+    double energy_error = 0.; ///< of the energy balance, relative to the largest energy
+  };
+
+  /** Returns the differences between the region of a model and its free field of the type @p expected_of. NaN counts
+   * as the largest difference. */
+  inline Difference difference(const RockModel &model, const RockRegionParameters &p,
+                               const IncidentWave &wave, const std::string &expected_of,
+                               const unsigned int n_steps)
+  {
+    auto region = make_region(model, p);
+    shake(*region, model, p, wave, n_steps);
+    region->keep_energy();
+    RockRegionParameters other = p;
+    other.free_field = expected_of;
+    const auto                field = make_free_field(model, other, wave, n_steps);
+    std::vector<unsigned int> all(model.points.size());
+    for (unsigned int i = 0; i < all.size(); ++i)
+      all[i] = i;
+    field->add_nodes(model, all);
+    const auto larger = [](const double a, const double b) { return a >= b ? a : b; };
+    Unknowns   expected;
+    Difference result;
+    double     largest = 0.;
+    for (unsigned int i = 0; i < n_steps; ++i)
+    {
+      region->advance();
+      field->advance();
+      field->evaluate(expected);
+      for (unsigned int k = 0; k < expected.size(); ++k)
+      {
+        result.error = larger(result.error, std::abs(region->displacement()[k] - expected[k]));
+        result.peak = larger(result.peak, std::abs(expected[k]));
+      }
+      largest = std::max(largest, region->energy().kinetic + region->energy().strain);
+      result.energy_error = larger(result.energy_error, std::abs(region->energy().balance()));
+    }
+    result.energy_error /= largest;
+    return result;
   }
 } // namespace Boxes
 

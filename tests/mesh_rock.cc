@@ -127,14 +127,14 @@ namespace
                "a base face without dam and rock");
         ++n_base;
       }
-    expect(n_base == 58 * 2, "all of the foot and none of the end walls is base");
+    expect(n_base == 58 * 2, "all of the base and none of the end walls is base");
     std::vector<bool> of_rock(mesh.nodes.size(), false);
     for (const auto &cell : mesh.cells)
       if (!is_monolith(cell.volume))
         for (const unsigned int node : cell.nodes)
           of_rock[node] = true;
     expect(std::count(of_rock.begin(), of_rock.begin() + dam.nodes.size(), true) == 59 * 3,
-           "the rock shares the foot's nodes only");
+           "the rock shares the base nodes only");
 
     // Opened, the joints end at the rock.
     const HexMesh opened = open_joints(mesh);
@@ -163,7 +163,7 @@ namespace
                 volumes(mesh)[1000], expected);
     expect_close(volumes(mesh)[1000], expected, 0.002, "volume of the rock");
     const auto &r = p.arch210_rock;
-    double      foot_min = 0, foot_max = 0; // of the foot, along the stream
+    double      foot_min = 0, foot_max = 0; // of the base, along the stream
     for (const auto &face : mesh.faces)
       if (face.surface == PhysicalId::base)
         for (const unsigned int node : face.nodes)
@@ -189,7 +189,7 @@ namespace
     expect_close(volume(layers), polygon * r.n_layers * h, 1e-10, "volume of the layers upstream");
   }
 
-  /** How much a vertical wave disperses on its way up a corner of the block: the sum of h^3 over its cells.
+  /** Returns a measure of the dispersion of a vertical wave in a corner of the block: the sum of h^3 over its cells.
    */
   double dispersion(const double depth)
   {
@@ -221,7 +221,7 @@ namespace
   }
 
   /** The cubic that fades from 1 to 0, level at both ends; sizes between two neighbours, each at most 1.35
-   * times the one beside it. */
+   * times the next one. */
   void test_grading()
   {
     for (const auto &[x, exact] :

@@ -52,14 +52,17 @@ namespace Voussoir
         return std::none_of(waves.begin(), waves.end(),
                             [type](const PlaneWave &w) { return w.type == type; });
       };
-      const std::string missing = std::string(is_missing(PlaneWave::P) ? " P" : "") +
-                                  (is_missing(PlaneWave::SV) ? " SV" : "") +
-                                  (is_missing(PlaneWave::SH) ? " SH" : "");
-      if (!missing.empty())
-        log.line(
-            "warning: \"Foundation/Incidence\" has no wave of the type%s, so the component of the ground motion that it "
-            "carries does not enter (P: vertical, SV: along the azimuth, SH: normal to it)",
-            missing.c_str());
+      for (const auto &[type, component] : std::vector<std::pair<PlaneWave::Type, const char *>>{
+               {PlaneWave::P, "the vertical component"},
+               {PlaneWave::SV, "the horizontal component along the azimuth"},
+               {PlaneWave::SH, "the horizontal component normal to the azimuth"}})
+        if (is_missing(type))
+          log.line(
+              "warning: %s of the ground motion does not enter, because \"Foundation/Incidence\" has no %s wave",
+              component,
+              type == PlaneWave::P    ? "P"
+              : type == PlaneWave::SV ? "SV"
+                                      : "SH");
     }
   } // namespace
 
@@ -75,6 +78,11 @@ namespace Voussoir
     report_waves(parameters, log);
     if (grid.n > 0)
       log.line("          the earthquake arrives at the lowest base node after %.3f s", delay);
+    if (grid.n > 0 && delay >= grid.n * grid.dt)
+      log.line(
+          "warning: the run ends at %.3f s, before the earthquake has arrived at the dam. Increase \"Motion/Duration\", set it "
+          "to -1, or reduce the delays of \"Foundation/Incidence\"",
+          grid.n * grid.dt);
     const std::string warning =
         make_boundary(parameters.boundary)->warning(region_parameters(parameters, {}, grid.substep()));
     if (!warning.empty())

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/rock/growth.h>
-#include <voussoir/rock/rock_region.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,28 +61,6 @@ namespace Voussoir
       return mesh;
     }
 
-    /** Returns the region with noise: random velocities, except on the artificial boundary. */
-    std::unique_ptr<ExplicitRegion> noisy_region(const RockModel &model, const RockRegionParameters &p,
-                                                 const bool is_symmetric)
-    {
-      auto                      region = make_region(model, p);
-      std::vector<unsigned int> fixed;
-      for (unsigned int i = 0; i < model.points.size(); ++i)
-        for (unsigned int c = 0; c < 2; ++c)
-          if (is_symmetric && model.points[i][c] == 0.)
-            fixed.push_back(3 * i + c);
-      region->fix(fixed);
-      std::mt19937 engine(7);
-      Unknowns     u(3 * model.points.size(), 0.), v = u;
-      for (double &x : v)
-        x = engine() / 2147483647.5 - 1.;
-      for (const BoundaryLine &line : model.lines)
-        std::fill_n(v.begin() + 3 * std::size_t(line.nodes[0]), 3, 0.);
-      region->keep_energy();
-      region->start(u, v);
-      return region;
-    }
-
     /** Sets time step and damping in the ratios of the region. The damping reduces the critical time step. */
     void set_step(const RockModel &model, const RockRegionParameters &region, const double critical_time_step,
                   RockRegionParameters &p)
@@ -99,6 +76,23 @@ namespace Voussoir
       }
     }
   } // namespace
+
+  std::unique_ptr<ExplicitRegion> region_with_noise(const RockModel                 &model,
+                                                    const RockRegionParameters      &parameters,
+                                                    const std::vector<unsigned int> &fixed)
+  {
+    auto region = make_region(model, parameters);
+    region->fix(fixed);
+    std::mt19937 engine(7);
+    Unknowns     u(3 * model.points.size(), 0.), v = u;
+    for (double &x : v)
+      x = engine() / 2147483647.5 - 1.;
+    for (const BoundaryLine &line : model.lines)
+      std::fill_n(v.begin() + 3 * std::size_t(line.nodes[0]), 3, 0.);
+    region->keep_energy();
+    region->start(u, v);
+    return region;
+  }
 
   double growth_per_step(const RockRegionParameters &parameters, const double critical_time_step,
                          const bool is_symmetric)
@@ -118,7 +112,12 @@ namespace Voussoir
       p.rock.layers_at_dam = 0; // real rock has no dam at the edge of two free vertical faces
     const RockModel model = make_rock_model(box(), p.rock);
     set_step(model, parameters, critical_time_step, p);
-    const auto          region = noisy_region(model, p, is_symmetric);
+    std::vector<unsigned int> fixed; // components across the planes of symmetry
+    for (unsigned int i = 0; i < model.points.size(); ++i)
+      for (unsigned int c = 0; c < 2; ++c)
+        if (is_symmetric && model.points[i][c] == 0.)
+          fixed.push_back(3 * i + c);
+    const auto          region = region_with_noise(model, p, fixed);
     std::vector<double> energy;
     double              of_noise = 0.;
     for (unsigned int i = 1; i <= n_steps; ++i)
@@ -160,6 +159,13 @@ namespace Voussoir
         growth = std::max(growth, growth_per_step(p, critical_time_step, false));
       return known[settings] = growth;
     }
+
+    /** Returns the circular frequency with the given critical time step: the inverse of critical_time_step() [1/s]. */
+    double frequency_of(const double critical, const RayleighDamping &damping)
+    {
+      return std::sqrt((1. - .5 * critical * damping.mass) /
+                       (.25 * critical * critical + .5 * critical * damping.stiffness));
+    }
   } // namespace
 
   void check_growth(const RockRegionParameters &p, const double critical_time_step)
@@ -177,17 +183,22 @@ namespace Voussoir
          << p.damping.stiffness / p.dt
          << " time steps, the motion in a box of 12 x 12 x 12 elements grows by " << 100. * std::expm1(growth)
          << " % per step. ";
+    const double w = frequency_of(critical_time_step, p.damping);
     for (const double share : {.005, .01, .02, .05})
     {
+      // More damping reduces the critical time step.
       RockRegionParameters other = p;
       other.damping.stiffness = share * p.dt;
-      if (share * p.dt > p.damping.stiffness &&
-          largest_growth_of(other, critical_time_step) <= largest_growth)
-      {
-        text << "Set \"Foundation/Stiffness damping\" to at least " << other.damping.stiffness << " s ("
-             << share << " times the rock time step), or \"Foundation/Boundary\" to viscous-spring.";
-        throw InputError(text.str());
-      }
+      const double critical = Voussoir::critical_time_step(w, other.damping);
+      other.dt = std::min(p.dt, .99 * critical);
+      if (share * p.dt <= p.damping.stiffness || largest_growth_of(other, critical) > largest_growth)
+        continue;
+      text << "Set \"Foundation/Stiffness damping\" to at least " << other.damping.stiffness << " s ("
+           << share << " times the rock time step)";
+      if (other.dt < p.dt)
+        text << " with a rock time step of at most " << other.dt << " s";
+      text << ", or \"Foundation/Boundary\" to viscous-spring.";
+      throw InputError(text.str());
     }
     text << "Set \"Foundation/Boundary\" to viscous-spring.";
     throw InputError(text.str());

@@ -30,20 +30,22 @@ namespace Voussoir
       : dt(dt), damping(damping)
   {
     const std::size_t n = cells.size() + 1;
-    mass_s.assign(n, 0.);
-    s = w_s = z = w_z = next = mass_z = mass = mass_s;
+    mass.assign(n, 0.);
+    next = mass;
+    for (Component *component : {&along_, &rest_})
+      component->u = component->w = component->mass = mass;
     for (std::size_t k = 0; k + 1 < n; ++k)
     {
       const Moduli m(cells[k].material, p);
       const double h = cells[k].size;
       for (const std::size_t i : {k, k + 1})
       {
-        mass_s[i] += .5 * h * (is_sh ? cells[k].material.density : m.mass_s);
-        mass_z[i] += .5 * h * m.mass_z;
+        along_.mass[i] += .5 * h * (is_sh ? cells[k].material.density : m.mass_s);
+        rest_.mass[i] += .5 * h * m.mass_z;
         mass[i] += .5 * h * cells[k].material.density;
       }
-      K_s.push_back(is_sh ? 0. : m.mu / h);
-      K_z.push_back((is_sh ? m.mu : m.lambda + 2. * m.mu) / h);
+      along_.stiffness.push_back(is_sh ? 0. : m.mu / h);
+      rest_.stiffness.push_back((is_sh ? m.mu : m.lambda + 2. * m.mu) / h);
       G_own.push_back(is_sh ? 0. : .5 * p * (m.lambda - m.mu));
       G_other.push_back(is_sh ? 0. : .5 * p * (m.lambda + m.mu));
     }
@@ -67,65 +69,46 @@ namespace Voussoir
     return std::sqrt(square);
   }
 
-  void ObliqueLine::step_along()
+  void ObliqueLine::step(Component &moved, const Component &other, const double sense)
   {
-    const double      b = damping.stiffness;
-    const std::size_t n = s.size();
-    // The force of a cell on its lower node, from the cell below, is kept: each cell is visited once.
-    double from_below = 0.;
+    const std::vector<double> &u = moved.u, &w = moved.w, &w_other = other.w;
+    const double               b = damping.stiffness;
+    const std::size_t          n = u.size();
+    double                     from_below = 0.; // force of the cell below on the node
     for (std::size_t k = 0; k < n; ++k)
     {
       double f = from_below;
       if (k + 1 < n)
       {
-        const double stress = K_s[k] * (s[k + 1] - s[k] + b * (w_s[k + 1] - w_s[k]));
-        f += stress + G_own[k] * w_z[k] - G_other[k] * w_z[k + 1];
-        from_below = -stress + G_other[k] * w_z[k] - G_own[k] * w_z[k + 1];
+        const double stress = moved.stiffness[k] * (u[k + 1] - u[k] + b * (w[k + 1] - w[k])),
+                     own = sense * G_own[k];
+        f += stress + own * w_other[k] - G_other[k] * w_other[k + 1];
+        from_below = -stress + G_other[k] * w_other[k] - own * w_other[k + 1];
       }
       if (k > 0)
-        next[k] = w_s[k] + dt * (f - damping.mass * mass[k] * w_s[k]) / mass_s[k];
+        next[k] = w[k] + dt * (f - damping.mass * mass[k] * w[k]) / moved.mass[k];
     }
     for (std::size_t k = 1; k < n; ++k)
     {
-      w_s[k] = next[k];
-      s[k] += dt * w_s[k];
+      moved.w[k] = next[k];
+      moved.u[k] += dt * next[k];
     }
+  }
+
+  void ObliqueLine::step_along()
+  {
+    step(along_, rest_, 1.);
   }
 
   void ObliqueLine::step_rest()
   {
-    const double      b = damping.stiffness;
-    const std::size_t n = s.size();
-    double            from_below = 0.;
-    for (std::size_t k = 0; k < n; ++k)
-    {
-      double f = from_below;
-      if (k + 1 < n)
-      {
-        const double stress = K_z[k] * (z[k + 1] - z[k] + b * (w_z[k + 1] - w_z[k]));
-        f += stress - G_own[k] * w_s[k] - G_other[k] * w_s[k + 1];
-        from_below = -stress + G_other[k] * w_s[k] + G_own[k] * w_s[k + 1];
-      }
-      if (k > 0)
-        next[k] = w_z[k] + dt * (f - damping.mass * mass[k] * w_z[k]) / mass_z[k];
-    }
-    for (std::size_t k = 1; k < n; ++k)
-    {
-      w_z[k] = next[k];
-      z[k] += dt * w_z[k];
-    }
+    step(rest_, along_, -1.);
   }
 
-  void ObliqueLine::set_along(const double value)
+  void ObliqueLine::set(Component &component, const double value) const
   {
-    w_s[0] = (value - s[0]) / dt;
-    s[0] = value;
-  }
-
-  void ObliqueLine::set_rest(const double value)
-  {
-    w_z[0] = (value - z[0]) / dt;
-    z[0] = value;
+    component.w[0] = (value - component.u[0]) / dt;
+    component.u[0] = value;
   }
 
   /** One wave in a column. */

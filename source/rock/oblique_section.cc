@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/base/error.h>
-#include <voussoir/rock/boundary_table.h>
 #include <voussoir/rock/cubic_in_time.h>
 #include <voussoir/rock/explicit_region.h>
 #include <voussoir/rock/oblique_section.h>
@@ -43,24 +41,21 @@ namespace Voussoir
   }
 
   ObliqueSection::ObliqueSection(const WideSection &wide, RockModel model, std::unique_ptr<ZoneStrip> given,
+                                 std::unique_ptr<ArtificialBoundary> given_boundary,
                                  const RockRegionParameters &parameters, const double p,
                                  const std::array<double, 2> &reach)
       : p(p), origin(parameters.incidence.centre[0]), dt(parameters.dt), damping(parameters.damping),
         lead(steps_ahead(p, origin, reach, dt)), strip(std::move(given)), stiffness(make_operator(model)),
         coupling(wide.mesh, model, parameters.rock.materials, p),
         coupling_of_strip(strip->mesh, strip->model, parameters.rock.materials, p), mass(model.mass),
-        mass_along(model.mass), mass_across(model.mass), is_explicit(model.points.size(), true)
+        mass_along(model.mass), mass_across(model.mass), is_explicit(model.points.size(), true),
+        boundary(std::move(given_boundary))
   {
     n_kept = lead + steps_ahead(-p, origin, reach, dt) + 6;
     for (std::size_t i = 0; i < mass.size(); ++i)
     {
       mass_along[i] -= coupling.mass_along[i];
       mass_across[i] -= coupling.mass_across[i];
-      if (!(mass_along[i] > 1e-3 * mass[i]))
-        throw InputError(
-            "\"Foundation/Incidence\": a wave has the horizontal slowness " + std::to_string(p) +
-            " s/m along the valley, so P waves do not propagate in the rock. Use a smaller angle, or an azimuth "
-            "nearer to 90 degrees.");
     }
     u.assign(3 * mass.size(), 0.);
     w = x = K_x = u;
@@ -68,7 +63,6 @@ namespace Voussoir
     n_substeps =
         std::ceil(dt / (near_critical * critical_time_step(of_iteration * largest_frequency(), damping)));
     set_apparent_speeds(model, p);
-    boundary = make_boundary(parameters.boundary);
     boundary->attach(model, parameters.rock.centre, dt / n_substeps);
     for (const unsigned int i : boundary->nodes())
       is_explicit[i] = false;

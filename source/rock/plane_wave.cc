@@ -42,11 +42,13 @@ namespace Voussoir
   {
     [[noreturn]] void fail(const std::string &wave, const std::string &why)
     {
+      const bool is_blank = wave.find_first_not_of(" \t") == std::string::npos;
       throw InputError(
-          "\"Foundation/Incidence\": the wave \"" + wave + "\" " + why +
-          ". Set it to vertical, or to a list such as \"SV 30 90, P 20 90 0.5\": type (P, SV or SH), angle "
-          "from the vertical [deg], azimuth of the horizontal direction of propagation from x to y [deg] and, if it "
-          "arrives later than the others, the delay [s].");
+          "\"Foundation/Incidence\": " +
+          (is_blank ? "a wave is missing" : "the wave \"" + wave + "\" " + why) +
+          ". Set the entry to vertical, or to a list such as \"SV 30 90, P 20 90 0.5\": type (P, SV or SH), "
+          "angle from the vertical [deg], azimuth of the horizontal direction of propagation from x to y "
+          "[deg] and, for a wave that arrives later than the others, the delay [s].");
     }
 
     PlaneWave read_wave(const std::string &text)
@@ -55,7 +57,7 @@ namespace Voussoir
       std::string        type, rest;
       PlaneWave          wave;
       if (!(stream >> type))
-        fail(text, "is empty");
+        fail("", "");
       if (type != "P" && type != "SV" && type != "SH")
         fail(text, "has the unknown type \"" + type + "\"");
       wave.type = type == "P" ? PlaneWave::P : type == "SV" ? PlaneWave::SV : PlaneWave::SH;
@@ -86,7 +88,7 @@ namespace Voussoir
     for (std::string part; std::getline(list, part, ',');)
       waves.push_back(read_wave(part));
     if (waves.empty() || text.back() == ',')
-      fail("", "is empty");
+      fail("", "");
     return waves;
   }
 

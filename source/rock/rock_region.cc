@@ -171,7 +171,8 @@ namespace Voussoir
       const std::array<double, 2> reach = length_of(model);
       const unsigned int ahead = ObliqueSection::steps_ahead(p, plane.incidence.centre[0], reach, plane.dt);
       auto strip = std::make_unique<ZoneStrip>(wide, slice, inner, 0, plane, wave, n_steps + ahead);
-      return std::make_unique<ObliqueSection>(wide, slice, std::move(strip), plane, p, reach);
+      return std::make_unique<ObliqueSection>(wide, slice, std::move(strip), make_boundary(plane), plane, p,
+                                              reach);
     }
 
     /** Adds the section through one side of the model to @p field. */

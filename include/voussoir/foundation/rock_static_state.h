@@ -20,7 +20,7 @@ namespace Voussoir
      * @param model rock model with its stiffness matrix
      * @param base_nodes base nodes of the dam
      * @param ratio factor of the stiffness matrix: sustained over Young's modulus [-]
-     * @param has_footings the dam stands on footings, see with_footings() */
+     * @param has_footings the dam has footings, see with_footings() */
     RockStaticState(const RockModel &model, const std::vector<BaseNode> &base_nodes, double ratio,
                     bool has_footings = false);
 

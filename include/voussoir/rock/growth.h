@@ -2,12 +2,18 @@
 #ifndef voussoir_growth_h
 #define voussoir_growth_h
 
-#include <voussoir/rock/rock_parameters.h>
+#include <voussoir/rock/rock_region.h>
 
 namespace Voussoir
 {
   /** Largest growth of the motion per time step that counts as stable. */
   constexpr double largest_growth = 1e-5;
+
+  /** Returns the region of a model with its boundary, an energy balance and random velocities, except on the
+   * boundary. @p fixed: components 3 node + c without motion. */
+  std::unique_ptr<ExplicitRegion> region_with_noise(const RockModel                 &model,
+                                                    const RockRegionParameters      &parameters,
+                                                    const std::vector<unsigned int> &fixed = {});
 
   /** Returns the growth per time step of the motion in a small box of rock with an artificial boundary: the
    * logarithm of the largest factor of the one-step operator, by 24,000 power steps from noise. A negative

@@ -43,24 +43,40 @@ namespace Voussoir
     static double largest_frequency(const std::vector<Cell> &cells, double p, bool is_sh);
 
     void step_along(); ///< advances u_s of all nodes except the first by one step
-    void
-    step_rest(); ///< advances u_z of all nodes except the first by one step, after u_s of the first node is set
-    void set_along(double value); ///< sets u_s of the first node at the new time [m]
-    void set_rest(double value);  ///< sets u_z of the first node at the new time [m]
+    void step_rest();  ///< advances u_z likewise, after u_s of the first node is set
+    void set_along(const double value)
+    {
+      set(along_, value);
+    } ///< sets u_s of the first node at the new time [m]
+    void set_rest(const double value)
+    {
+      set(rest_, value);
+    } ///< sets u_z of the first node at the new time [m]
 
-    double      along(const std::size_t i) const { return s[i]; } ///< u_s of a node [m]
-    double      rest(const std::size_t i) const { return z[i]; }  ///< u_z of a node [m]
-    std::size_t n_nodes() const { return s.size(); }
+    double along(const std::size_t i) const { return along_.u[i]; } ///< u_s of a node [m]
+    double rest(const std::size_t i) const { return rest_.u[i]; }   ///< u_z of a node [m]
 
-    std::vector<std::vector<double> *> state() { return {&s, &w_s, &z, &w_z}; }
+    std::vector<std::vector<double> *> state() { return {&along_.u, &along_.w, &rest_.u, &rest_.w}; }
 
   private:
+    /** One component of the motion. */
+    struct Component
+    {
+      std::vector<double> u, w;      ///< displacement, and velocity half a step later [m, m/s]
+      std::vector<double> mass;      ///< per node and area, reduced by the slowness [kg/m^2]
+      std::vector<double> stiffness; ///< per cell and area [N/m^3]
+    };
+
+    /** Advances a component by one step. @p sense: sign of G_own in its equation. */
+    void step(Component &moved, const Component &other, double sense);
+    void set(Component &component, double value) const;
+
     double              dt;
     RayleighDamping     damping;
-    std::vector<double> mass_s, mass_z, mass; ///< per node and area, reduced by the slowness, and not reduced
-    std::vector<double> K_s, K_z, G_own, G_other; ///< per cell: stiffness; p (lambda -+ mu)/2
-    std::vector<double> next;                     ///< velocities in a step
-    std::vector<double> s, w_s, z, w_z;           ///< displacements and velocities half a step later [m, m/s]
+    Component           along_, rest_;  ///< u_s; u_z or the component of SH
+    std::vector<double> mass;           ///< per node and area, not reduced [kg/m^2]
+    std::vector<double> G_own, G_other; ///< per cell: p (lambda - mu)/2, p (lambda + mu)/2
+    std::vector<double> next;           ///< velocities in a step [m/s]
   };
 
   /** Motion of layered ground under plane waves that rise at an angle. The total motion of a flat region

@@ -20,13 +20,12 @@ namespace Voussoir
     /** Creates the motion at rest.
      * @param wide section with a zone; @p model: its model
      * @param strip strip of the zone at the section, with the waves
-     * @param parameters of the section, with a transmitting boundary; the waves have the slowness @p p [s/m]
-     * @param reach smallest and largest x of displacement() [m]
-     *
-     * Throws InputError if P waves with this slowness do not propagate in the rock; see
-     * check_incidence_along(). */
+     * @param boundary transmitting boundary of the section, not attached
+     * @param parameters of the section; the waves have the slowness @p p [s/m], which check_incidence_along() accepts
+     * @param reach smallest and largest x of displacement() [m] */
     ObliqueSection(const WideSection &wide, RockModel model, std::unique_ptr<ZoneStrip> strip,
-                   const RockRegionParameters &parameters, double p, const std::array<double, 2> &reach);
+                   std::unique_ptr<ArtificialBoundary> boundary, const RockRegionParameters &parameters,
+                   double p, const std::array<double, 2> &reach);
 
     void    begin_step(std::vector<Ranks::Message> &) override {}
     void    end_step() override;

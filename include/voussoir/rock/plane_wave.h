@@ -39,8 +39,8 @@ namespace Voussoir
   /** Waves that enter the rock. */
   struct Incidence
   {
-    std::vector<PlaneWave> waves;  ///< empty: vertical incidence, all components of the motion
-    Vector3                centre; ///< place at which the waves arrive together, except for their delays [m]
+    std::vector<PlaneWave> waves; ///< empty: vertical incidence, all components of the motion
+    Vector3 centre{};             ///< place at which the waves arrive together, except for their delays [m]
 
     /** Rock below all layers, to which the angles refer. Without a value, the lowest rock of the highest
      * column. */
