@@ -24,7 +24,7 @@ SCENES = {
         ("partition", 5, 1, {}), ("mean traction", 5, 1, {}), ("mean traction", 2, 3, {}),
         ("mean traction", 1, 5, {})]),
     "rock28": ({"Motion/Duration": 2.56, "Motion/Decay begin": 2.4}, [
-        ("partition", 7, 1, {}), ("mean traction", 2, 4, {}), ("mean traction", 1, 7, {})]),
+        ("partition", 7, 1, {}), ("mean traction", 2, 3, {}), ("mean traction", 1, 6, {})]),
 }
 
 

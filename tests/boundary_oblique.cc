@@ -4,6 +4,7 @@
 
 #include "box.h"
 #include "column.h"
+#include "transfer_matrix.h"
 
 #include <voussoir/rock/arrival.h>
 
@@ -185,6 +186,89 @@ namespace
                   s = LevelGround(wave_of("SV", 21., 0.), .25).surface;
     below("  P at 21 degrees: 0.816, 1.843", std::max(std::abs(p[0] - .816), std::abs(p[2] - 1.843)), 6e-4);
     below("  SV at 21 degrees: 1.804, -0.787", std::max(std::abs(s[0] - 1.804), std::abs(s[2] + .787)), 6e-4);
+    double difference = 0.;
+    for (const double nu : {.2, .25, .33})
+      for (const auto &[type, largest] :
+           std::vector<std::pair<const char *, double>>{{"P", 80.}, {"SV", 30.}, {"SH", 80.}})
+        for (double angle = 0.; angle <= largest; angle += 10.)
+        {
+          const PlaneWave wave = wave_of(type, angle, 0.);
+          const auto      u = TransferMatrix::surface(wave, unit_rock(nu), 7., unit_rock(nu), .3);
+          const Vector3   v = LevelGround(wave, nu).surface;
+          for (unsigned int c = 0; c < 3; ++c)
+            difference = std::max(difference, std::abs(std::abs(u[c]) - std::abs(v[c])));
+        }
+    below("  against transfer matrices", difference, 1e-12);
+  }
+
+  /** Spectra of the motion of a layer on a half-space of speed 2 and density 1.1 against transfer matrices. */
+  double error_of_layer(const PlaneWave &wave, const double nu)
+  {
+    constexpr int    stiff = rock + 1;
+    constexpr double h = 12.;
+    auto             p = parameters({wave}, nu);
+    Material         half_space = unit_rock(nu);
+    half_space.density = 1.1;
+    half_space.young *= 4.4;
+    p.rock.materials[stiff] = half_space;
+    p.dt = .12;
+    HexMesh mesh = box({3, 3, 16}, open_box, unit_cells);
+    for (auto &cell : mesh.cells)
+      if (centre(mesh, cell.nodes)[2] < 16. - h)
+        cell.volume = stiff;
+    const RockModel model = make_rock_model(mesh, p.rock);
+    p.incidence = timed(model, p.incidence, {{6., 6., 16.}});
+    p.incidence.half_space = half_space_of(model);
+    const unsigned int n = 500. / p.dt;
+    FreeField          field(model, p.damping, p.dt, n, pulses, p.incidence);
+    field.add_nodes(model, {static_cast<unsigned int>(model.points.size()) - 1});
+    constexpr unsigned int n_frequencies = 4;
+    constexpr double       frequency[n_frequencies] = {.008, .0156, .0208, .03}; // below .75 c/h
+    std::array<TransferMatrix::State, n_frequencies> spectrum{};
+    const double                                     x = std::cos(wave.azimuth), y = std::sin(wave.azimuth);
+    Unknowns                                         u;
+    for (unsigned int i = 1; i <= n; ++i)
+    {
+      field.advance();
+      field.evaluate(u);
+      for (unsigned int f = 0; f < n_frequencies; ++f)
+      {
+        const auto   phase = std::exp(TransferMatrix::Complex(0., -2. * pi * frequency[f] * i * p.dt));
+        const double in_axes[3] = {x * u[0] + y * u[1], x * u[1] - y * u[0], u[2]};
+        for (unsigned int c = 0; c < 3; ++c)
+          spectrum[f][c] += phase * in_axes[c];
+        spectrum[f][3] += phase * pulse(i * p.dt);
+      }
+    }
+    // As in error_of_ground()
+    const double scale = wave.type == PlaneWave::P ? 1. : wave.type == PlaneWave::SV ? x + y : x - y;
+    double       error = 0.;
+    for (unsigned int f = 0; f < n_frequencies; ++f)
+    {
+      const auto expected =
+          TransferMatrix::surface(wave, unit_rock(nu), h, half_space, 2. * pi * frequency[f]);
+      const double size = std::sqrt(std::norm(expected[0]) + std::norm(expected[1]) + std::norm(expected[2]));
+      for (unsigned int c = 0; c < 3; ++c)
+        error = std::max(
+            error,
+            std::abs(std::abs(spectrum[f][c] / (scale * spectrum[f][3])) - std::abs(expected[c])) / size);
+    }
+    return error;
+  }
+
+  void layered_ground()
+  {
+    for (const double nu : {.2, .25, .33})
+    {
+      double error = 0.;
+      for (const auto &[type, largest] :
+           std::vector<std::pair<const char *, double>>{{"P", 60.}, {"SV", 30.}, {"SH", 60.}})
+        for (double angle = 0.; angle <= largest; angle += 15.)
+          error = std::max(error, error_of_layer(wave_of(type, angle, 25.), nu));
+      below("layer on a half-space, P and SH to 60, SV to 30 degrees, Poisson's ratio " + Columns::text(nu) +
+                ": spectra against transfer matrices",
+            error, .01);
+    }
   }
 
   void level_ground()
@@ -415,6 +499,7 @@ int main()
 {
   return Columns::run_all(
       {closed_form,
+       layered_ground,
        level_ground,
        vertical,
        [] { flat_region("columns", {wave_of("P", 30., 20.)}, "P 30"); },

@@ -746,7 +746,7 @@ namespace
       expect_close(wave(t)[2], -std::pow(t, 3) / 2., 1e-12, "incident wave");
     }
     // An oscillator w with central differences, damping of the step before: w dt (w dt/4 + xi) = 1.
-    RayleighDamping damping;
+    RockDamping damping;
     damping.mass = 3.;
     damping.stiffness = .002;
     for (const double w : {10., 100., 1000.})

@@ -172,6 +172,22 @@ def oblique():
     same_bits("killed", "whole")
 
 
+def quality():
+    """Rock with a quality factor, with a time step of its own and with that of the dam: the same bits on several ranks, also after a
+    rank is killed."""
+    write_scene()
+    arguments = [*ROCK, *settings("Foundation/Quality factor=20")]
+    any_number("columns", (2,), *arguments, *settings("Foundation/Free field=columns"))
+    arguments += OWN
+    any_number("sections", (3,), *arguments)
+    arguments += settings("Output/Checkpoint interval=20", "Motion/Duration=2")
+    killed(2, "killed", *arguments)
+    status, _, error = on_ranks(3, "scene.prm", "--output", "killed", "--resume", *arguments)
+    expect(status == 0, error)
+    runs("scene.prm", "--output", "whole", *arguments, environment={"OMP_NUM_THREADS": "1"})
+    same_bits("killed", "whole")
+
+
 def last_write():
     """The last files cannot be written: the state that is kept is that of all ranks, also of the rock, and all there is to
     tell of it."""
@@ -247,4 +263,4 @@ def errors():
 
 
 if __name__ == "__main__":
-    run_cases(rigid, rock, problems, checkpoint, oblique, last_write, stopped, errors)
+    run_cases(rigid, rock, problems, checkpoint, oblique, quality, last_write, stopped, errors)

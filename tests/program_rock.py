@@ -67,6 +67,26 @@ def at_dam():
     expect(summary("none")["rock"]["elements_at_dam"] == 0 < summary("two")["rock"]["elements_at_dam"], "how many there are")
 
 
+def damping():
+    """A quality factor reduces the motion. It is refused where it is not available, before any work."""
+    write_scene()
+    largest = {}
+    for name, quality in (("without", 0), ("with", 10)):
+        log = runs("scene.prm", "--output", name, *ROCK, *settings(f"Foundation/Quality factor={quality}", "Motion/Duration=1"))
+        expect(("quality factor 10 from 0.5 to 10 Hz" in log) == (quality == 10), log)
+        names, rows = table(f"{name}/history.csv")
+        k = names.index("crest_x")
+        largest[name] = max(abs(row[k] - rows[0][k]) for row in rows)
+        expect(summary(name)["rock"]["energy_balance_error"] < 1e-9, f"{summary(name)['rock']}")
+    print(f"    largest motion of the crest {largest}")
+    expect(.5 * largest["without"] < largest["with"] < .98 * largest["without"], f"{largest}")
+    for entries, needs in ((("Foundation/Quality factor=5",), "10 or more"),
+                           (("Foundation/Quality factor=50", "Foundation/Incidence=SV 15 90"), "Foundation/Incidence"),
+                           (("Foundation/Quality factor=50", "Foundation/Boundary=viscous-spring"), "without dashpots")):
+        refused(["scene.prm", "--validate", *ROCK, *settings(*entries)], "Foundation/Quality factor", needs)
+    runs("scene.prm", "--validate", *ROCK, *settings("Foundation/Quality factor=50", "Foundation/Boundary=fixed"))
+
+
 def end_of_motion():
     """Motion/Duration = -1 adds the travel time, in whole steps of the motion: a record with zeros after its end gives the same run.
     A given duration ends the run. A run that is resumed after the end of the motion, or goes on from a given duration, is the same."""
@@ -113,4 +133,4 @@ def stop_at_end(directory, *entries):
 
 
 if __name__ == "__main__":
-    run_cases(sections, at_dam, end_of_motion)
+    run_cases(sections, at_dam, damping, end_of_motion)

@@ -213,6 +213,7 @@ namespace Blocks
     double       dt = .001, duration = .3; ///< [s]
     Vector3      direction = {{1., .5, .7}};
     double       stiffness_damping = 0.;
+    double       quality = 0.; ///< quality factor of the rock
     unsigned int substeps = 1;
     std::string  coupling = "partition";
     double       pulse_length = .1; ///< [s]
@@ -232,6 +233,7 @@ namespace Blocks
     FoundationParameters p;
     p.rock = rock;
     p.stiffness_damping = c.stiffness_damping;
+    p.quality = c.quality;
     p.boundary = c.boundary;
     p.substeps = c.substeps;
     p.coupling = c.coupling;

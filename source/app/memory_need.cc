@@ -311,9 +311,11 @@ namespace Voussoir
         n_blocks -= 8. * std::count_if(mesh.cells.begin(), mesh.cells.end(), is_rock);
       const double part = 1. / Ranks::size(), matrix = block * n_blocks; // kept of it: see make_rock_part()
       constexpr unsigned int few = 10;                                   // layers, whose rows all ranks keep
-      const bool   is_shared = scene.foundation.nodal_everywhere && scene.foundation.layers_at_dam <= few;
-      const double kept = is_shared ? std::min(1., part + .13) : 1.;
-      const double all = per_rock_node * rock.neighbours.size() - (1. - kept) * matrix;
+      const bool       is_shared = scene.foundation.nodal_everywhere && scene.foundation.layers_at_dam <= few;
+      const double     kept = is_shared ? std::min(1., part + .13) : 1.;
+      constexpr double per_memory = 144.; // of a quality factor, per node
+      const double     per_node = per_rock_node + (scene.foundation.quality > 0. ? per_memory : 0.);
+      const double     all = per_node * rock.neighbours.size() - (1. - kept) * matrix;
       others = all + .1 * matrix;
       return all + (.15 + .4 * part) * matrix;
     }

@@ -38,7 +38,8 @@ namespace Voussoir
       : parameters(site.parameters), mesh(site.parameters.volumes_by_material(site.mesh)),
         source(site.source), generated_in(site.generated_in), incompatible_modes(site.incompatible_modes)
   {
-    read_incidence(parameters.incidence); // reports errors before any work
+    check_damping(
+        region_parameters(parameters, {}, 0.)); // also reports errors of the incidence before any work
     if (site.degree != 1)
       throw InputError("Foundation/Model = rock requires Elements/Degree = 1, not " +
                        std::to_string(site.degree) +
@@ -100,10 +101,8 @@ namespace Voussoir
                        region_parameters(parameters, centre, 0.).incidence);
     mesh = HexMesh(); // no longer needed
     release_free_memory();
-    RayleighDamping damping;
-    damping.mass = parameters.mass_damping;
-    damping.stiffness = parameters.stiffness_damping;
-    dt_critical = Voussoir::critical_time_step(largest_frequency(make_operator(model), model.mass), damping);
+    dt_critical = Voussoir::critical_time_step(largest_frequency(make_operator(model), model.mass),
+                                               region_parameters(parameters, centre, 0.).damping);
   }
 
   namespace

@@ -90,6 +90,12 @@ namespace Voussoir
                       "Factor of the stiffness matrix in the Rayleigh damping of the rock [s]. It reduces "
                       "the critical time step.",
                       {0., .01}, Double(0., 1.));
+    prm.add_parameter(
+        "Quality factor", quality,
+        "Quality factor of P and S waves in all explicit rock from 0.5 to 10 Hz [-], in addition to the Rayleigh "
+        "damping. The damping ratio is 1/(2 Q). 0: none. It requires vertical incidence and a boundary without "
+        "dashpots.",
+        {10., 500., true}, Double(0.));
   }
 
   std::string FoundationSetup::about_steps() const

@@ -78,6 +78,29 @@ namespace Voussoir
       }
   }
 
+  void check_damping(const RockRegionParameters &region)
+  {
+    if (!region.damping.has_quality())
+      return;
+    constexpr double   least = 10.;
+    std::ostringstream message;
+    message << "\"Foundation/Quality factor\" = " << region.damping.quality;
+    if (region.damping.quality < least)
+      message << " is too small. Set it to " << least
+              << " or more, or to 0 for rock without a quality factor.";
+    else if (!region.incidence.is_vertical())
+      message
+          << " requires waves that rise vertically. Set \"Foundation/Incidence\" to vertical, or \"Foundation/Quality "
+             "factor\" to 0.";
+    else if (const auto boundary = make_boundary(region);
+             boundary->absorbs() && boundary->nodes_per_line() == 0)
+      message << " requires a boundary without dashpots, because their free-field forces have no memory. Set "
+                 "\"Foundation/Boundary\" to mtf3, or \"Foundation/Quality factor\" to 0.";
+    else
+      return;
+    throw InputError(message.str());
+  }
+
   void check_rock_step(const TimeGrid &grid, const unsigned int steps_per_sample, const double dt_critical)
   {
     const double rock_dt = grid.substep();

@@ -83,7 +83,9 @@ namespace Voussoir
     for (const char *name : {"mtf2", "viscous-spring"})
       if (boundary != name)
         choices.add("foundation", "boundary " + std::string(name), {{"Foundation/Boundary", name}});
-    if (incidence == "vertical")
+    if (quality == 0. && incidence == "vertical" && make_boundary(boundary)->nodes_per_line() > 0)
+      choices.add("foundation", "quality factor 50 of the rock", "Foundation/Quality factor", 50.);
+    if (incidence == "vertical" && quality == 0.)
       for (const auto &[from, azimuth] :
            {std::pair<const char *, const char *>("right bank", "90"), {"upstream", "0"}})
       {

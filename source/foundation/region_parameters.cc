@@ -20,6 +20,7 @@ namespace Voussoir
     result.rock.centre = centre;
     result.damping.mass = p.mass_damping;
     result.damping.stiffness = p.stiffness_damping;
+    result.damping.quality = p.quality;
     result.dt = dt;
     result.boundary = p.boundary;
     result.free_field = p.free_field;

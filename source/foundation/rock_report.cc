@@ -75,6 +75,9 @@ namespace Voussoir
              parameters.free_field.c_str());
     log.line("          10 elements or more per shear wave up to %.2g Hz (95 %% of the elements)",
              .1 / model.largest_crossing);
+    if (parameters.quality > 0.)
+      log.line("          quality factor %g from %g to %g Hz, within 1.3 %%", parameters.quality,
+               RockDamping().lowest, RockDamping().highest);
     report_waves(parameters, log);
     if (grid.n > 0)
       log.line("          the earthquake arrives at the lowest base node after %.3f s", delay);

@@ -15,7 +15,7 @@ namespace Voussoir
     return std::make_unique<PartitionedRock>(site);
   }
 
-  RayleighDamping SubcycledRock::damping() const
+  RockDamping SubcycledRock::damping() const
   {
     return region_parameters(parameters, centre, 0.).damping;
   }
@@ -67,7 +67,7 @@ namespace Voussoir
     const double    worked = Ranks::work();
     Unknowns        place(3 * at_base.size());
     if (Ranks::rank() == predicting_rank)
-      place = patch->places(n, region->displacement(), region->half_step_velocity());
+      place = patch->places(n, region->displacement(), region->half_step_velocity(), region->damped_motion());
     Ranks::broadcast(place.data(), place.size(), predicting_rank);
     Unknowns result = rest;
     for (std::size_t i = 0; i < dam_nodes.node.size(); ++i)

@@ -75,12 +75,6 @@ namespace Voussoir
     return lanczos(stiffness, mass);
   }
 
-  double critical_time_step(const double w, const RayleighDamping &damping)
-  {
-    const double xi = .5 * (damping.mass / w + damping.stiffness * w);
-    return 2. * (std::sqrt(1. + xi * xi) - xi) / w;
-  }
-
   std::string beyond_critical_step(const double dt, const double critical)
   {
     std::ostringstream text;
@@ -90,8 +84,8 @@ namespace Voussoir
     return text.str();
   }
 
-  ExplicitRegion::ExplicitRegion(RockOperator matrix, std::vector<double> masses,
-                                 const RayleighDamping &damping, const double dt)
+  ExplicitRegion::ExplicitRegion(RockOperator matrix, std::vector<double> masses, const RockDamping &damping,
+                                 const double dt)
       : stiffness(std::move(matrix)), mass(std::move(masses)), damping(damping), dt(dt)
   {
     dt_critical = Voussoir::critical_time_step(largest_frequency(stiffness, mass), damping);
@@ -102,13 +96,20 @@ namespace Voussoir
     u.assign(3 * std::size_t(n_nodes()), 0.);
     w = K_x = u;
     x = u;
+    damped = DampedMotion(damping, dt, u.size());
     pieces = split.pieces(n_nodes());
     work.assign(n_region_works * ((n_nodes() + per_chunk - 1) / per_chunk), 0.);
-    account.assign((2 + n_region_works) * (work.size() / n_region_works), 0.);
+    account.assign((n_energies + n_region_works) * (work.size() / n_region_works), 0.);
     is_fixed.assign(u.size(), false);
     inverse_mass.resize(u.size());
     for (std::size_t i = 0; i < u.size(); ++i)
       inverse_mass[i] = 1. / mass[i / 3];
+  }
+
+  void ExplicitRegion::keep_energy()
+  {
+    K_u.assign(u.size(), 0.);
+    damped.keep_energy();
   }
 
   void ExplicitRegion::fix(const std::vector<unsigned int> &components)
@@ -200,12 +201,13 @@ namespace Voussoir
     const int n = pieces.size();
 #pragma omp parallel for schedule(static)
     for (int p = 0; p < n; ++p)
+    {
+      const int first = 3 * pieces[p].first, last = 3 * pieces[p].second;
 #pragma omp simd
-      for (int i = 3 * pieces[p].first; i < 3 * pieces[p].second; ++i)
-      {
+      for (int i = first; i < last; ++i)
         u[i] += dt * w[i];
-        x[i] = u[i] + damping.stiffness * w[i];
-      }
+      damped.advance(u.data(), w.data(), x.data(), first, last);
+    }
     stiffness.begin_product(x.data(), K_x.data(), messages);
     if (free_field)
       free_field->begin_step(messages);
@@ -246,8 +248,10 @@ namespace Voussoir
       masses[i] = mass[first + i / 3];
     const double *load = force.empty() ? zeros : force.data() + offset, *K = K_x.data() + offset,
                  *inverse = inverse_mass.data() + offset, *at = u.data() + offset;
-    double      *velocity = w.data() + offset, *stress = with_energy ? K_u.data() + offset : zeros;
-    const double step = dt, drag = damping.mass, ratio = damping.stiffness / dt, share = 1. / (1. + ratio);
+    double *velocity = w.data() + offset, *stress = with_energy ? K_u.data() + offset : zeros;
+    if (with_energy)
+      damped.elastic(K, stress, offset, n);
+    const double step = dt, drag = damping.mass;
     double       kinetic = 0., strain = 0., lost = 0., external = 0.;
 #pragma omp simd reduction(+ : kinetic, strain, lost, external)
     for (int i = 0; i < n; ++i)
@@ -257,16 +261,14 @@ namespace Voussoir
       velocity[i] = now;
       if (with_energy)
       {
-        const double m = masses[i], elastic = share * (K[i] + ratio * stress[i]);
-        stress[i] = elastic;
-        const double damped = drag * m * old + K[i] - elastic, twice = old + free * now;
+        const double m = masses[i], resisting = drag * m * old + K[i] - stress[i], twice = old + free * now;
         kinetic += m * old * old;
-        strain += (at[i] - step * old) * elastic;
-        lost += damped * twice;
+        strain += (at[i] - step * old) * stress[i];
+        lost += resisting * twice;
         external += f * twice;
       }
     }
-    return {{kinetic, strain, lost, external}};
+    return {{kinetic, strain, lost, external, with_energy ? damped.stored(at, offset, n) : 0.}};
   }
 
   template <bool with_energy> void ExplicitRegion::step_explicit_nodes()
@@ -278,17 +280,19 @@ namespace Voussoir
       sums[p] = step_nodes<with_energy>(pieces[p].first, pieces[p].second);
     if (!with_energy)
       return;
-    constexpr unsigned int n_kept = 2 + n_region_works;
+    constexpr unsigned int n_kept = n_energies + n_region_works;
     account.assign(n_kept * (work.size() / n_region_works), 0.);
     for (std::size_t c = 0; c < work.size() / n_region_works;
          ++c) // works until now; later ones belong to the next step
-      std::copy_n(work.begin() + n_region_works * c, +n_region_works, account.begin() + n_kept * c + 2);
+      std::copy_n(work.begin() + n_region_works * c, +n_region_works,
+                  account.begin() + n_kept * c + n_energies);
     for (int p = 0; p < n; ++p)
     {
       const std::size_t c =
           pieces[p].first / per_chunk; // a piece is a complete chunk if this process owns it
       account[n_kept * c] += sums[p][0];
       account[n_kept * c + 1] += sums[p][1];
+      account[n_kept * c + 2] += sums[p][4];
       work[n_region_works * c + lost_in_damping] += .5 * dt * sums[p][2];
       work[n_region_works * c + done_by_forces] += .5 * dt * sums[p][3];
     }
@@ -296,16 +300,17 @@ namespace Voussoir
 
   RegionEnergy ExplicitRegion::energy() const
   {
-    std::array<double, 2 + n_region_works> sum{};
+    std::array<double, n_energies + n_region_works> sum{};
     for (std::size_t i = 0; i < account.size(); ++i)
       sum[i % sum.size()] += account[i];
-    RegionEnergy result;
+    const double *const works = sum.data() + n_energies;
+    RegionEnergy        result;
     result.kinetic = .5 * sum[0];
-    result.strain = .5 * sum[1];
-    result.damping = sum[2 + lost_in_damping];
-    result.external = sum[2 + done_by_forces];
-    result.transmitted = sum[2 + gone_through_boundary];
-    result.prescribed = sum[2 + done_by_prescribed];
+    result.strain = .5 * (sum[1] + sum[2]);
+    result.damping = works[lost_in_damping] - .5 * sum[2];
+    result.external = works[done_by_forces];
+    result.transmitted = works[gone_through_boundary];
+    result.prescribed = works[done_by_prescribed];
     return result;
   }
 
@@ -332,13 +337,16 @@ namespace Voussoir
         w[i] = u[i] = 0.;
     if (K_u.empty())
       return;
+    const double s = damped.unrelaxed_modulus();
     for (std::size_t i = 0; i < u.size(); ++i)
-      x[i] = u[i] + dt * w[i];
+      x[i] = s * (u[i] + dt * w[i]);
     stiffness.multiply(x.data(), K_x.data());
     for (std::size_t i = 0; i < u.size(); ++i)
       work[n_region_works * (i / 3 / per_chunk) + done_by_forces] +=
           .5 * (mass[i / 3] * w[i] * w[i] + u[i] * K_x[i]);
-    stiffness.multiply(u.data(), K_u.data());
+    for (std::size_t i = 0; i < u.size(); ++i)
+      x[i] = s * u[i];
+    stiffness.multiply(x.data(), K_u.data());
     std::fill(K_x.begin(), K_x.end(), 0.);
   }
 
@@ -347,6 +355,8 @@ namespace Voussoir
     std::vector<std::vector<double> *> arrays = {
         &clock, &work,  &account,      &u,          &w,          &K_x,
         &K_u,   &field, &field_before, &field_next, &boundary_w, &prescribed_w};
+    for (auto *array : damped.state())
+      arrays.push_back(array);
     if (boundary)
       for (auto *array : boundary->state())
         arrays.push_back(array);

@@ -32,7 +32,7 @@ namespace Voussoir
 
   void ExplicitRegion::gather_energy()
   {
-    split.gather_chunks(account, 2 + n_region_works);
+    split.gather_chunks(account, n_energies + n_region_works);
   }
 
   void ExplicitRegion::gather_motion()
@@ -48,6 +48,8 @@ namespace Voussoir
     gather_motion();
     split.gather(K_x, 3);
     split.gather(K_u, 3);
+    for (auto *values : damped.state())
+      split.gather(*values, 3);
     split.gather_chunks(work, n_region_works);
     if (free_field)
       free_field->gather_on_root();

@@ -82,7 +82,7 @@ namespace Voussoir
     }
   } // namespace
 
-  FreeField::FreeField(const RockModel &model, const RayleighDamping &damping, const double dt,
+  FreeField::FreeField(const RockModel &model, const RockDamping &damping, const double dt,
                        const unsigned int n_steps, const IncidentWave &wave, const Incidence &incidence)
       : centre(incidence.centre)
   {

@@ -13,14 +13,26 @@ namespace Voussoir
     return static_cast<unsigned int>(path + 10. * std::cbrt(path)) + 50;
   }
 
-  EndlessColumn::EndlessColumn(const Vector3 &courant, const RayleighDamping &damping, const double dt,
+  EndlessColumn::EndlessColumn(const Vector3 &courant, const RockDamping &damping, const double dt,
                                const unsigned int n_steps)
       : damping(damping), dt(dt), second{}
   {
     for (unsigned int c = 0; c < 3; ++c)
       ratio[c] = courant[c] * courant[c] / (dt * dt);
-    u.assign(3 * std::size_t(endless_length(courant, n_steps)), 0.);
+    // Waves of high frequency are faster in rock with a quality factor.
+    Vector3 fastest = courant;
+    for (double &c : fastest)
+      c *= std::sqrt(Relaxation(damping).unrelaxed);
+    u.assign(3 * std::size_t(endless_length(fastest, n_steps)), 0.);
     w = x = u;
+    damped = DampedMotion(damping, dt, u.size());
+  }
+
+  std::vector<std::vector<double> *> EndlessColumn::state()
+  {
+    auto arrays = damped.state();
+    arrays.insert(arrays.begin(), {&u, &w});
+    return arrays;
   }
 
   const Vector3 &EndlessColumn::advance(const Vector3 &first)
@@ -31,8 +43,7 @@ namespace Voussoir
       u[c] = first[c];
     }
     const std::size_t n = u.size();
-    for (std::size_t i = 0; i < n; ++i)
-      x[i] = u[i] + damping.stiffness * w[i];
+    damped.advance(u.data(), w.data(), x.data(), 0, n);
     for (std::size_t i = 3; i + 3 < n; i += 3)
       for (unsigned int c = 0; c < 3; ++c)
       {
@@ -61,7 +72,7 @@ namespace Voussoir
     }
   } // namespace
 
-  FreeFieldColumn::FreeFieldColumn(const RockColumn &column, const RayleighDamping &damping, const double dt,
+  FreeFieldColumn::FreeFieldColumn(const RockColumn &column, const RockDamping &damping, const double dt,
                                    const unsigned int n_steps, const IncidentWave &wave, const Vector3 &delay)
       : height(column.z), damping(damping), dt(dt), wave(wave), delay(delay),
         rising(bottom_courant(column, dt), damping, dt, n_steps),
@@ -82,6 +93,8 @@ namespace Voussoir
     std::copy(stiffness.begin(), stiffness.begin() + 3, bottom_stiffness.begin());
     u.assign(3 * (n + 1), 0.);
     w = x = u;
+    damped = DampedMotion(damping, dt, u.size());
+    damped_below = DampedMotion(damping, dt, 3);
   }
 
   Vector3 FreeFieldColumn::displacement(const int level, const Vector3 &, double) const
@@ -104,17 +117,17 @@ namespace Voussoir
   {
     double *const entering = below.data(), *const at_bottom = entering + 3, *const left = entering + 6,
                   *const before = entering + 9;
-    Vector3              scattered, x_below;
+    Vector3              scattered, u_below, w_below, x_below;
     for (unsigned int c = 0; c < 3; ++c)
     {
-      const double now = entering[c] + left[c];
-      x_below[c] = now + damping.stiffness * (now - before[c]) / dt;
-      before[c] = now;
+      u_below[c] = entering[c] + left[c];
+      w_below[c] = (u_below[c] - before[c]) / dt;
+      before[c] = u_below[c];
       scattered[c] = u[c] - at_bottom[c];
     }
+    damped_below.advance(u_below.data(), w_below.data(), x_below.data(), 0, 3);
     const std::size_t n = height.size();
-    for (std::size_t i = 0; i < 3 * n; ++i)
-      x[i] = u[i] + damping.stiffness * w[i];
+    damped.advance(u.data(), w.data(), x.data(), 0, 3 * n);
     for (std::size_t k = 0; k < n; ++k)
       for (unsigned int c = 0; c < 3; ++c)
       {
@@ -141,6 +154,9 @@ namespace Voussoir
   std::vector<std::vector<double> *> FreeFieldColumn::state()
   {
     std::vector<std::vector<double> *> arrays = {&u, &w, &below, &time};
+    for (DampedMotion *motion : {&damped, &damped_below})
+      for (auto *array : motion->state())
+        arrays.push_back(array);
     for (EndlessColumn *column : {&rising, &leaving})
       for (auto *array : column->state())
         arrays.push_back(array);

@@ -71,7 +71,10 @@ namespace Voussoir
       for (unsigned int i = 0; i < 30; ++i)
       {
         p.damping.stiffness = region.damping.stiffness / region.dt * p.dt;
-        p.damping.mass = p.dt > 0. ? region.damping.mass * region.dt / p.dt : 0.;
+        const double faster = p.dt > 0. ? region.dt / p.dt : 1.;
+        p.damping.mass = region.damping.mass * faster;
+        p.damping.lowest = region.damping.lowest * faster;
+        p.damping.highest = region.damping.highest * faster;
         p.dt = courant * (1. - 1e-9) * Voussoir::critical_time_step(w, p.damping);
       }
     }
@@ -145,12 +148,13 @@ namespace Voussoir
   {
     double largest_growth_of(const RockRegionParameters &p, const double critical_time_step)
     {
-      using Settings =
-          std::tuple<std::string, bool, unsigned int, unsigned int, bool, double, double, double, double>;
+      using Settings = std::tuple<std::string, bool, unsigned int, unsigned int, bool, double, double, double,
+                                  double, double, double>;
       static std::map<Settings, double> known;
       const Settings settings(p.boundary, p.rock.nodal_everywhere, p.rock.nodal_layers, p.rock.layers_at_dam,
                               p.rock.incompatible_modes, largest_poisson(p.rock), p.dt / critical_time_step,
-                              p.damping.stiffness / p.dt, p.damping.mass * p.dt);
+                              p.damping.stiffness / p.dt, p.damping.mass * p.dt, p.damping.quality,
+                              p.damping.lowest * p.dt);
       const auto     found = known.find(settings);
       if (found != known.end())
         return found->second;
@@ -161,10 +165,11 @@ namespace Voussoir
     }
 
     /** Returns the circular frequency with the given critical time step: the inverse of critical_time_step() [1/s]. */
-    double frequency_of(const double critical, const RayleighDamping &damping)
+    double frequency_of(const double critical, const RockDamping &damping)
     {
       return std::sqrt((1. - .5 * critical * damping.mass) /
-                       (.25 * critical * critical + .5 * critical * damping.stiffness));
+                       (.25 * critical * critical + .5 * critical * damping.stiffness) /
+                       Relaxation(damping).unrelaxed);
     }
   } // namespace
 

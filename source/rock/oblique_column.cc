@@ -26,7 +26,7 @@ namespace Voussoir
   } // namespace
 
   ObliqueLine::ObliqueLine(const std::vector<Cell> &cells, const double p, const bool is_sh,
-                           const RayleighDamping &damping, const double dt)
+                           const RockDamping &damping, const double dt)
       : dt(dt), damping(damping)
   {
     const std::size_t n = cells.size() + 1;
@@ -128,7 +128,7 @@ namespace Voussoir
     Part(const PlaneWave &wave, const Incidence &incidence, const IncidentWave &motion,
          const Material &half_space, double dt);
 
-    void        set_lines(const std::vector<ObliqueLine::Cell> &cells, const RayleighDamping &damping,
+    void        set_lines(const std::vector<ObliqueLine::Cell> &cells, const RockDamping &damping,
                           unsigned int n_steps);
     void        set_times(const Vector3 &first, const Vector3 &last);
     bool        is_sh() const { return wave.type == PlaneWave::SH; }
@@ -235,8 +235,8 @@ namespace Voussoir
 
   /** Creates the lines. @p cells: one cell below the column, whose properties the half-spaces have, and those
    * of the column. */
-  void ObliqueColumn::Part::set_lines(const std::vector<ObliqueLine::Cell> &cells,
-                                      const RayleighDamping &damping, const unsigned int n_steps)
+  void ObliqueColumn::Part::set_lines(const std::vector<ObliqueLine::Cell> &cells, const RockDamping &damping,
+                                      const unsigned int n_steps)
   {
     const double frequency = ObliqueLine::largest_frequency(cells, p, is_sh());
     n_substeps = std::ceil(dt / critical_time_step(frequency, damping) * (1. + 1e-6));

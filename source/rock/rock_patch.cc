@@ -9,7 +9,7 @@
 
 namespace Voussoir
 {
-  RockPatch::RockPatch(const RockModel &model, const RayleighDamping &damping, const double dt,
+  RockPatch::RockPatch(const RockModel &model, const RockDamping &damping, const double dt,
                        const std::vector<unsigned int> &base_nodes, const unsigned int n_steps)
       : damping(damping), dt(dt), node(base_nodes), n_layer(1, base_nodes.size())
   {
@@ -71,16 +71,20 @@ namespace Voussoir
 
   /** Advances the nodes within @p n_left layers by one step of ExplicitRegion. @p force: on the base nodes
    * [N], or nullptr. */
-  void RockPatch::step(const unsigned int n_left, const double *force, Unknowns &u, Unknowns &w,
-                       Unknowns &x) const
+  void RockPatch::step(const unsigned int n_left, const double *force, Motion &motion) const
   {
+    Unknowns &u = motion.u, &w = motion.w, &x = motion.x;
     const int n_moved = 3 * n_layer[n_left + 1], n_rows = n_layer[n_left],
               n_forces = force ? n_base_nodes() : 0;
-#pragma omp parallel for simd schedule(static)
-    for (int k = 0; k < n_moved; ++k)
+    constexpr int piece = 768;
+#pragma omp parallel for schedule(static)
+    for (int first = 0; first < n_moved; first += piece)
     {
-      u[k] += dt * w[k];
-      x[k] = u[k] + damping.stiffness * w[k];
+      const int last = std::min(n_moved, first + piece);
+#pragma omp simd
+      for (int k = first; k < last; ++k)
+        u[k] += dt * w[k];
+      motion.damped.advance(u.data(), w.data(), x.data(), first, last);
     }
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < n_rows; ++i)
@@ -102,27 +106,34 @@ namespace Voussoir
     }
   }
 
-  Unknowns RockPatch::at_base(const Unknowns &u, const Unknowns &w) const
+  Unknowns RockPatch::at_base(const Motion &motion) const
   {
     Unknowns place(3 * std::size_t(n_base_nodes()));
     for (std::size_t k = 0; k < place.size(); ++k)
-      place[k] = u[k] + .5 * dt * w[k];
+      place[k] = motion.u[k] + .5 * dt * motion.w[k];
     return place;
   }
 
-  Unknowns RockPatch::places(const unsigned int n_steps, const Unknowns &u, const Unknowns &w) const
+  RockPatch::Motion RockPatch::at_rest(const unsigned int n_steps) const
   {
-    const std::size_t n = n_layer[n_steps];
-    Unknowns          u_here(3 * n), w_here(3 * n), x(3 * n);
-    for (std::size_t i = 0; i < n; ++i)
+    const Unknowns zero(3 * std::size_t(n_layer[n_steps]), 0.);
+    return {zero, zero, zero, DampedMotion(damping, dt, zero.size())};
+  }
+
+  Unknowns RockPatch::places(const unsigned int n_steps, const Unknowns &u, const Unknowns &w,
+                             const DampedMotion &damped) const
+  {
+    Motion motion = at_rest(n_steps);
+    for (std::size_t i = 0; i < n_layer[n_steps]; ++i)
       for (unsigned int c = 0; c < 3; ++c)
       {
-        u_here[3 * i + c] = u[3 * std::size_t(node[i]) + c];
-        w_here[3 * i + c] = w[3 * std::size_t(node[i]) + c];
+        motion.u[3 * i + c] = u[3 * std::size_t(node[i]) + c];
+        motion.w[3 * i + c] = w[3 * std::size_t(node[i]) + c];
       }
+    motion.damped.copy(damped, node);
     for (unsigned int left = n_steps; left-- > 0;)
-      step(left, nullptr, u_here, w_here, x);
-    return at_base(u_here, w_here);
+      step(left, nullptr, motion);
+    return at_base(motion);
   }
 
   /** Returns for each base node the base nodes that its force moves within @p n_steps steps: those up to
@@ -151,7 +162,6 @@ namespace Voussoir
     const auto        reached = reach(n_steps);
     BlockSparseMatrix result(reached);
     std::vector<bool> done(n_base_nodes(), false);
-    const std::size_t n = 3 * std::size_t(n_layer[n_steps]);
     for (unsigned int first = 0; first < n_base_nodes(); ++first)
     {
       if (done[first])
@@ -169,12 +179,13 @@ namespace Voussoir
         }
       for (unsigned int c = 0; c < 3; ++c)
       {
-        Unknowns u(n, 0.), w(n, 0.), x(n, 0.), force(3 * std::size_t(n_base_nodes()), 0.);
+        Motion   motion = at_rest(n_steps);
+        Unknowns force(3 * std::size_t(n_base_nodes()), 0.);
         for (const unsigned int base_node : together)
           force[3 * base_node + c] = 1.;
         for (unsigned int left = n_steps; left-- > 0;)
-          step(left, force.data(), u, w, x);
-        const Unknowns place = at_base(u, w);
+          step(left, force.data(), motion);
+        const Unknowns place = at_base(motion);
         for (const unsigned int base_node : together)
           for (const unsigned int i : reached[base_node])
           {

@@ -85,11 +85,11 @@ namespace Voussoir
 
   Vector3 ViscousBoundary::free_field_force(const RegionStep &step, const unsigned int d) const
   {
-    const RayleighDamping &damping = step.damping;
-    const double           dt = step.dt;
-    const Unknowns &field_before = step.field_before, &field = step.field, &field_next = step.field_next;
-    const Dashpot  &dashpot = dashpots[d];
-    const auto      at = [&](const Unknowns &values, const std::size_t i) {
+    const RockDamping &damping = step.damping;
+    const double       dt = step.dt;
+    const Unknowns    &field_before = step.field_before, &field = step.field, &field_next = step.field_next;
+    const Dashpot     &dashpot = dashpots[d];
+    const auto         at = [&](const Unknowns &values, const std::size_t i) {
       return Vector3{{values[3 * i], values[3 * i + 1], values[3 * i + 2]}};
     };
     Vector3    f{};
@@ -124,12 +124,12 @@ namespace Voussoir
 
   void ViscousBoundary::advance(const RegionStep &step)
   {
-    const RayleighDamping &damping = step.damping;
-    const double           dt = step.dt;
-    const Unknowns        &u = step.u, &K_x = step.K_x, &K_u = step.K_u, &force = step.force;
-    Unknowns              &w = step.w;
-    const int              n = kept.size();
-    const bool with_energy = !K_u.empty(), loaded = !force.empty(), incident = !step.field.empty();
+    const RockDamping &damping = step.damping;
+    const double       dt = step.dt;
+    const Unknowns    &u = step.u, &K_x = step.K_x, &K_u = step.K_u, &force = step.force;
+    Unknowns          &w = step.w;
+    const int          n = kept.size();
+    const bool         with_energy = !K_u.empty(), loaded = !force.empty(), incident = !step.field.empty();
     std::vector<std::array<double, 3>> sums(n); // radiated energy, damping losses, work of forces
 #pragma omp parallel for schedule(static)
     for (int k = 0; k < n; ++k)

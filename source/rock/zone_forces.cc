@@ -4,9 +4,10 @@
 namespace Voussoir
 {
   ZoneForces::ZoneForces(std::unique_ptr<ZoneStrip> given, const RockRegionParameters &parameters)
-      : strip(std::move(given)), dt(parameters.dt), stiffness_damping(parameters.damping.stiffness)
+      : strip(std::move(given)), dt(parameters.dt)
   {
     strip->field.evaluate(before);
+    damped = DampedMotion(parameters.damping, dt, before.size());
   }
 
   void ZoneForces::end_step(Unknowns &force)
@@ -14,9 +15,10 @@ namespace Voussoir
     strip->field.end_step();
     Unknowns now, inside, outside;
     strip->field.evaluate(now);
-    Unknowns x = now;
+    Unknowns w(now.size()), x(now.size());
     for (std::size_t k = 0; k < x.size(); ++k)
-      x[k] += stiffness_damping * (now[k] - before[k]) / dt;
+      w[k] = (now[k] - before[k]) / dt;
+    damped.advance(now.data(), w.data(), x.data(), 0, x.size());
     before.swap(now);
     strip->separate(x, inside, outside);
     Unknowns f_inside(x.size()), f_outside(x.size());
@@ -29,6 +31,8 @@ namespace Voussoir
   {
     auto arrays = strip->field.state();
     arrays.push_back(&before);
+    for (auto *array : damped.state())
+      arrays.push_back(array);
     return arrays;
   }
 

@@ -15,6 +15,10 @@ namespace Voussoir
   void check_boundary_layers(const FoundationParameters &parameters, const HexMesh &mesh,
                              const std::string &source, const std::string &generated_in);
 
+  /** Throws InputError if the quality factor is too small, or not available with the waves or the artificial
+   * boundary. */
+  void check_damping(const RockRegionParameters &region);
+
   /** Throws InputError if the time step of the rock exceeds the critical one.
    *
    * @param grid time steps of dam and rock

@@ -21,6 +21,7 @@ namespace Voussoir
     double       sustained = 0.;                              ///< sustained modulus [Pa]; 0: rock.young
     ZoneEntry    zones;                                       ///< materials of named rock volumes
     double       mass_damping = 0., stiffness_damping = 2e-5; ///< Rayleigh damping [1/s], [s]
+    double       quality = 0.;                                ///< quality factor [-]; 0: none
     std::string  boundary = "mtf3", free_field = "sections";  ///< see boundary_table.h; sections or columns
     std::string  incidence = "vertical";                      ///< see read_incidence()
     bool         nodal_everywhere = true;                     ///< nodal quadrature, except at the dam

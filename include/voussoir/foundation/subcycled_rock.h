@@ -56,7 +56,7 @@ namespace Voussoir
     void advance(unsigned int n, const Unknowns &force, const Unknowns &place, double work) override;
 
   private:
-    RayleighDamping damping() const; ///< returns the damping of the rock
+    RockDamping damping() const; ///< returns the damping of the rock
 
     /** Returns the displacements of the base nodes at the time of the dam, three values each, without the
      * static ones [m]. */

@@ -11,7 +11,7 @@ namespace Voussoir
   /** Works since the start of the run [J]: indices in the list of works of a region. */
   enum RegionWork
   {
-    lost_in_damping,       ///< dissipated by Rayleigh damping
+    lost_in_damping,       ///< dissipated by the damping of the rock
     done_by_forces,        ///< done by the external forces
     gone_through_boundary, ///< radiated through the artificial boundary
     done_by_prescribed,    ///< done by the prescribed nodes on the region
@@ -23,7 +23,7 @@ namespace Voussoir
   struct RegionStep
   {
     double                     dt; ///< time step of the rock [s]
-    const RayleighDamping     &damping;
+    const RockDamping         &damping;
     const std::vector<double> &mass;     ///< one value per node [kg]
     const std::vector<bool>   &is_fixed; ///< fixed components, three per node
     const Unknowns            &u;        ///< displacement at t [m]

@@ -13,7 +13,7 @@ namespace Voussoir
   struct RegionEnergy
   {
     double kinetic = 0., strain = 0.; ///< current kinetic and strain energy
-    double damping = 0.;              ///< dissipated by Rayleigh damping since the start
+    double damping = 0.;              ///< dissipated by the damping of the rock since the start
     double external = 0.;             ///< work of ExplicitRegion::force since the start
     double transmitted = 0.;          ///< energy radiated through the artificial boundary; negative: entered
     double prescribed = 0.;           ///< work of the prescribed nodes on the region
@@ -43,12 +43,11 @@ namespace Voussoir
     /** Creates a region at rest.
      * @param stiffness stiffness operator of the whole region
      * @param mass lumped mass of each node, positive [kg]
-     * @param damping Rayleigh damping
+     * @param damping damping of the rock
      * @param dt time step of the rock [s]
      *
      * Throws InputError if @p dt exceeds the critical time step. */
-    ExplicitRegion(RockOperator stiffness, std::vector<double> mass, const RayleighDamping &damping,
-                   double dt);
+    ExplicitRegion(RockOperator stiffness, std::vector<double> mass, const RockDamping &damping, double dt);
 
     /** Sets the artificial boundary. @p boundary must be attached to the model of the region. Throws
      * InputError if prescribed nodes are too close to it. */
@@ -121,13 +120,15 @@ namespace Voussoir
     /** Returns w = (u(t + dt) - u(t)) / dt, three values per node [m/s]. As to several processes, see
      * displacement(). */
     const Unknowns &half_step_velocity() const { return w; }
+    /** Returns the memory variables at t. As to several processes, they are those of stepped nodes. */
+    const DampedMotion &damped_motion() const { return damped; }
 
     /** Returns the largest stable time step of the region, with damping [s]. */
     double critical_time_step() const { return dt_critical; }
 
     /** Enables the energy balance, which takes a tenth of the time of a step. Call it while the region is at
      * rest, before start(). */
-    void keep_energy() { K_u.assign(u.size(), 0.); }
+    void keep_energy();
     /** Returns the energies. They are zero before the first step and without keep_energy(). With several
      * processes they are those of the last gather_energy(). */
     RegionEnergy energy() const;
@@ -143,9 +144,11 @@ namespace Voussoir
     void start(const Unknowns &displacement, const Unknowns &velocity);
 
   private:
-    /** Twice the kinetic energy, twice the strain energy, damping losses and work of forces over dt/2. Chunks
-     * of nodes are added in sequence, so that sums do not depend on the number of threads. */
-    using Sums = std::array<double, 4>;
+    /** Twice the kinetic energy, twice the strain energy, damping losses and work of forces over dt/2, and
+     * DampedMotion::stored(). Chunks of nodes are added in sequence, so that sums do not depend on the number
+     * of threads. */
+    using Sums = std::array<double, 5>;
+    static constexpr unsigned int    n_energies = 3; ///< of a chunk in account, before its works
     static constexpr int             per_chunk = RockSplit::per_chunk;
     template <bool with_energy> Sums step_nodes(int first, int last);
 
@@ -157,13 +160,14 @@ namespace Voussoir
     RockOperator        stiffness;
     std::vector<double> mass, inverse_mass; ///< per node [kg]; per component [1/kg], 0 if not explicit
     std::vector<bool>   is_fixed;           ///< per component
-    RayleighDamping     damping;
+    RockDamping         damping;
     double              dt, dt_critical;
+    DampedMotion        damped;
     std::vector<double> clock = {0.}; ///< number of the step; a vector for state()
 
     Unknowns u, w;   ///< displacement, and velocity half a step later [m, m/s]
-    Unknowns x, K_x; ///< displacement plus stiffness damping times w [m], and K x [N]
-    Unknowns K_u;    ///< K u, computed from K_x [N]; empty without energy balance
+    Unknowns x, K_x; ///< displacement with damping (DampedMotion) [m], and K x [N]
+    Unknowns K_u;    ///< forces without damping, computed from K_x [N]; empty without energy balance
 
     std::vector<unsigned int> prescribed;
     std::vector<double>       prescribed_mass;
@@ -176,8 +180,8 @@ namespace Voussoir
     std::unique_ptr<IncidentField> free_field;
     Unknowns field_before, field, field_next; ///< at its points, for the last, current and next time [m]
     std::vector<double> work;                 ///< per chunk and RegionWork [J]
-    /** Per chunk: twice the kinetic and twice the strain energy half a step before time(), and the works at
-     * that time. */
+    /** Per chunk: twice the kinetic and twice the strain energy half a step before time(), twice the energy
+     * of the mechanisms of the damping, and the works at that time. */
     std::vector<double>              account;
     RockSplit                        split;
     std::vector<std::pair<int, int>> pieces; ///< ranges of nodes of this process, within chunks
@@ -188,11 +192,6 @@ namespace Voussoir
    * @p mass: of each node [kg]. */
   double largest_frequency(const RockOperator &stiffness, const std::vector<double> &mass);
   double largest_frequency(const BlockSparseMatrix &stiffness, const std::vector<double> &mass);
-
-  /** Returns the critical time step of the explicit scheme with lagged damping [s]: w dt =
-   * 2 (sqrt(1 + xi^2) - xi) with the damping ratio xi at the circular frequency @p w [1/s] (Hughes
-   * and Liu 1978). */
-  double critical_time_step(double w, const RayleighDamping &damping);
 
   /** Returns the message for a time step @p dt above the @p critical one [s]. The caller appends the
    * suggested action. */

@@ -29,7 +29,7 @@ namespace Voussoir
      *
      * Throws InputError if the artificial boundary has no bottom, and for waves that do not propagate in the
      * rock. */
-    FreeField(const RockModel &model, const RayleighDamping &damping, double dt, unsigned int n_steps,
+    FreeField(const RockModel &model, const RockDamping &damping, double dt, unsigned int n_steps,
               const IncidentWave &wave, const Incidence &incidence = {});
     ~FreeField() override;
 

@@ -22,22 +22,23 @@ namespace Voussoir
   public:
     /** Creates a half-space at rest for @p n_steps steps of @p dt [s]. @p courant: Courant numbers c dt/h of
      * the three components. */
-    EndlessColumn(const Vector3 &courant, const RayleighDamping &damping, double dt, unsigned int n_steps);
+    EndlessColumn(const Vector3 &courant, const RockDamping &damping, double dt, unsigned int n_steps);
 
     /** Advances by one step. @p first: displacement of the first node at t [m]. Returns the displacement of
      * the second node at t + dt [m]. */
     const Vector3 &advance(const Vector3 &first);
 
     /** Returns the state variables, for checkpoints. */
-    std::vector<std::vector<double> *> state() { return {&u, &w}; }
+    std::vector<std::vector<double> *> state();
 
   private:
-    RayleighDamping     damping;
+    RockDamping         damping;
     double              dt;
+    DampedMotion        damped;
     Vector3             ratio;
     std::vector<double> u,
         w;                 ///< displacement at t, velocity half a step before [m, m/s], three values per node
-    std::vector<double> x; ///< displacement plus stiffness damping times the velocity [m]
+    std::vector<double> x; ///< displacement with damping, see DampedMotion [m]
     Vector3             second;
   };
 
@@ -48,7 +49,7 @@ namespace Voussoir
   public:
     /** Creates a column at rest. @p delay: travel time of the S (x, y) and P (z) waves until the wave enters
      * this column [s]. @p n_steps: largest number of steps of the run. */
-    FreeFieldColumn(const RockColumn &column, const RayleighDamping &damping, double dt, unsigned int n_steps,
+    FreeFieldColumn(const RockColumn &column, const RockDamping &damping, double dt, unsigned int n_steps,
                     const IncidentWave &wave, const Vector3 &delay);
 
     void    advance() override;
@@ -66,11 +67,12 @@ namespace Voussoir
 
     std::vector<double> height, mass,
         stiffness; ///< per area: of the nodes; of the cells, three components each
-    RayleighDamping damping;
-    double          dt;
-    IncidentWave    wave;
-    Vector3         delay, bottom_stiffness;
-    EndlessColumn   rising,
+    RockDamping   damping;
+    double        dt;
+    DampedMotion  damped, damped_below; ///< of the levels, and one cell below
+    IncidentWave  wave;
+    Vector3       delay, bottom_stiffness;
+    EndlessColumn rising,
         leaving; ///< incident wave above its entrance; wave that leaves below the lowest node
     std::vector<double> u, w,
         x;                     ///< three values per node; the last three of u: one cell below the lowest node

@@ -3,6 +3,7 @@
 #define voussoir_ground_column_h
 
 #include <voussoir/rock/incident_wave.h>
+#include <voussoir/rock/rock_damping.h>
 #include <voussoir/solid/material.h>
 
 #include <vector>
@@ -12,11 +13,11 @@ namespace Voussoir
   /** Settings that all columns of ground share. */
   struct ColumnRun
   {
-    RayleighDamping damping;
-    double          dt;      ///< time step [s]
-    unsigned int    n_steps; ///< largest number of steps of the run
-    IncidentWave    wave;
-    double          lowest; ///< height at which the waves enter the lowest column [m]
+    RockDamping  damping;
+    double       dt;      ///< time step [s]
+    unsigned int n_steps; ///< largest number of steps of the run
+    IncidentWave wave;
+    double       lowest; ///< height at which the waves enter the lowest column [m]
   };
 
   /** Motion of horizontally layered ground in a column of nodes. It advances in step with the rock. */

@@ -36,8 +36,7 @@ namespace Voussoir
 
     /** Creates a line at rest. @p is_sh: one horizontal component, which takes the place of u_z. @p dt: time
      * step [s]. */
-    ObliqueLine(const std::vector<Cell> &cells, double p, bool is_sh, const RayleighDamping &damping,
-                double dt);
+    ObliqueLine(const std::vector<Cell> &cells, double p, bool is_sh, const RockDamping &damping, double dt);
 
     /** Returns an upper bound of the circular frequencies of the cells [1/s]. */
     static double largest_frequency(const std::vector<Cell> &cells, double p, bool is_sh);
@@ -72,7 +71,7 @@ namespace Voussoir
     void set(Component &component, double value) const;
 
     double              dt;
-    RayleighDamping     damping;
+    RockDamping         damping;
     Component           along_, rest_;  ///< u_s; u_z or the component of SH
     std::vector<double> mass;           ///< per node and area, not reduced [kg/m^2]
     std::vector<double> G_own, G_other; ///< per cell: p (lambda - mu)/2, p (lambda + mu)/2

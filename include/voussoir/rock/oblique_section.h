@@ -45,9 +45,9 @@ namespace Voussoir
     void   set_forces_of_zone(double later, double step);
     void   substep(double later);
 
-    double          p, origin, dt; ///< slowness [s/m], x without delay [m], time step of the rock [s]
-    RayleighDamping damping;
-    unsigned int    n_substeps = 1, lead, n_kept;
+    double       p, origin, dt; ///< slowness [s/m], x without delay [m], time step of the rock [s]
+    RockDamping  damping;
+    unsigned int n_substeps = 1, lead, n_kept;
     std::unique_ptr<ZoneStrip>          strip;
     RockOperator                        stiffness;
     SlownessCoupling                    coupling, coupling_of_strip;

@@ -3,6 +3,7 @@
 #define voussoir_rock_parameters_h
 
 #include <voussoir/rock/plane_wave.h>
+#include <voussoir/rock/rock_damping.h>
 
 #include <array>
 #include <functional>
@@ -38,10 +39,10 @@ namespace Voussoir
   /** Parameters of the explicit rock in the input file. */
   struct RockRegionParameters
   {
-    RockParameters  rock;
-    RayleighDamping damping;
-    double          dt = .001;         ///< time step of the rock [s]
-    std::string     boundary = "mtf3"; ///< name of a row in boundary_table.cc
+    RockParameters rock;
+    RockDamping    damping;
+    double         dt = .001;         ///< time step of the rock [s]
+    std::string    boundary = "mtf3"; ///< name of a row in boundary_table.cc
 
     /** Creates the artificial boundary in place of the row of the table, if it is set. */
     std::function<std::unique_ptr<ArtificialBoundary>()> boundary_maker;

@@ -23,12 +23,14 @@ namespace Voussoir
      * @param n_steps largest number of steps
      *
      * Throws InputError if fewer than @p n_steps layers lie between the base and the artificial boundary. */
-    RockPatch(const RockModel &model, const RayleighDamping &damping, double dt,
+    RockPatch(const RockModel &model, const RockDamping &damping, double dt,
               const std::vector<unsigned int> &base_nodes, unsigned int n_steps);
 
     /** Returns the displacement of the base nodes after @p n_steps steps without forces of the dam, three
-     * values each [m]. @p u and @p w: displacement [m] and half-step velocity [m/s] of the region. */
-    Unknowns places(unsigned int n_steps, const Unknowns &u, const Unknowns &w) const;
+     * values each [m]. @p u, @p w and @p damped: displacement [m], half-step velocity [m/s] and memory
+     * variables of the region. */
+    Unknowns places(unsigned int n_steps, const Unknowns &u, const Unknowns &w,
+                    const DampedMotion &damped) const;
 
     /** Returns the displacement of the base nodes after @p n_steps steps from rest, for constant unit forces
      * on them [m/N]. The matrix is symmetric. After one step it is dt^2/(2 M). */
@@ -40,11 +42,20 @@ namespace Voussoir
 
   private:
     void add_layers(const RockModel &model, unsigned int n_steps);
-    void step(unsigned int n_left, const double *force, Unknowns &u, Unknowns &w, Unknowns &x) const;
-    std::vector<std::vector<unsigned int>> reach(unsigned int n_steps) const;
-    Unknowns                               at_base(const Unknowns &u, const Unknowns &w) const;
 
-    RayleighDamping           damping;
+    /** Motion of the nodes. */
+    struct Motion
+    {
+      Unknowns     u, w, x; ///< as in ExplicitRegion
+      DampedMotion damped;
+    };
+    Motion at_rest(unsigned int n_steps) const;
+    void   step(unsigned int n_left, const double *force, Motion &motion) const;
+
+    std::vector<std::vector<unsigned int>> reach(unsigned int n_steps) const;
+    Unknowns                               at_base(const Motion &motion) const;
+
+    RockDamping               damping;
     double                    dt;
     std::vector<unsigned int> node;         ///< nodes of the region: base nodes first, then layer after layer
     std::vector<unsigned int> n_layer;      ///< number of nodes within 0, 1, ... layers of the base nodes

@@ -29,8 +29,9 @@ namespace Voussoir
 
   private:
     std::unique_ptr<ZoneStrip> strip;
-    double                     dt, stiffness_damping;
+    double                     dt;
     std::vector<double>        before; ///< displacement of the free field in the previous step [m]
+    DampedMotion               damped; ///< of the free field
   };
 
   /** Motion of a section under waves without a slowness along the valley: an explicit region with a zone. */

@@ -15,12 +15,6 @@ namespace Voussoir
 
   /** Returns the velocity of shear waves [m/s]. */
   double s_wave_speed(const Material &material);
-
-  /** Rayleigh damping of the rock: C = mass M + stiffness K, with factors in [1/s] and [s]. */
-  struct RayleighDamping
-  {
-    double mass = 0., stiffness = 0.;
-  };
 } // namespace Voussoir
 
 #endif

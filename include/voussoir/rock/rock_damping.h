@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_rock_damping_h
+#define voussoir_rock_damping_h
+
+#include <array>
+#include <complex>
+#include <vector>
+
+namespace Voussoir
+{
+  /** Damping of the rock: Rayleigh damping C = mass M + stiffness K, and a quality factor that is about
+   * constant in a band of frequencies. */
+  struct RockDamping
+  {
+    double mass = 0., stiffness = 0.;  ///< [1/s], [s]
+    double quality = 0.;               ///< quality factor of P and S waves [-]; 0: none
+    double lowest = .5, highest = 10.; ///< band of the quality factor [Hz]
+
+    /** Returns true if the rock has a quality factor. */
+    bool has_quality() const { return quality > 0.; }
+  };
+
+  /** Generalised Maxwell body with three relaxation mechanisms (Emmerich and Korn 1987, Geophysics 52,
+   * 1252-1264). All moduli have the same relaxation, so the stress of a displacement u is that of the elastic
+   * rock for the displacement
+   *
+   *     s (u - sum_l Y_l xi_l),    d xi_l / dt = omega_l (u - xi_l),
+   *
+   * and the memory variables xi_l belong to nodes. The factor s makes the velocity of harmonic waves in the
+   * middle of the band (on the logarithmic scale) that of the given moduli. */
+  struct Relaxation
+  {
+    static constexpr unsigned int n = 3;
+    std::array<double, n>         frequency{}, weight{}; ///< omega_l [1/s] and Y_l [-]
+    double                        unrelaxed = 1.; ///< s: modulus at infinite frequency over the given modulus
+
+    /** Fits the weights to the quality factor by least squares at frequencies in the band. Without a quality
+     * factor, the weights are zero. */
+    explicit Relaxation(const RockDamping &damping);
+
+    /** Returns the complex modulus at the circular frequency @p w [1/s], relative to the given modulus. */
+    std::complex<double> modulus(double w) const;
+  };
+
+  /** Displacements x whose elastic forces are those of the damped rock, except for mass-proportional damping:
+   * x = u + stiffness w without a quality factor, where w is the velocity half a step before u. With a
+   * quality factor u is replaced as in Relaxation; the memory variables follow by the trapezoidal rule. */
+  class DampedMotion
+  {
+  public:
+    DampedMotion() = default;
+    /** Creates the state of rest of @p n_values displacements. */
+    DampedMotion(const RockDamping &damping, double dt, std::size_t n_values);
+
+    /** Advances the memory variables to the time of @p u [m], and computes @p x [m], of the values @p first
+     * to @p last - 1. @p w: velocity half a step before [m/s]. */
+    void advance(const double *u, const double *w, double *x, std::size_t first, std::size_t last);
+
+    /** Returns the modulus at infinite frequency over the given modulus. */
+    double unrelaxed_modulus() const { return unrelaxed; }
+
+    /** Enables elastic() and stored(). */
+    void keep_energy();
+
+    /** Replaces the elastic forces @p f of the previous time by those of u without damping, multiplied by s.
+     * @p K_x: elastic forces of x [N]. @p n values from @p first; the arrays begin there. */
+    void elastic(const double *K_x, double *f, std::size_t first, std::size_t n);
+
+    /** Returns twice the energy of these values that the mechanisms have taken from the unrelaxed strain
+     * energy without dissipation, as a negative number [J]. @p u: displacement, begins at @p first. */
+    double stored(const double *u, std::size_t first, std::size_t n) const;
+
+    /** Copies the memory variables of nodes of another motion. */
+    void copy(const DampedMotion &other, const std::vector<unsigned int> &nodes);
+
+    /** Returns the memory variables and their forces, for checkpoints. They are empty without a quality
+     * factor. */
+    std::vector<std::vector<double> *> state();
+
+  private:
+    static constexpr unsigned int n = Relaxation::n;
+    double                        dt = 0., stiffness = 0., unrelaxed = 1.;
+    std::array<double, n> weight{}, kept{}, added{};  ///< xi(t + dt) = kept xi + added (u(t) + u(t + dt))
+    std::array<std::vector<double>, n> memory, force; ///< xi_l [m], and s K xi_l [N]
+  };
+
+  /** Returns the critical time step of the explicit scheme with lagged damping [s]: w dt =
+   * 2 (sqrt(1 + xi^2) - xi) with the Rayleigh damping ratio xi at the circular frequency @p w [1/s] (Hughes
+   * and Liu 1978). A quality factor multiplies w by the square root of Relaxation::unrelaxed. */
+  double critical_time_step(double w, const RockDamping &damping);
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/rock/rock_damping.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Voussoir
+{
+  namespace
+  {
+    constexpr double two_pi = 6.283185307179586;
+
+    using Row = std::array<double, Relaxation::n + 1>;
+
+    /** Solves the normal equations, which are symmetric and positive definite. The last column is the
+     * right-hand side. */
+    std::array<double, Relaxation::n> solved(std::array<Row, Relaxation::n> a)
+    {
+      constexpr unsigned int n = Relaxation::n;
+      for (unsigned int k = 0; k < n; ++k)
+        for (unsigned int i = 0; i < n; ++i)
+          if (i != k)
+          {
+            const double factor = a[i][k] / a[k][k];
+            for (unsigned int j = k; j <= n; ++j)
+              a[i][j] -= factor * a[k][j];
+          }
+      std::array<double, n> result{};
+      for (unsigned int k = 0; k < n; ++k)
+        result[k] = a[k][n] / a[k][k];
+      return result;
+    }
+  } // namespace
+
+  Relaxation::Relaxation(const RockDamping &damping)
+  {
+    if (!damping.has_quality())
+      return;
+    // The mechanisms extend beyond the band by this factor, which gives about the smallest error.
+    constexpr double       beyond = 1.4;
+    constexpr unsigned int n_points = 40;
+    const auto             between = [](const double a, const double b, const double share)
+    { return two_pi * a * std::pow(b / a, share); };
+    for (unsigned int l = 0; l < n; ++l)
+      frequency[l] = between(damping.lowest / beyond, beyond * damping.highest, double(l) / (n - 1));
+    // Im(modulus) = Re(modulus)/quality is linear in the weights.
+    std::array<Row, n> normal{};
+    for (unsigned int k = 0; k < n_points; ++k)
+    {
+      const double w = between(damping.lowest, damping.highest, double(k) / (n_points - 1));
+      Row          row;
+      for (unsigned int l = 0; l < n; ++l)
+        row[l] = frequency[l] * (damping.quality * w + frequency[l]) / (frequency[l] * frequency[l] + w * w);
+      row[n] = 1.;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j <= n; ++j)
+          normal[i][j] += row[i] * row[j];
+    }
+    weight = solved(normal);
+    const double slowness = (1. / std::sqrt(modulus(between(damping.lowest, damping.highest, .5)))).real();
+    unrelaxed = slowness * slowness;
+  }
+
+  std::complex<double> Relaxation::modulus(const double w) const
+  {
+    std::complex<double> result = 1.;
+    for (unsigned int l = 0; l < n; ++l)
+      if (weight[l] != 0.)
+        result -= weight[l] * frequency[l] / std::complex<double>(frequency[l], w);
+    return unrelaxed * result;
+  }
+
+  DampedMotion::DampedMotion(const RockDamping &damping, const double dt, const std::size_t n_values)
+      : dt(dt), stiffness(damping.stiffness)
+  {
+    if (!damping.has_quality())
+      return;
+    const Relaxation law(damping);
+    unrelaxed = law.unrelaxed;
+    weight = law.weight;
+    for (unsigned int l = 0; l < n; ++l)
+    {
+      const double half = .5 * law.frequency[l] * dt;
+      kept[l] = (1. - half) / (1. + half);
+      added[l] = half / (1. + half);
+      memory[l].assign(n_values, 0.);
+    }
+  }
+
+  void DampedMotion::advance(const double *u, const double *w, double *x, const std::size_t first,
+                             const std::size_t last)
+  {
+    const double b = stiffness;
+    if (memory[0].empty())
+    {
+#pragma omp simd
+      for (std::size_t i = first; i < last; ++i)
+        x[i] = u[i] + b * w[i];
+      return;
+    }
+    double *a0 = memory[0].data(), *a1 = memory[1].data(), *a2 = memory[2].data();
+#pragma omp simd
+    for (std::size_t i = first; i < last; ++i)
+    {
+      const double both = 2. * u[i] - dt * w[i]; // u(t) + u(t + dt)
+      a0[i] = kept[0] * a0[i] + added[0] * both;
+      a1[i] = kept[1] * a1[i] + added[1] * both;
+      a2[i] = kept[2] * a2[i] + added[2] * both;
+      x[i] = unrelaxed * (u[i] - (weight[0] * a0[i] + weight[1] * a1[i] + weight[2] * a2[i])) + b * w[i];
+    }
+  }
+
+  void DampedMotion::keep_energy()
+  {
+    for (unsigned int l = 0; l < n; ++l)
+      force[l].assign(memory[l].size(), 0.);
+  }
+
+  void DampedMotion::elastic(const double *K_x, double *f, const std::size_t first,
+                             const std::size_t n_values)
+  {
+    // K_x = f - sum Y xi + ratio (f - f_before), where xi = kept xi_before + added (f_before + f)
+    const double ratio = stiffness / (dt * unrelaxed);
+    if (memory[0].empty())
+    {
+      const double share = 1. / (1. + ratio);
+#pragma omp simd
+      for (std::size_t i = 0; i < n_values; ++i)
+        f[i] = share * (K_x[i] + ratio * f[i]);
+      return;
+    }
+    double share = 1. + ratio, of_before = ratio;
+    for (unsigned int l = 0; l < n; ++l)
+    {
+      share -= weight[l] * added[l];
+      of_before += weight[l] * added[l];
+    }
+    share = 1. / share;
+    double *const g0 = force[0].data() + first, *const g1 = force[1].data() + first,
+                  *const g2 = force[2].data() + first;
+    const double         y0 = weight[0] * kept[0], y1 = weight[1] * kept[1], y2 = weight[2] * kept[2];
+#pragma omp simd
+    for (std::size_t i = 0; i < n_values; ++i)
+    {
+      const double before = f[i];
+      f[i] = share * (K_x[i] + of_before * before + (y0 * g0[i] + y1 * g1[i] + y2 * g2[i]));
+      const double both = before + f[i];
+      g0[i] = kept[0] * g0[i] + added[0] * both;
+      g1[i] = kept[1] * g1[i] + added[1] * both;
+      g2[i] = kept[2] * g2[i] + added[2] * both;
+    }
+  }
+
+  double DampedMotion::stored(const double *u, const std::size_t first, const std::size_t n_values) const
+  {
+    double sum = 0.;
+    for (unsigned int l = 0; l < n && !memory[0].empty(); ++l)
+    {
+      const double *const xi = memory[l].data() + first, *const of_xi = force[l].data() + first;
+      double of_mechanism = 0.;
+#pragma omp simd reduction(+ : of_mechanism)
+      for (std::size_t i = 0; i < n_values; ++i)
+        of_mechanism += (xi[i] - 2. * u[i]) * of_xi[i];
+      sum += weight[l] * of_mechanism;
+    }
+    return sum;
+  }
+
+  void DampedMotion::copy(const DampedMotion &other, const std::vector<unsigned int> &nodes)
+  {
+    for (unsigned int l = 0; l < n && !memory[0].empty(); ++l)
+      for (std::size_t i = 0; i < memory[l].size() / 3; ++i)
+        std::copy_n(other.memory[l].begin() + 3 * std::size_t(nodes[i]), 3, memory[l].begin() + 3 * i);
+  }
+
+  std::vector<std::vector<double> *> DampedMotion::state()
+  {
+    std::vector<std::vector<double> *> arrays;
+    for (unsigned int l = 0; l < n && !memory[0].empty(); ++l)
+      for (auto *array : {&memory[l], &force[l]})
+        arrays.push_back(array);
+    return arrays;
+  }
+
+  double critical_time_step(const double given, const RockDamping &damping)
+  {
+    const double w = given * std::sqrt(Relaxation(damping).unrelaxed);
+    const double xi = .5 * (damping.mass / w + damping.stiffness * w);
+    return 2. * (std::sqrt(1. + xi * xi) - xi) / w;
+  }
+} // namespace Voussoir
