@@ -7,7 +7,7 @@
 Each rock cell has a critical time step by the largest frequency of its own elements with nodal quadrature, a lower bound of that
 of the mesh. One step for all cells is the smallest; with local steps each cell has the largest power of two times the smallest step
 that its neighbours allow, too. Gain: cell steps per second of one step over those of local steps, without the cost of the interfaces.
-Prints a Markdown table.
+All rock has the same wave speed and nodal quadrature, also at the dam. Prints a Markdown table.
 """
 
 import argparse

@@ -111,14 +111,41 @@ def binds_less(text, before, after):
     ends = not after.strip() or after.lstrip()[0] in ";,)]}:"
     if re.search(r"[+\-*/%&|^]=", inner):
         return not ends
-    first, last = after.lstrip()[:2], before[-2:]
-    if "?" in inner and (ends is False or re.search(r"[|&<>!=]=?$|[-+*/%]$", before) and not re.search(r"(?<![=!<>])=$", before)):
-        return True
-    if "||" in inner and "?" not in inner and ("&&" in (first, last) or last.endswith("!")):
-        return True
-    weak, factor = r"(?<=[\w\s])\s*[-+]\s*(?=[\w.:])(?<!\de-)(?<!\de\+)", r"[*/%](?!=)"
-    return bool(re.search(weak, inner.strip()) and (re.match(factor, after.lstrip()) or re.search(r"[-*/%]$", before))
-                or re.search(factor, inner) and before.endswith("/"))
+    levels = [level for level, _, symbol in operators(inner) if symbol != "!"]
+    if not levels:
+        return False
+    own, (left, symbol), right = min(levels), last_operator(before), first_operator(after)
+    return left > own or left == own and symbol in "-/%" or right > own
+
+
+LEVELS = {"?": 1, "||": 2, "&&": 3, "==": 4, "!=": 4, "<": 5, ">": 5, "<=": 5, ">=": 5, "+": 6, "-": 6, "*": 7, "/": 7, "%": 7}
+
+
+def operators(text):
+    """Level, place and symbol of the operators in an expression without brackets; unary ones have the level 8. Lists of template
+    arguments and arrows are no operators."""
+    text = re.sub(r"->|::|\+\+|--|<<|>>|\d[eE][-+]\d", lambda m: "x" * len(m[0]), re.sub(r"<[\w:, ]*>(?=\s*$|\(|::|x)", lambda m: "x" * len(m[0]), text))
+    found = []
+    for match in re.finditer(r"\|\||&&|[=!<>]=|[-+*/%<>?!]", text):
+        symbol, is_binary = match[0], re.search(r"[\w)\]\"'.]\s*$", text[:match.start()])
+        if is_binary and symbol != "!":
+            found.append((LEVELS[symbol], match.start(), symbol))
+        elif symbol in "-!*+":
+            found.append((8, match.start(), "!"))
+    return found
+
+
+def last_operator(before):
+    """Level and symbol of the operator at the end of the source before an expression, or level 0."""
+    line = before[-200:]
+    at_end = [(level, symbol) for level, place, symbol in operators(line) if place + len(symbol) == len(line)]
+    return at_end[0] if at_end else (0, "")
+
+
+def first_operator(after):
+    """Level of the operator at the beginning of the source after an expression, or 0."""
+    match = re.match(r"\|\||&&|[=!<>]=|[-+*/%<>?]", after.lstrip())
+    return LEVELS.get(match[0], 0) if match and not re.match(r"\+\+|--|->|<<|>>|[-+*/%]=", after.lstrip()) else 0
 
 
 def place_of(old, text, mutant):

@@ -38,8 +38,8 @@ namespace Voussoir
       : parameters(site.parameters), mesh(site.parameters.volumes_by_material(site.mesh)),
         source(site.source), generated_in(site.generated_in), incompatible_modes(site.incompatible_modes)
   {
-    check_damping(
-        region_parameters(parameters, {}, 0.)); // also reports errors of the incidence before any work
+    read_incidence(parameters.incidence); // reports errors before any work
+    check_damping(region_parameters(parameters, {}, 0.));
     if (site.degree != 1)
       throw InputError("Foundation/Model = rock requires Elements/Degree = 1, not " +
                        std::to_string(site.degree) +
@@ -219,7 +219,7 @@ namespace Voussoir
 
   void ExplicitRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
   {
-    check_rock_step(steps, steps_per_sample, dt_critical);
+    check_rock_step(steps, steps_per_sample, dt_critical, parameters.quality > 0.);
     const RockRegionParameters region_at = region_parameters(parameters, centre, steps.substep());
     check_boundary(parameters, region_at, model, rock_nodes(at_base), dt_critical);
     check_waves(model, region_at);

@@ -93,9 +93,9 @@ namespace Voussoir
     prm.add_parameter(
         "Quality factor", quality,
         "Quality factor of P and S waves in all explicit rock from 0.5 to 10 Hz [-], in addition to the Rayleigh "
-        "damping. The damping ratio is 1/(2 Q). 0: none. It requires vertical incidence and a boundary without "
-        "dashpots.",
-        {10., 500., true}, Double(0.));
+        "damping. The damping ratio is 1/(2 Q). 0: none. It requires vertical incidence, a boundary without "
+        "dashpots and a level bottom of the rock, and reduces the critical time step.",
+        {10., 500., true}, Double(0., 1e6));
   }
 
   std::string FoundationSetup::about_steps() const

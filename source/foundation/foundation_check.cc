@@ -82,7 +82,7 @@ namespace Voussoir
   {
     if (!region.damping.has_quality())
       return;
-    constexpr double   least = 10.;
+    constexpr double   least = RockDamping::least_quality;
     std::ostringstream message;
     message << "\"Foundation/Quality factor\" = " << region.damping.quality;
     if (region.damping.quality < least)
@@ -101,7 +101,8 @@ namespace Voussoir
     throw InputError(message.str());
   }
 
-  void check_rock_step(const TimeGrid &grid, const unsigned int steps_per_sample, const double dt_critical)
+  void check_rock_step(const TimeGrid &grid, const unsigned int steps_per_sample, const double dt_critical,
+                       const bool has_quality)
   {
     const double rock_dt = grid.substep();
     if (rock_dt <= dt_critical) // false for NaN
@@ -111,8 +112,9 @@ namespace Voussoir
             << std::ceil(steps_per_sample * rock_dt / dt_critical) << " or \"Foundation/Substeps\" to "
             << std::ceil(grid.dt / dt_critical)
             << " (with \"Foundation/Coupling\" = auto and "
-               "\"Dynamics/Impact\" = mean-force), enlarge the rock elements, or reduce "
-               "\"Foundation/Stiffness damping\".";
+               "\"Dynamics/Impact\" = mean-force), enlarge the rock elements, "
+            << (has_quality ? "increase \"Foundation/Quality factor\", " : "")
+            << "or reduce \"Foundation/Stiffness damping\".";
     throw InputError(message.str());
   }
 

@@ -81,7 +81,7 @@ namespace Voussoir
     if (model != "rock")
       return;
     for (const char *name : {"mtf2", "viscous-spring"})
-      if (boundary != name)
+      if (boundary != name && (quality == 0. || make_boundary(name)->nodes_per_line() > 0))
         choices.add("foundation", "boundary " + std::string(name), {{"Foundation/Boundary", name}});
     if (quality == 0. && incidence == "vertical" && make_boundary(boundary)->nodes_per_line() > 0)
       choices.add("foundation", "quality factor 50 of the rock", "Foundation/Quality factor", 50.);

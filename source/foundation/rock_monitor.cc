@@ -107,6 +107,8 @@ namespace Voussoir
     const double rock_dt = region.time_step();
     text << "Do not use the results after this time, or shortly before it. Try \"Foundation/Boundary\" = ";
     text << other_boundaries(p.boundary);
+    if (p.quality > 0.)
+      text << " (viscous-spring without \"Foundation/Quality factor\")";
     if (p.stiffness_damping < .02 * rock_dt)
       text << ", a \"Foundation/Stiffness damping\" of " << .02 * rock_dt << " s (0.02 rock time steps)";
     if (!p.nodal_everywhere)

@@ -76,8 +76,8 @@ namespace Voussoir
     log.line("          10 elements or more per shear wave up to %.2g Hz (95 %% of the elements)",
              .1 / model.largest_crossing);
     if (parameters.quality > 0.)
-      log.line("          quality factor %g from %g to %g Hz, within 1.3 %%", parameters.quality,
-               RockDamping().lowest, RockDamping().highest);
+      log.line("          quality factor %g from %g to %g Hz, within %g %%", parameters.quality,
+               RockDamping().lowest, RockDamping().highest, 100. * RockDamping::error_of_quality);
     report_waves(parameters, log);
     if (grid.n > 0)
       log.line("          the earthquake arrives at the lowest base node after %.3f s", delay);

@@ -185,6 +185,9 @@ namespace Voussoir
     {
       for (unsigned int c = 0; c < 6; ++c)
         stress[i][c] += initial[i][c];
+      const auto bounds = bounds_of_principal_stresses(stress[i]);
+      if (bounds[0] <= maximum[i] && bounds[1] >= minimum[i] && !overstress.counts(bounds[0]))
+        continue;
       const auto p = principal_stresses(stress[i]);
       overstress.add(i, p[0]);
       if (p[0] > maximum[i])

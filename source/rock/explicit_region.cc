@@ -166,15 +166,14 @@ namespace Voussoir
 
   void ExplicitRegion::move_prescribed(const Unknowns &u_new, const Unknowns &v_new)
   {
-    // The displacement y whose backward difference gives the predicted stress: y + b0 (y - y_old)/dt = u +
-    // b0 v. b0: stiffness damping.
-    const double ratio = damping.stiffness / dt;
+    // The displacement y whose backward difference gives the predicted stress: y + b (y - y_old)/dt = u + b v.
+    // b: stiffness damping relative to the unrelaxed modulus.
+    const double b = damping.stiffness / damped.unrelaxed_modulus(), ratio = b / dt;
     for (std::size_t i = 0; i < prescribed.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * std::size_t(prescribed[i]) + c;
-        const double      y =
-            (u_new[3 * i + c] + damping.stiffness * v_new[3 * i + c] + ratio * u[k]) / (1. + ratio);
+        const double      y = (u_new[3 * i + c] + b * v_new[3 * i + c] + ratio * u[k]) / (1. + ratio);
         prescribed_w[3 * i + c] = w[k];
         w[k] = (y - u[k]) / dt;
       }
@@ -248,9 +247,8 @@ namespace Voussoir
       masses[i] = mass[first + i / 3];
     const double *load = force.empty() ? zeros : force.data() + offset, *K = K_x.data() + offset,
                  *inverse = inverse_mass.data() + offset, *at = u.data() + offset;
-    double *velocity = w.data() + offset, *stress = with_energy ? K_u.data() + offset : zeros;
-    if (with_energy)
-      damped.elastic(K, stress, offset, n);
+    double      *velocity = w.data() + offset, *stress = with_energy ? K_u.data() + offset : zeros;
+    const double stored = with_energy ? damped.elastic(K, at, velocity, stress, offset, n) : 0.;
     const double step = dt, drag = damping.mass;
     double       kinetic = 0., strain = 0., lost = 0., external = 0.;
 #pragma omp simd reduction(+ : kinetic, strain, lost, external)
@@ -268,7 +266,7 @@ namespace Voussoir
         external += f * twice;
       }
     }
-    return {{kinetic, strain, lost, external, with_energy ? damped.stored(at, offset, n) : 0.}};
+    return {{kinetic, strain, lost, external, stored}};
   }
 
   template <bool with_energy> void ExplicitRegion::step_explicit_nodes()

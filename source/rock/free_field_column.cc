@@ -93,7 +93,7 @@ namespace Voussoir
     std::copy(stiffness.begin(), stiffness.begin() + 3, bottom_stiffness.begin());
     u.assign(3 * (n + 1), 0.);
     w = x = u;
-    damped = DampedMotion(damping, dt, u.size());
+    damped = DampedMotion(damping, dt, 3 * n);
     damped_below = DampedMotion(damping, dt, 3);
   }
 

@@ -167,9 +167,9 @@ namespace Voussoir
     /** Returns the circular frequency with the given critical time step: the inverse of critical_time_step() [1/s]. */
     double frequency_of(const double critical, const RockDamping &damping)
     {
+      const double s = Relaxation(damping).unrelaxed;
       return std::sqrt((1. - .5 * critical * damping.mass) /
-                       (.25 * critical * critical + .5 * critical * damping.stiffness) /
-                       Relaxation(damping).unrelaxed);
+                       (.25 * s * critical * critical + .5 * critical * damping.stiffness));
     }
   } // namespace
 
@@ -188,6 +188,8 @@ namespace Voussoir
          << p.damping.stiffness / p.dt
          << " time steps, the motion in a box of 12 x 12 x 12 elements grows by " << 100. * std::expm1(growth)
          << " % per step. ";
+    const std::string boundary = std::string(" \"Foundation/Boundary\" to viscous-spring") +
+                                 (p.damping.has_quality() ? " and \"Foundation/Quality factor\" to 0." : ".");
     const double w = frequency_of(critical_time_step, p.damping);
     for (const double share : {.005, .01, .02, .05})
     {
@@ -202,10 +204,10 @@ namespace Voussoir
            << share << " times the rock time step)";
       if (other.dt < p.dt)
         text << " with a rock time step of at most " << other.dt << " s";
-      text << ", or \"Foundation/Boundary\" to viscous-spring.";
+      text << ", or" << boundary;
       throw InputError(text.str());
     }
-    text << "Set \"Foundation/Boundary\" to viscous-spring.";
+    text << "Set" << boundary;
     throw InputError(text.str());
   }
 } // namespace Voussoir

@@ -116,8 +116,8 @@ namespace Voussoir
       force[l].assign(memory[l].size(), 0.);
   }
 
-  void DampedMotion::elastic(const double *K_x, double *f, const std::size_t first,
-                             const std::size_t n_values)
+  double DampedMotion::elastic(const double *K_x, const double *u, const double *w, double *f,
+                               const std::size_t first, const std::size_t n_values)
   {
     // K_x = f - sum Y xi + ratio (f - f_before), where xi = kept xi_before + added (f_before + f)
     const double ratio = stiffness / (dt * unrelaxed);
@@ -127,7 +127,7 @@ namespace Voussoir
 #pragma omp simd
       for (std::size_t i = 0; i < n_values; ++i)
         f[i] = share * (K_x[i] + ratio * f[i]);
-      return;
+      return 0.;
     }
     double share = 1. + ratio, of_before = ratio;
     for (unsigned int l = 0; l < n; ++l)
@@ -136,34 +136,24 @@ namespace Voussoir
       of_before += weight[l] * added[l];
     }
     share = 1. / share;
-    double *const g0 = force[0].data() + first, *const g1 = force[1].data() + first,
-                  *const g2 = force[2].data() + first;
-    const double         y0 = weight[0] * kept[0], y1 = weight[1] * kept[1], y2 = weight[2] * kept[2];
-#pragma omp simd
+    double *const g0 = force[0].data() + first, *g1 = force[1].data() + first, *g2 = force[2].data() + first;
+    const double *const x0 = memory[0].data() + first, *x1 = memory[1].data() + first,
+                        *x2 = memory[2].data() + first;
+    const double y0 = weight[0], y1 = weight[1], y2 = weight[2];
+    double       stored = 0.; // sum Y (xi g_before - u_before g - u g_before), g: forces of xi
+#pragma omp simd reduction(+ : stored)
     for (std::size_t i = 0; i < n_values; ++i)
     {
-      const double before = f[i];
-      f[i] = share * (K_x[i] + of_before * before + (y0 * g0[i] + y1 * g1[i] + y2 * g2[i]));
-      const double both = before + f[i];
-      g0[i] = kept[0] * g0[i] + added[0] * both;
-      g1[i] = kept[1] * g1[i] + added[1] * both;
-      g2[i] = kept[2] * g2[i] + added[2] * both;
+      const double before = f[i], h0 = kept[0] * g0[i], h1 = kept[1] * g1[i], h2 = kept[2] * g2[i];
+      f[i] = share * (K_x[i] + of_before * before + (y0 * h0 + y1 * h1 + y2 * h2));
+      const double both = before + f[i], u_before = u[i] - dt * w[i];
+      stored += y0 * (x0[i] - u[i]) * g0[i] + y1 * (x1[i] - u[i]) * g1[i] + y2 * (x2[i] - u[i]) * g2[i];
+      g0[i] = h0 + added[0] * both;
+      g1[i] = h1 + added[1] * both;
+      g2[i] = h2 + added[2] * both;
+      stored -= u_before * (y0 * g0[i] + y1 * g1[i] + y2 * g2[i]);
     }
-  }
-
-  double DampedMotion::stored(const double *u, const std::size_t first, const std::size_t n_values) const
-  {
-    double sum = 0.;
-    for (unsigned int l = 0; l < n && !memory[0].empty(); ++l)
-    {
-      const double *const xi = memory[l].data() + first, *const of_xi = force[l].data() + first;
-      double of_mechanism = 0.;
-#pragma omp simd reduction(+ : of_mechanism)
-      for (std::size_t i = 0; i < n_values; ++i)
-        of_mechanism += (xi[i] - 2. * u[i]) * of_xi[i];
-      sum += weight[l] * of_mechanism;
-    }
-    return sum;
+    return stored;
   }
 
   void DampedMotion::copy(const DampedMotion &other, const std::vector<unsigned int> &nodes)
@@ -185,7 +175,7 @@ namespace Voussoir
   double critical_time_step(const double given, const RockDamping &damping)
   {
     const double w = given * std::sqrt(Relaxation(damping).unrelaxed);
-    const double xi = .5 * (damping.mass / w + damping.stiffness * w);
+    const double xi = .5 * (damping.mass + damping.stiffness * given * given) / w;
     return 2. * (std::sqrt(1. + xi * xi) - xi) / w;
   }
 } // namespace Voussoir

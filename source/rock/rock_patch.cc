@@ -116,8 +116,8 @@ namespace Voussoir
 
   RockPatch::Motion RockPatch::at_rest(const unsigned int n_steps) const
   {
-    const Unknowns zero(3 * std::size_t(n_layer[n_steps]), 0.);
-    return {zero, zero, zero, DampedMotion(damping, dt, zero.size())};
+    const std::size_t n = 3 * std::size_t(n_layer[n_steps]);
+    return {Unknowns(n, 0.), Unknowns(n, 0.), Unknowns(n, 0.), DampedMotion(damping, dt, n)};
   }
 
   Unknowns RockPatch::places(const unsigned int n_steps, const Unknowns &u, const Unknowns &w,

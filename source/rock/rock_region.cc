@@ -215,6 +215,13 @@ namespace Voussoir
         parameters.free_field == "sections" &&
         std::any_of(model.faces.begin(), model.faces.end(),
                     [](const BoundaryFace &face) { return std::abs(face.normal[0]) > .7; });
+    for (const RockColumn &column : model.columns)
+      if (const double z = entrance(column), other = entrance(model.columns.front());
+          parameters.damping.has_quality() && std::abs(z - other) > 1e-6 * (column.z.back() - z))
+        throw InputError(
+            "\"Foundation/Quality factor\" requires rock with a level bottom, but the waves enter at the heights " +
+            std::to_string(z) + " and " + std::to_string(other) +
+            " m. Use a mesh whose bottom is at one height, or set \"Foundation/Quality factor\" to 0.");
     for (const PlaneWave &wave : parameters.incidence.waves)
     {
       const Material half_space = half_space_of(model);

@@ -12,12 +12,32 @@ namespace Voussoir
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Mean stress, diagonal of the deviator, and p: the principal stresses lie between mean - 2p and mean + 2p. */
+    struct Invariants
+    {
+      explicit Invariants(const Stress &s)
+          : mean((s[0] + s[1] + s[2]) / 3.), x(s[0] - mean), y(s[1] - mean), z(s[2] - mean)
+      {
+        const double shear = double(s[3]) * s[3] + double(s[4]) * s[4] + double(s[5]) * s[5];
+        p = std::sqrt((x * x + y * y + z * z + 2. * shear) / 6.);
+      }
+      double mean, x, y, z, p;
+    };
+  } // namespace
+
+  std::array<float, 2> bounds_of_principal_stresses(const Stress &s)
+  {
+    const Invariants of(s);
+    return {{float(of.mean + 2. * of.p), float(of.mean - 2. * of.p)}};
+  }
+
   std::array<float, 2> principal_stresses(const Stress &s)
   {
     // Trigonometric solution of the characteristic equation of the deviator.
-    const double mean = (s[0] + s[1] + s[2]) / 3., x = s[0] - mean, y = s[1] - mean, z = s[2] - mean;
-    const double shear = double(s[3]) * s[3] + double(s[4]) * s[4] + double(s[5]) * s[5];
-    const double p = std::sqrt((x * x + y * y + z * z + 2. * shear) / 6.);
+    const Invariants of(s);
+    const double     mean = of.mean, x = of.x, y = of.y, z = of.z, p = of.p;
     if (p <= 1e-30)
       return {{float(mean), float(mean)}};
     const double det = x * (y * z - double(s[4]) * s[4]) - s[3] * (double(s[3]) * z - double(s[4]) * s[5]) +

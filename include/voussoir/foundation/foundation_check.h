@@ -15,16 +15,18 @@ namespace Voussoir
   void check_boundary_layers(const FoundationParameters &parameters, const HexMesh &mesh,
                              const std::string &source, const std::string &generated_in);
 
-  /** Throws InputError if the quality factor is too small, or not available with the waves or the artificial
-   * boundary. */
+  /** Throws InputError if the quality factor is too small, or if it cannot be combined with the incident waves or
+   * with the artificial boundary. */
   void check_damping(const RockRegionParameters &region);
 
   /** Throws InputError if the time step of the rock exceeds the critical one.
    *
    * @param grid time steps of dam and rock
    * @param steps_per_sample time steps of the dam per sample of the ground motion
-   * @param dt_critical critical time step of the rock [s] */
-  void check_rock_step(const TimeGrid &grid, unsigned int steps_per_sample, double dt_critical);
+   * @param dt_critical critical time step of the rock [s]
+   * @param has_quality whether the rock has a quality factor, which reduces it */
+  void check_rock_step(const TimeGrid &grid, unsigned int steps_per_sample, double dt_critical,
+                       bool has_quality);
 
   /** Throws InputError if the artificial boundary would be unstable (ArtificialBoundary::check()) or is too
    * close to the base.

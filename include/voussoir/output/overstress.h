@@ -46,10 +46,13 @@ namespace Voussoir
       last = time;
     }
 
+    /** Returns true if a duration is recorded for this @p stress [Pa]. */
+    bool counts(const float stress) const { return is_active() && stress > strength; }
+
     /** Adds a node to the record. @p stress: its maximum principal stress at the present time [Pa]. */
     void add(const std::size_t node, const float stress)
     {
-      if (is_active() && stress > strength)
+      if (counts(stress))
         for (unsigned int k = 0; k < n_levels && stress > static_cast<float>(level(k)) * strength; ++k)
           seconds[n_levels * node + k] += interval;
     }

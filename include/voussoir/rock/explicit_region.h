@@ -144,8 +144,8 @@ namespace Voussoir
     void start(const Unknowns &displacement, const Unknowns &velocity);
 
   private:
-    /** Twice the kinetic energy, twice the strain energy, damping losses and work of forces over dt/2, and
-     * DampedMotion::stored(). Chunks of nodes are added in sequence, so that sums do not depend on the number
+    /** Twice the kinetic energy, twice the strain energy, damping losses and work of forces over dt/2, and the
+     * result of DampedMotion::elastic(). Chunks of nodes are added in sequence, so that sums do not depend on the number
      * of threads. */
     using Sums = std::array<double, 5>;
     static constexpr unsigned int    n_energies = 3; ///< of a chunk in account, before its works

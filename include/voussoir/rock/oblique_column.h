@@ -43,14 +43,10 @@ namespace Voussoir
 
     void step_along(); ///< advances u_s of all nodes except the first by one step
     void step_rest();  ///< advances u_z likewise, after u_s of the first node is set
-    void set_along(const double value)
-    {
-      set(along_, value);
-    } ///< sets u_s of the first node at the new time [m]
-    void set_rest(const double value)
-    {
-      set(rest_, value);
-    } ///< sets u_z of the first node at the new time [m]
+    /** Sets u_s of the first node at the new time [m]. */
+    void set_along(const double value) { set(along_, value); }
+    /** Sets u_z of the first node at the new time [m]. */
+    void set_rest(const double value) { set(rest_, value); }
 
     double along(const std::size_t i) const { return along_.u[i]; } ///< u_s of a node [m]
     double rest(const std::size_t i) const { return rest_.u[i]; }   ///< u_z of a node [m]

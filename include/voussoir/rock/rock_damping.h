@@ -16,6 +16,9 @@ namespace Voussoir
     double quality = 0.;               ///< quality factor of P and S waves [-]; 0: none
     double lowest = .5, highest = 10.; ///< band of the quality factor [Hz]
 
+    static constexpr double least_quality = 10.;     ///< smallest quality factor that is accepted [-]
+    static constexpr double error_of_quality = .013; ///< largest relative error in the band [-]
+
     /** Returns true if the rock has a quality factor. */
     bool has_quality() const { return quality > 0.; }
   };
@@ -59,16 +62,16 @@ namespace Voussoir
     /** Returns the modulus at infinite frequency over the given modulus. */
     double unrelaxed_modulus() const { return unrelaxed; }
 
-    /** Enables elastic() and stored(). */
+    /** Enables elastic(). */
     void keep_energy();
 
     /** Replaces the elastic forces @p f of the previous time by those of u without damping, multiplied by s.
-     * @p K_x: elastic forces of x [N]. @p n values from @p first; the arrays begin there. */
-    void elastic(const double *K_x, double *f, std::size_t first, std::size_t n);
-
-    /** Returns twice the energy of these values that the mechanisms have taken from the unrelaxed strain
-     * energy without dissipation, as a negative number [J]. @p u: displacement, begins at @p first. */
-    double stored(const double *u, std::size_t first, std::size_t n) const;
+     * Returns twice the energy of the mechanisms half a step before, a negative number [J]: with it, the strain
+     * energy is that of the springs of the Maxwell body, and the rest is dissipated.
+     * @p K_x: elastic forces of x [N]; @p u, @p w: as in advance(). @p n values from @p first; the arrays begin
+     * there. */
+    double elastic(const double *K_x, const double *u, const double *w, double *f, std::size_t first,
+                   std::size_t n);
 
     /** Copies the memory variables of nodes of another motion. */
     void copy(const DampedMotion &other, const std::vector<unsigned int> &nodes);
@@ -85,9 +88,10 @@ namespace Voussoir
   };
 
   /** Returns the critical time step of the explicit scheme with lagged damping [s]: w dt =
-   * 2 (sqrt(1 + xi^2) - xi) with the Rayleigh damping ratio xi at the circular frequency @p w [1/s] (Hughes
-   * and Liu 1978). A quality factor multiplies w by the square root of Relaxation::unrelaxed. */
-  double critical_time_step(double w, const RockDamping &damping);
+   * 2 (sqrt(1 + xi^2) - xi) with the Rayleigh damping ratio xi at the circular frequency w (Hughes and Liu 1978).
+   * @p given: circular frequency with the given moduli [1/s]; w is larger by the square root of
+   * Relaxation::unrelaxed. */
+  double critical_time_step(double given, const RockDamping &damping);
 } // namespace Voussoir
 
 #endif

@@ -20,7 +20,8 @@ namespace Voussoir
    * leave the sections. */
   RockRegionParameters of_sections(const RockRegionParameters &parameters);
 
-  /** Throws InputError if an incident wave does not propagate in the rock. */
+  /** Throws InputError if an incident wave does not propagate in the rock, or if the rock has a quality factor and a
+   * bottom at different heights, to which the wave would rise without damping. */
   void check_waves(const RockModel &model, const RockRegionParameters &parameters);
 
   /** Creates the free field, without points. @p split: distribution of the region. Throws InputError for an

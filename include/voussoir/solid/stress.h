@@ -18,6 +18,10 @@ namespace Voussoir
   /** Returns the largest and the smallest principal stress [Pa]. */
   std::array<float, 2> principal_stresses(const Stress &s);
 
+  /** Returns an upper bound of the largest and a lower bound of the smallest principal stress [Pa], at a fraction
+   * of the cost: mean stress plus and minus 2/sqrt(3) of the square root of the second invariant of the deviator. */
+  std::array<float, 2> bounds_of_principal_stresses(const Stress &s);
+
   /** Operator from displacements and known face tractions to nodal stresses, as sparse matrix products.
    *
    * The stress of a node is obtained in these steps:
