@@ -92,6 +92,8 @@ def read_list(path):
 def is_expression(text):
     """True if the text can be put in parentheses. A rough check: brackets pair off, no operator at an end, no assignment, no statement, no list."""
     open_ones = []
+    if text.strip().startswith("{"):
+        return False
     for c in re.sub(r"'.'|\"[^\"]*\"", "", text):
         if c == "," and not open_ones:
             return False
