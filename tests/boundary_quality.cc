@@ -56,6 +56,29 @@ namespace
                      1.);
   }
 
+  /** The values that doc/rock.md states: s, wave velocities at the ends of the band, Q outside of the band. */
+  void dispersion()
+  {
+    for (const auto &[quality, s, slow, fast] :
+         std::vector<std::array<double, 4>>{{{50., 1.04, .99, 1.01}}, {{10., 1.22, .95, 1.05}}})
+    {
+      RockDamping damping;
+      damping.quality = quality;
+      const Relaxation  law(damping);
+      const auto        at = [&](const double f) { return law.modulus(2. * pi * f); };
+      const auto        velocity = [&](const double f) { return 1. / (1. / std::sqrt(at(f))).real(); };
+      const std::string name = "Q " + Columns::text(quality) + ": ";
+      Columns::between(name + "modulus at infinite frequency", law.unrelaxed, s - .005, s + .005);
+      Columns::between(name + "velocity at 0.5 Hz", velocity(.5), slow - .005, slow + .005);
+      Columns::between(name + "velocity at 10 Hz", velocity(10.), fast - .005, fast + .005);
+      if (quality == 50.)
+      {
+        Columns::between(name + "Q at 0.1 Hz over Q", at(.1).real() / at(.1).imag() / quality, 2.1, 2.3);
+        Columns::between(name + "Q at 30 Hz over Q", at(30.).real() / at(30.).imag() / quality, 1.4, 1.6);
+      }
+    }
+  }
+
   constexpr int stiff = rock + 1; ///< the volume of a half-space below a layer
 
   /** Rock of unit speed on rock of speed 2 and density 1.1 below z = @p below. */
@@ -297,6 +320,6 @@ namespace
 
 int main()
 {
-  return Columns::run_all({modulus, layer_on_half_space, [] { decay(); }, critical_step, stepped_bottom,
-                           level_ground, stability});
+  return Columns::run_all({modulus, dispersion, layer_on_half_space, [] { decay(); }, critical_step,
+                           stepped_bottom, level_ground, stability});
 }

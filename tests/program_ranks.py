@@ -141,6 +141,15 @@ def killed(n, directory, *arguments):
     expect(Path(directory, "checkpoint.bin").exists(), "the run ended before it could be killed")
 
 
+def killed_and_continued(*arguments):
+    """A rank of two is killed; three ranks continue the run, with the bits of a whole run."""
+    killed(2, "killed", *arguments)
+    status, _, error = on_ranks(3, "scene.prm", "--output", "killed", "--resume", *arguments)
+    expect(status == 0, error)
+    runs("scene.prm", "--output", "whole", *arguments, environment={"OMP_NUM_THREADS": "1"})
+    same_bits("killed", "whole")
+
+
 def checkpoint():
     """A rank is killed: the others end; the run goes on on another number of ranks, with the same bits."""
     write_scene()
@@ -165,11 +174,7 @@ def oblique():
     any_number("columns", (3,), *arguments, *settings("Foundation/Free field=columns"))
     any_number("oblique_water", (2,), *arguments, *WATER)
     arguments += settings("Output/Checkpoint interval=40", "Motion/Duration=2")
-    killed(2, "killed", *arguments)
-    status, _, error = on_ranks(3, "scene.prm", "--output", "killed", "--resume", *arguments)
-    expect(status == 0, error)
-    runs("scene.prm", "--output", "whole", *arguments, environment={"OMP_NUM_THREADS": "1"})
-    same_bits("killed", "whole")
+    killed_and_continued(*arguments)
 
 
 def quality():
@@ -181,11 +186,7 @@ def quality():
     arguments += OWN
     any_number("sections", (3,), *arguments)
     arguments += settings("Output/Checkpoint interval=20", "Motion/Duration=2")
-    killed(2, "killed", *arguments)
-    status, _, error = on_ranks(3, "scene.prm", "--output", "killed", "--resume", *arguments)
-    expect(status == 0, error)
-    runs("scene.prm", "--output", "whole", *arguments, environment={"OMP_NUM_THREADS": "1"})
-    same_bits("killed", "whole")
+    killed_and_continued(*arguments)
 
 
 def last_write():
