@@ -113,6 +113,57 @@ namespace
           }
   }
 
+  /** Entries and products of matrices whose sizes are no multiples of the blocks. */
+  void test_compact()
+  {
+    double rounding = 0., of_product = 0., of_plain = 0., units = 0.;
+    for (const auto &[m, n] : {std::array<std::size_t, 2>{1, 1}, {8, 8}, {9, 16}, {16, 7}, {37, 29}, {3, 40}})
+    {
+      Unknowns A = random_unknowns(m * n, m + n, 1.);
+      for (std::size_t i = 0; i < A.size(); ++i)
+        A[i] *= std::pow(10., -double(i % 5)); // of different size
+      const CompactMatrix compact(A, m), in_mm(
+                                             [&]
+                                             {
+                                               Unknowns B = A;
+                                               for (double &b : B)
+                                                 b *= 1e3;
+                                               return B;
+                                             }(),
+                                             m);
+      const std::vector<float> entries = compact.by_column();
+      const Unknowns x = random_unknowns(std::max(m, n), 3, 1.), y = random_unknowns(std::max(m, n), 4, 1.);
+      const std::vector<float> in(x.begin(), x.end());
+      for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t i = 0; i < m; ++i)
+        {
+          rounding = std::max(rounding, std::abs(compact(i, j) / A[j * m + i] - 1.));
+          units = std::max(units, std::abs(in_mm(i, j) / (1e3 * compact(i, j)) - 1.));
+          if (entries[j * m + i] != compact(i, j))
+            rounding = 1.;
+        }
+      for (const bool transposed : {false, true})
+      {
+        Unknowns exact = y;
+        for (std::size_t j = 0; j < n; ++j)
+          for (std::size_t i = 0; i < m; ++i)
+            exact[transposed ? j : i] += double(compact(i, j)) * in[transposed ? i : j];
+        std::vector<float> out(y.begin(), y.end()), plain = out;
+        transposed ? compact.add_transposed(in.data(), out.data()) : compact.add(in.data(), out.data());
+        transposed ? compact.add_transposed(in.data(), plain.data(), true)
+                   : compact.add(in.data(), plain.data(), true);
+        of_product = std::max(of_product, distance(Unknowns(out.begin(), out.end()), exact));
+        of_plain = std::max(of_plain, distance(Unknowns(plain.begin(), plain.end()), exact));
+      }
+    }
+    below("error of an entry", rounding, 1.01 * std::ldexp(1., -16));
+    below("difference of entries in other units", units, 1e-6);
+    below("error of products", of_product, 3e-7);
+    below("error of products without AVX2", of_plain, 3e-7);
+    report("empty matrix", CompactMatrix().memory(), "0",
+           CompactMatrix().empty() && CompactMatrix({}, 0).empty());
+  }
+
   /** Entry by entry. Sizes of joints are no multiples of what the kernels take at once. */
   void test_product()
   {
@@ -248,7 +299,8 @@ namespace
 
 int main(int argc, char **argv)
 {
-  return run({{"product", test_product},
+  return run({{"compact", test_compact},
+              {"product", test_product},
               {"sweeps", test_sweeps},
               {"jacobian", test_jacobian},
               {"guess", test_guess}},

@@ -13,10 +13,10 @@ namespace Voussoir
     float entry(const InterfaceOperator &W, const unsigned int row_group, const unsigned int i,
                 const unsigned int column_group, const unsigned int j)
     {
-      const std::vector<float> &block =
-          W.single_block(std::min(row_group, column_group), std::max(row_group, column_group));
-      return row_group <= column_group ? block[std::size_t(j) * W.size(row_group) + i]
-                                       : block[std::size_t(i) * W.size(column_group) + j];
+      if (row_group == column_group)
+        return W.single_block(row_group)[std::size_t(j) * W.size(row_group) + i];
+      return row_group < column_group ? W.coupling(row_group, column_group)(i, j)
+                                      : W.coupling(column_group, row_group)(j, i);
     }
   } // namespace
 

@@ -18,17 +18,38 @@ namespace Voussoir
 {
   namespace
   {
-    VOUSSOIR_CLONES void add_four(const float *a, const float *b, const float *c, const float *d,
-                                  const float *x, const std::size_t n, float *__restrict y)
+    /** Adds four columns with @p n values. Loads the columns @p next into the cache. */
+    VOUSSOIR_CLONES void add_four(const float *const *column, const float *const *next, const float *x,
+                                  const std::size_t n, float *__restrict y)
     {
-      for (std::size_t i = 0; i < n; ++i)
+      constexpr std::size_t line = 16; // values
+      const float          *a = column[0], *b = column[1], *c = column[2], *d = column[3];
+      std::size_t           i = 0;
+      for (; i + line <= n; i += line)
+      {
+        for (std::size_t k = 0; k < 4; ++k)
+          __builtin_prefetch(next[k] + i, 0, 2);
+        for (std::size_t j = i; j < i + line; ++j)
+          y[j] += x[0] * a[j] + x[1] * b[j] + x[2] * c[j] + x[3] * d[j];
+      }
+      for (; i < n; ++i)
         y[i] += x[0] * a[i] + x[1] * b[i] + x[2] * c[i] + x[3] * d[i];
     }
 
-    VOUSSOIR_CLONES void add_three(const float *a, const float *b, const float *c, const float *x,
-                                   const std::size_t n, float *__restrict y)
+    /** Adds three columns. Loads the next three columns into the cache. */
+    VOUSSOIR_CLONES void add_three(const float *a, const std::size_t n, const float *x, float *__restrict y)
     {
-      for (std::size_t i = 0; i < n; ++i)
+      constexpr std::size_t line = 16; // values
+      const float          *b = a + n, *c = b + n, *next = c + n;
+      std::size_t           i = 0;
+      for (; i + line <= n; i += line)
+      {
+        for (std::size_t k = 0; k < 3; ++k)
+          __builtin_prefetch(next + k * n + i, 0, 2);
+        for (std::size_t j = i; j < i + line; ++j)
+          y[j] += x[0] * a[j] + x[1] * b[j] + x[2] * c[j];
+      }
+      for (; i < n; ++i)
         y[i] += x[0] * a[i] + x[1] * b[i] + x[2] * c[i];
     }
 
@@ -69,6 +90,7 @@ namespace Voussoir
         load(y + i, y_i);
         for (unsigned int c = 0; c < 4; ++c)
         {
+          __builtin_prefetch(column[c] + 4 * leading + i, 0, 2); // the columns of the next call
           load(column[c] + i, a);
           y_i += factor[c] * a;
           sums[c] += a * v_i;
@@ -173,7 +195,7 @@ namespace Voussoir
 
   void add_three_columns(const float *A, const std::size_t n, const float *x, float *y)
   {
-    add_three(A, A + n, A + 2 * n, x, n, y);
+    add_three(A, n, x, y);
   }
 
   void add_both(const double *A, const std::size_t m, const std::size_t n, const double *x, double *y,
@@ -201,17 +223,18 @@ namespace Voussoir
                    const std::vector<unsigned int> &columns, const float *x, float *y)
   {
     const std::size_t size = columns.size();
+    const auto column = [&](const std::size_t k) { return A + columns[std::min(k, size - 1)] * leading; };
     for (std::size_t k = 0; k < size; k += 4)
     {
-      const float *column[4];
+      const float *present[4], *next[4];
       float        factor[4];
       for (std::size_t j = 0; j < 4; ++j)
       {
-        const unsigned int c = columns[k + j < size ? k + j : k];
-        column[j] = A + c * leading;
-        factor[j] = k + j < size ? x[c] : 0.f;
+        present[j] = column(k + j);
+        next[j] = column(k + j + 4);
+        factor[j] = k + j < size ? x[columns[k + j]] : 0.f;
       }
-      add_four(column[0], column[1], column[2], column[3], factor, n, y);
+      add_four(present, next, factor, n, y);
     }
   }
 } // namespace Voussoir

@@ -98,8 +98,18 @@ namespace Voussoir
   void InterfaceOperator::finish(std::shared_ptr<const BaseElimination> base)
   {
     eliminated = std::move(base);
-    single.clear();
     diagonals.clear();
+    const auto copy = [this]
+    {
+      find_diagonals();
+      single.assign(n_groups(), {});
+      couplings.clear();
+      for (const auto &[groups, block] : blocks)
+        if (groups.first == groups.second)
+          single[groups.first].assign(block.begin(), block.end());
+        else
+          couplings.emplace(groups, CompactMatrix(block, size(groups.first)));
+    };
     if (eliminated)
     {
       auto whole = blocks;
@@ -112,17 +122,11 @@ namespace Voussoir
                                  block[i] -= part[i];
                              });
       blocks.swap(whole);
-      find_diagonals();
-      for (const auto &b : blocks)
-        single[b.first].assign(b.second.begin(), b.second.end());
+      copy();
       blocks.swap(whole);
     }
     else
-    {
-      find_diagonals();
-      for (const auto &b : blocks)
-        single[b.first].assign(b.second.begin(), b.second.end());
-    }
+      copy();
     find_colours();
     to_neighbours.assign(groups_of_colour.size(), {});
     for (unsigned int g = 0; g < n_groups() && !share.are_trivial(); ++g)
@@ -154,18 +158,24 @@ namespace Voussoir
   {
     if (!eliminated)
       return blocks.at({group, group});
-    const std::vector<float> &block = single.at({group, group});
+    const Floats &block = single[group];
     return {block.begin(), block.end()};
   }
 
   void InterfaceOperator::add_single(const unsigned int j, const unsigned int k, const float *x,
                                      float *y) const
   {
-    const std::vector<float> &b = single.at({std::min(j, k), std::max(j, k)});
-    const int                 rows = size(std::min(j, k)), columns = size(std::max(j, k)), stride = 1;
-    const float               one = 1.f;
-    if (!b.empty())
-      sgemv_(j <= k ? "N" : "T", &rows, &columns, &one, b.data(), &rows, x, &stride, &one, y, &stride);
+    if (j == k)
+    {
+      const int   n = size(j), stride = 1;
+      const float one = 1.f;
+      if (!single[j].empty())
+        sgemv_("N", &n, &n, &one, single[j].data(), &n, x, &stride, &one, y, &stride);
+      return;
+    }
+    const CompactMatrix &block = coupling(std::min(j, k), std::max(j, k));
+    if (!block.empty())
+      j < k ? block.add(x, y) : block.add_transposed(x, y);
   }
 
   void InterfaceOperator::sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const
@@ -201,9 +211,9 @@ namespace Voussoir
   void InterfaceOperator::sweep_group(const unsigned int j, const PairSolver &solve_pair, double *force,
                                       const double *gap, float *moved, float *change) const
   {
-    constexpr unsigned int    n_passes = 3; // passes over a block in the cache
-    const unsigned int        m = size(j);
-    const std::vector<float> &w = single.at({j, j});
+    constexpr unsigned int n_passes = 3; // passes over a block in the cache
+    const unsigned int     m = size(j);
+    const Floats          &w = single[j];
     for (unsigned int pass = 0; pass < n_passes; ++pass)
       for (unsigned int i = 0; i < m; i += 3)
       {
@@ -249,7 +259,11 @@ namespace Voussoir
   {
     double bytes = 72. * diagonals.size() + (eliminated ? eliminated->memory() : 0.);
     for (const auto &b : blocks)
-      bytes += 12. * b.second.size();
+      bytes += 8. * b.second.size();
+    for (const Floats &block : single)
+      bytes += 4. * block.size();
+    for (const auto &b : couplings)
+      bytes += b.second.memory();
     return bytes;
   }
 } // namespace Voussoir

@@ -16,8 +16,8 @@ namespace Voussoir
     out.assign(rows.size() * columns.size(), 0.f);
     if (!W.find_block(std::min(j, k), std::max(j, k)))
       return;
-    const std::vector<float> &block = W.single_block(std::min(j, k), std::max(j, k));
-    const std::size_t         along = j <= k ? 1 : W.size(k), across = j <= k ? W.size(j) : 1; // strides
+    const std::vector<float> block = W.coupling(std::min(j, k), std::max(j, k)).by_column();
+    const std::size_t        along = j < k ? 1 : W.size(k), across = j < k ? W.size(j) : 1; // strides
     for (std::size_t c = 0; c < columns.size(); ++c)
       for (std::size_t r = 0; r < rows.size(); ++r)
       {

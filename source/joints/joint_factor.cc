@@ -28,7 +28,7 @@ namespace Voussoir
   {
     lu.resize(active.size() * active.size());
     pivots.resize(active.size());
-    const std::vector<float> &w = W.single_block(group, group);
+    const std::vector<float> &w = W.single_block(group);
     const int                 n = size(), ld = W.size(group);
     for (int column = 0; column < n; ++column)
     {

@@ -127,15 +127,15 @@ namespace Voussoir
       {
         if (!W.is_mine(j))
           continue;
-        const Floats     &block = W.single_block(std::min(j, k), std::max(j, k));
-        const std::size_t along = j <= k ? 1 : W.size(k), across = j <= k ? W.size(j) : 1; // strides
-        float            *out = y.data() + W.begin(j);
+        const CompactMatrix *coupling = j == k ? nullptr : &W.coupling(std::min(j, k), std::max(j, k));
+        float               *out = y.data() + W.begin(j);
         for (const unsigned int i : entries)
         {
-          const float  factor = static_cast<float>(x[W.begin(k) + i]);
-          const float *column = block.data() + i * across;
-          for (unsigned int row = 0; row < W.size(j); ++row)
-            out[row] += factor * column[row * along];
+          const float factor = static_cast<float>(x[W.begin(k) + i]);
+          if (j == k)
+            add(factor, W.single_block(k).data() + std::size_t(i) * W.size(k), W.size(k), out);
+          for (unsigned int row = 0; j != k && row < W.size(j); ++row)
+            out[row] += factor * (j < k ? (*coupling)(row, i) : (*coupling)(i, row));
         }
       }
     }

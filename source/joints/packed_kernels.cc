@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/joints/packed_kernels.h>
 
+#include <cstdint>
 #include <type_traits>
 
 // One binary serves all processors: the widest kernels that the processor supports are selected when the
@@ -39,6 +40,16 @@ namespace Voussoir
     template <class P> constexpr std::size_t lanes = sizeof(P) / 8;
     template <class P> constexpr std::size_t parts = width / lanes<P>; ///< packs per eight rows
 
+    /** Loads the block of a panel that lies @p distance bytes after @p M into the cache. The factors do not
+     * fit into the cache, and the processor alone follows the panels with half of the bandwidth. */
+    template <std::size_t n, class Number>
+    VOUSSOIR_INLINE void prefetch(const Number *M, const std::ptrdiff_t distance)
+    {
+      const std::uintptr_t block = reinterpret_cast<std::uintptr_t>(M) + distance;
+      for (std::size_t line = 0; line < n * width * sizeof(Number); line += 64)
+        __builtin_prefetch(reinterpret_cast<const void *>(block + line), 0, 2);
+    }
+
     /** Computes t = M t for a panel of @p n columns. @p t: from the first row of the panel on. */
     template <class P, std::size_t n, class Number>
     VOUSSOIR_INLINE void forward_panel(const Number *M, const std::size_t n_rows, double *t)
@@ -47,6 +58,8 @@ namespace Voussoir
       for (std::size_t j = 0; j < n; ++j)
         y[j] = t[j];
       for (std::size_t row = 0; row < n_rows; row += width, M += n * width)
+      {
+        prefetch<n>(M, 8192);
         for (std::size_t part = 0; part < parts<P>; ++part)
         {
           const std::size_t first = part * lanes<P>;
@@ -61,6 +74,7 @@ namespace Voussoir
                 before[i] = 0.;
           out = before + (even + odd);
         }
+      }
     }
 
     /** Stores the sums of the eight lanes of each of @p s. Lanes are added four to four first, in the same
@@ -98,13 +112,18 @@ namespace Voussoir
     VOUSSOIR_INLINE void backward_panel(const Number *M, const std::size_t n_rows, double *t)
     {
       P sums[width][parts<P>] = {};
+      // The next panel is stored before this one, and is one block longer.
+      const std::ptrdiff_t back = sizeof(Number) * width * (n_rows + width);
       for (std::size_t row = 0; row < n_rows; row += width, M += n * width)
+      {
+        prefetch<n>(M, -back);
         for (std::size_t part = 0; part < parts<P>; ++part)
         {
           const P x = load<P>(t + row + part * lanes<P>);
           for (std::size_t j = 0; j < n; ++j)
             sums[j][part] += x * load<P>(M + j * width + part * lanes<P>);
         }
+      }
       alignas(64) double y[width];
       add_lanes(sums, y);
       for (std::size_t j = 0; j < n; ++j)

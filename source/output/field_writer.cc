@@ -58,6 +58,9 @@ namespace Voussoir
                                    3, DataComponentInterpretation::component_is_part_of_vector));
     }
     data_out.build_patches(model.fe.degree);
+    DataOutBase::VtkFlags flags;
+    flags.compression_level = decltype(flags.compression_level)::best_speed;
+    data_out.set_flags(flags);
     OutputFile out(file);
     try
     {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace Voussoir
 {
@@ -84,7 +85,7 @@ namespace Voussoir
       column.insert(column.end(), row.begin(), row.end());
       start.push_back(column.size());
     }
-    blocks.assign(column.size(), std::array<float, 18>{});
+    blocks.assign(column.size() + 1, std::array<float, 18>{}); // one more: see sum_blocks()
   }
 
   std::array<float, 18> &StressRecovery::block(const unsigned int node, const unsigned int free_node)
@@ -159,28 +160,67 @@ namespace Voussoir
     }
   }
 
+  namespace
+  {
+    typedef float Pack __attribute__((vector_size(32)));
+
+#ifdef __clang__
+#define VOUSSOIR_SHUFFLE(a, ...) __builtin_shufflevector(a, a, __VA_ARGS__)
+#else
+#define VOUSSOIR_SHUFFLE(a, ...) __builtin_shuffle(a, decltype(a < a){__VA_ARGS__})
+#endif
+
+    /** Computes the stress of a node: the sum of @p n blocks times the displacements @p u of the nodes @p column. Reads
+     * up to six values after the last block and five after the last displacement. */
+    inline __attribute__((always_inline)) void sum_blocks(const std::array<float, 18> *block,
+                                                          const unsigned int *column, const std::size_t n,
+                                                          const float *u, Stress &stress)
+    {
+      // Independent sums by displacement component suit the vector unit: 18 in three packs.
+      Pack sums[3] = {};
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        Pack x, b[3];
+        std::memcpy(&x, u + 3 * std::size_t(column[k]), sizeof(x));
+        for (unsigned int part = 0; part < 3; ++part)
+          std::memcpy(&b[part], block[k].data() + 8 * part, sizeof(Pack));
+        sums[0] += b[0] * VOUSSOIR_SHUFFLE(x, 0, 1, 2, 0, 1, 2, 0, 1);
+        sums[1] += b[1] * VOUSSOIR_SHUFFLE(x, 2, 0, 1, 2, 0, 1, 2, 0);
+        sums[2] += b[2] * VOUSSOIR_SHUFFLE(x, 1, 2, 0, 1, 2, 0, 1, 2);
+      }
+      float sum[24];
+      std::memcpy(sum, sums, sizeof(sum));
+      for (unsigned int c = 0; c < 6; ++c)
+        stress[c] = sum[3 * c] + sum[3 * c + 1] + sum[3 * c + 2];
+    }
+
+    __attribute__((target("avx2,fma"))) void sum_wide(const std::array<float, 18> *block,
+                                                      const unsigned int *column, const std::size_t n,
+                                                      const float *u, Stress &stress)
+    {
+      sum_blocks(block, column, n, u, stress);
+    }
+
+    void sum_plain(const std::array<float, 18> *block, const unsigned int *column, const std::size_t n,
+                   const float *u, Stress &stress)
+    {
+      sum_blocks(block, column, n, u, stress);
+    }
+
+    const bool is_wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  } // namespace
+
   void StressRecovery::apply(const Unknowns &u, const std::vector<Vector3> &tractions,
                              const std::size_t first, const std::size_t last,
                              std::vector<Stress> &stress) const
   {
     stress.resize(start.size() - 1);
+    std::vector<float> x(u.begin(), u.end());
+    x.resize(x.size() + 5, 0.f);
 #pragma omp parallel for schedule(static)
     for (std::size_t i = first; i < last; ++i)
-    {
-      // 18 independent sums, by displacement component, suit the vector unit.
-      float sum[18] = {};
-      for (std::size_t k = start[i]; k < start[i + 1]; ++k)
-      {
-        const float  *b = blocks[k].data();
-        const double *x = u.data() + 3 * std::size_t(column[k]);
-        const float   v[3] = {float(x[0]), float(x[1]), float(x[2])};
-        for (unsigned int c = 0; c < 6; ++c)
-          for (unsigned int d = 0; d < 3; ++d)
-            sum[3 * c + d] += b[3 * c + d] * v[d];
-      }
-      for (unsigned int c = 0; c < 6; ++c)
-        stress[i][c] = sum[3 * c] + sum[3 * c + 1] + sum[3 * c + 2];
-    }
+      (is_wide ? sum_wide : sum_plain)(blocks.data() + start[i], column.data() + start[i],
+                                       start[i + 1] - start[i], x.data(), stress[i]);
     const auto face = [this](const std::size_t node) -> std::size_t
     { return std::lower_bound(node_of_face.begin(), node_of_face.end(), node) - node_of_face.begin(); };
     for (std::size_t f = face(first); f < std::min(face(last), tractions.size()); ++f)

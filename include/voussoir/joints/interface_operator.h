@@ -5,6 +5,7 @@
 #include <voussoir/base/parallel.h>
 #include <voussoir/base/ranks.h>
 #include <voussoir/contact/contact_operator.h>
+#include <voussoir/joints/compact_matrix.h>
 
 #include <map>
 #include <memory>
@@ -20,7 +21,8 @@ namespace Voussoir
    *
    * On a compliant support the operator is W - B H^-1 B^T (BaseElimination), which couples all groups.
    * Products in double precision use the complete operator. Products in single precision, for Newton steps
-   * and Gauss-Seidel iterations, use its blocks of coupled groups only.
+   * and Gauss-Seidel iterations, use its blocks of coupled groups only. Blocks of two groups (couplings) have
+   * three bytes per entry there: these products read all couplings, so the bytes determine their time.
    *
    * With several MPI processes each process stores the blocks in the rows and columns of its groups. It
    * computes the rows of its groups in a product, and the result is gathered on all processes.
@@ -61,9 +63,6 @@ namespace Voussoir
     /** Returns block (@p j, @p k) for j <= k, by column [m/N]. The function creates a missing block, which
      * couples the groups. The block is empty if this process does not store it. */
     std::vector<double> &block(unsigned int j, unsigned int k);
-
-    /** Returns block (@p j, @p k) for coupled groups j <= k, by column [m/N]. */
-    const std::vector<double> &block(unsigned int j, unsigned int k) const { return blocks.at({j, k}); }
 
     /** Returns block (@p j, @p k) for j <= k, by column [m/N], or nullptr if the groups are not coupled. The
      * block is empty if this process does not store it. */
@@ -128,8 +127,11 @@ namespace Voussoir
      * are filled. @p base: eliminated base nodes, whose part is subtracted; nullptr: none. */
     void finish(std::shared_ptr<const BaseElimination> base = nullptr);
 
-    /** Returns block (@p j, @p k) for j <= k in single precision, by column [m/N]. */
-    const std::vector<float> &single_block(unsigned int j, unsigned int k) const { return single.at({j, k}); }
+    /** Returns the diagonal block of a group in single precision, by column [m/N]. */
+    const Floats &single_block(unsigned int group) const { return single[group]; }
+
+    /** Returns block (@p j, @p k) for j < k in single precision [m/N]. */
+    const CompactMatrix &coupling(unsigned int j, unsigned int k) const { return couplings.at({j, k}); }
 
     /** Computes @p y += W_jk @p x in single precision, also for j > k. @p x: unknowns of group k; @p y: rows
      * of group j. */
@@ -146,9 +148,10 @@ namespace Voussoir
     std::vector<unsigned int>                                            offset;
     std::vector<std::vector<unsigned int>>                               coupled;
     std::map<std::pair<unsigned int, unsigned int>, std::vector<double>> blocks;
-    std::map<std::pair<unsigned int, unsigned int>, std::vector<float>>
-                                              single; ///< part of eliminated base nodes subtracted
-    std::shared_ptr<const BaseElimination>    eliminated;
+    // In single precision; the part of eliminated base nodes is subtracted.
+    std::vector<Floats>                                            single;    ///< diagonal blocks
+    std::map<std::pair<unsigned int, unsigned int>, CompactMatrix> couplings; ///< other blocks
+    std::shared_ptr<const BaseElimination>                         eliminated;
     std::vector<Matrix3>                      diagonals; ///< diagonal blocks of the pairs
     std::vector<unsigned int>                 colour;    ///< per group; coupled groups have different colours
     std::vector<std::vector<unsigned int>>    groups_of_colour;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_compact_matrix_h
+#define voussoir_compact_matrix_h
+
+#include <cstddef>
+#include <vector>
+
+namespace Voussoir
+{
+  /** Matrix with three bytes per entry: numbers of single precision whose mantissas are rounded to 16 bits,
+   * relative to the largest entry. The relative error of an entry is at most 2^-16, and does not depend on units.
+   *
+   * Products read the matrix in sequence, from the memory rather than from the cache, so the bytes
+   * determine their time. Panels of eight columns follow one another; a panel has blocks of eight rows, a block
+   * is stored by column. Blocks at the edges are filled with zeros. */
+  class CompactMatrix
+  {
+  public:
+    /** Creates an empty matrix. */
+    CompactMatrix() = default;
+
+    /** Rounds a matrix with @p n_rows rows, by column. The range is that of single precision. */
+    CompactMatrix(const std::vector<double> &A, std::size_t n_rows);
+
+    /** Returns whether the matrix has no entries. */
+    bool empty() const { return n_columns == 0; }
+
+    /** Computes y += A x. @p plain: as on a processor without AVX2. */
+    void add(const float *x, float *y, bool plain = false) const;
+
+    /** Computes y += A^T x. */
+    void add_transposed(const float *x, float *y, bool plain = false) const;
+
+    /** Returns all entries by column. */
+    std::vector<float> by_column() const;
+
+    /** Returns an entry. */
+    float operator()(std::size_t row, std::size_t column) const;
+
+    /** Returns the memory consumption [bytes]. */
+    double memory() const { return double(bytes.size()); }
+
+  private:
+    std::size_t position(std::size_t row, std::size_t column) const;
+
+    void multiply(bool transposed, bool plain, const float *x, float *y) const;
+
+    std::size_t                n_rows = 0, n_columns = 0;
+    double                     largest = 0.; ///< absolute value of an entry
+    std::vector<unsigned char> bytes;
+  };
+} // namespace Voussoir
+
+#endif
