@@ -5,6 +5,7 @@
 Usage: benchmarks/speed.py [--voussoir build/voussoir] [SCENE.prm ...]     (default: rigid28 with FJA, FJB, tied)
        benchmarks/speed.py --before OTHER/voussoir [--repeat 3] [--duration 1.28] SCENE.prm ...
 Prints a table for doc/performance.md; with --before the medians of both programs, run in turn, and their ratios with the range of the pairs.
+Input files of the other version, where they differ: --scenes-before OTHER/prm (the files with the same names).
 Two settings of one program: --before build/voussoir --set-now Reservoir/Model=acoustic --set-now "Reservoir/Element size=16" prm/rigid28.prm
 Take a quiet machine: stages are wall times.
 """
@@ -31,18 +32,18 @@ def run(voussoir, scene, settings):
 STAGES = ("substitutions", "joints", "rock", "stepping", "stresses", "output")
 
 
-def compare(programs, scene, settings, now, repeat):
+def compare(programs, scenes, settings, now, repeat):
     """Rows of a table: the medians of each program, and what the second one's are of the first one's."""
     measured = [[], []]
     for _ in range(repeat):
-        for program, runs, more in zip(programs, measured, ([], now)):
+        for program, scene, runs, more in zip(programs, scenes, measured, ([], now)):
             s = run(program, scene, settings + more)
             seconds = s["seconds"]
             runs.append([seconds["per_second_of_earthquake"], seconds["setup"] + seconds["static"]]
                         + [1e3 * seconds.get(stage, 0) / s["steps"] for stage in STAGES]
                         + [s["newton_iterations"]["mean"], s["memory_bytes"] / 2**30])
     medians = [[statistics.median(column) for column in zip(*runs)] for runs in measured]
-    name = os.path.splitext(os.path.basename(scene))[0]
+    name = " ".join([os.path.splitext(os.path.basename(scenes[1]))[0], *(s.split("/", 1)[-1] for s in settings[1:])])
     for label, row in zip(("before", "now"), medians):
         print(f"| {name}, {label} | " + " | ".join(f"{x:.2f}" for x in row) + " |")
     print(f"| {name}, ratio | " + " | ".join(f"{b / a:.2f}" if a else "" for a, b in zip(*medians)) + " |")
@@ -55,6 +56,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("--voussoir", default=os.path.join(ROOT, "build", "voussoir"))
     parser.add_argument("--before", help="another program to compare with")
+    parser.add_argument("--scenes-before", metavar="DIRECTORY", help="with --before: its input files")
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--duration", default="1.28", help="of the motion, with --before [s]")
     parser.add_argument("--set", action="append", default=[], metavar="ENTRY=VALUE", help="with --before")
@@ -68,7 +70,8 @@ def main():
               + " | Newton | memory [GiB] |")
         print("|" + "---|" * (len(STAGES) + 5))
         for scene in arguments.scenes:
-            compare((arguments.before, arguments.voussoir), scene,
+            scenes = (os.path.join(arguments.scenes_before or os.path.dirname(scene), os.path.basename(scene)), scene)
+            compare((arguments.before, arguments.voussoir), scenes,
                     ["Motion/Duration=" + arguments.duration, *arguments.set], arguments.set_now, arguments.repeat)
         return
     cases = [(scene, []) for scene in arguments.scenes]

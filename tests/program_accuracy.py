@@ -57,6 +57,12 @@ def estimate():
     # what the histories do: with one step for a sample, where these are far apart, that is what counts.
     runs(*run, "--output", "steps1", "--set", "Dynamics/Steps per sample=1")
     largest, histories = differences("steps2", "steps1")
+    # Below 1 % the largest opening is extrapolated, which is nearer to the true one; above 1 % it is not.
+    of_1, of_2, of_16 = (summary(d)["extremes"]["max_opening"]["value"] for d in ("steps1", "steps2", "fine"))
+    print(f"    largest opening of 1, 2, 16 steps for a sample {of_1:.6g}, {of_2:.6g}, {of_16:.6g} m; extrapolated {told['extrapolated_opening']:.6g} m")
+    expect("extrapolated to a time step of zero" in text, text)
+    expect(abs(told["extrapolated_opening"] - of_2 - (of_2 - of_1) / 3) < 1e-6 * of_2, f"{told}, {of_1}, {of_2}")
+    expect(abs(told["extrapolated_opening"] - of_16) < .5 * abs(of_2 - of_16), f"{told}, {of_2}, {of_16}")
     expect(abs(told["openings"] - max(0.4 * largest, 0.1 * histories)) < 1e-5 * told["openings"], f"{told}, {largest}, {histories}")
     by_histories = [*run, "--set", "Motion/Time step=0.02", "--set", "Motion/Factor=2", "--set", "Joints/Friction=0.3"]
     runs(*by_histories, "--output", "long2", "--set", "Dynamics/Steps per sample=2", "--set", "Dynamics/Error estimate=true")
@@ -64,6 +70,7 @@ def estimate():
     largest, histories = differences("long2", "long1")
     print(f"    long steps: largest openings {largest:.4f} apart, histories {histories:.4f}")
     estimated = summary("long2")["error_estimate"]["openings"]
+    expect(estimated > .01 and "extrapolated_opening" not in summary("long2")["error_estimate"], f"{estimated}")
     expect(abs(estimated - max(0.4 * largest, 0.1 * histories)) < 1e-5 * estimated, f"{estimated}, {largest}, {histories}")
     # That of the largest opening is 0.4 of what both runs differ by there, and no less than the share of all openings: both cases occur.
     wide = ["scene.prm", "--set", "Motion/Duration=1", "--set", "Motion/Time step=0.02"]

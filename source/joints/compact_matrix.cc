@@ -18,11 +18,8 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr std::size_t width = 8;                 // rows and columns of a block
-    constexpr std::size_t n_bytes = 3;               // of an entry
-    constexpr std::size_t stride = n_bytes * width;  // of the columns of a block
-    constexpr std::size_t size = stride * width;     // of a block
-    constexpr std::size_t more = 4 * width - stride; // read after the last block
+    constexpr std::size_t width = 8;    // rows and columns of a block
+    constexpr std::size_t more = width; // bytes read after the last block
     typedef float         Pack __attribute__((vector_size(4 * width)));
     typedef std::uint32_t Bits __attribute__((vector_size(4 * width)));
     typedef unsigned char Bytes __attribute__((vector_size(4 * width)));
@@ -33,23 +30,23 @@ namespace Voussoir
       return (n + width - 1) / width;
     }
 
-    std::uint32_t bits_of(const unsigned char *p)
+    /** Returns an entry of @p n_bytes bytes. The missing bytes are the lowest. */
+    float value_of(const unsigned char *p, const std::size_t n_bytes)
     {
-      return std::uint32_t(p[0]) << 8 | std::uint32_t(p[1]) << 16 | std::uint32_t(p[2]) << 24;
-    }
-
-    float value_of(const unsigned char *p)
-    {
-      const std::uint32_t bits = bits_of(p);
-      float               value;
+      std::uint32_t bits = 0;
+      for (std::size_t k = 0; k < n_bytes; ++k)
+        bits |= std::uint32_t(p[k]) << 8 * (4 - n_bytes + k);
+      float value;
       std::memcpy(&value, &bits, sizeof(value));
       return value;
     }
 
-    /** Decodes a column of a block with two shuffles: four entries to each half of the pack, then each entry
-     * to the upper bytes of its lane. */
+    /** Columns of a block with three bytes per entry. Two shuffles decode a column: four entries to each half of
+     * the pack, then each entry to the upper bytes of its lane. */
     struct Shuffled
     {
+      static constexpr std::size_t n_bytes = 3;
+
       static VOUSSOIR_INLINE void load(const unsigned char *p, Pack &pack)
       {
         Bits bits;
@@ -65,17 +62,28 @@ namespace Voussoir
     /** The same for processors without these shuffles. */
     struct Plain
     {
+      static constexpr std::size_t n_bytes = 3;
+
       static VOUSSOIR_INLINE void load(const unsigned char *p, Pack &pack)
       {
-        Bits bits;
         for (std::size_t i = 0; i < width; ++i)
-          bits[i] = bits_of(p + n_bytes * i);
-        pack = (Pack)bits;
+          pack[i] = value_of(p + n_bytes * i, n_bytes);
+      }
+    };
+
+    /** Columns with four bytes per entry. */
+    struct Complete
+    {
+      static constexpr std::size_t n_bytes = 4;
+
+      static VOUSSOIR_INLINE void load(const unsigned char *p, Pack &pack)
+      {
+        std::memcpy(&pack, p, sizeof(pack));
       }
     };
 
     /** Loads a later block into the cache. */
-    VOUSSOIR_INLINE void prefetch(const unsigned char *block)
+    VOUSSOIR_INLINE void prefetch(const unsigned char *block, const std::size_t size)
     {
       constexpr std::size_t distance = 2048;
       for (std::size_t line = 0; line < size; line += 64)
@@ -88,10 +96,11 @@ namespace Voussoir
     VOUSSOIR_INLINE void add(const unsigned char *A, const std::size_t rows, const std::size_t columns,
                              const float *x, float *y)
     {
+      constexpr std::size_t stride = Decoder::n_bytes * width, size = stride * width;
       for (std::size_t c = 0; c < columns; ++c, x += width)
         for (std::size_t r = 0; r < rows; ++r, A += size)
         {
-          prefetch(A);
+          prefetch(A, size);
           Pack even, odd = {}, a;
           std::memcpy(&even, y + width * r, sizeof(Pack));
           for (std::size_t k = 0; k < width; k += 2)
@@ -111,12 +120,13 @@ namespace Voussoir
     VOUSSOIR_INLINE void add_transposed(const unsigned char *A, const std::size_t rows,
                                         const std::size_t columns, const float *x, float *y)
     {
+      constexpr std::size_t stride = Decoder::n_bytes * width, size = stride * width;
       for (std::size_t c = 0; c < columns; ++c, y += width)
       {
         Pack sums[width] = {};
         for (std::size_t r = 0; r < rows; ++r, A += size)
         {
-          prefetch(A);
+          prefetch(A, size);
           Pack x_r, a;
           std::memcpy(&x_r, x + width * r, sizeof(Pack));
           for (std::size_t k = 0; k < width; ++k)
@@ -131,22 +141,41 @@ namespace Voussoir
       }
     }
 
-    VOUSSOIR_AVX2 void shuffled(const bool transposed, const unsigned char *A, const std::size_t rows,
-                                const std::size_t columns, const float *x, float *y)
+    template <class Decoder>
+    VOUSSOIR_INLINE void multiply(const bool transposed, const unsigned char *A, const std::size_t rows,
+                                  const std::size_t columns, const float *x, float *y)
     {
-      transposed ? add_transposed<Shuffled>(A, rows, columns, x, y) : add<Shuffled>(A, rows, columns, x, y);
+      transposed ? add_transposed<Decoder>(A, rows, columns, x, y) : add<Decoder>(A, rows, columns, x, y);
     }
 
-    void scalar(const bool transposed, const unsigned char *A, const std::size_t rows,
-                const std::size_t columns, const float *x, float *y)
+    VOUSSOIR_AVX2 void wide_3(const bool transposed, const unsigned char *A, const std::size_t rows,
+                              const std::size_t columns, const float *x, float *y)
     {
-      transposed ? add_transposed<Plain>(A, rows, columns, x, y) : add<Plain>(A, rows, columns, x, y);
+      multiply<Shuffled>(transposed, A, rows, columns, x, y);
+    }
+
+    VOUSSOIR_AVX2 void wide_4(const bool transposed, const unsigned char *A, const std::size_t rows,
+                              const std::size_t columns, const float *x, float *y)
+    {
+      multiply<Complete>(transposed, A, rows, columns, x, y);
+    }
+
+    void plain_3(const bool transposed, const unsigned char *A, const std::size_t rows,
+                 const std::size_t columns, const float *x, float *y)
+    {
+      multiply<Plain>(transposed, A, rows, columns, x, y);
+    }
+
+    void plain_4(const bool transposed, const unsigned char *A, const std::size_t rows,
+                 const std::size_t columns, const float *x, float *y)
+    {
+      multiply<Complete>(transposed, A, rows, columns, x, y);
     }
   } // namespace
 
-  CompactMatrix::CompactMatrix(const std::vector<double> &A, const std::size_t n_rows)
-      : n_rows(n_rows), n_columns(n_rows == 0 ? 0 : A.size() / n_rows),
-        bytes(empty() ? 0 : n_blocks(n_rows) * n_blocks(n_columns) * size + more, 0)
+  CompactMatrix::CompactMatrix(const std::vector<double> &A, const std::size_t n_rows, const bool compact)
+      : n_rows(n_rows), n_columns(n_rows == 0 ? 0 : A.size() / n_rows), n_bytes(compact ? 3 : 4),
+        bytes(empty() ? 0 : n_blocks(n_rows) * n_blocks(n_columns) * width * width * n_bytes + more, 0)
   {
     for (const double entry : A)
       largest = std::max(largest, std::abs(entry));
@@ -156,21 +185,22 @@ namespace Voussoir
         const float   value = static_cast<float>(A[j * n_rows + i] / largest);
         std::uint32_t bits;
         std::memcpy(&bits, &value, sizeof(bits));
-        bits += 0x7fu + (bits >> 8 & 1u); // to the nearest number; a tie to the even one
+        if (compact)
+          bits += 0x7fu + (bits >> 8 & 1u); // to the nearest number; a tie to the even one
         for (std::size_t k = 0; k < n_bytes; ++k)
-          bytes[position(i, j) + k] = static_cast<unsigned char>(bits >> 8 * (k + 1));
+          bytes[position(i, j) + k] = static_cast<unsigned char>(bits >> 8 * (4 - n_bytes + k));
       }
   }
 
   std::size_t CompactMatrix::position(const std::size_t row, const std::size_t column) const
   {
     const std::size_t block = column / width * n_blocks(n_rows) + row / width;
-    return size * block + stride * (column % width) + n_bytes * (row % width);
+    return n_bytes * (width * (width * block + column % width) + row % width);
   }
 
   float CompactMatrix::operator()(const std::size_t row, const std::size_t column) const
   {
-    return static_cast<float>(largest * value_of(bytes.data() + position(row, column)));
+    return static_cast<float>(largest * value_of(bytes.data() + position(row, column), n_bytes));
   }
 
   std::vector<float> CompactMatrix::by_column() const
@@ -182,7 +212,7 @@ namespace Voussoir
         for (std::size_t j = c; j < c + width; ++j)
           for (std::size_t i = r; i < r + width; ++i, p += n_bytes)
             if (i < n_rows && j < n_columns)
-              A[j * n_rows + i] = static_cast<float>(largest * value_of(p));
+              A[j * n_rows + i] = static_cast<float>(largest * value_of(p, n_bytes));
     return A;
   }
 
@@ -193,8 +223,11 @@ namespace Voussoir
     for (std::size_t i = 0; i < n_in; ++i)
       in[i] = static_cast<float>(largest * x[i]);
     out.resize(width * n_blocks(n_out), 0.f);
-    (is_wide && !plain ? shuffled : scalar)(transposed, bytes.data(), n_blocks(n_rows), n_blocks(n_columns),
-                                            in.data(), out.data());
+    const bool fast = is_wide && !plain;
+    (n_bytes == 3 ? fast ? wide_3 : plain_3
+     : fast
+         ? wide_4
+         : plain_4)(transposed, bytes.data(), n_blocks(n_rows), n_blocks(n_columns), in.data(), out.data());
     std::memcpy(y, out.data(), n_out * sizeof(float));
   }
 

@@ -95,11 +95,11 @@ namespace Voussoir
     }
   }
 
-  void InterfaceOperator::finish(std::shared_ptr<const BaseElimination> base)
+  void InterfaceOperator::finish(std::shared_ptr<const BaseElimination> base, const bool compact)
   {
     eliminated = std::move(base);
     diagonals.clear();
-    const auto copy = [this]
+    const auto copy = [&]
     {
       find_diagonals();
       single.assign(n_groups(), {});
@@ -108,7 +108,7 @@ namespace Voussoir
         if (groups.first == groups.second)
           single[groups.first].assign(block.begin(), block.end());
         else
-          couplings.emplace(groups, CompactMatrix(block, size(groups.first)));
+          couplings.emplace(groups, CompactMatrix(block, size(groups.first), compact));
     };
     if (eliminated)
     {

@@ -112,7 +112,7 @@ namespace Voussoir
     condense();
     if (base && is_static)
       make_whole();
-    W.finish(is_static ? nullptr : base);
+    W.finish(is_static ? nullptr : base, !is_static);
     solver = std::make_unique<ContactSolver>(W, laws.of_pair, parameters);
   }
 

@@ -55,9 +55,10 @@ namespace Voussoir
 
   namespace
   {
-    constexpr double part = .4;            // of the difference of both runs
-    constexpr double part_of_history = .1; // of the largest difference at equal times
-    constexpr double round_off = 1e-9;     // [m]
+    constexpr double part = .4;                  // of the difference of both runs
+    constexpr double part_of_history = .1;       // of the largest difference at equal times
+    constexpr double round_off = 1e-9;           // [m]
+    constexpr double largest_extrapolated = .01; // estimate of all openings
 
     /** Returns the sum over the crest openings of the squared largest difference at common times [m^2]. */
     double difference_over_time(const Table &fine, const Table &coarse)
@@ -103,6 +104,8 @@ namespace Voussoir
     error.opening = of_openings(of_run);
     error.largest_opening = std::max(part * std::abs(of_run.opening.value - joints.opening.value),
                                      error.opening * of_run.opening.value);
+    if (error.opening > 0. && error.opening < largest_extrapolated)
+      error.extrapolated_opening = of_run.opening.value + (of_run.opening.value - joints.opening.value) / 3.;
     if (!envelope)
       return error;
     const auto of_face = [&](const int face) { return part * tension.difference(stresses, *envelope, face); };

@@ -64,6 +64,9 @@ namespace Voussoir
     if (!run.dam->structure.pairs.empty())
       log.line("          estimated error of the time step: all openings %.2g %%, largest opening %.2g mm",
                100. * error.opening, 1e3 * error.largest_opening);
+    if (std::isfinite(error.extrapolated_opening))
+      log.line("          largest opening extrapolated to a time step of zero: %.2f mm",
+               1e3 * error.extrapolated_opening);
     if (std::isfinite(error.tension_upstream))
       log.line("          estimated error of the time step: largest tension %.2g MPa upstream, %.2g MPa "
                "downstream",
@@ -78,6 +81,8 @@ namespace Voussoir
         .add("largest_opening", error.largest_opening)
         .add("tension_upstream", error.tension_upstream)
         .add("tension_downstream", error.tension_downstream);
+    if (std::isfinite(error.extrapolated_opening))
+      json.add("extrapolated_opening", error.extrapolated_opening);
     return json;
   }
 

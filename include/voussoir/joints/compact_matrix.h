@@ -7,8 +7,9 @@
 
 namespace Voussoir
 {
-  /** Matrix with three bytes per entry: numbers of single precision whose mantissas are rounded to 16 bits,
-   * relative to the largest entry. The relative error of an entry is at most 2^-16, and does not depend on units.
+  /** Matrix in single precision for products. A compact matrix has three bytes per entry: mantissas are rounded to
+   * 16 bits. The relative error of an entry is at most 2^-16, and it does not depend on units, because
+   * entries are stored relative to the largest one.
    *
    * Products read the matrix in sequence, from the memory rather than from the cache, so the bytes
    * determine their time. Panels of eight columns follow one another; a panel has blocks of eight rows, a block
@@ -19,8 +20,9 @@ namespace Voussoir
     /** Creates an empty matrix. */
     CompactMatrix() = default;
 
-    /** Rounds a matrix with @p n_rows rows, by column. The range is that of single precision. */
-    CompactMatrix(const std::vector<double> &A, std::size_t n_rows);
+    /** Rounds a matrix with @p n_rows rows, by column. The range is that of single precision.
+     * @param compact three instead of four bytes per entry */
+    CompactMatrix(const std::vector<double> &A, std::size_t n_rows, bool compact);
 
     /** Returns whether the matrix has no entries. */
     bool empty() const { return n_columns == 0; }
@@ -45,7 +47,7 @@ namespace Voussoir
 
     void multiply(bool transposed, bool plain, const float *x, float *y) const;
 
-    std::size_t                n_rows = 0, n_columns = 0;
+    std::size_t                n_rows = 0, n_columns = 0, n_bytes = 4;
     double                     largest = 0.; ///< absolute value of an entry
     std::vector<unsigned char> bytes;
   };

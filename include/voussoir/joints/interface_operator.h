@@ -21,8 +21,7 @@ namespace Voussoir
    *
    * On a compliant support the operator is W - B H^-1 B^T (BaseElimination), which couples all groups.
    * Products in double precision use the complete operator. Products in single precision, for Newton steps
-   * and Gauss-Seidel iterations, use its blocks of coupled groups only. Blocks of two groups (couplings) have
-   * three bytes per entry there: these products read all couplings, so the bytes determine their time.
+   * and Gauss-Seidel iterations, use its blocks of coupled groups only.
    *
    * With several MPI processes each process stores the blocks in the rows and columns of its groups. It
    * computes the rows of its groups in a product, and the result is gathered on all processes.
@@ -124,8 +123,11 @@ namespace Voussoir
     std::vector<double> own_block(unsigned int group) const;
 
     /** Copies the blocks to single precision and assigns the colours of the groups. Call it after all blocks
-     * are filled. @p base: eliminated base nodes, whose part is subtracted; nullptr: none. */
-    void finish(std::shared_ptr<const BaseElimination> base = nullptr);
+     * are filled.
+     * @param base eliminated base nodes, whose part is subtracted; nullptr: none
+     * @param compact three bytes per entry for the single precision of blocks of two groups (CompactMatrix). Newton's
+     * method then needs the same steps in an earthquake, but more steps in a static state. */
+    void finish(std::shared_ptr<const BaseElimination> base = nullptr, bool compact = false);
 
     /** Returns the diagonal block of a group in single precision, by column [m/N]. */
     const Floats &single_block(unsigned int group) const { return single[group]; }

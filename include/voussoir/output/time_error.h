@@ -19,6 +19,9 @@ namespace Voussoir
      * sum of squared errors over the root of the sum of squared openings. */
     double opening = 0.;
     double largest_opening = 0.; ///< error of the largest opening anywhere [m]
+    /** Largest opening extrapolated to a time step of zero, with order 2 (Richardson) [m]. NaN: the estimate of all
+     * openings exceeds 1 %, where the order of single values is not reliable. */
+    double extrapolated_opening = std::numeric_limits<double>::quiet_NaN();
     /** Error of the largest maximum principal stresses away from the base, as in FaceTension::difference()
      * [Pa]. NaN: stresses are not recorded. */
     double tension_upstream = std::numeric_limits<double>::quiet_NaN(), tension_downstream = tension_upstream;
