@@ -41,7 +41,7 @@ def compare(programs, scenes, settings, now, repeat):
             seconds = s["seconds"]
             runs.append([seconds["per_second_of_earthquake"], seconds["setup"] + seconds["static"]]
                         + [1e3 * seconds.get(stage, 0) / s["steps"] for stage in STAGES]
-                        + [s["newton_iterations"]["mean"], s["memory_bytes"] / 2**30])
+                        + [s["newton_iterations"]["mean"], s["newton_iterations"].get("linear_iterations_mean", 0), s["memory_bytes"] / 2**30])
     medians = [[statistics.median(column) for column in zip(*runs)] for runs in measured]
     name = " ".join([os.path.splitext(os.path.basename(scenes[1]))[0], *(s.split("/", 1)[-1] for s in settings[1:])])
     for label, row in zip(("before", "now"), medians):
@@ -64,11 +64,13 @@ def main():
                         help="with --before, which may be the same program: of the second one only")
     parser.add_argument("scenes", nargs="*")
     arguments = parser.parse_args()
+    if not arguments.before and (arguments.scenes_before or arguments.set or arguments.set_now):
+        parser.error("--scenes-before, --set and --set-now require --before")
     if arguments.before:
         print("| medians of " + str(arguments.repeat) + " | s per s | set-up and static [s] | "
               + " | ".join(("ms per step: " if stage == STAGES[0] else "") + stage for stage in STAGES)
-              + " | Newton | memory [GiB] |")
-        print("|" + "---|" * (len(STAGES) + 5))
+              + " | Newton | GMRES | memory [GiB] |")
+        print("|" + "---|" * (len(STAGES) + 6))
         for scene in arguments.scenes:
             scenes = (os.path.join(arguments.scenes_before or os.path.dirname(scene), os.path.basename(scene)), scene)
             compare((arguments.before, arguments.voussoir), scenes,

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/simd.h>
 #include <voussoir/joints/compact_matrix.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-
-#define VOUSSOIR_INLINE inline __attribute__((always_inline))
-#define VOUSSOIR_AVX2 __attribute__((target("avx2,fma")))
-#ifdef __clang__
-#define VOUSSOIR_SHUFFLE(a, ...) __builtin_shufflevector(a, a, __VA_ARGS__)
-#else
-#define VOUSSOIR_SHUFFLE(a, ...) __builtin_shuffle(a, decltype(a){__VA_ARGS__})
-#endif
+#include <limits>
 
 namespace Voussoir
 {
@@ -23,7 +17,7 @@ namespace Voussoir
     typedef float         Pack __attribute__((vector_size(4 * width)));
     typedef std::uint32_t Bits __attribute__((vector_size(4 * width)));
     typedef unsigned char Bytes __attribute__((vector_size(4 * width)));
-    const bool            is_wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    const bool            is_wide = has_avx2();
 
     std::size_t n_blocks(const std::size_t n)
     {
@@ -51,10 +45,10 @@ namespace Voussoir
       {
         Bits bits;
         std::memcpy(&bits, p, sizeof(bits));
-        const Bits  halves = VOUSSOIR_SHUFFLE(bits, 0, 1, 2, 3, 3, 4, 5, 6);
+        const Bits  halves = VOUSSOIR_SHUFFLE(bits, bits, 0, 1, 2, 3, 3, 4, 5, 6);
         const Bytes bytes = (Bytes)halves;
-        pack = (Pack)((Bits)VOUSSOIR_SHUFFLE(bytes, 0, 0, 1, 2, 3, 3, 4, 5, 6, 6, 7, 8, 9, 9, 10, 11, 16, 16,
-                                             17, 18, 19, 19, 20, 21, 22, 22, 23, 24, 25, 25, 26, 27) &
+        pack = (Pack)((Bits)VOUSSOIR_SHUFFLE(bytes, bytes, 0, 0, 1, 2, 3, 3, 4, 5, 6, 6, 7, 8, 9, 9, 10, 11,
+                                             16, 16, 17, 18, 19, 19, 20, 21, 22, 22, 23, 24, 25, 25, 26, 27) &
                       0xffffff00u);
       }
     };
@@ -83,12 +77,11 @@ namespace Voussoir
     };
 
     /** Loads a later block into the cache. */
-    VOUSSOIR_INLINE void prefetch(const unsigned char *block, const std::size_t size)
+    VOUSSOIR_INLINE void prefetch_block(const unsigned char *block, const std::size_t size)
     {
       constexpr std::size_t distance = 2048;
       for (std::size_t line = 0; line < size; line += 64)
-        __builtin_prefetch(
-            reinterpret_cast<const void *>(reinterpret_cast<std::uintptr_t>(block) + distance + line));
+        prefetch(block, distance + line);
     }
 
     /** Computes y += A x. @p rows, @p columns: numbers of blocks. */
@@ -100,7 +93,7 @@ namespace Voussoir
       for (std::size_t c = 0; c < columns; ++c, x += width)
         for (std::size_t r = 0; r < rows; ++r, A += size)
         {
-          prefetch(A, size);
+          prefetch_block(A, size);
           Pack even, odd = {}, a;
           std::memcpy(&even, y + width * r, sizeof(Pack));
           for (std::size_t k = 0; k < width; k += 2)
@@ -126,7 +119,7 @@ namespace Voussoir
         Pack sums[width] = {};
         for (std::size_t r = 0; r < rows; ++r, A += size)
         {
-          prefetch(A, size);
+          prefetch_block(A, size);
           Pack x_r, a;
           std::memcpy(&x_r, x + width * r, sizeof(Pack));
           for (std::size_t k = 0; k < width; ++k)
@@ -177,8 +170,14 @@ namespace Voussoir
       : n_rows(n_rows), n_columns(n_rows == 0 ? 0 : A.size() / n_rows), n_bytes(compact ? 3 : 4),
         bytes(empty() ? 0 : n_blocks(n_rows) * n_blocks(n_columns) * width * width * n_bytes + more, 0)
   {
+    bool is_finite = true;
     for (const double entry : A)
+    {
       largest = std::max(largest, std::abs(entry));
+      is_finite = is_finite && std::isfinite(entry);
+    }
+    if (!is_finite) // products then give no numbers
+      largest = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t j = 0; j < n_columns && largest > 0.; ++j)
       for (std::size_t i = 0; i < n_rows; ++i)
       {
@@ -218,6 +217,8 @@ namespace Voussoir
 
   void CompactMatrix::multiply(const bool transposed, const bool plain, const float *x, float *y) const
   {
+    if (empty())
+      return;
     const std::size_t  n_in = transposed ? n_rows : n_columns, n_out = transposed ? n_columns : n_rows;
     std::vector<float> in(width * n_blocks(n_in), 0.f), out(y, y + n_out); // complete blocks
     for (std::size_t i = 0; i < n_in; ++i)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/simd.h>
 #include <voussoir/joints/dense_kernels.h>
 
 #include <algorithm>
@@ -12,7 +13,6 @@
 #define VOUSSOIR_CLONES VOUSSOIR_OPTIMIZE __attribute__((target_clones("avx512f", "fma", "avx", "default")))
 #define VOUSSOIR_WIDE VOUSSOIR_OPTIMIZE __attribute__((target("avx512f")))
 #define VOUSSOIR_OTHERS VOUSSOIR_OPTIMIZE __attribute__((target_clones("fma", "avx", "default")))
-#define VOUSSOIR_INLINE inline __attribute__((always_inline))
 
 namespace Voussoir
 {
@@ -28,7 +28,7 @@ namespace Voussoir
       for (; i + line <= n; i += line)
       {
         for (std::size_t k = 0; k < 4; ++k)
-          __builtin_prefetch(next[k] + i, 0, 2);
+          prefetch(next[k] + i, 0);
         for (std::size_t j = i; j < i + line; ++j)
           y[j] += x[0] * a[j] + x[1] * b[j] + x[2] * c[j] + x[3] * d[j];
       }
@@ -40,12 +40,12 @@ namespace Voussoir
     VOUSSOIR_CLONES void add_three(const float *a, const std::size_t n, const float *x, float *__restrict y)
     {
       constexpr std::size_t line = 16; // values
-      const float          *b = a + n, *c = b + n, *next = c + n;
+      const float          *b = a + n, *c = b + n;
       std::size_t           i = 0;
       for (; i + line <= n; i += line)
       {
         for (std::size_t k = 0; k < 3; ++k)
-          __builtin_prefetch(next + k * n + i, 0, 2);
+          prefetch(c + i, (k + 1) * n * sizeof(float));
         for (std::size_t j = i; j < i + line; ++j)
           y[j] += x[0] * a[j] + x[1] * b[j] + x[2] * c[j];
       }
@@ -90,7 +90,7 @@ namespace Voussoir
         load(y + i, y_i);
         for (unsigned int c = 0; c < 4; ++c)
         {
-          __builtin_prefetch(column[c] + 4 * leading + i, 0, 2); // the columns of the next call
+          prefetch(column[c] + i, 4 * leading * sizeof(double)); // the columns of the next call
           load(column[c] + i, a);
           y_i += factor[c] * a;
           sums[c] += a * v_i;

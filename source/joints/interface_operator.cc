@@ -173,9 +173,8 @@ namespace Voussoir
         sgemv_("N", &n, &n, &one, single[j].data(), &n, x, &stride, &one, y, &stride);
       return;
     }
-    const CompactMatrix &block = coupling(std::min(j, k), std::max(j, k));
-    if (!block.empty())
-      j < k ? block.add(x, y) : block.add_transposed(x, y);
+    const CompactMatrix &block = coupling(std::min(j, k), std::max(j, k)); // empty: of other processes
+    j < k ? block.add(x, y) : block.add_transposed(x, y);
   }
 
   void InterfaceOperator::sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const

@@ -113,31 +113,23 @@ namespace Voussoir
   void JointJacobian::multiply_W_sparse(const Unknowns &x, Floats &y) const
   {
     y.assign(W.n(), 0.f);
+    const Floats x_single(x.begin(), x.end());
     for (unsigned int k = 0; k < W.n_groups(); ++k)
     {
+      const float              *x_k = x_single.data() + W.begin(k);
       std::vector<unsigned int> entries;
       for (unsigned int i = 0; i < W.size(k); ++i)
-        if (x[W.begin(k) + i] != 0.)
+        if (x_k[i] != 0.f)
           entries.push_back(i);
       if (entries.empty())
         continue;
-      std::vector<unsigned int> groups = W.neighbours(k);
-      groups.push_back(k);
-      for (const unsigned int j : groups)
-      {
-        if (!W.is_mine(j))
-          continue;
-        const CompactMatrix *coupling = j == k ? nullptr : &W.coupling(std::min(j, k), std::max(j, k));
-        float               *out = y.data() + W.begin(j);
-        for (const unsigned int i : entries)
-        {
-          const float factor = static_cast<float>(x[W.begin(k) + i]);
-          if (j == k)
-            add(factor, W.single_block(k).data() + std::size_t(i) * W.size(k), W.size(k), out);
-          for (unsigned int row = 0; j != k && row < W.size(j); ++row)
-            out[row] += factor * (j < k ? (*coupling)(row, i) : (*coupling)(i, row));
-        }
-      }
+      for (const unsigned int i : entries)
+        if (W.is_mine(k))
+          add(x_k[i], W.single_block(k).data() + std::size_t(i) * W.size(k), W.size(k),
+              y.data() + W.begin(k));
+      for (const unsigned int j : W.neighbours(k))
+        if (W.is_mine(j))
+          W.add_single(j, k, x_k, y.data() + W.begin(j));
     }
     W.gather(y);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/simd.h>
 #include <voussoir/joints/packed_kernels.h>
 
-#include <cstdint>
 #include <type_traits>
 
 // One binary serves all processors: the widest kernels that the processor supports are selected when the
@@ -9,12 +9,6 @@
 // bytes in memory.
 #define VOUSSOIR_AVX512 __attribute__((target("avx512f")))
 #define VOUSSOIR_CLONES __attribute__((target_clones("fma", "avx", "default")))
-#define VOUSSOIR_INLINE inline __attribute__((always_inline))
-#ifdef __clang__
-#define VOUSSOIR_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
-#else
-#define VOUSSOIR_SHUFFLE(a, b, ...) __builtin_shuffle(a, b, decltype((a) < (b)){__VA_ARGS__})
-#endif
 
 namespace Voussoir
 {
@@ -43,11 +37,10 @@ namespace Voussoir
     /** Loads the block of a panel that lies @p distance bytes after @p M into the cache. The factors do not
      * fit into the cache, and the processor alone follows the panels with half of the bandwidth. */
     template <std::size_t n, class Number>
-    VOUSSOIR_INLINE void prefetch(const Number *M, const std::ptrdiff_t distance)
+    VOUSSOIR_INLINE void prefetch_block(const Number *M, const std::ptrdiff_t distance)
     {
-      const std::uintptr_t block = reinterpret_cast<std::uintptr_t>(M) + distance;
       for (std::size_t line = 0; line < n * width * sizeof(Number); line += 64)
-        __builtin_prefetch(reinterpret_cast<const void *>(block + line), 0, 2);
+        prefetch(M, distance + line);
     }
 
     /** Computes t = M t for a panel of @p n columns. @p t: from the first row of the panel on. */
@@ -59,7 +52,7 @@ namespace Voussoir
         y[j] = t[j];
       for (std::size_t row = 0; row < n_rows; row += width, M += n * width)
       {
-        prefetch<n>(M, 8192);
+        prefetch_block<n>(M, 8192);
         for (std::size_t part = 0; part < parts<P>; ++part)
         {
           const std::size_t first = part * lanes<P>;
@@ -116,7 +109,7 @@ namespace Voussoir
       const std::ptrdiff_t back = sizeof(Number) * width * (n_rows + width);
       for (std::size_t row = 0; row < n_rows; row += width, M += n * width)
       {
-        prefetch<n>(M, -back);
+        prefetch_block<n>(M, -back);
         for (std::size_t part = 0; part < parts<P>; ++part)
         {
           const P x = load<P>(t + row + part * lanes<P>);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/simd.h>
 #include <voussoir/solid/cell_elasticity.h>
 #include <voussoir/solid/nodal_mean.h>
 #include <voussoir/solid/solid_model.h>
@@ -164,17 +165,10 @@ namespace Voussoir
   {
     typedef float Pack __attribute__((vector_size(32)));
 
-#ifdef __clang__
-#define VOUSSOIR_SHUFFLE(a, ...) __builtin_shufflevector(a, a, __VA_ARGS__)
-#else
-#define VOUSSOIR_SHUFFLE(a, ...) __builtin_shuffle(a, decltype(a < a){__VA_ARGS__})
-#endif
-
     /** Computes the stress of a node: the sum of @p n blocks times the displacements @p u of the nodes @p column. Reads
      * up to six values after the last block and five after the last displacement. */
-    inline __attribute__((always_inline)) void sum_blocks(const std::array<float, 18> *block,
-                                                          const unsigned int *column, const std::size_t n,
-                                                          const float *u, Stress &stress)
+    VOUSSOIR_INLINE void sum_blocks(const std::array<float, 18> *block, const unsigned int *column,
+                                    const std::size_t n, const float *u, Stress &stress)
     {
       // Independent sums by displacement component suit the vector unit: 18 in three packs.
       Pack sums[3] = {};
@@ -183,10 +177,11 @@ namespace Voussoir
         Pack x, b[3];
         std::memcpy(&x, u + 3 * std::size_t(column[k]), sizeof(x));
         for (unsigned int part = 0; part < 3; ++part)
-          std::memcpy(&b[part], block[k].data() + 8 * part, sizeof(Pack));
-        sums[0] += b[0] * VOUSSOIR_SHUFFLE(x, 0, 1, 2, 0, 1, 2, 0, 1);
-        sums[1] += b[1] * VOUSSOIR_SHUFFLE(x, 2, 0, 1, 2, 0, 1, 2, 0);
-        sums[2] += b[2] * VOUSSOIR_SHUFFLE(x, 1, 2, 0, 1, 2, 0, 1, 2);
+          std::memcpy(&b[part], reinterpret_cast<const char *>(block + k) + sizeof(Pack) * part,
+                      sizeof(Pack));
+        sums[0] += b[0] * VOUSSOIR_SHUFFLE(x, x, 0, 1, 2, 0, 1, 2, 0, 1);
+        sums[1] += b[1] * VOUSSOIR_SHUFFLE(x, x, 2, 0, 1, 2, 0, 1, 2, 0);
+        sums[2] += b[2] * VOUSSOIR_SHUFFLE(x, x, 1, 2, 0, 1, 2, 0, 1, 2);
       }
       float sum[24];
       std::memcpy(sum, sums, sizeof(sum));
@@ -194,9 +189,8 @@ namespace Voussoir
         stress[c] = sum[3 * c] + sum[3 * c + 1] + sum[3 * c + 2];
     }
 
-    __attribute__((target("avx2,fma"))) void sum_wide(const std::array<float, 18> *block,
-                                                      const unsigned int *column, const std::size_t n,
-                                                      const float *u, Stress &stress)
+    VOUSSOIR_AVX2 void sum_wide(const std::array<float, 18> *block, const unsigned int *column,
+                                const std::size_t n, const float *u, Stress &stress)
     {
       sum_blocks(block, column, n, u, stress);
     }
@@ -207,7 +201,7 @@ namespace Voussoir
       sum_blocks(block, column, n, u, stress);
     }
 
-    const bool is_wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    const bool is_wide = has_avx2();
   } // namespace
 
   void StressRecovery::apply(const Unknowns &u, const std::vector<Vector3> &tractions,
@@ -215,8 +209,8 @@ namespace Voussoir
                              std::vector<Stress> &stress) const
   {
     stress.resize(start.size() - 1);
-    std::vector<float> x(u.begin(), u.end());
-    x.resize(x.size() + 5, 0.f);
+    std::vector<float> x(u.size() + 5, 0.f); // see sum_blocks()
+    std::copy(u.begin(), u.end(), x.begin());
 #pragma omp parallel for schedule(static)
     for (std::size_t i = first; i < last; ++i)
       (is_wide ? sum_wide : sum_plain)(blocks.data() + start[i], column.data() + start[i],

@@ -8,11 +8,11 @@
 namespace Voussoir
 {
   /** Matrix in single precision for products. A compact matrix has three bytes per entry: mantissas are rounded to
-   * 16 bits. The relative error of an entry is at most 2^-16, and it does not depend on units, because
+   * 16 bits. The relative error of an entry is at most 2^-16. The error does not depend on units, because
    * entries are stored relative to the largest one.
    *
-   * Products read the matrix in sequence, from the memory rather than from the cache, so the bytes
-   * determine their time. Panels of eight columns follow one another; a panel has blocks of eight rows, a block
+   * Products read the matrix in sequence, from the memory rather than from the cache, so the number of
+   * bytes determines the time. Panels of eight columns follow one another; a panel has blocks of eight rows, a block
    * is stored by column. Blocks at the edges are filled with zeros. */
   class CompactMatrix
   {

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_simd_h
+#define voussoir_simd_h
+
+#include <cstddef>
+#include <cstdint>
+
+// Helpers of kernels with the vector types of GCC and clang. Only sources with kernels include this file.
+
+#define VOUSSOIR_INLINE inline __attribute__((always_inline))
+#define VOUSSOIR_AVX2 __attribute__((target("avx2,fma")))
+
+/** Lanes of the vectors a and b, which have integers or floating-point numbers, by constant indices. */
+#ifdef __clang__
+#define VOUSSOIR_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#else
+#define VOUSSOIR_SHUFFLE(a, b, ...) __builtin_shuffle(a, b, decltype((a) < (b)){__VA_ARGS__})
+#endif
+
+namespace Voussoir
+{
+  /** Returns whether the processor supports functions with VOUSSOIR_AVX2. */
+  inline bool has_avx2()
+  {
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  }
+
+  /** Loads the cache line @p distance bytes after @p p into the second-level cache. The line need not belong to an
+   * object. */
+  VOUSSOIR_INLINE void prefetch(const void *p, const std::ptrdiff_t distance)
+  {
+    __builtin_prefetch(reinterpret_cast<const void *>(reinterpret_cast<std::uintptr_t>(p) + distance), 0, 2);
+  }
+} // namespace Voussoir
+
+#endif
