@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The operator of the joints in blocks: its sweeps against the same in double precision, one pair after the
-// other, and the linear systems of Newton's method.
+// The operator of the joints in blocks: Gauss-Seidel iterations against the same in double precision, and the
+// linear systems of Newton's method.
 
 #include "testing.h"
 
@@ -82,13 +82,13 @@ namespace
     return {{std::max(0., -free[0] / H[0]), 0., 0.}};
   }
 
-  /** A pair that bears nothing but what its number says. */
+  /** A bonded pair; every second pair also bears a shear force. */
   Vector3 bonded(const unsigned int pair, const Matrix3 &H, const Vector3 &free)
   {
     return {{-free[0] / H[0], pair % 2 == 0 ? -.5 * free[1] / H[4] : 0., 0.}};
   }
 
-  /** What a sweep is to do, entry by entry: joints of even number first (they do not touch), then the others;
+  /** A Gauss-Seidel iteration, entry by entry: joints of even number first (they do not touch), then the others;
    * the pairs of each in turn, three times over. */
   void sweep_exactly(const InterfaceOperator &W, const ContactOperator::PairSolver &solve_pair,
                      Unknowns &force, Unknowns &gap)
@@ -180,7 +180,7 @@ namespace
     report("a product with an entry that is not a number", z[1], "not a number", std::isnan(z[1]));
   }
 
-  /** Entry by entry. Sizes of joints are no multiples of what the kernels take at once. */
+  /** Entry by entry. Sizes of joints are not multiples of the blocks of the kernels. */
   void test_product()
   {
     const InterfaceOperator W = row_of_bodies();
@@ -216,8 +216,8 @@ namespace
         W.sweep(solve_pair, force, gap);
         sweep_exactly(W, solve_pair, exact_force, exact_gap);
       }
-      below("sweeps, " + of + name + ": forces", distance(force, exact_force), compact ? 2e-6 : 5e-7);
-      below("sweeps, " + of + name + ": gaps", distance(gap, exact_gap), compact ? 2e-6 : 5e-7);
+      below("Gauss-Seidel, " + of + name + ": forces", distance(force, exact_force), compact ? 2e-6 : 5e-7);
+      below("Gauss-Seidel, " + of + name + ": gaps", distance(gap, exact_gap), compact ? 2e-6 : 5e-7);
     }
   }
 
@@ -306,7 +306,7 @@ namespace
     check_jacobian(true);
   }
 
-  /** The first guess of a static state leaves hardly a gap, and Newton's method little to do. */
+  /** The first guess of a static state leaves small gaps, and Newton's method converges from it. */
   void test_guess()
   {
     const InterfaceOperator             W = row_of_bodies();

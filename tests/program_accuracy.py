@@ -73,6 +73,9 @@ def estimate():
     estimated = summary("long2")["error_estimate"]["openings"]
     expect(estimated > .01 and "extrapolated_opening" not in summary("long2")["error_estimate"], f"{estimated}")
     expect(abs(estimated - max(0.4 * largest, 0.1 * histories)) < 1e-5 * estimated, f"{estimated}, {largest}, {histories}")
+    tied = ["scene.prm", "--set", "Joints/Model=tied", "--set", "Motion/Duration=1", "--set", "Dynamics/Error estimate=true"]
+    text = runs(*tied, "--output", "tied")
+    expect("extrapolated" not in text and "extrapolated_opening" not in summary("tied")["error_estimate"], text)
     # That of the largest opening is 0.4 of what both runs differ by there, and no less than the share of all openings: both cases occur.
     wide = ["scene.prm", "--set", "Motion/Duration=1", "--set", "Motion/Time step=0.02"]
     runs(*wide, "--output", "wide2", "--set", "Dynamics/Steps per sample=2", "--set", "Dynamics/Error estimate=true")

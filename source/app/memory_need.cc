@@ -326,7 +326,8 @@ namespace Voussoir
     Factors      factors;
     MemoryNeed   need;
     const double dam = of_dam(scene, mesh, factors);
-    // Of the operator also single precision, at most four bytes; inverses and LU factors of the joints' blocks in that, too.
+    // The operator is also stored in single precision (at most four bytes), as are inverses and LU factors of the
+    // joints' blocks.
     need.halved_step =
         factors.share *
             (8. * factors.entries + std::max(8. * factors.dense, 8. * factors.kept + 12. * factors.operators +

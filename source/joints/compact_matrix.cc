@@ -14,6 +14,7 @@ namespace Voussoir
   {
     constexpr std::size_t width = 8;    // rows and columns of a block
     constexpr std::size_t more = width; // bytes read after the last block
+    constexpr std::size_t ahead = 2048; // distance of the prefetch [bytes]
     typedef float         Pack __attribute__((vector_size(4 * width)));
     typedef std::uint32_t Bits __attribute__((vector_size(4 * width)));
     typedef unsigned char Bytes __attribute__((vector_size(4 * width)));
@@ -76,14 +77,6 @@ namespace Voussoir
       }
     };
 
-    /** Loads a later block into the cache. */
-    VOUSSOIR_INLINE void prefetch_block(const unsigned char *block, const std::size_t size)
-    {
-      constexpr std::size_t distance = 2048;
-      for (std::size_t line = 0; line < size; line += 64)
-        prefetch(block, distance + line);
-    }
-
     /** Computes y += A x. @p rows, @p columns: numbers of blocks. */
     template <class Decoder>
     VOUSSOIR_INLINE void add(const unsigned char *A, const std::size_t rows, const std::size_t columns,
@@ -93,7 +86,7 @@ namespace Voussoir
       for (std::size_t c = 0; c < columns; ++c, x += width)
         for (std::size_t r = 0; r < rows; ++r, A += size)
         {
-          prefetch_block(A, size);
+          prefetch(A, ahead, size);
           Pack even, odd = {}, a;
           std::memcpy(&even, y + width * r, sizeof(Pack));
           for (std::size_t k = 0; k < width; k += 2)
@@ -119,7 +112,7 @@ namespace Voussoir
         Pack sums[width] = {};
         for (std::size_t r = 0; r < rows; ++r, A += size)
         {
-          prefetch_block(A, size);
+          prefetch(A, ahead, size);
           Pack x_r, a;
           std::memcpy(&x_r, x + width * r, sizeof(Pack));
           for (std::size_t k = 0; k < width; ++k)

@@ -9,7 +9,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** Entry of W in single precision between unknowns of two groups. @p i, @p j: relative to the first of the group. */
+    /** Returns an entry of W in single precision. @p i, @p j: unknowns, counted from the first of their groups. */
     float entry(const InterfaceOperator &W, const unsigned int row_group, const unsigned int i,
                 const unsigned int column_group, const unsigned int j)
     {

@@ -34,15 +34,6 @@ namespace Voussoir
     template <class P> constexpr std::size_t lanes = sizeof(P) / 8;
     template <class P> constexpr std::size_t parts = width / lanes<P>; ///< packs per eight rows
 
-    /** Loads the block of a panel that lies @p distance bytes after @p M into the cache. The factors do not
-     * fit into the cache, and the processor alone follows the panels with half of the bandwidth. */
-    template <std::size_t n, class Number>
-    VOUSSOIR_INLINE void prefetch_block(const Number *M, const std::ptrdiff_t distance)
-    {
-      for (std::size_t line = 0; line < n * width * sizeof(Number); line += 64)
-        prefetch(M, distance + line);
-    }
-
     /** Computes t = M t for a panel of @p n columns. @p t: from the first row of the panel on. */
     template <class P, std::size_t n, class Number>
     VOUSSOIR_INLINE void forward_panel(const Number *M, const std::size_t n_rows, double *t)
@@ -52,7 +43,7 @@ namespace Voussoir
         y[j] = t[j];
       for (std::size_t row = 0; row < n_rows; row += width, M += n * width)
       {
-        prefetch_block<n>(M, 8192);
+        prefetch(M, 8192, n * width * sizeof(Number));
         for (std::size_t part = 0; part < parts<P>; ++part)
         {
           const std::size_t first = part * lanes<P>;
@@ -109,7 +100,7 @@ namespace Voussoir
       const std::ptrdiff_t back = sizeof(Number) * width * (n_rows + width);
       for (std::size_t row = 0; row < n_rows; row += width, M += n * width)
       {
-        prefetch_block<n>(M, -back);
+        prefetch(M, -back, n * width * sizeof(Number));
         for (std::size_t part = 0; part < parts<P>; ++part)
         {
           const P x = load<P>(t + row + part * lanes<P>);

@@ -5,6 +5,7 @@
 
 #include <voussoir/base/error.h>
 #include <voussoir/output/recorders.h>
+#include <voussoir/output/vtu_flags.h>
 #include <voussoir/solid/face_quads.h>
 
 #include <fstream>
@@ -58,9 +59,7 @@ namespace Voussoir
                                    3, DataComponentInterpretation::component_is_part_of_vector));
     }
     data_out.build_patches(model.fe.degree);
-    DataOutBase::VtkFlags flags;
-    flags.compression_level = decltype(flags.compression_level)::best_speed;
-    data_out.set_flags(flags);
+    data_out.set_flags(vtu_flags());
     OutputFile out(file);
     try
     {

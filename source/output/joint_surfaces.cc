@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/data_out_base.h>
-
 #include <voussoir/base/error.h>
 #include <voussoir/base/output_file.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/output/joint_surfaces.h>
+#include <voussoir/output/vtu_flags.h>
 #include <voussoir/solid/face_quads.h>
 
 #include <map>
@@ -78,7 +77,7 @@ namespace Voussoir
         {1, 3, "displacement", vector}, {5, 7, "slip", vector}, {9, 11, "shear_stress", vector}};
     try
     {
-      DataOutBase::write_vtu(patches, names, vectors, DataOutBase::VtkFlags(), out);
+      DataOutBase::write_vtu(patches, names, vectors, vtu_flags(), out);
     }
     catch (const ExceptionBase &) // thrown by deal.II
     {

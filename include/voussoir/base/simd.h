@@ -25,11 +25,14 @@ namespace Voussoir
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   }
 
-  /** Loads the cache line @p distance bytes after @p p into the second-level cache. The line need not belong to an
-   * object. */
-  VOUSSOIR_INLINE void prefetch(const void *p, const std::ptrdiff_t distance)
+  /** Loads the @p n_bytes bytes that begin @p distance bytes after @p p into the second-level cache. They need not
+   * belong to an object. Kernels whose data do not fit into the cache load the later data ahead of their use: the
+   * hardware follows one sequence of addresses, but not the step to the next block or column. */
+  VOUSSOIR_INLINE void prefetch(const void *p, const std::ptrdiff_t distance, const std::size_t n_bytes = 64)
   {
-    __builtin_prefetch(reinterpret_cast<const void *>(reinterpret_cast<std::uintptr_t>(p) + distance), 0, 2);
+    const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(p) + distance;
+    for (std::size_t line = 0; line < n_bytes; line += 64)
+      __builtin_prefetch(reinterpret_cast<const void *>(begin + line), 0, 2);
   }
 } // namespace Voussoir
 

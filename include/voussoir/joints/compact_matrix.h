@@ -11,16 +11,16 @@ namespace Voussoir
    * 16 bits. The relative error of an entry is at most 2^-16. The error does not depend on units, because
    * entries are stored relative to the largest one.
    *
-   * Products read the matrix in sequence, from the memory rather than from the cache, so the number of
-   * bytes determines the time. Panels of eight columns follow one another; a panel has blocks of eight rows, a block
-   * is stored by column. Blocks at the edges are filled with zeros. */
+   * Products read the matrix in sequence. It is rarely in the cache, so the number of bytes determines the time.
+   * The matrix is stored in panels of eight columns, a panel in blocks of eight rows, and a block by column. Blocks
+   * at the edges are filled with zeros. */
   class CompactMatrix
   {
   public:
     /** Creates an empty matrix. */
     CompactMatrix() = default;
 
-    /** Rounds a matrix with @p n_rows rows, by column. The range is that of single precision.
+    /** Copies a matrix with @p n_rows rows, by column. Its entries must be in the range of single precision.
      * @param compact three instead of four bytes per entry */
     CompactMatrix(const std::vector<double> &A, std::size_t n_rows, bool compact);
 
