@@ -294,6 +294,55 @@ namespace
     }
   }
 
+  /** Stresses of several times are computed together: the extremes equal those of each time alone, and those of the
+   * stresses of StressRecovery. */
+  void times_together()
+  {
+    Material m;
+    m.young = 25e9;
+    m.poisson = .2;
+    SolidModel model(Grids::wall({{thick, wide, tall}}, {{2, 3, 3}}, 3), 1);
+    model.free_base();
+    const std::vector<NodeFace> faces = faces_at_nodes(model);
+    const StressRecovery        recovery(model, {m}, true, faces);
+    const std::vector<Stress>   none(model.n_nodes(), Stress{});
+    EnvelopeRecorder            together(recovery, none), alone(recovery, none);
+    for (EnvelopeRecorder *envelope : {&together, &alone})
+      envelope->overstress = Overstress(1e6, model.n_nodes());
+    std::vector<float>     largest(model.n_nodes(), -1e30f), time(largest);
+    constexpr unsigned int n = 2 * StressInput::n_times + 3;
+    for (unsigned int t = 0; t < n; ++t)
+    {
+      const Unknowns             u = field(model,
+                                           [&](const dealii::Point<3> &x)
+                                           {
+                                 return Vector3{{1e-3 * std::sin(x[1] + 3. * t), 1e-3 * std::cos(x[2] * t),
+                                                 1e-3 * std::sin(x[0] - 2. * t)}};
+                               });
+      const std::vector<Vector3> tractions(faces.size(), Vector3{{1e5 * std::sin(t), 2e5, 1e5 * t}});
+      std::vector<Stress>        stress;
+      recovery.apply(u, tractions, stress);
+      for (unsigned int i = 0; i < model.n_nodes(); ++i)
+        if (const float now = principal_stresses(stress[i])[0]; now > largest[i])
+          largest[i] = now, time[i] = static_cast<float>(.01 * t);
+      together.record(.01 * t, u, tractions);
+      alone.record(.01 * t, u, tractions);
+      alone.gather();
+    }
+    together.gather();
+    expect(together.maximum == largest && together.time_of_maximum == time,
+           "largest stresses and their times");
+    expect(together.minimum == alone.minimum && together.time_of_minimum == alone.time_of_minimum,
+           "smallest stresses and their times");
+    double sum = 0.;
+    for (unsigned int i = 0; i < model.n_nodes(); ++i)
+    {
+      sum += alone.overstress.duration(i, 0);
+      expect(together.overstress.duration(i, 0) == alone.overstress.duration(i, 0), "durations");
+    }
+    expect(sum > 0., "some nodes are above the strength");
+  }
+
   /** Two monoliths, the joint pressed by a force that is the work of a given pressure. */
   void joint(const unsigned int degree)
   {
@@ -467,6 +516,7 @@ namespace
     EnvelopeRecorder     envelope(recovery, std::vector<Stress>(model.n_nodes(), Stress{}));
     envelope.faces = FaceEnvelope(model);
     envelope.record(0., u, {});
+    envelope.gather();
     const double weight = m.density * 9.81;
     double       worst[FaceDirections::n_stresses] = {};
     for (std::size_t i = 0; i < envelope.faces.directions.nodes.size(); ++i)
@@ -627,6 +677,7 @@ int main()
               {"ring", ring},
               {"arch stress of a ring", ring_in_faces},
               {"leaning faces", leaning_faces},
+              {"times together", times_together},
               {"joint of degree 1", [] { joint(1); }},
               {"joint of degree 2", [] { joint(2); }},
               {"joint that is not normal to the face", skew_joint},

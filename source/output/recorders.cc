@@ -177,8 +177,25 @@ namespace Voussoir
 
   void EnvelopeRecorder::record(const double time, const Unknowns &u, const std::vector<Vector3> &tractions)
   {
+    times[input.n] = time;
+    input.add(u, tractions);
+    if (input.n == StressInput::n_times)
+      evaluate();
+  }
+
+  void EnvelopeRecorder::evaluate()
+  {
+    if (input.n == 0)
+      return;
+    recovery.apply(input, begin[Ranks::rank()], begin[Ranks::rank() + 1], stresses);
+    for (unsigned int t = 0; t < input.n; ++t)
+      update(times[t], stresses[t]);
+    input.n = 0;
+  }
+
+  void EnvelopeRecorder::update(const double time, std::vector<Stress> &stress)
+  {
     const std::size_t first = begin[Ranks::rank()], last = begin[Ranks::rank() + 1];
-    recovery.apply(u, tractions, first, last, stress);
     overstress.begin(time);
 #pragma omp parallel for schedule(static)
     for (std::size_t i = first; i < last; ++i)
@@ -200,6 +217,7 @@ namespace Voussoir
 
   void EnvelopeRecorder::gather()
   {
+    evaluate();
     for (auto *values : {&maximum, &minimum, &time_of_maximum, &time_of_minimum})
       Ranks::gather(values->data(), begin);
     overstress.gather(begin);

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace Voussoir
 {
@@ -86,7 +85,7 @@ namespace Voussoir
       column.insert(column.end(), row.begin(), row.end());
       start.push_back(column.size());
     }
-    blocks.assign(column.size() + 1, std::array<float, 18>{}); // one more: see sum_blocks()
+    blocks.assign(column.size(), std::array<float, 18>{});
   }
 
   std::array<float, 18> &StressRecovery::block(const unsigned int node, const unsigned int free_node)
@@ -161,42 +160,50 @@ namespace Voussoir
     }
   }
 
+  void StressInput::add(const Unknowns &at_free_nodes, const std::vector<Vector3> &of_faces)
+  {
+    u.resize(n_times * at_free_nodes.size(), 0.f);
+    for (std::size_t k = 0; k < at_free_nodes.size(); ++k)
+      u[n_times * k + n] = static_cast<float>(at_free_nodes[k]);
+    tractions[n++] = of_faces;
+  }
+
   namespace
   {
-    typedef float Pack __attribute__((vector_size(32)));
+    typedef float Times __attribute__((vector_size(4 * StressInput::n_times)));
+    typedef Times UnalignedTimes __attribute__((aligned(4), may_alias));
 
-    /** Computes the stress of a node: the sum of @p n blocks times the displacements @p u of the nodes @p column. Reads
-     * up to six values after the last block and five after the last displacement. */
+    /** Computes the stress of a node, six components at all times: the sum of @p n blocks times the displacements
+     * @p u of the nodes @p column. */
     VOUSSOIR_INLINE void sum_blocks(const std::array<float, 18> *block, const unsigned int *column,
-                                    const std::size_t n, const float *u, Stress &stress)
+                                    const std::size_t n, const float *u, float *stress)
     {
-      // Independent sums by displacement component suit the vector unit: 18 in three packs.
-      Pack sums[3] = {};
+      Times xx{}, yy{}, zz{}, xy{}, yz{}, zx{}; // the compiler would keep an array in memory
       for (std::size_t k = 0; k < n; ++k)
       {
-        Pack x, b[3];
-        std::memcpy(&x, u + 3 * std::size_t(column[k]), sizeof(x));
-        for (unsigned int part = 0; part < 3; ++part)
-          std::memcpy(&b[part], reinterpret_cast<const char *>(block + k) + sizeof(Pack) * part,
-                      sizeof(Pack));
-        sums[0] += b[0] * VOUSSOIR_SHUFFLE(x, x, 0, 1, 2, 0, 1, 2, 0, 1);
-        sums[1] += b[1] * VOUSSOIR_SHUFFLE(x, x, 2, 0, 1, 2, 0, 1, 2, 0);
-        sums[2] += b[2] * VOUSSOIR_SHUFFLE(x, x, 1, 2, 0, 1, 2, 0, 1, 2);
+        const UnalignedTimes *at =
+            reinterpret_cast<const UnalignedTimes *>(u + 3 * StressInput::n_times * std::size_t(column[k]));
+        const Times  x = at[0], y = at[1], z = at[2];
+        const float *value = block[k].data();
+        xx += value[0] * x + value[1] * y + value[2] * z;
+        yy += value[3] * x + value[4] * y + value[5] * z;
+        zz += value[6] * x + value[7] * y + value[8] * z;
+        xy += value[9] * x + value[10] * y + value[11] * z;
+        yz += value[12] * x + value[13] * y + value[14] * z;
+        zx += value[15] * x + value[16] * y + value[17] * z;
       }
-      float sum[24];
-      std::memcpy(sum, sums, sizeof(sum));
-      for (unsigned int c = 0; c < 6; ++c)
-        stress[c] = sum[3 * c] + sum[3 * c + 1] + sum[3 * c + 2];
+      UnalignedTimes *result = reinterpret_cast<UnalignedTimes *>(stress);
+      result[0] = xx, result[1] = yy, result[2] = zz, result[3] = xy, result[4] = yz, result[5] = zx;
     }
 
     VOUSSOIR_AVX2 void sum_wide(const std::array<float, 18> *block, const unsigned int *column,
-                                const std::size_t n, const float *u, Stress &stress)
+                                const std::size_t n, const float *u, float *stress)
     {
       sum_blocks(block, column, n, u, stress);
     }
 
     void sum_plain(const std::array<float, 18> *block, const unsigned int *column, const std::size_t n,
-                   const float *u, Stress &stress)
+                   const float *u, float *stress)
     {
       sum_blocks(block, column, n, u, stress);
     }
@@ -204,22 +211,38 @@ namespace Voussoir
     const bool is_wide = has_avx2();
   } // namespace
 
-  void StressRecovery::apply(const Unknowns &u, const std::vector<Vector3> &tractions,
-                             const std::size_t first, const std::size_t last,
-                             std::vector<Stress> &stress) const
+  void StressRecovery::apply(const StressInput &input, const std::size_t first, const std::size_t last,
+                             StressesInTime &stress) const
   {
-    stress.resize(start.size() - 1);
-    std::vector<float> x(u.size() + 5, 0.f); // see sum_blocks()
-    std::copy(u.begin(), u.end(), x.begin());
+    for (unsigned int t = 0; t < input.n; ++t)
+      stress[t].resize(start.size() - 1);
 #pragma omp parallel for schedule(static)
     for (std::size_t i = first; i < last; ++i)
+    {
+      float sum[6 * StressInput::n_times];
       (is_wide ? sum_wide : sum_plain)(blocks.data() + start[i], column.data() + start[i],
-                                       start[i + 1] - start[i], x.data(), stress[i]);
+                                       start[i + 1] - start[i], input.u.data(), sum);
+      for (unsigned int t = 0; t < input.n; ++t)
+        for (unsigned int c = 0; c < 6; ++c)
+          stress[t][i][c] = sum[StressInput::n_times * c + t];
+    }
     const auto face = [this](const std::size_t node) -> std::size_t
     { return std::lower_bound(node_of_face.begin(), node_of_face.end(), node) - node_of_face.begin(); };
-    for (std::size_t f = face(first); f < std::min(face(last), tractions.size()); ++f)
-      for (unsigned int c = 0; c < 6; ++c)
-        for (unsigned int d = 0; d < 3; ++d)
-          stress[node_of_face[f]][c] += of_traction[f][3 * c + d] * static_cast<float>(tractions[f][d]);
+    for (unsigned int t = 0; t < input.n; ++t)
+      for (std::size_t f = face(first); f < std::min(face(last), input.tractions[t].size()); ++f)
+        for (unsigned int c = 0; c < 6; ++c)
+          for (unsigned int d = 0; d < 3; ++d)
+            stress[t][node_of_face[f]][c] +=
+                of_traction[f][3 * c + d] * static_cast<float>(input.tractions[t][f][d]);
+  }
+
+  void StressRecovery::apply(const Unknowns &u, const std::vector<Vector3> &tractions,
+                             std::vector<Stress> &stress) const
+  {
+    StressInput    input;
+    StressesInTime result;
+    input.add(u, tractions);
+    apply(input, 0, start.size() - 1, result);
+    stress = std::move(result[0]);
   }
 } // namespace Voussoir

@@ -118,14 +118,15 @@ namespace Voussoir
      * @param initial stresses to add to those of the displacements, such as self-weight, one per node [Pa] */
     EnvelopeRecorder(const StressRecovery &recovery, std::vector<Stress> initial);
 
-    /** Computes the stresses of this rank's nodes and updates their extremes.
+    /** Records the state whose stresses update the extremes of this rank's nodes. The stresses of several states
+     * are computed together, at the latest by gather().
      * @param time present time [s]
      * @param u StaticState::elastic(), three values per free node [m]
      * @param tractions known tractions, as in StressRecovery::apply() */
     void record(double time, const Unknowns &u, const std::vector<Vector3> &tractions);
 
-    /** Gathers the extremes of all nodes on every rank, because record() covers the nodes of one rank. All
-     * ranks must call it. */
+    /** Completes the extremes, and gathers those of all nodes on every rank. All ranks must call it before they
+     * read or archive the extremes. */
     void gather();
 
     /** Returns an extreme of the nodes on a surface [Pa]; NaN if there are no nodes.
@@ -145,9 +146,15 @@ namespace Voussoir
     }
 
   private:
-    const StressRecovery    &recovery;
-    std::vector<Stress>      initial, stress;
-    std::vector<std::size_t> begin; ///< first node of each rank
+    void evaluate(); ///< of all recorded states
+    void update(double time, std::vector<Stress> &stress);
+
+    const StressRecovery                    &recovery;
+    std::vector<Stress>                      initial;
+    std::vector<std::size_t>                 begin; ///< first node of each rank
+    StressInput                              input; ///< states since the last evaluate()
+    std::array<double, StressInput::n_times> times; ///< of these states [s]
+    StressesInTime                           stresses;
   };
 
   /** Writer of results on the mesh: VTU files for ParaView, and the developed faces for the figures. */

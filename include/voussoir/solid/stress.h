@@ -22,6 +22,25 @@ namespace Voussoir
    * of the cost: mean stress plus and minus 2/sqrt(3) of the square root of the second invariant of the deviator. */
   std::array<float, 2> bounds_of_principal_stresses(const Stress &s);
 
+  /** Displacements and known face tractions at up to n_times times. StressRecovery computes the stresses at these
+   * times together, because it then reads its operator only once. */
+  struct StressInput
+  {
+    static constexpr unsigned int n_times = 8;
+
+    /** Adds a time.
+     * @param at_free_nodes displacement, three values per free node [m]
+     * @param of_faces force per area on each of the faces [Pa]; empty: all zero */
+    void add(const Unknowns &at_free_nodes, const std::vector<Vector3> &of_faces);
+
+    unsigned int                              n = 0;     ///< number of times
+    std::vector<float>                        u;         ///< displacements: n_times values per component [m]
+    std::array<std::vector<Vector3>, n_times> tractions; ///< of the faces at each time [Pa]
+  };
+
+  /** Stress of each node of the model at each time of a StressInput [Pa]. */
+  using StressesInTime = std::array<std::vector<Stress>, StressInput::n_times>;
+
   /** Operator from displacements and known face tractions to nodal stresses, as sparse matrix products.
    *
    * The stress of a node is obtained in these steps:
@@ -33,7 +52,7 @@ namespace Voussoir
    *    the faces are unchanged (TractionCondition).
    *
    * The operator is stored and applied in single precision, with a relative error of 1e-7, because it is
-   * applied at every recorded step. */
+   * applied at every recorded step. The stresses at a time do not depend on the other times of a StressInput. */
   class StressRecovery
   {
   public:
@@ -49,14 +68,10 @@ namespace Voussoir
      * @param u displacement, three values per free node [m]
      * @param tractions force per area on each of the faces [Pa]; empty: all zero
      * @param stress receives one stress per node of the model [Pa] */
-    void apply(const Unknowns &u, const std::vector<Vector3> &tractions, std::vector<Stress> &stress) const
-    {
-      apply(u, tractions, 0, start.size() - 1, stress);
-    }
+    void apply(const Unknowns &u, const std::vector<Vector3> &tractions, std::vector<Stress> &stress) const;
 
-    /** Computes the stress of the nodes @p first to @p last - 1. */
-    void apply(const Unknowns &u, const std::vector<Vector3> &tractions, std::size_t first, std::size_t last,
-               std::vector<Stress> &stress) const;
+    /** Computes the stresses of the nodes @p first to @p last - 1 at all times of @p input. */
+    void apply(const StressInput &input, std::size_t first, std::size_t last, StressesInTime &stress) const;
 
     double memory() const { return 4. * 18. * (blocks.size() + of_traction.size()); } ///< [bytes]
 
