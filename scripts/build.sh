@@ -32,5 +32,5 @@ fi
 
 cmake -S "$root" -B "$directory" "${options[@]}" "${arguments[@]}"
 if [[ "$build" == true ]]; then
-  cmake --build "$directory" --parallel "$(nproc)" --target "$target"
+  cmake --build "$directory" --parallel "$(env -u OMP_NUM_THREADS nproc)" --target "$target"
 fi

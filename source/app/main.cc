@@ -8,7 +8,7 @@
 
 namespace
 {
-  /** Returns true if a command computes with threads. Others start twice as fast without wait_politely(). */
+  /** Returns true if a command computes with threads. Others start twice as fast without restart_with_settings(). */
   bool uses_threads(const std::vector<std::string> &words)
   {
     const auto has = [&](const char *word)
@@ -18,16 +18,25 @@ namespace
     return words[0] != "contact" && words[0] != "parameters" && words[0] != "motion" && words[0] != "mesh";
   }
 
-  /** Limits the active waiting of threads. On a loaded machine the default makes a run ten times slower. The
-   * OpenMP library reads this setting when it is loaded, so the program restarts itself. */
-  void wait_politely(char *argv[])
+  /** Restarts the program with settings that libraries read when they are loaded, unless the user has set them:
+   * - GOMP_SPINCOUNT limits the active waiting of threads. On a loaded machine the default of the OpenMP library makes
+   *   a run ten times slower.
+   * - GLIBC_TUNABLES places large arrays in huge pages, also where the system does this on request only (THP
+   *   "madvise"). The matrices then require fewer translations of addresses. */
+  void restart_with_settings(char *argv[])
   {
-    if (std::getenv("GOMP_SPINCOUNT") == nullptr && std::getenv("OMP_WAIT_POLICY") == nullptr)
+    bool       is_new = false;
+    const auto set = [&](const char *name, const char *value)
     {
-      setenv("GOMP_SPINCOUNT", "1000", 1);
+      if (std::getenv(name) == nullptr)
+        is_new = setenv(name, value, 1) == 0 || is_new;
+    };
+    if (std::getenv("OMP_WAIT_POLICY") == nullptr)
+      set("GOMP_SPINCOUNT", "1000");
+    set("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1");
+    if (is_new)
       execv("/proc/self/exe",
-            argv); // returns only on failure; the program then continues without the setting
-    }
+            argv); // returns only on failure; the program then continues without the settings
   }
 } // namespace
 
@@ -38,6 +47,6 @@ int main(int argc, char *argv[])
       open("/dev/null", O_RDWR);
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (uses_threads(words))
-    wait_politely(argv);
+    restart_with_settings(argv);
   return Voussoir::run_program(words);
 }
