@@ -36,7 +36,7 @@ def row(name, s, one, same):
                                   "memory_bytes": [s["memory_bytes"]]})
     share = lambda key: max(per_rank[key]) / one["per_rank"][key][0] if one["per_rank"][key][0] > 0 else float("nan")
     return [name, f"{s['seconds']['per_second_of_earthquake']:.2f}", f"{1e3 * s['seconds']['shaking'] / s['steps']:.1f}",
-            f"{share('work_seconds'):.2f}", f"{share('rock_work_seconds'):.2f}".replace("nan", ""),
+            f"{s['seconds']['setup'] + s['seconds']['static']:.1f}", f"{share('work_seconds'):.2f}", f"{share('rock_work_seconds'):.2f}".replace("nan", ""),
             f"{max(per_rank['messages_per_step']):.0f}", " ".join(f"{m / 2**30:.2f}" for m in per_rank["memory_bytes"]), same]
 
 
@@ -48,9 +48,9 @@ def main():
     parser.add_argument("--set", action="append", default=[], metavar="ENTRY=VALUE")
     parser.add_argument("scenes", nargs="+")
     arguments = parser.parse_args()
-    print("| scene | on | s per s | ms per step | work of the busiest rank, over one rank's | of the rock | "
+    print("| scene | on | s per s | ms per step | set-up and static [s] | work of the busiest rank, over one rank's | of the rock | "
           "messages per step | memory per rank [GiB] | tables |")
-    print("|" + "---|" * 9)
+    print("|" + "---|" * 10)
     for scene in arguments.scenes:
         name = os.path.splitext(os.path.basename(scene))[0]
         with tempfile.TemporaryDirectory() as directory:

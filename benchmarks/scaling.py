@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scaling on paper: how fast three sizes of dam and rock would run on 1 to 1,000 nodes, from costs measured on this machine.
+"""Scaling on paper: how fast four sizes of dam and rock would run on 1 to 1,000 nodes, from costs measured on this machine.
 
 Usage: benchmarks/scaling.py --measure [--voussoir build/voussoir] [--messages build/benchmark_messages]
        benchmarks/scaling.py [--output doc/figures/scaling.png]
@@ -19,10 +19,13 @@ from ranks import ROOT, run
 
 COSTS = os.path.join(ROOT, "doc", "scaling.json")
 CORES = 48                              # of a node
-LATENCY, BANDWIDTH = 2e-6, 10e9         # between nodes: assumed, as of InfiniBand [s, bytes/s]
+# Between nodes: InfiniBand HDR, 200 Gbit/s per node shared by its processes; latency of 1 byte as published for Azure HBv3
+# (Microsoft, "HBv3-series performance") [s, bytes/s]
+LATENCY, BANDWIDTH = 1.2e-6, 25e9
 MONOLITHS = 29
 # Name, unknowns of the dam and of the rock, step of the dam [s], steps of the rock in one of the dam.
-SIZES = (("rock28", 16443., 326e3, .005, 4), ("1.1 M, 30 M", 1.1e6, 30e6, .002, 4), ("5 M, 300 M", 5e6, 300e6, .001, 4))
+SIZES = (("rock28", 16443., 326e3, .005, 4), ("1.1 M, 30 M", 1.1e6, 30e6, .002, 4),
+         ("1.1 M, 90 M", 1.1e6, 90e6, .001, 4), ("5 M, 300 M", 5e6, 300e6, .001, 4))
 
 
 def measure(arguments):
@@ -67,14 +70,18 @@ def seconds_per_second(costs, size, ranks):
     pairs = dam_costs["pairs"] * ratio**(2 / 3)
     gathered = 16. * dam + 3 * pairs * (8. * 8. + 2 * 4. * 8.)  # u and K u; forces, and the vectors of GMRES
     surface = 2 * 24. * (rock / 3 / ranks)**(2 / 3) * substeps if ranks > 1 else 0.
-    messages = rock_costs["messages"] * latency * hops + ((gathered if ranks > 1 else 0.) + surface) / bandwidth
+    sharing = 1 if nodes == 1 else CORES  # processes with the connection of a node
+    messages = rock_costs["messages"] * latency * hops + ((gathered if ranks > 1 else 0.) + surface * sharing) / bandwidth
     return [x / step for x in (shared / on_dam, of_rock, alike, messages)]
 
 
 def memory_per_rank(size, ranks):
-    """[GiB]: the factors' share, and what every rank has of the rock: ten numbers per unknown."""
+    """Of the first rank, at the peak during the set-up [GiB]: program, share of the factors, rock as in memory_need.cc."""
     _, dam, rock, _, _ = size
-    return .15 + (.32 * (dam / 54180)**1.5 / min(ranks, MONOLITHS)) + 80. * rock / 2**30
+    matrix = 19 * 76.                           # of a rock node: blocks with column numbers [bytes]
+    kept = min(1., 1. / ranks + .13)
+    of_node = 2100. - (1. - kept) * matrix + (.15 + .4 / ranks) * matrix
+    return .17 + (.32 * (dam / 54180)**1.5 / min(ranks, MONOLITHS)) + of_node * rock / 3 / 2**30
 
 
 def main():
@@ -88,14 +95,14 @@ def main():
         return measure(arguments)
     with open(COSTS, encoding="utf-8") as file:
         costs = json.load(file)
-    ranks = [1, 2, 4, 8, 16, 32] + [CORES * n for n in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)]
+    ranks = sorted([1, 2, 4, 8, 16, 32, 64, 256, 1024] + [CORES * n for n in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)])
     print("| size | ranks | nodes | s per s | dam | rock | all alike | messages | memory per rank [GiB] |\n|" + "---|" * 9)
     curves = {}
     for size in SIZES:
         for n in ranks:
             parts = seconds_per_second(costs, size, n)
             curves.setdefault(size[0], []).append((n, sum(parts)))
-            if n in (1, 4, 32, CORES, 10 * CORES, 100 * CORES, 1000 * CORES):
+            if n in (1, 4, 32, CORES, 64, 256, 1024, 10 * CORES, 100 * CORES, 1000 * CORES):
                 print(f"| {size[0]} | {n} | {max(1, math.ceil(n / CORES))} | {sum(parts):.3g} | "
                       + " | ".join(f"{x:.2g}" for x in parts) + f" | {memory_per_rank(size, n):.2g} |")
     print("\nWeak scaling: rock of 10 thousand unknowns per rank, the dam of rock28, s per s:",
@@ -104,7 +111,7 @@ def main():
     matplotlib.use("Agg")
     from matplotlib import pyplot
     figure, axes = pyplot.subplots(figsize=(6.4, 4.2), constrained_layout=True)
-    for (name, points), colour in zip(curves.items(), ("#1b6ca8", "#c8553d", "#3a7d44")):
+    for (name, points), colour in zip(curves.items(), ("#1b6ca8", "#c8553d", "#8b5fa8", "#3a7d44")):
         axes.loglog(*zip(*points), "o-", color=colour, markersize=3.5, label=name)
         axes.loglog([1, 48000], [points[0][1], points[0][1] / 48000], ":", color=colour, linewidth=.8)
     axes.axvline(MONOLITHS, color="grey", linewidth=.8)
