@@ -7,6 +7,7 @@
 #include <voussoir/joints/joint_system.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh_joints.h>
+#include <voussoir/output/archive.h>
 #include <voussoir/output/face_tension.h>
 #include <voussoir/solid/face_quads.h>
 #include <voussoir/solid/initial_strain.h>
@@ -17,6 +18,8 @@
 #include "testing.h"
 
 #include <algorithm>
+#include <sstream>
+#include <utility>
 
 using namespace Voussoir;
 using namespace Testing;
@@ -341,6 +344,18 @@ namespace
       expect(together.overstress.duration(i, 0) == alone.overstress.duration(i, 0), "durations");
     }
     expect(sum > 0., "some nodes are above the strength");
+
+    std::stringstream file; // the archive has the recorded state of together, but not that of loaded
+    EnvelopeRecorder  loaded(recovery, none);
+    const Unknowns large = field(model, [](const dealii::Point<3> &x) { return Vector3{{x[2], 0., x[2]}}; });
+    loaded.record(9., large, {});
+    together.record(8., large, {});
+    boost::archive::binary_oarchive(file) << std::as_const(together);
+    boost::archive::binary_iarchive(file) >> loaded;
+    loaded.gather();
+    expect(loaded.maximum == together.maximum && loaded.time_of_maximum == together.time_of_maximum &&
+               together.maximum != largest,
+           "archive");
   }
 
   /** Two monoliths, the joint pressed by a force that is the work of a given pressure. */

@@ -25,8 +25,9 @@ namespace
    *   "madvise"). The matrices then require fewer translations of addresses. */
   void restart_with_settings(char *argv[])
   {
-    bool       is_new = false;
-    const auto set = [&](const char *name, const char *value)
+    constexpr const char *restarted = "VOUSSOIR_RESTARTED"; // prevents a loop if the system removes a setting
+    bool                  is_new = false;
+    const auto            set = [&](const char *name, const char *value)
     {
       if (std::getenv(name) == nullptr)
         is_new = setenv(name, value, 1) == 0 || is_new;
@@ -34,9 +35,8 @@ namespace
     if (std::getenv("OMP_WAIT_POLICY") == nullptr)
       set("GOMP_SPINCOUNT", "1000");
     set("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1");
-    if (is_new)
-      execv("/proc/self/exe",
-            argv); // returns only on failure; the program then continues without the settings
+    if (is_new && std::getenv(restarted) == nullptr && setenv(restarted, "1", 1) == 0)
+      execv("/proc/self/exe", argv); // returns only on failure; the program then continues
   }
 } // namespace
 

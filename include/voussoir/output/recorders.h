@@ -142,6 +142,9 @@ namespace Voussoir
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
+      if (Archive::is_saving::value)
+        evaluate();
+      input.n = 0; // a loaded archive replaces recorded states
       archive &maximum &minimum &time_of_maximum &time_of_minimum &overstress &faces;
     }
 

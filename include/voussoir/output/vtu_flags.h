@@ -6,8 +6,8 @@
 
 namespace Voussoir
 {
-  /** Returns the settings of .vtu files. The fast compression takes half of the time at the end of a run, and the
-   * files are a tenth larger. */
+  /** Returns the settings of .vtu files. With the fast compression the end of a run takes half of the time,
+   * and the files are a tenth larger. */
   inline dealii::DataOutBase::VtkFlags vtu_flags()
   {
     dealii::DataOutBase::VtkFlags flags;
