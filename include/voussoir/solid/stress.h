@@ -19,7 +19,8 @@ namespace Voussoir
   std::array<float, 2> principal_stresses(const Stress &s);
 
   /** Returns an upper bound of the largest and a lower bound of the smallest principal stress [Pa], at a fraction
-   * of the cost: mean stress plus and minus 2/sqrt(3) of the square root of the second invariant of the deviator. */
+   * of the cost. The bounds are the mean stress plus and minus 2/sqrt(3) sqrt(J2). J2 is the second invariant of the
+   * deviator. */
   std::array<float, 2> bounds_of_principal_stresses(const Stress &s);
 
   /** Displacements and known face tractions at up to n_times times. StressRecovery computes the stresses at these
