@@ -5,6 +5,7 @@
 
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
+#include <voussoir/base/parallel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -135,21 +136,26 @@ namespace Voussoir
 
   void Newmark::account_states()
   {
-    double kinetic = 0., water = 0., strain = 0.;
-    for (unsigned int i = 0; i < structure.n_nodes(); ++i)
-    {
-      const Vector3 v = get(now.v, i);
-      kinetic += .5 * dot(v, structure.mass[i] * v);
-      if (!structure.added_mass.empty())
-        water += .5 * dot(v, structure.added_mass[i] * v);
-      strain += .5 * dot(get(now.u, i), get(now.Ku, i));
-    }
-    strain += elastic_energy;
-    for (std::size_t k = 0; k < elastic_force.size(); ++k)
-      strain -= elastic_force[k] * now.u[k];
-    now.energy.kinetic = kinetic - water;
-    now.energy.added_mass = water;
-    now.energy.strain = strain;
+    const auto energies =
+        sum_of_ranges<std::array<double, 3>>(structure.n_nodes(),
+                                             [&](const std::size_t begin, const std::size_t end)
+                                             {
+                                               double kinetic = 0., water = 0., strain = 0.;
+                                               for (std::size_t i = begin; i < end; ++i)
+                                               {
+                                                 const Vector3 v = get(now.v, i), u = get(now.u, i);
+                                                 kinetic += .5 * dot(v, structure.mass[i] * v);
+                                                 if (!structure.added_mass.empty())
+                                                   water += .5 * dot(v, structure.added_mass[i] * v);
+                                                 strain += .5 * dot(u, get(now.Ku, i));
+                                                 if (!elastic_force.empty())
+                                                   strain -= dot(get(elastic_force, i), u);
+                                               }
+                                               return std::array<double, 3>{{kinetic, water, strain}};
+                                             });
+    now.energy.kinetic = energies[0] - energies[1];
+    now.energy.added_mass = energies[1];
+    now.energy.strain = energies[2] + elastic_energy;
   }
 
   Vector3 Newmark::opening_and_slip(const unsigned int pair) const
@@ -263,33 +269,38 @@ namespace Voussoir
     structure.add_reaction(-1., change, load);
     structure.multiply_stiffness(u_new, Ku);
     equation->carry(now, dt, u_new, Ku);
-    double  input = 0., damping = 0.;
     Vector3 base; // mean velocity of the base
     for (unsigned int c = 0; c < 3; ++c)
       base[c] = .5 * (now.base_velocity[c] + step.base_velocity[c]);
-    for (unsigned int i = 0; i < structure.n_nodes(); ++i)
+    const auto move_nodes = [&](const std::size_t begin, const std::size_t end)
     {
-      Vector3 du;
-      for (unsigned int c = 0; c < 3; ++c)
+      double input = 0., damping = 0.;
+      for (std::size_t i = begin; i < end; ++i)
       {
-        const std::size_t k = 3 * i + c;
-        du[c] = u_new[k] - now.u[k];
-        input += .5 * (load[k] + now.load[k]) * du[c];
-        if (!elastic_force.empty())
-          input -= elastic_force[k] * du[c];
-        damping += structure.stiffness_damping / dt * (Ku[k] - now.Ku[k]) * du[c];
-        if (!structure.dashpots.empty())
-          damping += structure.dashpots[k] / dt * du[c] * du[c];
-        now.v[k] = 2. / dt * du[c] - now.v[k];
-        now.u[k] = u_new[k];
+        Vector3 du;
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          const std::size_t k = 3 * i + c;
+          du[c] = u_new[k] - now.u[k];
+          input += .5 * (load[k] + now.load[k]) * du[c];
+          if (!elastic_force.empty())
+            input -= elastic_force[k] * du[c];
+          damping += structure.stiffness_damping / dt * (Ku[k] - now.Ku[k]) * du[c];
+          if (!structure.dashpots.empty())
+            damping += structure.dashpots[k] / dt * du[c] * du[c];
+          now.v[k] = 2. / dt * du[c] - now.v[k];
+          now.u[k] = u_new[k];
+        }
+        const Vector3 relative = {{du[0] - dt * base[0], du[1] - dt * base[1], du[2] - dt * base[2]}};
+        const Vector3 momentum = structure.mass[i] * relative;
+        damping += structure.mass_damping / dt * dot(relative, momentum);
+        input -= structure.mass_damping * dot(base, momentum);
       }
-      const Vector3 relative = {{du[0] - dt * base[0], du[1] - dt * base[1], du[2] - dt * base[2]}};
-      const Vector3 momentum = structure.mass[i] * relative;
-      damping += structure.mass_damping / dt * dot(relative, momentum);
-      input -= structure.mass_damping * dot(base, momentum);
-    }
-    work.input += input;
-    work.damping = damping;
+      return std::array<double, 2>{{input, damping}};
+    };
+    const auto works = sum_of_ranges<std::array<double, 2>>(structure.n_nodes(), move_nodes);
+    work.input += works[0];
+    work.damping = works[1];
     now.Ku.swap(Ku);
     now.load.swap(load);
     now.base_velocity = step.base_velocity;

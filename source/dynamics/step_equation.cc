@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/parallel.h>
 #include <voussoir/dynamics/step_equation.h>
 
 namespace Voussoir
@@ -119,7 +120,8 @@ namespace Voussoir
         const StepOperator A = trapezoidal_rule(structure, dt, share);
         Carried           &carried = now.carried;
         carried.dt = dt;
-        for (unsigned int i = 0; i < structure.n_nodes(); ++i)
+#pragma omp parallel for schedule(static)
+        for (int i = 0; i < static_cast<int>(structure.n_nodes()); ++i)
         {
           const Vector3 du = get(u_new, i) - get(now.u, i), Md = structure.mass[i] * du;
           set(carried.moved, i, du);
@@ -143,14 +145,20 @@ namespace Voussoir
       {
         if (carried.dt != dt)
           return false;
-        double change = 0., whole = 0.;
-        for (std::size_t k = 0; k < forces.size(); ++k)
-        {
-          const double more = forces[k] - carried.resisted[k];
-          change += more * more;
-          whole += forces[k] * forces[k];
-        }
-        return change < whole;
+        const auto squares =
+            sum_of_ranges<std::array<double, 2>>(forces.size(),
+                                                 [&](const std::size_t begin, const std::size_t end)
+                                                 {
+                                                   double change = 0., whole = 0.;
+                                                   for (std::size_t k = begin; k < end; ++k)
+                                                   {
+                                                     const double more = forces[k] - carried.resisted[k];
+                                                     change += more * more;
+                                                     whole += forces[k] * forces[k];
+                                                   }
+                                                   return std::array<double, 2>{{change, whole}};
+                                                 });
+        return squares[0] < squares[1];
       }
 
       Unknowns rhs; ///< right-hand side of the last solve(), with the joint forces of its solution [N]

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <vector>
 
 namespace Voussoir
 {
@@ -42,6 +43,23 @@ namespace Voussoir
                         for (std::size_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i)
                           action(i);
                       });
+  }
+
+  /** Returns @p action(first, last) for the ranges of 512 of 0 ... n - 1, added in sequence, so that the result does not
+   * depend on the number of threads. @p Sums: std::array of double. */
+  template <class Sums, class Action> Sums sum_of_ranges(const std::size_t n, const Action &action)
+  {
+    constexpr std::size_t range = 512;
+    std::vector<Sums>     parts((n + range - 1) / range);
+    const int             n_parts = parts.size();
+#pragma omp parallel for schedule(static) if (n_parts > 1)
+    for (int p = 0; p < n_parts; ++p)
+      parts[p] = action(p * range, std::min(n, (p + 1) * range));
+    Sums sum{};
+    for (const Sums &part : parts)
+      for (std::size_t k = 0; k < sum.size(); ++k)
+        sum[k] += part[k];
+    return sum;
   }
 } // namespace Voussoir
 

@@ -107,7 +107,7 @@ namespace Voussoir
     std::string          name;                       ///< of the file, without directory and .prm
     std::string          directory;                  ///< of the file; paths in the file are relative to it
     std::string          impact_rule = "mean-force"; ///< "Dynamics/Impact"
-    std::string          factors = "double";         ///< precision of the matrix factors of time steps
+    std::string          factors = "single";         ///< precision of the matrix factors of time steps
     MeshParameters       mesh;
     ElementParameters    elements;
     Material             concrete;       ///< of volumes without an entry in @p concrete_zones
