@@ -15,7 +15,8 @@ import run_program
 from run_program import (run_cases, arch_mesh, double, expect, refused, runs, same, same_to_the_bit, summary, table,
                          write_scene)
 
-SHORT = [x for e in ("Motion/Duration=1", "Output/Envelope interval=0") for x in ("--set", e)]
+EXACT = ("--set", "Dynamics/Factors=double")  # tests of round-off
+SHORT = [*EXACT, *(x for e in ("Motion/Duration=1", "Output/Envelope interval=0") for x in ("--set", e))]
 
 
 def cohesive(strength, energy):

@@ -10,7 +10,8 @@ from pathlib import Path
 
 from run_program import run_cases, expect, refused, runs, same, summary, table, voussoir, write_scene
 
-SHORT = [x for e in ("Motion/Duration=1", "Output/Envelope interval=0", "Joints/Model=KSM") for x in ("--set", e)]
+# Factors in double precision: tests of round-off
+SHORT = [x for e in ("Motion/Duration=1", "Output/Envelope interval=0", "Joints/Model=KSM", "Dynamics/Factors=double") for x in ("--set", e)]
 
 
 def keys(angle, *others):

@@ -17,7 +17,7 @@ from run_program import expect, refused, run_cases, runs, same, same_to_the_bit,
 MASSLESS = settings("Foundation/Model=massless", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
                     "Motion/Duration=1", "Output/Figures=false", "Contact/Tolerance=1e-12")
 SUSTAINED = ("Concrete/Sustained modulus=14e9", "Foundation/Sustained modulus=9e9")
-ONE_BODY = settings("Contact/Write problems=true")  # these have the operator of the joints whole
+ONE_BODY = settings("Contact/Write problems=true", "Dynamics/Factors=double")  # these have the operator of the joints whole
 
 
 def column(directory, *names):

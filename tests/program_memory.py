@@ -81,7 +81,7 @@ def water():
 
 def shortage():
     """Too little memory ends the run with status 1 and the estimate."""
-    file = scene("large", 5, 120, 60, 4)
+    file = scene("large", 5, 120, 80, 4)
     run, _ = estimate(runs(file, "--validate"))
     limit = int(.8 * GIB)
     result = subprocess.run([run_program.VOUSSOIR, file, "--output", "large"], capture_output=True, text=True, timeout=120,

@@ -18,22 +18,28 @@ namespace Voussoir
 {
   namespace
   {
-    /** Adds four columns with @p n values. Loads the columns @p next into the cache. */
-    VOUSSOIR_CLONES void add_four(const float *const *column, const float *const *next, const float *x,
-                                  const std::size_t n, float *__restrict y)
+    /** Computes the products of four columns with x. Loads the columns @p next into the cache. */
+    VOUSSOIR_CLONES void dot_four(const float *const *column, const float *const *next, const float *x,
+                                  const std::size_t n, float *__restrict products)
     {
       constexpr std::size_t line = 16; // values
-      const float          *a = column[0], *b = column[1], *c = column[2], *d = column[3];
+      float                 sums[4][line] = {};
       std::size_t           i = 0;
       for (; i + line <= n; i += line)
-      {
         for (std::size_t k = 0; k < 4; ++k)
+        {
           prefetch(next[k] + i, 0);
-        for (std::size_t j = i; j < i + line; ++j)
-          y[j] += x[0] * a[j] + x[1] * b[j] + x[2] * c[j] + x[3] * d[j];
+          for (std::size_t j = 0; j < line; ++j)
+            sums[k][j] += column[k][i + j] * x[i + j];
+        }
+      for (std::size_t k = 0; k < 4; ++k)
+      {
+        products[k] = 0.f;
+        for (std::size_t j = 0; j < line; ++j)
+          products[k] += sums[k][j];
+        for (std::size_t j = i; j < n; ++j)
+          products[k] += column[k][j] * x[j];
       }
-      for (; i < n; ++i)
-        y[i] += x[0] * a[i] + x[1] * b[i] + x[2] * c[i] + x[3] * d[i];
     }
 
     /** Adds three columns. Loads the next three columns into the cache. */
@@ -58,6 +64,8 @@ namespace Voussoir
     typedef double Wide __attribute__((vector_size(64)));
     typedef double Pack __attribute__((vector_size(32)));
     typedef float  FloatPack __attribute__((vector_size(16)));
+    typedef float  WideFloats __attribute__((vector_size(64)));
+    typedef float  Floats __attribute__((vector_size(32)));
     const bool     is_wide = __builtin_cpu_supports("avx512f");
 
     // By reference, because passing vectors by value depends on the processor.
@@ -66,31 +74,32 @@ namespace Voussoir
       std::memcpy(&pack, x, sizeof(P));
     }
 
-    template <class P> VOUSSOIR_INLINE double sum(const P &x)
+    template <class P> VOUSSOIR_INLINE auto sum(const P &x)
     {
-      double all = 0.;
-      for (std::size_t i = 0; i < sizeof(P) / 8; ++i)
+      auto all = x[0];
+      for (std::size_t i = 1; i < sizeof(P) / sizeof(x[0]); ++i)
         all += x[i];
       return all;
     }
 
     /** Computes y += A x and z += A^T v for four columns of A with a distance of @p leading values. */
-    template <class P>
-    VOUSSOIR_INLINE void four_columns(const double *A, const std::size_t leading, const std::size_t m,
-                                      const double *x, double *y, const double *v, double *z)
+    template <class P, class Number>
+    VOUSSOIR_INLINE void four_columns(const Number *A, const std::size_t leading, const std::size_t m,
+                                      const Number *x, Number *y, const Number *v, Number *z)
     {
-      const double *column[4] = {A, A + leading, A + 2 * leading, A + 3 * leading};
-      const double  factor[4] = {x[0], x[1], x[2], x[3]};
-      P             sums[4] = {};
-      std::size_t   i = 0;
-      for (; i + sizeof(P) / 8 <= m; i += sizeof(P) / 8)
+      constexpr std::size_t lanes = sizeof(P) / sizeof(Number);
+      const Number         *column[4] = {A, A + leading, A + 2 * leading, A + 3 * leading};
+      const Number          factor[4] = {x[0], x[1], x[2], x[3]};
+      P                     sums[4] = {};
+      std::size_t           i = 0;
+      for (; i + lanes <= m; i += lanes)
       {
         P v_i, y_i, a;
         load(v + i, v_i);
         load(y + i, y_i);
         for (unsigned int c = 0; c < 4; ++c)
         {
-          prefetch(column[c] + i, 4 * leading * sizeof(double)); // the columns of the next call
+          prefetch(column[c] + i, 4 * leading * sizeof(Number)); // the columns of the next call
           load(column[c] + i, a);
           y_i += factor[c] * a;
           sums[c] += a * v_i;
@@ -107,10 +116,11 @@ namespace Voussoir
         z[c] += sum(sums[c]);
     }
 
-    VOUSSOIR_INLINE void one_column(const double *a, const std::size_t m, const double x, double *y,
-                                    const double *v, double &z)
+    template <class Number>
+    VOUSSOIR_INLINE void one_column(const Number *a, const std::size_t m, const Number x, Number *y,
+                                    const Number *v, Number &z)
     {
-      double product = 0.;
+      Number product = 0;
       for (std::size_t i = 0; i < m; ++i)
       {
         y[i] += x * a[i];
@@ -130,19 +140,20 @@ namespace Voussoir
         one_column(A + c * m, m, x[c], y, v, z[c]);
     }
 
-    template <class P>
-    VOUSSOIR_INLINE void symmetric(const double *A, const std::size_t n, const double *x, double *y)
+    template <class P, class Number>
+    VOUSSOIR_INLINE void symmetric(const Number *A, const std::size_t leading, const std::size_t n,
+                                   const Number *x, Number *y)
     {
       for (std::size_t c = 0; c < n; c += 4)
       {
         const std::size_t end = std::min(c + 4, n);
         for (std::size_t j = c; j < end; ++j) // diagonal block
         {
-          y[j] += A[j * n + j] * x[j];
-          one_column(A + j * n + j + 1, end - j - 1, x[j], y + j + 1, x + j + 1, y[j]);
+          y[j] += A[j * leading + j] * x[j];
+          one_column(A + j * leading + j + 1, end - j - 1, x[j], y + j + 1, x + j + 1, y[j]);
         }
         if (end < n)
-          four_columns<P>(A + c * n + end, n, n - end, x + c, y + end, x + end, y + c);
+          four_columns<P>(A + c * leading + end, leading, n - end, x + c, y + end, x + end, y + c);
       }
     }
 
@@ -159,11 +170,21 @@ namespace Voussoir
 
     VOUSSOIR_WIDE void symmetric_wide(const double *A, const std::size_t n, const double *x, double *y)
     {
-      symmetric<Wide>(A, n, x, y);
+      symmetric<Wide>(A, n, n, x, y);
+    }
+    VOUSSOIR_WIDE void symmetric_wide_floats(const float *A, const std::size_t leading, const std::size_t n,
+                                             const float *x, float *y)
+    {
+      symmetric<WideFloats>(A, leading, n, x, y);
     }
     VOUSSOIR_OTHERS void symmetric_others(const double *A, const std::size_t n, const double *x, double *y)
     {
-      symmetric<Pack>(A, n, x, y);
+      symmetric<Pack>(A, n, n, x, y);
+    }
+    VOUSSOIR_OTHERS void symmetric_floats(const float *A, const std::size_t leading, const std::size_t n,
+                                          const float *x, float *y)
+    {
+      symmetric<Floats>(A, leading, n, x, y);
     }
 
     VOUSSOIR_CLONES double product(const float *x, const float *y, const std::size_t n)
@@ -209,6 +230,11 @@ namespace Voussoir
     (is_wide ? symmetric_wide : symmetric_others)(A, n, x, y);
   }
 
+  void add_symmetric(const float *A, const std::size_t leading, const std::size_t n, const float *x, float *y)
+  {
+    (is_wide ? symmetric_wide_floats : symmetric_floats)(A, leading, n, x, y);
+  }
+
   double dot(const float *x, const float *y, const std::size_t n)
   {
     return product(x, y, n);
@@ -219,22 +245,23 @@ namespace Voussoir
     add_scaled(factor, x, n, y);
   }
 
-  void add_columns(const float *A, const std::size_t leading, const std::size_t n,
-                   const std::vector<unsigned int> &columns, const float *x, float *y)
+  void take_products(const float *A, const std::size_t leading, const std::size_t n,
+                     const std::vector<unsigned int> &columns, const float *x, float *y)
   {
     const std::size_t size = columns.size();
     const auto column = [&](const std::size_t k) { return A + columns[std::min(k, size - 1)] * leading; };
     for (std::size_t k = 0; k < size; k += 4)
     {
       const float *present[4], *next[4];
-      float        factor[4];
+      float        products[4];
       for (std::size_t j = 0; j < 4; ++j)
       {
         present[j] = column(k + j);
         next[j] = column(k + j + 4);
-        factor[j] = k + j < size ? x[columns[k + j]] : 0.f;
       }
-      add_four(present, next, factor, n, y);
+      dot_four(present, next, x, n, products);
+      for (std::size_t j = 0; j < 4 && k + j < size; ++j)
+        y[columns[k + j]] = products[j];
     }
   }
 } // namespace Voussoir

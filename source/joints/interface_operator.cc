@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/exceptions.h>
 
-#include <voussoir/base/blas.h>
 #include <voussoir/base/parallel.h>
 #include <voussoir/joints/base_elimination.h>
 #include <voussoir/joints/dense_kernels.h>
@@ -167,10 +166,8 @@ namespace Voussoir
   {
     if (j == k)
     {
-      const int   n = size(j), stride = 1;
-      const float one = 1.f;
       if (!single[j].empty())
-        sgemv_("N", &n, &n, &one, single[j].data(), &n, x, &stride, &one, y, &stride);
+        add_symmetric(single[j].data(), size(j), size(j), x, y);
       return;
     }
     const CompactMatrix &block = coupling(std::min(j, k), std::max(j, k)); // empty: of other processes

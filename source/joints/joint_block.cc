@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace Voussoir
 {
@@ -86,16 +85,14 @@ namespace Voussoir
     constexpr double          enough = 1e-6; // relative error that the solver assumes
     std::vector<float>        y(n), z(n);
     std::vector<double>       exact(n);
-    std::vector<unsigned int> all(n);
     const std::vector<double> block = W->own_block(group);
-    std::iota(all.begin(), all.end(), 0);
     is_accurate = true;
     for (unsigned int trial = 0; trial < 3; ++trial)
     {
       for (unsigned int i = 0; i < n; ++i)
         y[i] = static_cast<float>(std::cos((1. + 1.7 * trial) * i * i));
       std::fill(z.begin(), z.end(), 0.f);
-      add_columns(F.data(), leading, n, all, y.data(), z.data());
+      add_symmetric(F.data(), leading, n, y.data(), z.data());
       std::fill(exact.begin(), exact.end(), 0.);
       for (std::size_t j = 0; j < n; ++j)
         for (std::size_t i = 0; i < n; ++i)
@@ -169,6 +166,10 @@ namespace Voussoir
     rows.resize(given_force.size() + unknown.size());
     std::merge(given_force.begin(), given_force.end(), unknown.begin(), unknown.end(), rows.begin());
     const std::size_t size = rows.size();
+    near_rows.clear();
+    for (const unsigned int i : rows)
+      for (unsigned int c = 0; c < 3 && (near_rows.empty() || near_rows.back() < i - i % 3 + 2); ++c)
+        near_rows.push_back(i - i % 3 + c);
     factor.lu.resize(size * size);
     factor.pivots.resize(size);
     for (std::size_t column = 0; column < size; ++column)
@@ -199,12 +200,11 @@ namespace Voussoir
   void JointBlock::solve_for_gap(const float *r, float *z, float *y) const
   {
     std::fill(y, y + n, 0.f);
-    std::fill(z, z + n, 0.f);
     for (const unsigned int i : given_gap)
       y[i] = r[i] / static_cast<float>(factor.equations[i / 3].d_gap[4 * (i % 3)]);
-    add_columns(F.data(), leading, n, given_gap, y, z);
     const std::vector<unsigned int> &rows = factor.active;
-    std::vector<float>               x(rows.size());
+    take_products(F.data(), leading, n, near_rows, y, z);
+    std::vector<float> x(rows.size());
     for (std::size_t k = 0; k < rows.size(); ++k)
     {
       const unsigned int   i = rows[k], first = i - i % 3;
@@ -217,7 +217,8 @@ namespace Voussoir
     factor.solve(x.data(), 1);
     for (std::size_t k = 0; k < rows.size(); ++k)
       y[rows[k]] = x[k];
-    add_columns(F.data(), leading, n, rows, y, z);
+    std::fill(z, z + n, 0.f);
+    add_symmetric(F.data(), leading, n, y, z);
     for (const unsigned int i : given_force)
       z[i] = r[i];
     if (!is_accurate)

@@ -16,10 +16,10 @@ namespace Voussoir
     return (n + 15) / 16 * 16;
   }
 
-  /** Adds the sum of x[k] A_k over the @p columns k of A to @p y. Columns have @p n values and a distance of
+  /** Sets y[k] to the product of column k of A with @p x, for the @p columns k. Columns have @p n values and a distance of
    * @p leading values. */
-  void add_columns(const float *A, std::size_t leading, std::size_t n,
-                   const std::vector<unsigned int> &columns, const float *x, float *y);
+  void take_products(const float *A, std::size_t leading, std::size_t n,
+                     const std::vector<unsigned int> &columns, const float *x, float *y);
 
   /** Adds x[0] A_0 + x[1] A_1 + x[2] A_2 to @p y, for the first three columns of A with @p n values each. */
   void add_three_columns(const float *A, std::size_t n, const float *x, float *y);
@@ -31,6 +31,8 @@ namespace Voussoir
 
   /** Computes y += A x for a symmetric A with @p n rows. Only the lower triangle is read. */
   void add_symmetric(const double *A, std::size_t n, const double *x, double *y);
+  /** The same in single precision, for columns with a distance of @p leading values. */
+  void add_symmetric(const float *A, std::size_t leading, std::size_t n, const float *x, float *y);
 
   /** Returns the scalar product of two vectors in single precision, added up in double precision. */
   double dot(const float *x, const float *y, std::size_t n);
