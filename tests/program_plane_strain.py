@@ -73,7 +73,7 @@ def joint():
     """Two blocks with a joint that opens and slides: three elements along y give the same as one, and nothing moves along y,
     also under a motion along y."""
     write_scene()
-    shaken = [*PLANE, *settings("Reservoir/Density=1000", "Reservoir/Water level=95", "Joints/Friction=0.3", "Contact/Tolerance=1e-12",
+    shaken = [*PLANE, *settings("Reservoir/Density=1000", "Reservoir/Water level=95", "Joints/Friction=0.3", "Contact/Tolerance=1e-12", "Dynamics/Factors=double",
                                 "Output/Block forces=true")]
     for name, along in (("one", 1), ("three", 3)):
         koyna.write(f"{name}.msh", 6, 10, along=along, thickness=6., monolith=lambda i, k: 1 if i < 3 else 2)
