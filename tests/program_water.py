@@ -22,7 +22,8 @@ from program_physics import settings  # noqa: E402
 from run_program import expect, frequencies, refused, run_cases, runs, same, summary, table, write_scene  # noqa: E402
 
 RHO, C, H = 1000., 1440., 60.
-ACOUSTIC, INCOMPRESSIBLE = settings("Reservoir/Model=acoustic"), settings("Reservoir/Model=incompressible")
+# Factors in double precision: tests of round-off
+ACOUSTIC, INCOMPRESSIBLE = settings("Reservoir/Model=acoustic", "Dynamics/Factors=double"), settings("Reservoir/Model=incompressible")
 FDLV112 = Path(__file__).resolve().parents[2] / "shared" / "reference" / "data" / "water" / "fdlv112_dam_hex.msh"
 
 

@@ -220,8 +220,11 @@ namespace Voussoir
     Unknowns offset = reference, start(reference.size()), memory = now.memory;
     for (double &x : offset)
       x = -x;
-    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-      set(start, p, opening_and_slip(p));
+    if (now.carried.gap.empty())
+      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+        set(start, p, opening_and_slip(p));
+    else
+      start = now.carried.gap;
     force = now.force;
     const ContactResult result =
         equation->solve(level.system, now, step, {offset, start, memory, force, gap, u_new, base});
@@ -231,6 +234,8 @@ namespace Voussoir
       step_memory = memory;
       level.system.commit(start, force, gap, memory);
       now.memory.swap(memory);
+      if (single_factors)
+        now.carried.gap = gap;
       step_start.swap(start);
     }
     return result;

@@ -93,7 +93,13 @@ namespace Voussoir
         Unknowns expected = rhs;
         add_joint_forces(joints.force, expected); // joint forces of the last step
         const bool goes_on = continues(now.carried, step.dt, expected);
-        Unknowns   reduced = rhs, offset = joints.start;
+        Unknowns   reduced = rhs, offset = joints.offset;
+        for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+        {
+          Vector3 jump = structure.jump(structure.pairs[p], now.u);
+          add(jump, get(offset, p));
+          set(offset, p, jump);
+        }
         if (goes_on)
         {
           for (std::size_t k = 0; k < reduced.size(); ++k)

@@ -29,7 +29,7 @@ namespace Voussoir
       return text;
     }
 
-    constexpr const char *format = "voussoir checkpoint 6\n";
+    constexpr const char *format = "voussoir checkpoint 7\n";
 
     std::string seal(const std::string &payload)
     {

@@ -30,13 +30,17 @@ namespace Voussoir
   };
 
   /** Data passed from one step to the next if the unknown is an increment (StepEquation). The vectors have
-   * three values per node; they are empty if the unknown is the displacement. */
+   * three values per node unless given; they are empty if the unknown is the displacement. */
   struct Carried
   {
     Unknowns residual; ///< residual impulse: dt/2 times the residual of the equation of motion [N s]
     Unknowns moved;    ///< displacement increment of the last step [m]
     Unknowns resisted; ///< operator of the step applied to moved [N]
     double   dt = 0.;  ///< length of the last step [s]; 0: there was none
+
+    /** Openings and slips in the solution of the joints of the last step, three values per pair [m]. They satisfy the
+     * contact conditions more exactly than the displacements. Empty before the first step. */
+    Unknowns gap;
   };
 
   /** State of the structure at one time. Displacements are relative to the base on a rigid or massless

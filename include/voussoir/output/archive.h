@@ -25,7 +25,7 @@ namespace Voussoir
   template <class Archive> void serialize(Archive &archive, DynamicState &s, unsigned int)
   {
     archive &s.time &s.u &s.v &s.force &s.load &s.Ku &s.base_velocity &s.energy &s.memory;
-    archive &s.carried.residual &s.carried.moved &s.carried.resisted &s.carried.dt;
+    archive &s.carried.residual &s.carried.moved &s.carried.resisted &s.carried.dt &s.carried.gap;
   }
 } // namespace Voussoir
 
