@@ -52,10 +52,10 @@ def estimate(text):
 
 
 def estimates():
-    """To a fifth: joints, tied, with factors in single precision (which are made in double), elements of degree 2, on rock, on
+    """To a fifth: joints, tied, with factors in double precision, elements of degree 2, on rock, on
     massless rock of degree 2."""
     for name, file in (("joints", scene("joints", 5, 60, 16, 2)), ("tied", scene("tied", 0, 60, 16, 3)),
-                       ("single", scene("single", 0, 110, 40, 6, more="subsection Dynamics\n set Factors = single\n end")),
+                       ("double", scene("double", 0, 110, 40, 6, more="subsection Dynamics\n set Factors = double\n end")),
                        ("quadratic", scene("quadratic", 5, 30, 8, 1, more="subsection Elements\n set Degree = 2\n end")),
                        ("water", scene("water", 5, 60, 16, 2, more="subsection Reservoir\n set Model = acoustic\n set Element size = 16\n end")),
                        ("rock", scene("rock", 5, 30, 10, 1, ROCK, ON_ROCK)),

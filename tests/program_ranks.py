@@ -86,7 +86,7 @@ def rigid():
     any_number("cohesive", (2,), *SHORT, *five, *settings("Joints/Model=cohesive", "Joints/Strength=0.5 MPa"))
     any_number("few", (5,), *SHORT, *settings("Joints/Model=FJB"))
     any_number("tied", (2,), *SHORT, *settings("Joints/Model=tied"))
-    any_number("single", (2,), *SHORT, *five, *settings("Dynamics/Factors=single"))
+    any_number("double", (2,), *SHORT, *five, *settings("Dynamics/Factors=double"))
     any_number("estimate", (2,), *SHORT, *settings("Dynamics/Error estimate=true"))
     any_number("water", (2,), *SHORT, *WATER)
     any_number("sweeps", (2,), *SHORT, *five, *settings("Contact/Method=sweeps", "Contact/Maximum iterations=2000"))
@@ -117,7 +117,7 @@ def rock():
     write_scene()
     for boundary in ("mtf3", "mtf2-plain", "viscous-spring", "fixed"):
         any_number(boundary, (2,), *ROCK, *settings(f"Foundation/Boundary={boundary}"))
-    any_number("single", (2,), *ROCK, *settings("Dynamics/Factors=single"))
+    any_number("double", (2,), *ROCK, *settings("Dynamics/Factors=double"))
     any_number("sections", (3,), *ROCK, *settings("Foundation/Free field=sections"))
     any_number("water", (3,), *ROCK, *WATER, *settings("Foundation/Free field=sections"))
     any_number("water_columns", (2,), *ROCK, *WATER, *settings("Foundation/Free field=columns"))

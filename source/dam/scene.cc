@@ -366,13 +366,12 @@ namespace Voussoir
         "of the step, with Coulomb's law for impulses), paper (Taylor and Papadopoulos) and none "
         "(plain Newmark, which oscillates).",
         Patterns::Selection(impact_rule_names()));
-    prm.add_parameter(
-        "Factors", factors,
-        "Precision of the matrix factors of the monoliths. single: half of the memory and of "
-        "the memory traffic of a step. The unknown is then the displacement increment, and the "
-        "residual of the equations of motion is added to the next step (doc/method.md). Largest "
-        "openings differ by about 1e-9 m. Always double on subcycled or massless rock.",
-        Patterns::Selection("double|single"));
+    prm.add_parameter("Factors", factors,
+                      "Precision of the matrix factors of the monoliths. single: half of the memory and of "
+                      "the memory traffic of a step. The unknown is then the displacement increment, and the "
+                      "residual of the equations of motion is added to the next step (doc/method.md). Always "
+                      "double on subcycled rock, and on massless rock that is not one body with the dam.",
+                      Patterns::Selection("double|single"));
     prm.leave_subsection();
     contact.add_parameters(prm);
     limits.add_parameters(prm);

@@ -25,12 +25,12 @@ namespace Voussoir
     double joint_fracture = 0.;
 
     /** Returns the error of the energy balance with respect to the state @p start [J]. It is zero up to
-     * round-off in a correct run. */
+     * the error of the factors in a correct run. */
     double balance(const Energy &start) const;
   };
 
   /** Data passed from one step to the next if the unknown is an increment (StepEquation). The vectors have
-   * three values per node unless given; they are empty if the unknown is the displacement. */
+   * three values per node unless stated otherwise; they are empty if the unknown is the displacement. */
   struct Carried
   {
     Unknowns residual; ///< residual impulse: dt/2 times the residual of the equation of motion [N s]
@@ -38,7 +38,7 @@ namespace Voussoir
     Unknowns resisted; ///< operator of the step applied to moved [N]
     double   dt = 0.;  ///< length of the last step [s]; 0: there was none
 
-    /** Openings and slips in the solution of the joints of the last step, three values per pair [m]. They satisfy the
+    /** Set by Newmark: openings and slips in the solution of the joints of the last step, three values per pair [m]. They satisfy the
      * contact conditions more exactly than the displacements. Empty before the first step. */
     Unknowns gap;
   };

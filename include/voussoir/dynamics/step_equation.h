@@ -46,7 +46,7 @@ namespace Voussoir
     struct Joints
     {
       const Unknowns &offset; ///< gap for zero displacement, three values per pair [m]
-      const Unknowns &start;  ///< gap at the start of the step, three values per pair [m]
+      const Unknowns &start;  ///< gap at the start: of now.u or Carried::gap, three values per pair [m]
       Unknowns       &memory; ///< history variables before the step; receives the events of the step
       Unknowns       &force;  ///< forces of the last step; receives those of this step, three per pair [N]
       Unknowns       &gap;    ///< receives the gaps at the end of the step, three values per pair [m]
@@ -69,7 +69,8 @@ namespace Voussoir
                                 const Joints &joints) = 0;
 
     /** Stores in @p now.carried what the next step requires of the step of the last solve().
-     * @param now state that is still that at the start of the step, except for its history variables
+     * @param now state that is still that at the start of the step, except for its history variables and
+     * carried.gap
      * @param dt length of the step [s]
      * @param u_new displacement at the end of the step, three values per free node [m]
      * @param Ku_new stiffness matrix times @p u_new [N] */

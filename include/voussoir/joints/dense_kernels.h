@@ -16,8 +16,8 @@ namespace Voussoir
     return (n + 15) / 16 * 16;
   }
 
-  /** Sets y[k] to the product of column k of A with @p x, for the @p columns k. Columns have @p n values and a distance of
-   * @p leading values. */
+  /** Sets y[k] to the product of column k of A with @p x, for the @p columns k; other values of y are unchanged. Columns
+   * have @p n values and a distance of @p leading values. */
   void take_products(const float *A, std::size_t leading, std::size_t n,
                      const std::vector<unsigned int> &columns, const float *x, float *y);
 

@@ -54,7 +54,7 @@ namespace Voussoir
     std::vector<unsigned int> given_force;         ///< rows with given force
     std::vector<unsigned int> given_gap;           ///< rows with given gap
     std::vector<unsigned int> unknown;             ///< other rows
-    std::vector<unsigned int> near_rows; ///< all rows of pairs with rows of factor, if the unknown is y
+    std::vector<unsigned int> near_rows; ///< all rows of each pair with a row in factor, if the unknown is y
   };
 } // namespace Voussoir
 

@@ -12,7 +12,7 @@ namespace Voussoir
   constexpr double largest_balance_error = 1e-4;
 
   /** Throws ComputationError if the error of an energy balance exceeds largest_balance_error. Normal
-   * runs have at most 1e-7.
+   * runs have at most 1e-6.
    *
    * @param scene input file
    * @param dam, rock largest error of the run, relative to the largest energy [-]; 0: not present
