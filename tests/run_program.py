@@ -553,6 +553,14 @@ def factors():
         print(f"    {law}: energy balance {one['energy_balance_error']:.1e}, {two['energy_balance_error']:.1e}")
         expect(1e-13 < two["energy_balance_error"] < 2e-9, f"{law}: energy balance {two['energy_balance_error']:.1e}")
         expect(two["contact_path"] == one["contact_path"], f"{law}: {two['contact_path']}")
+    # A step that is halved: the last increment then belongs to another time step.
+    cohesive = [x for entry in ("Joints/Model=cohesive", "Joints/Strength=1 MPa", "Joints/Fracture energy=20", "Contact/Maximum iterations=4",
+                                "Mesh/Arch210/Elements up=6") for x in ("--set", entry)]
+    for kind in ("double", "single"):
+        runs("scene.prm", "--output", f"halved_{kind}", *cohesive, "--set", f"Dynamics/Factors={kind}")
+        expect(summary(f"halved_{kind}")["contact_path"]["smaller_step"] > 0, "no step was halved")
+    same("halved_double", "halved_single", 2e-6)
+    expect(summary("halved_single")["energy_balance_error"] < 1e-8, "energy of halved steps")
     # Gaps of displacements have errors of 1e-9 m, which change the states of key flanks: Newton's method then takes twice the steps.
     write("keys.prm", "")
     counts = []
