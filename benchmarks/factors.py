@@ -38,6 +38,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("--voussoir", default=ROOT / "build/voussoir")
     parser.add_argument("--seconds", default="5.12", help="of the motion")
+    parser.add_argument("--set", action="append", default=[], metavar="ENTRY=VALUE", help="of all runs")
     parser.add_argument("scenes", nargs="*", default=[ROOT / f"prm/{name}.prm" for name in SCENES])
     arguments = parser.parse_args()
     print("| scene | balance of energy, double, single | histories, off by | joints' histories | largest opening [m] |")
@@ -48,7 +49,8 @@ def main():
             for factors in ("double", "single"):
                 directory = Path(scratch, factors)
                 subprocess.run([arguments.voussoir, scene, "--output", directory, "--quiet", "--set", "Output/Figures=false", "--set",
-                                f"Motion/Duration={arguments.seconds}", "--set", f"Dynamics/Factors={factors}"], check=True)
+                                f"Motion/Duration={arguments.seconds}", "--set", f"Dynamics/Factors={factors}",
+                                *(x for entry in arguments.set for x in ("--set", entry))], check=True)
                 runs.append((json.loads((directory / "summary.json").read_text()), columns(directory / "history.csv"),
                              columns(directory / "joint_history.csv")))
         (one, history, joints), (two, history_2, joints_2) = runs

@@ -93,7 +93,8 @@ namespace Voussoir
                   s.limits.wedges.empty();
          },
          {"Statics/Gravity"}},
-        {"the matrix factors are always in double precision on subcycled rock, and on massless rock that is not one body with the dam",
+        {"the matrix factors are always in double precision on subcycled rock, and on massless rock that is not one "
+         "body with the dam",
          [](const Scene &s)
          {
            return (s.foundation.model == "rock" && s.foundation.is_subcycled()) ||

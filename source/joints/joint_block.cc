@@ -133,7 +133,7 @@ namespace Voussoir
       return false;
     factor.equations.assign(present, present + n / 3);
     find_rows();
-    // Two thirds: F costs more than a factor of the same size.
+    // Two thirds: chosen when both products with F read all of it.
     for_gap =
         given_force.size() + unknown.size() < 2 * (given_gap.size() + unknown.size()) / 3 && has_inverse();
     if (for_gap)

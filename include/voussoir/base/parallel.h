@@ -45,8 +45,9 @@ namespace Voussoir
                       });
   }
 
-  /** Returns the sum of @p action(first, last) over ranges of 512 of 0 ... n - 1, added in sequence, so that the result
-   * does not depend on the number of threads. @p action must not throw. Sums: std::array of double. */
+  /** Returns the sum of @p action(first, last) over ranges of 512 of 0 ... n - 1. The ranges are added in sequence,
+   * so the result is the same for any number of threads. Exceptions of @p action end the process. Sums: std::array of
+   * double. */
   template <class Sums, class Action> Sums sum_of_ranges(const std::size_t n, const Action &action)
   {
     constexpr std::size_t range = 512;

@@ -38,8 +38,9 @@ namespace Voussoir
     Unknowns resisted; ///< operator of the step applied to moved [N]
     double   dt = 0.;  ///< length of the last step [s]; 0: there was none
 
-    /** Set by Newmark: openings and slips in the solution of the joints of the last step, three values per pair [m]. They satisfy the
-     * contact conditions more exactly than the displacements. Empty before the first step. */
+    /** Set by Newmark: openings and slips in the solution of the joints of the last step, three values per pair [m].
+     * The contact conditions hold more exactly for these values than for the displacements. Empty before the first
+     * step. */
     Unknowns gap;
   };
 
