@@ -19,7 +19,7 @@ namespace
 
   /** Joints between five bodies in a row, the first and last of which stand against the ground. Each body
    * adds a positive definite flexibility of the joints on both of its sides.
-   * @param compact couplings of three bytes */
+   * @param compact couplings of two bytes */
   InterfaceOperator row_of_bodies(const bool compact = false)
   {
     const std::vector<unsigned int>        n_pairs = {7, 9, 5, 8};
@@ -114,10 +114,20 @@ namespace
           }
   }
 
+  /** Returns the largest absolute value in the block of 8 x 8 entries that contains an entry. */
+  double largest_near(const Unknowns &A, const std::size_t m, const std::size_t row, const std::size_t column)
+  {
+    double result = 0.;
+    for (std::size_t j = column / 8 * 8; j < std::min(column / 8 * 8 + 8, A.size() / m); ++j)
+      for (std::size_t i = row / 8 * 8; i < std::min(row / 8 * 8 + 8, m); ++i)
+        result = std::max(result, std::abs(A[j * m + i]));
+    return result;
+  }
+
   /** Entries and products of matrices whose sizes are no multiples of the blocks. */
   void check_matrix(const bool is_compact)
   {
-    const std::string of = is_compact ? " of three bytes" : " of four bytes";
+    const std::string of = is_compact ? " of two bytes" : " of four bytes";
     double            rounding = 0., of_product = 0., of_plain = 0., units = 0.;
     for (const auto &[m, n] : {std::array<std::size_t, 2>{1, 1}, {8, 8}, {9, 16}, {16, 7}, {37, 29}, {3, 40}})
     {
@@ -139,8 +149,9 @@ namespace
       for (std::size_t j = 0; j < n; ++j)
         for (std::size_t i = 0; i < m; ++i)
         {
-          rounding = std::max(rounding, std::abs(compact(i, j) / A[j * m + i] - 1.));
-          units = std::max(units, std::abs(in_mm(i, j) / (1e3 * compact(i, j)) - 1.));
+          const double size = is_compact ? largest_near(A, m, i, j) : std::abs(A[j * m + i]);
+          rounding = std::max(rounding, std::abs(compact(i, j) - A[j * m + i]) / size);
+          units = std::max(units, std::abs(in_mm(i, j) / 1e3 - compact(i, j)) / size);
           if (entries[j * m + i] != compact(i, j))
             rounding = 1.;
         }
@@ -200,7 +211,7 @@ namespace
   void check_sweeps(const bool compact)
   {
     const InterfaceOperator W = row_of_bodies(compact);
-    const std::string       of = std::string(compact ? "three" : "four") + " bytes, ";
+    const std::string       of = std::string(compact ? "two" : "four") + " bytes, ";
     for (const auto &[name, solve_pair] :
          {std::pair<std::string, ContactOperator::PairSolver>{"open or closed", frictionless},
           {"bonded in part", bonded}})
@@ -216,8 +227,8 @@ namespace
         W.sweep(solve_pair, force, gap);
         sweep_exactly(W, solve_pair, exact_force, exact_gap);
       }
-      below("Gauss-Seidel, " + of + name + ": forces", distance(force, exact_force), compact ? 2e-6 : 5e-7);
-      below("Gauss-Seidel, " + of + name + ": gaps", distance(gap, exact_gap), compact ? 2e-6 : 5e-7);
+      below("Gauss-Seidel, " + of + name + ": forces", distance(force, exact_force), compact ? 4e-6 : 5e-7);
+      below("Gauss-Seidel, " + of + name + ": gaps", distance(gap, exact_gap), compact ? 4e-6 : 5e-7);
     }
   }
 
@@ -288,14 +299,14 @@ namespace
         jacobian.expect_far_coupling();
       for (const unsigned int kind : {0u, 0u, 2u})
       {
-        const std::string name = std::string(compact ? "three" : "four") + " bytes, " +
+        const std::string name = std::string(compact ? "two" : "four") + " bytes, " +
                                  (far ? "chain" : "joint by joint") + ", " + std::to_string(kind);
         const std::vector<PairEquations> equations = mixed_equations(W.n_pairs(), kind);
         jacobian.update(equations);
         Unknowns           step, d_gap;
         const unsigned int iterations = jacobian.solve(1e-5, step, d_gap);
         expect(iterations <= (far ? 2 : 12), name + ": " + std::to_string(iterations) + " iterations");
-        check_solution(name, W, equations, step, d_gap, compact ? 2e-6 : 5e-7);
+        check_solution(name, W, equations, step, d_gap, compact ? 4e-6 : 5e-7);
       }
     }
   }

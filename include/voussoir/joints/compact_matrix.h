@@ -3,13 +3,14 @@
 #define voussoir_compact_matrix_h
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace Voussoir
 {
-  /** Matrix in single precision for products. A compact matrix has three bytes per entry: mantissas are rounded to
-   * 16 bits. The relative error of an entry is at most 2^-16. The error does not depend on units, because
-   * entries are stored relative to the largest one.
+  /** Matrix in single precision for products. A compact matrix has two bytes per entry: integers, and a scale for
+   * each block of 8 x 8 entries. The error of an entry is at most 2^-16 of the largest one in its block. It does not
+   * depend on units, because entries are stored relative to the largest one of the matrix.
    *
    * Products read the matrix in sequence. It is rarely in the cache, so the number of bytes determines the time.
    * The matrix is stored in panels of eight columns, a panel in blocks of eight rows, and a block by column. Blocks
@@ -21,7 +22,7 @@ namespace Voussoir
     CompactMatrix() = default;
 
     /** Copies a matrix with @p n_rows rows, by column. Its entries must be in the range of single precision.
-     * @param compact three instead of four bytes per entry */
+     * @param compact two instead of four bytes per entry */
     CompactMatrix(const std::vector<double> &A, std::size_t n_rows, bool compact);
 
     /** Returns whether the matrix has no entries. */
@@ -40,16 +41,18 @@ namespace Voussoir
     float operator()(std::size_t row, std::size_t column) const;
 
     /** Returns the memory consumption [bytes]. */
-    double memory() const { return double(bytes.size()); }
+    double memory() const { return 4. * scale.size() + 4. * floats.size() + 2. * integers.size(); }
 
   private:
     std::size_t position(std::size_t row, std::size_t column) const;
 
     void multiply(bool transposed, bool plain, const float *x, float *y) const;
 
-    std::size_t                n_rows = 0, n_columns = 0, n_bytes = 4;
-    double                     largest = 0.; ///< absolute value of an entry
-    std::vector<unsigned char> bytes;
+    std::size_t               n_rows = 0, n_columns = 0;
+    double                    largest = 0.; ///< absolute value of an entry
+    std::vector<float>        scale;        ///< of each block
+    std::vector<float>        floats;       ///< entries of a matrix that is not compact
+    std::vector<std::int16_t> integers;     ///< entries of a compact matrix
   };
 } // namespace Voussoir
 
