@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Scaling on paper: how fast four sizes of dam and rock would run on 1 to 1,000 nodes, from costs measured on this machine.
 
@@ -24,7 +24,7 @@ CORES = 48                              # of a node
 LATENCY, BANDWIDTH = 1.2e-6, 25e9
 MONOLITHS = 29
 # Name, unknowns of the dam and of the rock, step of the dam [s], steps of the rock in one of the dam.
-SIZES = (("rock28", 16443., 326e3, .005, 4), ("1.1 M, 30 M", 1.1e6, 30e6, .002, 4),
+SIZES = (("rock28", 16443., 338520., .005, 3), ("1.1 M, 30 M", 1.1e6, 30e6, .002, 4),
          ("1.1 M, 90 M", 1.1e6, 90e6, .001, 4), ("5 M, 300 M", 5e6, 300e6, .001, 4))
 
 
@@ -33,10 +33,11 @@ def measure(arguments):
     with tempfile.TemporaryDirectory() as directory:
         for name in ("rigid28", "rock28"):
             scene = os.path.join(ROOT, "prm", f"{name}.prm")
-            one = run(arguments.voussoir, scene, ["Motion/Duration=1"], f"{directory}/{name}")
-            two = run(arguments.voussoir, scene, ["Motion/Duration=1"], f"{directory}/{name}_2", ranks=2)
+            one = run(arguments.voussoir, scene, ["Motion/Duration=4"], f"{directory}/{name}")
+            two = run(arguments.voussoir, scene, ["Motion/Duration=4"], f"{directory}/{name}_2", ranks=2)
             costs[name] = {"dam": one["mesh"]["dofs"], "rock_dofs": one.get("rock", {}).get("dofs", 0),
                            "messages": max(two["per_rank"]["messages_per_step"]),
+                           "rock_steps": round(one["time_step"] / one["rock"]["time_step"]) if "rock" in one else 0,
                            "krylov": one["newton_iterations"]["linear_iterations_mean"], "pairs": one["mesh"]["pairs"],
                            **{stage if stage != "rock" else "rock_seconds": one["seconds"][stage] / one["steps"]
                               for stage in ("substitutions", "joints", "stepping", "rock", "stresses", "output")}}
@@ -52,8 +53,9 @@ def measure(arguments):
     print(f"{COSTS} written")
 
 
-def seconds_per_second(costs, size, ranks):
-    """Of wall time per second of earthquake: dam, rock, what all ranks do alike, messages."""
+def seconds_per_second(costs, size, cores, threads=1):
+    """Of wall time per second of earthquake: dam, rock, what all ranks do alike (on one of their threads), messages."""
+    ranks = math.ceil(cores / threads)
     _, dam, rock, step, substeps = size
     rock_costs = costs["rock28"]
     dam_costs = costs["rigid28"] if dam > 2. * rock_costs["dam"] else rock_costs
@@ -61,16 +63,16 @@ def seconds_per_second(costs, size, ranks):
     # The time of the joints and of the substitutions grows with N^1.31 as measured to 135 thousand unknowns.
     growth = ratio**1.31 if dam < 135e3 else (135e3 / dam_costs["dam"])**1.31 * (dam / 135e3)**1.55
     shared = (dam_costs["substitutions"] + dam_costs["joints"]) * growth + dam_costs["stresses"] * ratio
-    on_dam = min(ranks, MONOLITHS)
+    on_dam = min(cores, MONOLITHS)
     alike = (dam_costs["stepping"] + dam_costs["output"]) * ratio
-    of_rock = rock_costs["rock_seconds"] * rock / rock_costs["rock_dofs"] * substeps / 4. / ranks
-    nodes = max(1, math.ceil(ranks / CORES))
+    of_rock = rock_costs["rock_seconds"] * rock / rock_costs["rock_dofs"] * substeps / rock_costs["rock_steps"] / cores
+    nodes = max(1, math.ceil(cores / CORES))
     latency, bandwidth = (costs["latency"], costs["bandwidth"]) if nodes == 1 else (max(LATENCY, costs["latency"]), BANDWIDTH)
     hops = math.log2(ranks) if ranks > 1 else 0.
     pairs = dam_costs["pairs"] * ratio**(2 / 3)
     gathered = 16. * dam + 3 * pairs * (8. * 8. + 2 * 4. * 8.)  # u and K u; forces, and the vectors of GMRES
     surface = 2 * 24. * (rock / 3 / ranks)**(2 / 3) * substeps if ranks > 1 else 0.
-    sharing = 1 if nodes == 1 else CORES  # processes with the connection of a node
+    sharing = 1 if nodes == 1 else CORES / threads  # processes with the connection of a node
     messages = rock_costs["messages"] * latency * hops + ((gathered if ranks > 1 else 0.) + surface) * sharing / bandwidth
     return [x / step for x in (shared / on_dam, of_rock, alike, messages)]
 
@@ -80,7 +82,7 @@ def memory_per_rank(size, ranks):
     _, dam, rock, _, _ = size
     matrix = 19 * 76.                           # of a rock node: blocks with column numbers [bytes]
     kept = min(1., 1. / ranks + .13)
-    of_node = 2100. - (1. - kept) * matrix + (.15 + .4 / ranks) * matrix
+    of_node = 2100. - (1. - kept) * matrix + (.15 + .4 / ranks) * matrix + ranks / 8.  # RockSplit has a bit per rank and node
     return .17 + .2 * (dam / 54180)**1.3 / min(ranks, MONOLITHS) + (5500. * dam + of_node * rock) / 3 / 2**30
 
 
@@ -96,15 +98,18 @@ def main():
     with open(COSTS, encoding="utf-8") as file:
         costs = json.load(file)
     ranks = sorted([1, 2, 4, 8, 16, 32, 64, 256, 1024] + [CORES * n for n in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)])
-    print("| size | ranks | nodes | s per s | dam | rock | all alike | messages | memory per rank [GiB] |\n|" + "---|" * 9)
+    print("| size | cores | threads per rank | nodes | s per s | dam | rock | all alike | messages | memory per rank, per node [GiB] |\n|"
+          + "---|" * 10)
     curves = {}
     for size in SIZES:
-        for n in ranks:
-            parts = seconds_per_second(costs, size, n)
-            curves.setdefault(size[0], []).append((n, sum(parts)))
-            if n in (1, 4, 32, CORES, 64, 256, 1024, 10 * CORES, 100 * CORES, 1000 * CORES):
-                print(f"| {size[0]} | {n} | {max(1, math.ceil(n / CORES))} | {sum(parts):.3g} | "
-                      + " | ".join(f"{x:.2g}" for x in parts) + f" | {memory_per_rank(size, n):.2g} |")
+        for n, threads in [(n, 1) for n in ranks] + [(n, CORES) for n in ranks if n % CORES == 0]:
+            parts = seconds_per_second(costs, size, n, threads)
+            if threads == 1:
+                curves.setdefault(size[0], []).append((n, sum(parts)))
+            if n in (1, 4, 32, CORES, 64, 240, 256, 960, 1024, 10 * CORES, 100 * CORES, 1000 * CORES):
+                memory = memory_per_rank(size, math.ceil(n / threads))
+                print(f"| {size[0]} | {n} | {threads} | {max(1, math.ceil(n / CORES))} | {sum(parts):.3g} | "
+                      + " | ".join(f"{x:.2g}" for x in parts) + f" | {memory:.2g}, {memory * min(n, CORES) / threads:.3g} |")
     print("\nWeak scaling: rock of 10 thousand unknowns per rank, the dam of rock28, s per s:",
           ", ".join(f"{n} ranks {sum(seconds_per_second(costs, ('', 16443., 1e4 * n, .005, 4), n)):.2g}" for n in (1, 48, 480, 4800)))
     import matplotlib

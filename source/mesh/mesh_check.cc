@@ -96,20 +96,23 @@ namespace Voussoir
         std::map<std::array<unsigned int, 4>, int> surface_of;
         for (const auto &face : mesh.faces)
         {
-          const auto        owners = table.owners(face.nodes);
-          const std::string where = "a face of surface " + group_name(mesh, 2, face.surface) + " at " +
-                                    place(centre(mesh, face.nodes));
+          const auto owners = table.owners(face.nodes);
+          const auto where = [&]
+          {
+            return "a face of surface " + group_name(mesh, 2, face.surface) + " at " +
+                   place(centre(mesh, face.nodes));
+          };
           if (owners.first == nullptr)
-            fail(where + " belongs to no hexahedron. Mesh volumes and surfaces together, and save both.");
+            fail(where() + " belongs to no hexahedron. Mesh volumes and surfaces together, and save both.");
           if (owners.second != nullptr &&
               !may_be_interior(face.surface, owners.first->cell, owners.second->cell))
-            fail(where + " lies inside the body, between " +
+            fail(where() + " lies inside the body, between " +
                  group_name(mesh, 3, mesh.cells[owners.first->cell].volume) + " and " +
                  group_name(mesh, 3, mesh.cells[owners.second->cell].volume) +
                  ". Take it out of the physical surface.");
           const auto other = surface_of.emplace(owners.first->key, face.surface);
           if (!other.second)
-            fail(where + " is also in surface " + group_name(mesh, 2, other.first->second) +
+            fail(where() + " is also in surface " + group_name(mesh, 2, other.first->second) +
                  ". Leave it in one physical surface only.");
         }
         if (has_rock)
@@ -122,16 +125,20 @@ namespace Voussoir
       {
         for (const auto &face : surface_of)
         {
-          const auto        owners = table.owners(face.first);
-          const std::string where = "a face of surface " + group_name(mesh, 2, face.second) + " at " +
-                                    place(centre(mesh, face.first));
+          const auto owners = table.owners(face.first);
+          const auto where = [&]
+          {
+            return "a face of surface " + group_name(mesh, 2, face.second) + " at " +
+                   place(centre(mesh, face.first));
+          };
           if (is_base(face.second) && owners.second == nullptr)
-            fail(where + " does not lie between dam and rock: it belongs to one hexahedron only. Let dam and "
-                         "rock share their nodes there (gmsh: Coherence, or remove duplicate nodes), or take "
-                         "it out of the surface if there is no rock.");
+            fail(where() +
+                 " does not lie between dam and rock: it belongs to one hexahedron only. Let dam and "
+                 "rock share their nodes there (gmsh: Coherence, or remove duplicate nodes), or take "
+                 "it out of the surface if there is no rock.");
           if ((face.second == PhysicalId::artificial || face.second == PhysicalId::free_surface) &&
               is_monolith(mesh.cells[owners.first->cell].volume))
-            fail(where + " belongs to the dam. Only rock has this surface: take the face out of it.");
+            fail(where() + " belongs to the dam. Only rock has this surface: take the face out of it.");
         }
         for (auto entry = table.entries().begin(); entry + 1 < table.entries().end(); ++entry)
         {
