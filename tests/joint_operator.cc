@@ -132,8 +132,11 @@ namespace
     for (const auto &[m, n] : {std::array<std::size_t, 2>{1, 1}, {8, 8}, {9, 16}, {16, 7}, {37, 29}, {3, 40}})
     {
       Unknowns A = random_unknowns(m * n, m + n, 1.);
-      for (std::size_t i = 0; i < A.size(); ++i)
-        A[i] *= std::pow(10., -double(i % 5)); // of different size
+      for (std::size_t i = 0; i < A.size(); ++i) // of different size; some blocks have zeros only
+      {
+        const std::size_t block = i % m / 8 + i / m / 8;
+        A[i] *= block % 5 == 3 ? 0. : std::pow(10., -double(i % 5) - double(block));
+      }
       const CompactMatrix compact(A, m, is_compact), in_mm(
                                                          [&]
                                                          {
@@ -149,7 +152,7 @@ namespace
       for (std::size_t j = 0; j < n; ++j)
         for (std::size_t i = 0; i < m; ++i)
         {
-          const double size = is_compact ? largest_near(A, m, i, j) : std::abs(A[j * m + i]);
+          const double size = std::max(1e-30, is_compact ? largest_near(A, m, i, j) : std::abs(A[j * m + i]));
           rounding = std::max(rounding, std::abs(compact(i, j) - A[j * m + i]) / size);
           units = std::max(units, std::abs(in_mm(i, j) / 1e3 - compact(i, j)) / size);
           if (entries[j * m + i] != compact(i, j))
@@ -187,8 +190,14 @@ namespace
     CompactMatrix({}, 8, true).add(&x, &y); // rows of another process
     report("zero and empty matrices add nothing", y, "2", y == 2.f);
     std::array<float, 2> z = {};
-    CompactMatrix({1., std::nan("")}, 1, true).add_transposed(&x, z.data());
-    report("a product with an entry that is not a number", z[1], "not a number", std::isnan(z[1]));
+    for (const bool is_compact : {true, false})
+      for (const double wrong : {std::nan(""), HUGE_VAL})
+        for (const Unknowns &A : {Unknowns{1., wrong}, Unknowns{wrong, 1.}})
+        {
+          z = {};
+          CompactMatrix(A, 1, is_compact).add_transposed(&x, z.data());
+          report("a product with an entry that is not a number", z[1], "not a number", std::isnan(z[1]));
+        }
   }
 
   /** Entry by entry. Sizes of joints are not multiples of the blocks of the kernels. */
@@ -227,8 +236,8 @@ namespace
         W.sweep(solve_pair, force, gap);
         sweep_exactly(W, solve_pair, exact_force, exact_gap);
       }
-      below("Gauss-Seidel, " + of + name + ": forces", distance(force, exact_force), compact ? 4e-6 : 5e-7);
-      below("Gauss-Seidel, " + of + name + ": gaps", distance(gap, exact_gap), compact ? 4e-6 : 5e-7);
+      below("Gauss-Seidel, " + of + name + ": forces", distance(force, exact_force), compact ? 3e-6 : 5e-7);
+      below("Gauss-Seidel, " + of + name + ": gaps", distance(gap, exact_gap), compact ? 3e-6 : 5e-7);
     }
   }
 
@@ -306,7 +315,7 @@ namespace
         Unknowns           step, d_gap;
         const unsigned int iterations = jacobian.solve(1e-5, step, d_gap);
         expect(iterations <= (far ? 2 : 12), name + ": " + std::to_string(iterations) + " iterations");
-        check_solution(name, W, equations, step, d_gap, compact ? 4e-6 : 5e-7);
+        check_solution(name, W, equations, step, d_gap, compact ? 3e-6 : 5e-7);
       }
     }
   }

@@ -128,26 +128,31 @@ namespace Voussoir
     for (const double entry : A)
       largest = std::isfinite(entry) ? std::max(largest, std::abs(entry))
                                      : std::numeric_limits<double>::quiet_NaN();
-    if (!(largest > 0.)) // products with entries that are no numbers give none
-      return;
-    for (std::size_t j = 0; j < n_columns; ++j)
-      for (std::size_t i = 0; i < n_rows; ++i)
-      {
-        float &of_block = scale[position(i, j) / size];
-        of_block = std::max(of_block, static_cast<float>(std::abs(A[j * n_rows + i]) / largest / most));
-      }
-    for (std::size_t j = 0; j < n_columns; ++j)
-      for (std::size_t i = 0; i < n_rows; ++i)
-      {
-        const std::size_t at = position(i, j);
-        const double      value = A[j * n_rows + i] / largest, of_block = scale[at / size];
-        if (!compact)
-          floats[at] = static_cast<float>(value);
-        else if (of_block > 0.)
-          integers[at] = static_cast<std::int16_t>(std::clamp(std::nearbyint(value / of_block), -most, most));
-      }
     if (!compact)
       std::fill(scale.begin(), scale.end(), 1.f);
+    const auto for_entries = [&](const auto &action)
+    {
+      for (std::size_t j = 0; j < n_columns && largest > 0.; ++j) // products with NaN give NaN
+        for (std::size_t i = 0; i < n_rows; ++i)
+          action(position(i, j), A[j * n_rows + i] / largest);
+    };
+    if (compact)
+      for_entries(
+          [&](const std::size_t at, const double value)
+          {
+            float &of_block = scale[at / size];
+            of_block = std::max(of_block, static_cast<float>(std::abs(value) / most));
+          });
+    for_entries(
+        [&](const std::size_t at, const double value)
+        {
+          const double of_block = scale[at / size];
+          if (!compact)
+            floats[at] = static_cast<float>(value);
+          else if (of_block > 0.)
+            integers[at] =
+                static_cast<std::int16_t>(std::clamp(std::nearbyint(value / of_block), -most, most));
+        });
   }
 
   std::size_t CompactMatrix::position(const std::size_t row, const std::size_t column) const

@@ -11,7 +11,7 @@ namespace Voussoir
   /** Solver for static displacements of the rock: conjugate gradients with smoothed aggregation (Vanek,
    * Mandel and Brezina 1996, Computing 56). The finest level has RockOperator and a Chebyshev smoother. The
    * first coarse level has groups of nodes as rigid bodies (RockAggregates). CoarseRock solves the
-   * coarse problem. The number of iterations is nearly independent of the element size.
+   * coarse problem. The number of iterations grows slowly with the number of nodes.
    *
    * The initial guess is the A-orthogonal projection of the solution on the previous solutions (Fischer 1998,
    * Comput. Methods Appl. Mech. Engrg. 163).

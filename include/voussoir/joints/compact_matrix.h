@@ -9,8 +9,8 @@
 namespace Voussoir
 {
   /** Matrix in single precision for products. A compact matrix has two bytes per entry: integers, and a scale for
-   * each block of 8 x 8 entries. The error of an entry is at most 2^-16 of the largest one in its block. It does not
-   * depend on units, because entries are stored relative to the largest one of the matrix.
+   * each block of 8 x 8 entries. The error of an entry is at most about 2^-16 of the largest one in its block. Entries
+   * are stored relative to the largest one of the matrix, so units have no effect.
    *
    * Products read the matrix in sequence. It is rarely in the cache, so the number of bytes determines the time.
    * The matrix is stored in panels of eight columns, a panel in blocks of eight rows, and a block by column. Blocks
