@@ -199,7 +199,7 @@ namespace Voussoir
         }
         return most / size;
       };
-      error = solve_rock_to(round < 30 ? .1 : .01); // sufficient for an intermediate iteration
+      error = solve_rock_to(.01); // sufficient for an intermediate iteration
       if (error <= enough)
         error = solve_rock_to(0.);
       differences.add(f, base);
