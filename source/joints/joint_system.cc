@@ -112,7 +112,8 @@ namespace Voussoir
     condense();
     if (base && is_static)
       make_whole();
-    W.finish(is_static ? nullptr : base, !is_static);
+    // Near crossings of joints the entries of a block differ too much for a common scale.
+    W.finish(is_static ? nullptr : base, !is_static && structure.clusters.empty());
     solver = std::make_unique<ContactSolver>(W, laws.of_pair, parameters);
   }
 

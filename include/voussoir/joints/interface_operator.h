@@ -126,7 +126,7 @@ namespace Voussoir
      * are filled.
      * @param base eliminated base nodes, whose part is subtracted; nullptr: none
      * @param compact the couplings of groups have two instead of four bytes per entry (CompactMatrix). Newton's
-     * method then takes 0 to 9 % more steps in an earthquake, and a fifth more in a static state. */
+     * method then takes 1 % more steps in an earthquake, and more where joints cross and in static states. */
     void finish(std::shared_ptr<const BaseElimination> base = nullptr, bool compact = false);
 
     /** Returns the diagonal block of a group in single precision, by column [m/N]. */
