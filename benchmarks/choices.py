@@ -5,7 +5,7 @@
     benchmarks/choices.py [GROUP...] [--seconds 3] [--seed N] [--set ENTRY=VALUE] [--voussoir PROGRAM]
 
 Groups: quickstart, joints28 (mesh and time step together), steps (time step and rule of impact), steps28 (28 joints), estimate,
-estimate28 (Dynamics/Error estimate), elements, solvers, boundary, free_field, box (its sizes), box_tied (without joints), box_static,
+estimate28 (Dynamics/Error estimate), elements, solvers, boundary, free_field, box (its sizes), box_tied (without joints), box_static, box28,
 rock_cells, rock28_cells, rock_layers, rock_steps. On rock the motion ends in 0.2 s, and half a second of rest follows: what rises from
 the bottom is all at the dam before the end, whatever the depth.
 The measures are those of `voussoir accuracy`: largest openings of the joints (root of the sum of squares), means of the
@@ -107,6 +107,8 @@ def groups():
         "box": (ROCK, nested, boxes, box(630), nested_far),
         "box_tied": (ROCK, {**nested, "Joints/Model": "tied"}, boxes, box(630), nested_far),
         "box_static": (ROCK, {**nested, "Motion/Source": "none"}, boxes, box(630), nested_far + ", the static state alone"),
+        "box28": (ROCK_MANY, {}, [("mtf3", "210 m", {}), ("mtf3", "depth 315 m", box(315, ("Depth",))), ("mtf3", "all sides 315 m", box(315))],
+                  box(420), "a box of 420 m, the same elements at the dam"),
         "rock_cells": (ROCK, {**rock, STEPS: 8}, [("cells", f"{size} m", {"Mesh/Arch210/Rock/Element size": size}) for size in (30, 22)],
                        {"Mesh/Arch210/Rock/Element size": 15}, "cells of 15 m"),
         "rock28_cells": (ROCK_MANY, {"Foundation/Substeps": 0},
