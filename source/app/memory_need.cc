@@ -24,7 +24,8 @@ namespace Voussoir
     constexpr double       block = 9 * 8. + 4.; // of a sparse matrix: 3 x 3 numbers and a column [bytes]
 
     // Measured, see tests/program_memory.py [bytes].
-    constexpr double program = 178e6, per_cell = 700., per_node = 700., per_rock_node = 2100.;
+    constexpr double program = 178e6, per_cell = 700., per_node = 700., per_rock_node = 2100.,
+                     per_coarse = 900.; // of the static state of the rock, per rock node on the first rank
 
     /** Factors from elements of degree 1 to elements of the given degree: number of nodes, of blocks of the
      * stiffness matrix, of entries of matrix factors, and squared number of nodes on surfaces. */
@@ -317,7 +318,7 @@ namespace Voussoir
       const double     per_node = per_rock_node + (scene.foundation.quality > 0. ? per_memory : 0.);
       const double     all = per_node * rock.neighbours.size() - (1. - kept) * matrix;
       others = all + .1 * matrix;
-      return all + (.15 + .4 * part) * matrix;
+      return all + (.15 + .4 * part) * matrix + per_coarse * rock.neighbours.size();
     }
   } // namespace
 

@@ -9,8 +9,8 @@
 
 namespace Voussoir
 {
-  /** Solver for the coarse problem of RockStatics, exact or approximate. The problem has about 1/100 of the
-   * unknowns and 1/10 of the matrix entries of the rock, and runs on one process. */
+  /** Solver for the coarse problem of RockStatics, exact or approximate. The problem has 1/10 to 1/7 of
+   * the unknowns of the rock, and runs on one process. */
   class CoarseRock
   {
   public:
