@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Response of the tied dam on rock to waves from below, by frequency, against the box of rock.
 
-    benchmarks/box_response.py [--depths 210 420 630] [--component x] [--set ENTRY=VALUE]... [--voussoir PROGRAM]
+    benchmarks/box_response.py [--depths 210 420 630] [--all-sides] [--component x] [--set ENTRY=VALUE]... [--voussoir PROGRAM]
 
 A pulse of one component under prm/rock_fja.prm with 30 x 10 x 1 elements, tied, without water and weight: so all is
 linear. The response H is acceleration over that of the outcrop, at the middle of the base, and of the crest against the base,
 at the complex frequencies 2 pi f - 0.6i /s (a decay that forgets what comes after the run). Prints |H| in the last of the boxes
-and, of the others, the change in per cent, |H / H_last exp(i w T) - 1|, where T takes off the longer way of the S wave:
-the arrival is that of S at the foot, for all components. The rock is elastic, so nothing should change. The rms is that over the frequencies.
+and, of the others, the change in per cent, |H / H_last exp(i w T) - 1|, where T takes off the longer way of the S wave, and the
+change of the amplitude, |H| / |H_last| - 1. The arrival is that of S at the foot, for all components. The rock is elastic, so
+nothing should change. The rms is that over the frequencies. --all-sides: the rock is as long as deep on all sides.
 """
 
 import argparse
@@ -20,8 +21,9 @@ import numpy as np
 from program import ROOT, add_program_argument, simulate
 
 STEP, SECONDS, PEAK, DECAY = 0.01, 5.0, 3.0, 0.6  # [s], [s], [Hz], [1/s]
-FREQUENCIES = np.array([0.25, 0.5, 0.75, 1, 1.5, 2, 2.5, 3, 4, 5, 6, 7])
+FREQUENCIES = np.array([0.25, 0.5, 0.75, 1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8])
 LAYERS = 8
+SIDES = ["Mesh/Arch210/Rock/" + side for side in ("Upstream", "Downstream", "Sides")]
 SCENE = {"Mesh/Arch210/Elements along": 30, "Mesh/Arch210/Elements up": 10, "Mesh/Arch210/Elements through": 1,
          "Mesh/Arch210/Rock/Boundary layers": LAYERS, "Dynamics/Steps per sample": 6, "Joints/Model": "tied",
          "Statics/Self-weight": "none", "Reservoir/Density": 0, "Motion/Source": "file", "Motion/Duration": -1,
@@ -42,7 +44,8 @@ def responses(options, depth, directory):
     c = options.component
     file = Path(directory) / "pulse.csv"
     pulse("xyz".index(c), file)
-    entries = {**SCENE, **dict(entry.split("=", 1) for entry in options.set), "Motion/File": file, "Mesh/Arch210/Rock/Depth": depth}
+    entries = {**SCENE, **(dict.fromkeys(SIDES, depth) if options.all_sides else {}), **dict(entry.split("=", 1) for entry in options.set),
+               "Motion/File": file, "Mesh/Arch210/Rock/Depth": depth}
     summary = simulate(options.voussoir, ROOT / "prm" / "rock_fja.prm", entries, Path(directory) / str(depth))
     rows = np.genfromtxt(Path(directory) / str(depth) / "history.csv", delimiter=",", names=True)
     s = DECAY + 2j * np.pi * FREQUENCIES
@@ -56,6 +59,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     add_program_argument(parser)
     parser.add_argument("--depths", type=float, nargs="+", default=[210, 420, 630])
+    parser.add_argument("--all-sides", action="store_true")
     parser.add_argument("--component", choices="xyz", default="x")
     parser.add_argument("--set", action="append", default=[], metavar="ENTRY=VALUE")
     options = parser.parse_args()
@@ -67,9 +71,10 @@ def main():
         reference = found[last][0][k]
         print(f"| {place}, abs(H), {last:g} m | {found[last][1]} | " + " | ".join(f"{abs(h):.3f}" for h in reference) + " | |")
         for depth in options.depths[:-1]:
-            change = 100 * np.abs(found[depth][0][k] / reference - 1)
-            print(f"| {place}, {depth:g} m: change [%] | {found[depth][1]} | " + " | ".join(f"{x:.1f}" for x in change)
-                  + f" | {np.sqrt((change**2).mean()):.1f} |")
+            ratio = found[depth][0][k] / reference
+            for what, change in (("change", np.abs(ratio - 1)), ("amplitude", np.abs(ratio) - 1)):
+                print(f"| {place}, {depth:g} m: {what} [%] | {found[depth][1]} | " + " | ".join(f"{100 * x:.1f}" for x in change)
+                      + f" | {100 * np.sqrt((change**2).mean()):.1f} |")
 
 
 if __name__ == "__main__":
