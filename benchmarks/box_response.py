@@ -4,12 +4,12 @@
 
     benchmarks/box_response.py [--depths 210 420 630] [--all-sides] [--component x] [--set ENTRY=VALUE]... [--voussoir PROGRAM]
 
-A pulse of one component under prm/rock_fja.prm with 30 x 10 x 1 elements, tied, without water and weight: so all is
-linear. The response H is acceleration over that of the outcrop, at the middle of the base, and of the crest against the base,
-at the complex frequencies 2 pi f - 0.6i /s (a decay that forgets what comes after the run). Prints |H| in the last of the boxes
-and, of the others, the change in per cent, |H / H_last exp(i w T) - 1|, where T takes off the longer way of the S wave, and the
-change of the amplitude, |H| / |H_last| - 1. The arrival is that of S at the foot, for all components. The rock is elastic, so
-nothing should change. The rms is that over the frequencies. --all-sides: the rock is as long as deep on all sides.
+A pulse of one component under prm/rock_fja.prm with 30 x 10 x 1 elements, tied, without water and weight: so all is linear.
+The response H is acceleration over that of the outcrop, at the middle of the base, and of the crest against the base, at the
+complex frequencies 2 pi f - 0.6i /s (a decay that forgets what comes after the run). The factor exp(s T), with the arrival T of
+S at the foot and s = 0.6 + 2 pi i f, belongs to H, because the waves arrive later in deeper boxes. Prints |H| in the last of the
+boxes and, of the others, in per cent, the change |H / H_last - 1| and that of the amplitude, |H| / |H_last| - 1. The rock is
+elastic, so nothing should change. The rms is that over the frequencies. --all-sides: the rock is as long on all sides as it is deep.
 """
 
 import argparse
@@ -18,12 +18,12 @@ from pathlib import Path
 
 import numpy as np
 
+from choices import box
 from program import ROOT, add_program_argument, simulate
 
 STEP, SECONDS, PEAK, DECAY = 0.01, 5.0, 3.0, 0.6  # [s], [s], [Hz], [1/s]
 FREQUENCIES = np.array([0.25, 0.5, 0.75, 1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8])
 LAYERS = 8
-SIDES = ["Mesh/Arch210/Rock/" + side for side in ("Upstream", "Downstream", "Sides")]
 SCENE = {"Mesh/Arch210/Elements along": 30, "Mesh/Arch210/Elements up": 10, "Mesh/Arch210/Elements through": 1,
          "Mesh/Arch210/Rock/Boundary layers": LAYERS, "Dynamics/Steps per sample": 6, "Joints/Model": "tied",
          "Statics/Self-weight": "none", "Reservoir/Density": 0, "Motion/Source": "file", "Motion/Duration": -1,
@@ -44,7 +44,7 @@ def responses(options, depth, directory):
     c = options.component
     file = Path(directory) / "pulse.csv"
     pulse("xyz".index(c), file)
-    entries = {**SCENE, **(dict.fromkeys(SIDES, depth) if options.all_sides else {}), **dict(entry.split("=", 1) for entry in options.set),
+    entries = {**SCENE, **(box(depth) if options.all_sides else {}), **dict(entry.split("=", 1) for entry in options.set),
                "Motion/File": file, "Mesh/Arch210/Rock/Depth": depth}
     summary = simulate(options.voussoir, ROOT / "prm" / "rock_fja.prm", entries, Path(directory) / str(depth))
     rows = np.genfromtxt(Path(directory) / str(depth) / "history.csv", delimiter=",", names=True)

@@ -85,8 +85,8 @@ def memory_per_rank(size, ranks):
     matrix = 19 * 76.                           # of a rock node: blocks with column numbers [bytes]
     kept = min(1., 1. / ranks + .13)
     of_node = 2100. - (1. - kept) * matrix + (.15 + .4 / ranks) * matrix + ranks / 8.  # RockSplit has a bit per rank and node
-    other = .17 + .2 * (dam / 54180)**1.3 / min(ranks, MONOLITHS) + (5500. * dam + of_node * rock) / 3 / 2**30
-    return other + 900. * rock / 3 / 2**30, other  # coarse problem of the static state
+    first = .17 + .2 * (dam / 54180)**1.3 / min(ranks, MONOLITHS) + (5500. * dam + (of_node + 900.) * rock) / 3 / 2**30  # 900: coarse problem
+    return first, first - (900. + (.05 + .4 / ranks) * matrix) * rock / 3 / 2**30
 
 
 def main():

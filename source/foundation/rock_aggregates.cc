@@ -6,6 +6,7 @@
 #include <voussoir/rock/rock_split.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 namespace Voussoir
@@ -22,20 +23,21 @@ namespace Voussoir
       return sum;
     }
 
-    /** Squared norms of all blocks of the stiffness matrix. Each rank computes those of its rows (RockSplit)
-     * and receives the others. */
-    struct Squares
+    /** Couplings of the nodes: squared norms of the blocks of the stiffness matrix, relative to the diagonal
+     * blocks of both nodes; 0 with a held node. Each rank computes those of its rows (RockSplit) and receives the
+     * others. */
+    struct Couplings
     {
       std::vector<std::size_t>  start; ///< of each row
       std::vector<unsigned int> column;
-      std::vector<double>       value, diagonal;
+      std::vector<double> value, limit; ///< of the blocks; least value of a strong coupling of each node
 
-      explicit Squares(const BlockSparseMatrix &K) : start(1, 0)
+      Couplings(const BlockSparseMatrix &K, const std::vector<bool> &held) : start(1, 0)
       {
         const unsigned int  n = K.n_rows();
         const RockSplit     split(n);
         const auto          is_mine = [&](const unsigned int i) { return split.owner(i) == Ranks::rank(); };
-        std::vector<double> length(n);
+        std::vector<double> length(n), diagonal(n, 0.);
         for (unsigned int i = 0; i < n; ++i)
           length[i] = double(K.start[i + 1] - K.start[i]);
         split.gather(length, 1);
@@ -48,7 +50,6 @@ namespace Voussoir
         parts.resize(Ranks::size() + 1, start[n]);
         column.resize(start[n]);
         value.resize(start[n]);
-        diagonal.assign(n, 0.);
         for (unsigned int i = 0; i < n; ++i)
           for (std::size_t k = K.start[i], at = start[i]; is_mine(i) && k < K.start[i + 1]; ++k, ++at)
           {
@@ -62,27 +63,43 @@ namespace Voussoir
           Ranks::gather(value.data(), parts);
           split.gather(diagonal, 1);
         }
+        for (unsigned int i = 0; i < n; ++i)
+          for (std::size_t k = start[i]; k < start[i + 1]; ++k)
+            value[k] = held[column[k]] ? 0. : value[k] / std::sqrt(diagonal[i] * diagonal[column[k]]);
+        for (unsigned int i = 0; i < n; ++i)
+          limit.push_back(limit_of(i));
       }
 
-      unsigned int n_rows() const { return static_cast<unsigned int>(diagonal.size()); }
+      unsigned int n_rows() const { return static_cast<unsigned int>(limit.size()); }
+
+    private:
+      /** Returns the least value of a strong coupling of @p node. Each node has at least four, so that the groups
+       * of flat elements are not small and many. */
+      double limit_of(const unsigned int node) const
+      {
+        const double        tied = 5e-4; // measured: doc/performance.md, "Estimate for large machines"
+        const double        round_off = 1e-8;
+        const std::size_t   least = 5;   // with the node itself
+        constexpr double    about = .99; // equal couplings differ by round-off
+        std::vector<double> row(value.begin() + start[node], value.begin() + start[node + 1]);
+        if (row.size() < least)
+          return round_off;
+        std::nth_element(row.begin(), row.begin() + least - 1, row.end(), std::greater<double>());
+        return std::clamp(about * row[least - 1], round_off, tied);
+      }
     };
 
-    /** Calls @p visit for all nodes strongly coupled to @p node, including @p node, with the squared norm of the
-     * block relative to the diagonal blocks. */
+    /** Calls @p visit for all nodes strongly coupled to @p node, including @p node, with the coupling. */
     template <class Visit>
-    void for_neighbours(const Squares &K, const std::vector<bool> &held, const unsigned int node,
-                        const Visit &visit)
+    void for_neighbours(const Couplings &K, const unsigned int node, const Visit &visit)
     {
-      // Squared norm. Measured: doc/performance.md, "Estimate for large machines".
-      const double tied = 5e-4;
       for (std::size_t k = K.start[node]; k < K.start[node + 1]; ++k)
-        if (const unsigned int j = K.column[k]; !held[j])
-          if (const double part = K.value[k] / std::sqrt(K.diagonal[node] * K.diagonal[j]); part > tied)
-            visit(j, part);
+        if (K.value[k] > K.limit[node])
+          visit(K.column[k], K.value[k]);
     }
 
     /** Returns the group of each node. @p seeds receives the central nodes of the groups. */
-    std::vector<unsigned int> groups(const Squares &K, const std::vector<bool> &held,
+    std::vector<unsigned int> groups(const Couplings &K, const std::vector<bool> &held,
                                      std::vector<unsigned int> &seeds)
     {
       const unsigned int        n = K.n_rows();
@@ -92,7 +109,7 @@ namespace Voussoir
         const unsigned int number = seeds.size();
         seeds.push_back(i);
         group[i] = number;
-        for_neighbours(K, held, i,
+        for_neighbours(K, i,
                        [&](const unsigned int j, double)
                        {
                          if (group[j] == none)
@@ -103,15 +120,14 @@ namespace Voussoir
       {
         bool alone = !held[i] && group[i] == none;
         if (alone)
-          for_neighbours(K, held, i,
-                         [&](const unsigned int j, double) { alone = alone && group[j] == none; });
+          for_neighbours(K, i, [&](const unsigned int j, double) { alone = alone && group[j] == none; });
         if (alone)
           gather(i);
       }
       const std::vector<unsigned int> first = group;
       for (unsigned int i = 0; i < n; ++i)
         if (double most = 0.; !held[i] && first[i] == none)
-          for_neighbours(K, held, i,
+          for_neighbours(K, i,
                          [&](const unsigned int j, const double part)
                          {
                            if (first[j] != none && part > most)
@@ -129,7 +145,7 @@ namespace Voussoir
 
   RockAggregates::RockAggregates(const BlockSparseMatrix &stiffness, const std::vector<Vector3> &points,
                                  const std::vector<bool> &held)
-      : group(groups(Squares(stiffness), held, seeds)), arm(points.size(), Vector3{})
+      : group(groups(Couplings(stiffness, held), held, seeds)), arm(points.size(), Vector3{})
   {
     for (unsigned int i = 0; i < group.size(); ++i)
       if (group[i] != none)

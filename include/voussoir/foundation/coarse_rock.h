@@ -9,8 +9,8 @@
 
 namespace Voussoir
 {
-  /** Solver for the coarse problem of RockStatics, exact or approximate. The problem has 1/10 to 1/7 of
-   * the unknowns of the rock, and runs on one process. */
+  /** Solver for the coarse problem of RockStatics, exact or approximate. The problem has about 1/12 of
+   * the unknowns of the rock, up to 1/7 with flat elements, and runs on one process. */
   class CoarseRock
   {
   public:
