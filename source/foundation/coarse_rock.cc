@@ -121,4 +121,13 @@ namespace Voussoir
     return make_direct_coarse_rock(aggregates, std::move(stiffness));
 #endif
   }
+
+  double strong_coupling()
+  {
+#ifdef VOUSSOIR_WITH_TRILINOS
+    return 5e-4; // measured: doc/performance.md, "Estimate for large machines"
+#else
+    return 1e-8; // the factors of CHOLMOD are smaller than with 5e-4
+#endif
+  }
 } // namespace Voussoir

@@ -2,6 +2,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <voussoir/base/parallel.h>
+#include <voussoir/foundation/coarse_rock.h>
 #include <voussoir/foundation/rock_aggregates.h>
 #include <voussoir/rock/rock_split.h>
 
@@ -77,7 +78,6 @@ namespace Voussoir
        * of flat elements are not small and many. */
       double limit_of(const unsigned int node) const
       {
-        const double        tied = 5e-4; // measured: doc/performance.md, "Estimate for large machines"
         const double        round_off = 1e-8;
         const std::size_t   least = 5;   // with the node itself
         constexpr double    about = .99; // equal couplings differ by round-off
@@ -85,7 +85,7 @@ namespace Voussoir
         if (row.size() < least)
           return round_off;
         std::nth_element(row.begin(), row.begin() + least - 1, row.end(), std::greater<double>());
-        return std::clamp(about * row[least - 1], round_off, tied);
+        return std::clamp(about * row[least - 1], round_off, strong_coupling());
       }
     };
 

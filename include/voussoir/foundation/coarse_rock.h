@@ -42,6 +42,10 @@ namespace Voussoir
   /** Creates the default solver: ML in a program with Trilinos, otherwise CHOLMOD. */
   std::unique_ptr<CoarseRock> make_coarse_rock(const RockAggregates      &aggregates,
                                                std::vector<CoarseBlock> &&stiffness);
+
+  /** Returns the least coupling of two nodes of one aggregate that suits make_coarse_rock(): the squared norm of
+   * their block of the stiffness matrix over the geometric mean of those of the diagonal blocks [-]. */
+  double strong_coupling();
 } // namespace Voussoir
 
 #endif
