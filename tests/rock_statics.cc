@@ -72,7 +72,8 @@ namespace
           top = i;
       }
     Solved result;
-    result.share = 2. * RockAggregates(model.stiffness, model.points, held).n() / n_nodes; // 6 and 3 per node
+    result.share = 2. * RockAggregates(model.stiffness, model.points, held, strong_coupling()).n() /
+                   n_nodes; // 6 and 3 per node
     RockStatics statics(model, held, solver);
     Log         log(true);
     result.iterations = statics.solve(b, x, log);

@@ -2,7 +2,6 @@
 #include <deal.II/base/exceptions.h>
 
 #include <voussoir/base/parallel.h>
-#include <voussoir/foundation/coarse_rock.h>
 #include <voussoir/foundation/rock_aggregates.h>
 #include <voussoir/rock/rock_split.h>
 
@@ -33,7 +32,7 @@ namespace Voussoir
       std::vector<unsigned int> column;
       std::vector<double> value, limit; ///< of the blocks; least value of a strong coupling of each node
 
-      Couplings(const BlockSparseMatrix &K, const std::vector<bool> &held) : start(1, 0)
+      Couplings(const BlockSparseMatrix &K, const std::vector<bool> &held, const double strong) : start(1, 0)
       {
         const unsigned int  n = K.n_rows();
         const RockSplit     split(n);
@@ -68,7 +67,7 @@ namespace Voussoir
           for (std::size_t k = start[i]; k < start[i + 1]; ++k)
             value[k] = held[column[k]] ? 0. : value[k] / std::sqrt(diagonal[i] * diagonal[column[k]]);
         for (unsigned int i = 0; i < n; ++i)
-          limit.push_back(limit_of(i));
+          limit.push_back(limit_of(i, strong));
       }
 
       unsigned int n_rows() const { return static_cast<unsigned int>(limit.size()); }
@@ -76,7 +75,7 @@ namespace Voussoir
     private:
       /** Returns the least value of a strong coupling of @p node. Each node has at least four, so that the groups
        * of flat elements are not small and many. */
-      double limit_of(const unsigned int node) const
+      double limit_of(const unsigned int node, const double strong) const
       {
         const double        round_off = 1e-8;
         const std::size_t   least = 5;   // with the node itself
@@ -85,7 +84,7 @@ namespace Voussoir
         if (row.size() < least)
           return round_off;
         std::nth_element(row.begin(), row.begin() + least - 1, row.end(), std::greater<double>());
-        return std::clamp(about * row[least - 1], round_off, strong_coupling());
+        return std::max(round_off, std::min(about * row[least - 1], strong));
       }
     };
 
@@ -144,8 +143,8 @@ namespace Voussoir
   } // namespace
 
   RockAggregates::RockAggregates(const BlockSparseMatrix &stiffness, const std::vector<Vector3> &points,
-                                 const std::vector<bool> &held)
-      : group(groups(Couplings(stiffness, held), held, seeds)), arm(points.size(), Vector3{})
+                                 const std::vector<bool> &held, const double strong)
+      : group(groups(Couplings(stiffness, held, strong), held, seeds)), arm(points.size(), Vector3{})
   {
     for (unsigned int i = 0; i < group.size(); ++i)
       if (group[i] != none)

@@ -11,7 +11,8 @@ namespace Voussoir
 {
   RockStatics::RockStatics(const RockModel &model, const std::vector<bool> &held,
                            const MakeCoarseRock &make_coarse_solver)
-      : aggregates(model.stiffness, model.points, held), n_nodes(model.stiffness.n_rows()), split(n_nodes)
+      : aggregates(model.stiffness, model.points, held, strong_coupling()), n_nodes(model.stiffness.n_rows()),
+        split(n_nodes)
   {
     const Stopwatch watch;
     for (unsigned int a = 0; a < aggregates.n(); ++a)

@@ -43,8 +43,7 @@ namespace Voussoir
   std::unique_ptr<CoarseRock> make_coarse_rock(const RockAggregates      &aggregates,
                                                std::vector<CoarseBlock> &&stiffness);
 
-  /** Returns the least coupling of two nodes of one aggregate that suits make_coarse_rock(): the squared norm of
-   * their block of the stiffness matrix over the geometric mean of those of the diagonal blocks [-]. */
+  /** Returns the least coupling of two nodes of one aggregate that suits make_coarse_rock() [-]. */
   double strong_coupling();
 } // namespace Voussoir
 

@@ -23,9 +23,12 @@ namespace Voussoir
      *
      * @param stiffness stiffness matrix of the rock [N/m]
      * @param points positions of the nodes [m]
-     * @param held nodes with zero displacement */
+     * @param held nodes with zero displacement
+     * @param strong least coupling of two nodes of one group, at least 1e-8: the squared norm of their block of
+     * the stiffness matrix over the geometric mean of those of the diagonal blocks [-]. The four strongest
+     * couplings of each node are strong, too */
     RockAggregates(const BlockSparseMatrix &stiffness, const std::vector<Vector3> &points,
-                   const std::vector<bool> &held);
+                   const std::vector<bool> &held, double strong);
 
     /** Returns the number of aggregates. */
     unsigned int n() const { return static_cast<unsigned int>(members.size()); }
