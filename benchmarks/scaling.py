@@ -80,13 +80,14 @@ def seconds_per_second(costs, size, cores, threads=1):
 
 
 def memory_per_rank(size, ranks):
-    """Of the first rank and of another one, at the peak [GiB]. Rock: as in memory_need.cc. Dam: fits the table of doc/performance.md to 8 %."""
+    """Returns the memory of the first rank and of another rank, peak [GiB]. Rock: see memory_need.cc. Dam: fits the table of doc/performance.md to 8 %."""
     _, dam, rock, _, _ = size
     matrix = 19 * 76.                           # of a rock node: blocks with column numbers [bytes]
     kept = min(1., 1. / ranks + .13)
+    coarse = 900.                               # of the static state, on the first rank [bytes per rock node]
     of_node = 2100. - (1. - kept) * matrix + (.15 + .4 / ranks) * matrix + ranks / 8.  # RockSplit has a bit per rank and node
-    first = .17 + .2 * (dam / 54180)**1.3 / min(ranks, MONOLITHS) + (5500. * dam + (of_node + 900.) * rock) / 3 / 2**30  # 900: coarse problem
-    return first, first - (900. + (.05 + .4 / ranks) * matrix) * rock / 3 / 2**30
+    first = .17 + .2 * (dam / 54180)**1.3 / min(ranks, MONOLITHS) + (5500. * dam + (of_node + coarse) * rock) / 3 / 2**30
+    return first, first - (coarse + (.05 + .4 / ranks) * matrix) * rock / 3 / 2**30
 
 
 def main():

@@ -25,7 +25,7 @@ namespace Voussoir
 
     // Measured, see tests/program_memory.py [bytes].
     constexpr double program = 178e6, per_cell = 700., per_node = 700., per_rock_node = 2100.,
-                     per_coarse = 900.; // of the static state of the rock, per rock node on the first rank
+                     per_coarse = 900.; // static state, per rock node on the first rank, with Trilinos
 
     /** Factors from elements of degree 1 to elements of the given degree: number of nodes, of blocks of the
      * stiffness matrix, of entries of matrix factors, and squared number of nodes on surfaces. */
