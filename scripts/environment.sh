@@ -7,8 +7,7 @@ export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-$(nproc)}
 # What was compiled once is taken from ccache in another directory, too, such as that of the mutants.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
-# ccache keeps what was compiled with a precompiled header only with this.
-export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}
+
 # Containers usually run as root, which Open MPI refuses unless told otherwise.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 

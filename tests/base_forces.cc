@@ -6,6 +6,7 @@
 #include <voussoir/dam/base_force.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/motion/ground_motion.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include "grids.h"
 #include "testing.h"
@@ -97,8 +98,8 @@ namespace
       std::map<int, Wrench>                        result;
       const SolidModel                            &model = *dam.model;
       std::vector<bool>                            seen(model.n_nodes(), false);
-      std::vector<dealii::types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-      for (const auto &cell : model.dof_handler.active_cell_iterators())
+      std::vector<dealii::types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
+      for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
       {
         cell->get_dof_indices(dofs);
         for (const auto i : dofs)

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
+#include <voussoir/solid/solid_grid.h>
 
 using namespace Columns;
 
@@ -26,11 +27,11 @@ namespace
 
     // Tractions on the free faces keep the stress constant.
     Unknowns                                     load(3 * structure.n_nodes(), 0.), exact(load);
-    dealii::FEFaceValues<3>                      values(model.fe, dealii::QGauss<2>(degree + 1),
+    dealii::FEFaceValues<3>                      values(model.grid->fe, dealii::QGauss<2>(degree + 1),
                                                         dealii::update_values | dealii::update_normal_vectors |
                                                             dealii::update_JxW_values);
-    std::vector<dealii::types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    std::vector<dealii::types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
+    for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
         if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == 0)
         {

@@ -4,6 +4,7 @@
 #include <voussoir/app/checkpoint.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
+#include <voussoir/base/version.h>
 #include <voussoir/output/archive.h>
 
 #include <algorithm>
@@ -34,7 +35,7 @@ namespace Voussoir
 
   Provenance Checkpoint::provenance_now() const
   {
-    const std::string revision = VOUSSOIR_REVISION;
+    const std::string revision = Voussoir::revision();
     Provenance        result = decisive_entries(scene_text);
     result["the program's revision"] = revision;
     if (revision == "unknown" || revision.find("dirty") != std::string::npos) // does not identify the program
@@ -71,7 +72,7 @@ namespace Voussoir
     write_checkpoint_file(file, out.str());
     OutputFile note(directory + "/checkpoint.txt");
     note << "scene " << scene.name << "\nstep " << run.step << " of " << run.n_steps << "\ntime "
-         << run.newmark->state().time << " s\nrevision " << VOUSSOIR_REVISION << "\n";
+         << run.newmark->state().time << " s\nrevision " << revision() << "\n";
     note.check();
   }
 

@@ -14,6 +14,7 @@
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/python_script.h>
+#include <voussoir/base/version.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/mesh_axes.h>
 #include <voussoir/mesh/mesh_joints.h>
@@ -221,7 +222,7 @@ namespace Voussoir
     openblas_set_num_threads(1); // parallelism is over bodies and joints
     const Arguments arguments = read_arguments(words);
     if (arguments.version)
-      std::cout << "Voussoir " VOUSSOIR_VERSION " (" VOUSSOIR_REVISION "), deal.II " DEAL_II_PACKAGE_VERSION
+      std::cout << "Voussoir " << version() << " (" << revision() << "), deal.II " DEAL_II_PACKAGE_VERSION
                 << ", " << features() << "\n";
     else if (arguments.help)
       std::cout << (arguments.command.empty() && arguments.words.empty() ? help_about_all()

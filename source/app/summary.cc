@@ -5,6 +5,7 @@
 #include <voussoir/app/run_report.h>
 #include <voussoir/base/output_file.h>
 #include <voussoir/base/ranks.h>
+#include <voussoir/base/version.h>
 #include <voussoir/motion/motion_report.h>
 #include <voussoir/output/assessment.h>
 
@@ -186,8 +187,8 @@ namespace Voussoir
     json.add("scene", scene.name)
         .add("law", dam.tied ? "tied" : scene.joints.model)
         .add("foundation", scene.foundation.model)
-        .add("version", VOUSSOIR_VERSION)
-        .add("revision", VOUSSOIR_REVISION)
+        .add("version", version())
+        .add("revision", revision())
         .add("ranks", double(Ranks::size()))
         .add("mesh", json_of_mesh(dam))
         .add_texts("groups", groups)
@@ -215,8 +216,8 @@ namespace Voussoir
     summary.add("scene", scene.name)
         .add("law", dam.tied ? "tied" : scene.joints.model)
         .add("foundation", scene.foundation.model)
-        .add("version", VOUSSOIR_VERSION)
-        .add("revision", VOUSSOIR_REVISION)
+        .add("version", version())
+        .add("revision", revision())
         .add("dealii", DEAL_II_PACKAGE_VERSION)
         .add("ranks", double(Ranks::size()))
         .add("threads", omp_get_max_threads())

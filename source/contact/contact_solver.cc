@@ -12,7 +12,7 @@ namespace Voussoir
   {
     constexpr std::size_t no_surfaces = std::numeric_limits<std::size_t>::max();
 
-    void add(Unknowns &y, const double factor, const Unknowns &x)
+    void add_times(Unknowns &y, const double factor, const Unknowns &x)
     {
       for (std::size_t i = 0; i < y.size(); ++i)
         y[i] += factor * x[i];
@@ -215,7 +215,7 @@ namespace Voussoir
     }
     x.gap = product;
     drift = 0.;
-    add(x.gap, 1., *b);
+    add_times(x.gap, 1., *b);
   }
 
   void ContactSolver::set_force(Iterate &x, const Best &from)
@@ -267,9 +267,9 @@ namespace Voussoir
     {
       const double t = halving == 12 ? 1. : std::ldexp(1., -static_cast<int>(halving));
       trial = x;
-      add(trial.force, t, step.force);
-      add(trial.gap, t, step.gap);
-      add(trial.secondary, t, step.secondary);
+      add_times(trial.force, t, step.force);
+      add_times(trial.gap, t, step.gap);
+      add_times(trial.secondary, t, step.secondary);
       evaluate(trial);
       if (merit() <= (1. - 2e-4 * t) * bound || halving == 12)
       {

@@ -4,6 +4,7 @@
 #include <voussoir/base/number_text.h>
 #include <voussoir/dam/reservoir.h>
 #include <voussoir/solid/for_faces.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,11 +54,11 @@ namespace Voussoir
     };
 
     /** Added mass per area of the upstream face at a place [kg/m^2]. */
-    using MassPerArea = std::function<double(const Point<3> &)>;
+    using MassPerArea = std::function<double(const Vector3 &)>;
 
     MassPerArea westergaard(const SolidModel &model, const ReservoirParameters &reservoir)
     {
-      return [&reservoir, heel = UpstreamHeel(model)](const Point<3> &x)
+      return [&reservoir, heel = UpstreamHeel(model)](const Vector3 &x)
       {
         const double h = reservoir.level - x[2];
         const double depth = reservoir.level - (reservoir.depth == "local" ? heel.at(x[1]) : heel.lowest);
@@ -82,7 +83,7 @@ namespace Voussoir
         throw InputError("The table of Reservoir/Table, " + file + ", ends at the depth " +
                          number_text(curve.x.back()) + " m, but the upstream face has " +
                          number_text(deepest) + " m. Extend the table, or correct Reservoir/Water level.");
-      return [&reservoir, curve](const Point<3> &x)
+      return [&reservoir, curve](const Vector3 &x)
       {
         const double depth = reservoir.level - x[2];
         return depth <= 0. ? 0. : curve.at(depth);
@@ -107,7 +108,7 @@ namespace Voussoir
     std::vector<double> hat_masses(const SolidModel &model, const FEFaceValues<3> &values,
                                    const MassPerArea &per_area)
     {
-      std::vector<double> mass(model.fe.n_dofs_per_cell(), 0.);
+      std::vector<double> mass(model.grid->fe.n_dofs_per_cell(), 0.);
       for (const unsigned int q : values.quadrature_point_indices())
       {
         const Point<3> &x = values.quadrature_point(q);
@@ -116,8 +117,9 @@ namespace Voussoir
         {
           double hat = 1.;
           for (unsigned int d = 0; d < 3; ++d)
-            hat *= std::max(0., 1. - model.fe.degree * std::abs(unit[d] - model.fe.unit_support_point(i)[d]));
-          mass[i] += hat * per_area(x) * values.JxW(q);
+            hat *=
+                std::max(0., 1. - model.degree * std::abs(unit[d] - model.grid->fe.unit_support_point(i)[d]));
+          mass[i] += hat * per_area(to_vector(x)) * values.JxW(q);
         }
       }
       return mass;
@@ -137,7 +139,7 @@ namespace Voussoir
                   normal.assign(dofs.size(), Tensor<1, 3>());
                   for (const unsigned int q : values.quadrature_point_indices())
                   {
-                    const double m = per_area(values.quadrature_point(q)) * values.JxW(q);
+                    const double m = per_area(to_vector(values.quadrature_point(q))) * values.JxW(q);
                     for (unsigned int i = 0; i < dofs.size(); ++i)
                     {
                       mass[i] += values.shape_value(i, q) * m;
@@ -157,7 +159,7 @@ namespace Voussoir
     double add_nodal(const SolidModel &model, const MassPerArea &per_area, Structure &structure)
     {
       std::vector<Tensor<1, 3>> area(model.n_nodes());
-      for_faces(model, PhysicalId::upstream, model.fe.degree + 1,
+      for_faces(model, PhysicalId::upstream, model.degree + 1,
                 [&](const FEFaceValues<3> &values, const auto &dofs)
                 {
                   for (const unsigned int q : values.quadrature_point_indices())

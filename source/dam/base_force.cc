@@ -3,6 +3,7 @@
 #include <voussoir/dam/base_uplift.h>
 #include <voussoir/solid/cell_elasticity.h>
 #include <voussoir/solid/for_faces.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,12 +46,12 @@ namespace Voussoir
       std::vector<unsigned int> equation, first_equation, master;
     };
 
-    Vector3 to(const Vector3 &centroid, const Point<3> &p)
+    Vector3 to(const Vector3 &centroid, const Vector3 &p)
     {
       return Vector3{{p[0], p[1], p[2]}} - centroid;
     }
 
-    Matrix3 scaled(const double factor, const Matrix3 &a)
+    Matrix3 scaled_matrix(const double factor, const Matrix3 &a)
     {
       return sum(Matrix3{}, factor, a);
     }
@@ -157,7 +158,7 @@ namespace Voussoir
       double  area = 0.;
     };
     std::map<int, Surface> surfaces;
-    for_faces(model, PhysicalId::base, model.fe.degree + 1,
+    for_faces(model, PhysicalId::base, model.degree + 1,
               [&](const FEFaceValues<3> &values, const auto &)
               {
                 Surface &surface = surfaces[monolith_of(values.get_cell()->material_id())];
@@ -206,8 +207,8 @@ namespace Voussoir
       if (model.on_surface(i, PhysicalId::base))
         supporting.insert(equation[i]);
     block.assign(model.n_nodes(), rigid_ground);
-    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
+    for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
     {
       const unsigned int b = block_of(monolith_of(cell->material_id()));
       cell->get_dof_indices(dofs);
@@ -266,15 +267,15 @@ namespace Voussoir
   void BaseForces::add_cells(Structure &whole)
   {
     std::vector<std::map<unsigned int, std::array<double, 18>>> sums(of_block.size());
-    std::vector<types::global_dof_index>                        dofs(model.fe.n_dofs_per_cell());
-    CellElasticity elasticity(model.fe, dam.scene.elements.incompatible_modes);
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    std::vector<types::global_dof_index>                        dofs(model.grid->fe.n_dofs_per_cell());
+    CellElasticity elasticity(model.grid->fe, dam.scene.elements.incompatible_modes);
+    for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
       const auto contributes = [&](const auto i) { return block[i] != rigid_ground && share[i] > 0.; };
       if (std::none_of(dofs.begin(), dofs.end(), contributes))
         continue;
-      elasticity.reinit(cell, model.material_of(cell, dam.materials));
+      elasticity.reinit(cell, model.material_of(cell->active_cell_index(), dam.materials));
       for (unsigned int i = 0; i < dofs.size(); ++i)
         if (const unsigned int b = block[dofs[i]]; contributes(dofs[i]))
         {
@@ -284,7 +285,7 @@ namespace Voussoir
           for (unsigned int j = 0; j < dofs.size(); ++j)
             if (equation[dofs[j]] != rigid_ground)
               add_block(sums[b][equation[dofs[j]]], arm,
-                        scaled(share[dofs[i]], elasticity.stiffness[i * dofs.size() + j]));
+                        scaled_matrix(share[dofs[i]], elasticity.stiffness[i * dofs.size() + j]));
         }
     }
     for (unsigned int b = 0; b < sums.size(); ++b)
@@ -327,7 +328,7 @@ namespace Voussoir
           mass[b].part.push_back({});
         }
         add_block(held ? held_mass[b] : mass[b].part.back(), to(of_block[b].centroid, model.points[i]),
-                  scaled(share[i], whole.mass[model.equation[i]]));
+                  scaled_matrix(share[i], whole.mass[model.equation[i]]));
       }
   }
 

@@ -11,7 +11,7 @@ namespace Voussoir
     BasePart            part;
     std::vector<double> whole(model.n_nodes(), 0.);
     part.contains = contains;
-    for_faces(model, PhysicalId::base, model.fe.degree + 1,
+    for_faces(model, PhysicalId::base, model.degree + 1,
               [&](const FEFaceValues<3> &values, const auto &dofs)
               {
                 Vector3 moment{};

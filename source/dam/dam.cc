@@ -13,6 +13,7 @@
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/mesh/plane_section.h>
 #include <voussoir/solid/cell_elasticity.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -652,9 +653,9 @@ namespace Voussoir
   void Dam::find_staged_reaction(const double weight, const Unknowns &u)
   {
     staged_reaction.assign(3 * std::size_t(model->n_nodes()), 0.);
-    std::vector<dealii::types::global_dof_index> dofs(model->fe.n_dofs_per_cell());
-    CellElasticity                               elasticity(model->fe, scene.elements.incompatible_modes);
-    std::vector<bool>                            in_joint(model->n_nodes(), false);
+    std::vector<dealii::types::global_dof_index> dofs(model->grid->fe.n_dofs_per_cell());
+    CellElasticity    elasticity(model->grid->fe, scene.elements.incompatible_modes);
+    std::vector<bool> in_joint(model->n_nodes(), false);
     for (unsigned int i = 0; i < model->n_nodes(); ++i)
       in_joint[i] =
           std::any_of(model->surfaces[i].begin(), model->surfaces[i].end(),
@@ -662,12 +663,12 @@ namespace Voussoir
                       { return is_joint_side(id) && joints[number_of_joint(id) - 1].is_inside_monolith(); });
     const auto is_fixed = [&](const auto node) { return model->equation[node] == rigid_ground; };
     const auto is_held = [&](const auto node) { return is_fixed(node) || in_joint[node]; };
-    for (const auto &cell : model->dof_handler.active_cell_iterators())
+    for (const auto &cell : model->grid->dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
       if (std::none_of(dofs.begin(), dofs.end(), is_held))
         continue;
-      elasticity.reinit(cell, model->material_of(cell, sustained));
+      elasticity.reinit(cell, model->material_of(cell->active_cell_index(), sustained));
       for (unsigned int i = 0; i < dofs.size(); ++i)
       {
         if (!is_held(dofs[i]))

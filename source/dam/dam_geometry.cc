@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/dam/dam_geometry.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,8 +29,8 @@ namespace Voussoir
               [&](const unsigned int i, const unsigned int j)
               { return model.points[i][1] < model.points[j][1]; });
     for (const unsigned int i : nodes)
-      if (edge.empty() ||
-          edge.back().distance(model.points[i]) > 1e-6 * (model.points[nodes.back()] - edge[0]).norm())
+      if (edge.empty() || distance_between(edge.back(), model.points[i]) >
+                              1e-6 * distance_between(model.points[nodes.back()], edge[0]))
         edge.push_back(model.points[i]);
     at.push_back(0.);
     for (std::size_t i = 1; i < edge.size(); ++i)
@@ -56,7 +57,7 @@ namespace Voussoir
       if (crest.upstream != rigid_ground)
       {
         const Vector3 &x = pairs[crest.upstream].place;
-        crest.arc_length = arc_length(Point<3>(x[0], x[1], x[2]));
+        crest.arc_length = arc_length(x);
       }
   }
 
@@ -73,13 +74,13 @@ namespace Voussoir
     for (const unsigned int i : nodes)
       if (std::abs(arc_length(model.points[i]) - place) <= same)
         side[i] = std::numeric_limits<double>::infinity();
-    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
+    for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
       for (const auto i : dofs)
         if (const auto found = side.find(i); found != side.end())
-          found->second = std::min(found->second, arc_length(cell->center()));
+          found->second = std::min(found->second, arc_length(to_vector(cell->center())));
     }
     const auto [right, left] = std::minmax_element(
         side.begin(), side.end(), [](const auto &a, const auto &b) { return a.second < b.second; });
@@ -87,7 +88,7 @@ namespace Voussoir
     crown_left = left->first;
   }
 
-  double DamGeometry::arc_length(const Point<3> &p) const
+  double DamGeometry::arc_length(const Vector3 &p) const
   {
     double nearest = 1e300, result = 0.;
     for (std::size_t i = 0; i + 1 < edge.size(); ++i)
@@ -105,15 +106,15 @@ namespace Voussoir
     return result;
   }
 
-  unsigned int nearest_node(const SolidModel &model, const Point<3> &p)
+  unsigned int nearest_node(const SolidModel &model, const Vector3 &p)
   {
     return std::min_element(model.points.begin(), model.points.end(),
-                            [&](const Point<3> &a, const Point<3> &b)
-                            { return a.distance(p) < b.distance(p); }) -
+                            [&](const Vector3 &a, const Vector3 &b)
+                            { return distance_between(a, p) < distance_between(b, p); }) -
            model.points.begin();
   }
 
-  unsigned int probe_node(const SolidModel &model, const std::string &name, const Point<3> &p)
+  unsigned int probe_node(const SolidModel &model, const std::string &name, const Vector3 &p)
   {
     return node_at(model, "Entry \"Output/Probes\": probe \"" + name + "\"", p);
   }
@@ -122,44 +123,44 @@ namespace Voussoir
   {
     /** Returns the node at the position of @p node whose monolith has the element centre nearest to @p p. If
      * @p p equals this position, the result is @p node. */
-    unsigned int on_side_of(const SolidModel &model, const unsigned int node, const Point<3> &p)
+    unsigned int on_side_of(const SolidModel &model, const unsigned int node, const Vector3 &p)
     {
       const double                         same = 1e-6; // tolerance for equal positions [m]
-      std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+      std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
       unsigned int                         result = node;
       double                               nearest = std::numeric_limits<double>::infinity();
-      for (const auto &cell : model.dof_handler.active_cell_iterators())
+      for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
       {
         cell->get_dof_indices(dofs);
         for (const auto other : dofs)
-          if (model.points[other].distance(model.points[node]) < same && cell->center().distance(p) < nearest)
+          if (distance_between(model.points[other], model.points[node]) < same &&
+              distance_between(to_vector(cell->center()), p) < nearest)
           {
-            nearest = cell->center().distance(p);
+            nearest = distance_between(to_vector(cell->center()), p);
             result = other;
           }
       }
-      return model.points[node].distance(p) < same ? node : result;
+      return distance_between(model.points[node], p) < same ? node : result;
     }
   } // namespace
 
-  unsigned int node_at(const SolidModel &model, const std::string &what, const Point<3> &p)
+  unsigned int node_at(const SolidModel &model, const std::string &what, const Vector3 &p)
   {
     const unsigned int                   node = nearest_node(model, p);
-    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+    std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
     double                               element = 0.; // largest extent of its elements [m]
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
       if (std::find(dofs.begin(), dofs.end(), node) != dofs.end())
         for (const auto other : dofs)
-          element = std::max(element, model.points[node].distance(model.points[other]));
+          element = std::max(element, distance_between(model.points[node], model.points[other]));
     }
-    if (const double distance = model.points[node].distance(p); distance > element)
+    if (const double far = distance_between(model.points[node], p); far > element)
     {
       std::ostringstream message;
-      message << what << " at " << place({{p[0], p[1], p[2]}}) << " is " << distance
-              << " m from the dam, more than an element (" << element << " m). Its nearest node is at "
-              << place({{model.points[node][0], model.points[node][1], model.points[node][2]}})
+      message << what << " at " << place(p) << " is " << far << " m from the dam, more than an element ("
+              << element << " m). Its nearest node is at " << place(model.points[node])
               << ". Use a point of the dam, in the axes of the input file.";
       throw InputError(message.str());
     }

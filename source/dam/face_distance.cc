@@ -3,6 +3,7 @@
 
 #include <voussoir/base/error.h>
 #include <voussoir/dam/face_distance.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,7 @@ namespace Voussoir
     public:
       SurfaceDistance(const SolidModel &model, const int surface)
       {
-        for (const auto &cell : model.dof_handler.active_cell_iterators())
+        for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
           for (const unsigned int f : cell->face_indices())
             if (cell->face(f)->at_boundary() && static_cast<int>(cell->face(f)->boundary_id()) == surface)
             {
@@ -97,7 +98,7 @@ namespace Voussoir
     std::vector<double> place(model.n_nodes());
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
     {
-      const double a = upstream.to(model.points[i]), b = downstream.to(model.points[i]);
+      const double a = upstream.to(to_point(model.points[i])), b = downstream.to(to_point(model.points[i]));
       place[i] = a + b > 0. ? a / (a + b) : .5;
     }
     return place;

@@ -2,6 +2,7 @@
 #include <voussoir/dam/dam.h>
 #include <voussoir/dam/face_distance.h>
 #include <voussoir/dam/joint_water.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <algorithm>
 #include <map>
@@ -19,8 +20,8 @@ namespace Voussoir
       for (const unsigned int node : {structure.pairs[p].node_1, structure.pairs[p].node_2})
         if (node != rigid_ground)
           pair_of[{structure.pairs[p].joint, node}] = p;
-    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_face());
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_face());
+    for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
       {
         const int surface = cell->face(f)->boundary_id();

@@ -2,6 +2,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/dam/dam_geometry.h>
 #include <voussoir/dam/nodal_forces.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <set>
 #include <utility>
@@ -15,11 +16,12 @@ namespace Voussoir
     for (const auto &entry : loads.point_loads())
     {
       const Vector3     &x = entry.second.place;
-      const unsigned int nearest = node_at(
-          model, "Entry \"Loads/Concentrated\": load \"" + entry.first + "\"", Point<3>(x[0], x[1], x[2]));
+      const unsigned int nearest =
+          node_at(model, "Entry \"Loads/Concentrated\": load \"" + entry.first + "\"", x);
       std::set<unsigned int> sharing; // equations of the nodes at this position
       for (unsigned int i = 0; i < model.n_nodes(); ++i)
-        if (model.points[i].distance(model.points[nearest]) < 1e-6 * (1. + model.points[nearest].norm()))
+        if (distance_between(model.points[i], model.points[nearest]) <
+            1e-6 * (1. + norm(model.points[nearest])))
           sharing.insert(model.equation[i]);
       if (sharing.count(rigid_ground) > 0)
         throw InputError("Entry \"Loads/Concentrated\": load \"" + entry.first +
@@ -44,7 +46,7 @@ namespace Voussoir
     const Vector3 q = loads.line_load();
     const int     side = loads.crest_edge == "upstream" ? PhysicalId::upstream : PhysicalId::downstream;
     unsigned int  n_lines = 0;
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
       for (unsigned int line = 0; line < GeometryInfo<3>::lines_per_cell; ++line)
       {
         bool crest = false, edge = false; // is the line an edge of such a face of the cell?
@@ -60,7 +62,7 @@ namespace Voussoir
         ++n_lines;
         const double length = cell->line(line)->diameter();
         // Simpson's rule with the midside node, exact for the shape functions of both degrees
-        const double ends = model.fe.degree == 1 ? .5 : 1. / 6.;
+        const double ends = model.degree == 1 ? .5 : 1. / 6.;
         const auto   add = [&](const unsigned int node, const double part)
         {
           for (unsigned int c = 0; model.equation[node] != rigid_ground && c < 3; ++c)
@@ -68,7 +70,7 @@ namespace Voussoir
         };
         for (unsigned int v = 0; v < 2; ++v)
           add(cell->line(line)->vertex_dof_index(v, 0), ends);
-        if (model.fe.degree == 2)
+        if (model.degree == 2)
           add(cell->line(line)->dof_index(0), 2. / 3.);
       }
     if (n_lines == 0)

@@ -20,7 +20,7 @@ namespace Voussoir
     constexpr const char *entry = "Entry \"Loads/Temperature/Table\": ";
 
     /** Temperatures of the faces on the days of a table. */
-    struct Table
+    struct DayTable
     {
       std::vector<double>           days; ///< ascending
       std::vector<FaceTemperatures> of_day;
@@ -55,7 +55,7 @@ namespace Voussoir
 
     /** Adds a line to the table. @p row: day, elevation, and the temperatures of both faces. */
     void add_row(const std::array<double, 4> &row, const bool has_elevations, const std::string &place,
-                 Table &table)
+                 DayTable &table)
     {
       const double day = row[0], z = row[1];
       const bool   is_same = has_elevations && !table.days.empty() && day == table.days.back();
@@ -77,7 +77,7 @@ namespace Voussoir
     }
 
     /** Throws InputError if the days of a table have different elevations. */
-    void check_elevations(const Table &table, const std::string &file)
+    void check_elevations(const DayTable &table, const std::string &file)
     {
       for (std::size_t i = 1; i < table.days.size(); ++i)
       {
@@ -95,7 +95,7 @@ namespace Voussoir
       }
     }
 
-    Table read_table(const std::string &file)
+    DayTable read_table(const std::string &file)
     {
       std::error_code error;
       std::ifstream   in;
@@ -104,7 +104,7 @@ namespace Voussoir
       if (!in.is_open())
         throw InputError(entry + ("the file " + file) +
                          " cannot be read. Its path is relative to the directory of the scene file.");
-      Table       table;
+      DayTable    table;
       std::size_t n_columns = 0;
       std::string line;
       for (unsigned int number = 1; std::getline(in, line); ++number)
@@ -169,7 +169,7 @@ namespace Voussoir
     if (temperature.table.empty())
       return {{0.}, {{{temperature.upstream, temperature.downstream}}}};
     const std::string          file = (std::filesystem::path(directory) / temperature.table).string();
-    const Table                table = read_table(file);
+    const DayTable             table = read_table(file);
     const std::vector<double> &days = table.days;
     const double               day = temperature.day;
     if (days.empty() || day < days.front() || day > days.back())

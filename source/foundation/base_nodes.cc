@@ -2,6 +2,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/foundation/base_nodes.h>
 #include <voussoir/mesh/coincident.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <algorithm>
 #include <map>
@@ -17,7 +18,7 @@ namespace Voussoir
     /** Returns the thickness of the footings, which lie in the rock, or 0 without footings [m]. */
     double footing_thickness(const SolidModel &dam)
     {
-      for (const auto &cell : dam.dof_handler.active_cell_iterators())
+      for (const auto &cell : dam.grid->dof_handler.active_cell_iterators())
         if (is_footing(static_cast<int>(cell->material_id())))
           return cell->minimum_vertex_distance();
       return 0.;
@@ -48,7 +49,7 @@ namespace Voussoir
       if (dam.on_surface(i, PhysicalId::base))
       {
         equations.push_back(dam.equation[i]);
-        base.push_back({{dam.points[i][0], dam.points[i][1], dam.points[i][2]}});
+        base.push_back(dam.points[i]);
       }
     std::map<unsigned int, std::set<unsigned int>> on_rock;
     const double      tolerance = std::max(coincidence * size_of(base), 1.01 * footing_thickness(dam));

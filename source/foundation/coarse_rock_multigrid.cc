@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
 #ifdef VOUSSOIR_WITH_TRILINOS
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wcpp" // Trilinos 16 announces the removal of ML and Epetra
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/vector.h>
 
@@ -9,6 +12,7 @@
 #include <Epetra_Vector.h>
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
+#pragma GCC diagnostic pop
 #include <voussoir/base/error.h>
 #include <voussoir/base/reason.h>
 #include <voussoir/foundation/coarse_rock.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <voussoir/base/error.h>
@@ -84,7 +85,7 @@ namespace Voussoir
   CondensedRock condense_rock(const FoundationParameters &parameters, const HexMesh &mesh,
                               const SolidModel &dam, const bool incompatible_modes, const std::string &source)
   {
-    const SolidModel                   rock(rock_only(mesh), dam.fe.degree);
+    const SolidModel                   rock(rock_only(mesh), dam.degree);
     std::vector<std::array<double, 3>> points(rock.first_equation.back());
     if (points.size() == rock.n_nodes())
       throw InputError("mesh " + source + ": no face of the rock lies on the artificial boundary (surface " +

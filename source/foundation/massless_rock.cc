@@ -53,7 +53,7 @@ namespace Voussoir
         dam_nodes = DamNodes(rock.base_nodes);
         std::map<unsigned int, Vector3> place;
         for (unsigned int i = 0; i < dam.n_nodes(); ++i)
-          place[dam.equation[i]] = {{dam.points[i][0], dam.points[i][1], dam.points[i][2]}};
+          place[dam.equation[i]] = dam.points[i];
         for (const unsigned int node : dam_nodes.node)
           places.push_back(place.at(node));
         damping = structure.stiffness_damping;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/joints/joint_reach.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +17,8 @@ namespace Voussoir
     std::vector<double> shortest_edges(const SolidModel &model)
     {
       std::vector<double>                          width(model.first_equation.back(), large);
-      std::vector<dealii::types::global_dof_index> nodes(model.fe.n_dofs_per_face());
-      for (const auto &cell : model.dof_handler.active_cell_iterators())
+      std::vector<dealii::types::global_dof_index> nodes(model.grid->fe.n_dofs_per_face());
+      for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
         for (const unsigned int f : cell->face_indices())
           if (const auto face = cell->face(f); face->at_boundary() && is_joint_side(face->boundary_id()))
           {
@@ -27,7 +28,7 @@ namespace Voussoir
             face->get_dof_indices(nodes);
             for (const auto node : nodes)
               if (const unsigned int e = model.equation[node]; e != rigid_ground)
-                width[e] = std::min(width[e], shortest / model.fe.degree);
+                width[e] = std::min(width[e], shortest / model.degree);
           }
       return width;
     }

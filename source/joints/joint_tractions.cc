@@ -3,7 +3,7 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <voussoir/joints/joint_tractions.h>
-#include <voussoir/solid/solid_model.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <algorithm>
 #include <map>
@@ -26,10 +26,10 @@ namespace Voussoir
         else
           pair_at[{PhysicalId::joint_side_1 + pairs[p].joint + 1, pairs[p].node_1}] = p;
       Rows            rows(pairs.size());
-      FEFaceValues<3> values(model.fe, QGauss<2>(model.fe.degree + 1), update_values | update_JxW_values);
-      std::vector<types::global_dof_index>               dofs(model.fe.n_dofs_per_cell());
+      FEFaceValues<3> values(model.grid->fe, QGauss<2>(model.degree + 1), update_values | update_JxW_values);
+      std::vector<types::global_dof_index>               dofs(model.grid->fe.n_dofs_per_cell());
       std::vector<std::pair<unsigned int, unsigned int>> here; // (pair, number in the cell)
-      for (const auto &cell : model.dof_handler.active_cell_iterators())
+      for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
         for (const unsigned int f : cell->face_indices())
         {
           const unsigned int surface = cell->face(f)->boundary_id();
@@ -40,7 +40,7 @@ namespace Voussoir
           here.clear();
           for (unsigned int i = 0; i < dofs.size(); ++i)
             if (const auto found = pair_at.find({surface, model.equation[dofs[i]]});
-                found != pair_at.end() && model.fe.has_support_on_face(i, f))
+                found != pair_at.end() && model.grid->fe.has_support_on_face(i, f))
               here.emplace_back(found->second, i);
           values.reinit(cell, f);
           for (const unsigned int q : values.quadrature_point_indices())

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
 #include <voussoir/base/error.h>
 #include <voussoir/joints/pairs.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -89,10 +91,10 @@ namespace Voussoir
     std::vector<JointNodes> nodes_of_joints(const SolidModel &model, const unsigned int n_joints)
     {
       std::vector<JointNodes>              joints(n_joints);
-      FEFaceValues<3>                      values(model.fe, QGauss<2>(model.fe.degree + 1),
+      FEFaceValues<3>                      values(model.grid->fe, QGauss<2>(model.degree + 1),
                                                   update_values | update_normal_vectors | update_JxW_values);
-      std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-      for (const auto &cell : model.dof_handler.active_cell_iterators())
+      std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
+      for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary() && is_joint_side(cell->face(f)->boundary_id()))
           {
@@ -115,11 +117,11 @@ namespace Voussoir
     unsigned int partner_of(const unsigned int node, const double area, const SolidModel &model,
                             const std::set<unsigned int> &candidates, const unsigned int joint)
     {
-      const Point<3> &p = model.points[node];
-      double          distance = 1e300;
-      unsigned int    nearest = rigid_ground;
+      const Vector3 &p = model.points[node];
+      double         distance = 1e300;
+      unsigned int   nearest = rigid_ground;
       for (const unsigned int k : candidates)
-        if (const double d = p.distance(model.points[k]); d < distance)
+        if (const double d = distance_between(p, model.points[k]); d < distance)
         {
           distance = d;
           nearest = k;
@@ -127,7 +129,7 @@ namespace Voussoir
       if (distance <= 1e-3 * std::sqrt(area))
         return nearest;
       std::ostringstream message;
-      message << "Joint " << joint + 1 << " of the mesh: the node at (" << p
+      message << "Joint " << joint + 1 << " of the mesh: the node at (" << p[0] << " " << p[1] << " " << p[2]
               << ") m on side 1 has no partner on side 2";
       if (nearest != rigid_ground)
         message << "; the nearest is " << distance << " m away";

@@ -264,7 +264,7 @@ namespace Voussoir
       Make                     make;
     };
 
-    const std::vector<ArcKind> kinds = {
+    const std::vector<ArcKind> rows_of_arcs = {
         {"circular",
          "a circle for each face. thickness: at the crown; angles: from the crown to the abutment at the centre of "
          "the upstream arc [degrees]",
@@ -296,7 +296,7 @@ namespace Voussoir
   std::string arc_kinds()
   {
     std::string text;
-    for (const ArcKind &kind : kinds)
+    for (const ArcKind &kind : rows_of_arcs)
       text += (text.empty() ? "" : "|") + std::string(kind.name);
     return text;
   }
@@ -304,7 +304,7 @@ namespace Voussoir
   std::string arc_kind_docs()
   {
     std::string text;
-    for (const ArcKind &kind : kinds)
+    for (const ArcKind &kind : rows_of_arcs)
     {
       text += (text.empty() ? "" : "; ") + std::string(kind.name) + ": " + kind.doc + " (columns ";
       for (const std::string &column : kind.columns)
@@ -316,8 +316,8 @@ namespace Voussoir
 
   std::unique_ptr<ArchShape> read_arch_table(const std::string &file, const std::string &name)
   {
-    const auto kind =
-        std::find_if(kinds.begin(), kinds.end(), [&](const ArcKind &k) { return name == k.name; });
+    const auto kind = std::find_if(rows_of_arcs.begin(), rows_of_arcs.end(),
+                                   [&](const ArcKind &k) { return name == k.name; });
     return kind->make(read_arc_table(file, kind->columns));
   }
 } // namespace Voussoir

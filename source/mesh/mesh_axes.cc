@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/tensor3.h>
 #include <voussoir/mesh/mesh_axes.h>
 
 #include <algorithm>
@@ -13,16 +14,6 @@ namespace Voussoir
     using Vector = std::array<double, 3>;
 
     constexpr double lowest_dam = 5., highest_dam = 400.; ///< [m]
-
-    double norm(const Vector &v)
-    {
-      return std::hypot(v[0], v[1], v[2]);
-    }
-
-    Vector cross(const Vector &a, const Vector &b)
-    {
-      return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    }
 
     /** Sum of the outward area vectors of a surface of the dam, and its area [m^2]. */
     struct Normals

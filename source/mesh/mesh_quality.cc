@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // mesh_quality() of mesh.h
 
+#include <voussoir/base/tensor3.h>
 #include <voussoir/mesh/mesh.h>
 
 #include <algorithm>
@@ -10,21 +11,10 @@ namespace Voussoir
 {
   namespace
   {
-    using Vector = std::array<double, 3>;
-
     /** Three neighbours of each corner along edges, in right-handed order. */
     constexpr unsigned int neighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
                                                {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
 
-    Vector cross(const Vector &a, const Vector &b)
-    {
-      return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    }
-
-    double norm(const Vector &a)
-    {
-      return std::hypot(a[0], a[1], a[2]);
-    }
   } // namespace
 
   MeshQuality mesh_quality(const HexMesh &mesh, const bool of_rock)
@@ -49,8 +39,8 @@ namespace Voussoir
           quality.longest_edge = std::max(quality.longest_edge, length);
           product *= length;
         }
-        const Vector area = cross(edge[0], edge[1]);
-        const double volume = area[0] * edge[2][0] + area[1] * edge[2][1] + area[2] * edge[2][2];
+        const Vector3 area = cross(edge[0], edge[1]);
+        const double  volume = area[0] * edge[2][0] + area[1] * edge[2][1] + area[2] * edge[2][2];
         smallest = std::min(smallest, volume);
         largest = std::max(largest, volume);
         quality.smallest_scaled_jacobian = std::min(quality.smallest_scaled_jacobian, volume / product);

@@ -61,7 +61,7 @@ namespace Voussoir
     for (const int surface : {PhysicalId::upstream, PhysicalId::downstream})
     {
       std::map<unsigned int, Vector3> area;
-      for_faces(model, surface, model.fe.degree + 1,
+      for_faces(model, surface, model.degree + 1,
                 [&](const auto &values, const auto &dofs)
                 {
                   for (const unsigned int q : values.quadrature_point_indices())

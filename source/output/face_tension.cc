@@ -27,10 +27,8 @@ namespace Voussoir
   FaceTension::FaceTension(const SolidModel &model) : near_base(model.n_nodes(), false)
   {
     std::vector<std::array<double, 3>> base;
-    const auto                         place = [&](const unsigned int i) -> std::array<double, 3> {
-      return {{model.points[i][0], model.points[i][1], model.points[i][2]}};
-    };
-    double top = -1e300, bottom = 1e300;
+    const auto place = [&](const unsigned int i) -> std::array<double, 3> { return model.points[i]; };
+    double     top = -1e300, bottom = 1e300;
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
     {
       top = std::max(top, model.points[i][2]);
@@ -52,7 +50,7 @@ namespace Voussoir
     Extreme extreme_at(const SolidModel &model, const unsigned int node, const double value,
                        const double time)
     {
-      const Point<3> &p = model.points[node];
+      const Vector3 &p = model.points[node];
       return {value, time, {{p[0], p[1], p[2]}}};
     }
   } // namespace

@@ -7,6 +7,7 @@
 #include <voussoir/output/recorders.h>
 #include <voussoir/output/vtu_flags.h>
 #include <voussoir/solid/face_quads.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <fstream>
 #include <map>
@@ -20,29 +21,30 @@ namespace Voussoir
   void FieldWriter::write_vtu(const std::string &file, const Unknowns &u,
                               const std::vector<NodalField> &fields) const
   {
-    const FESystem<3>          system(model.fe, 3);
-    Vector<float>              monolith(model.triangulation.n_active_cells());
-    DoFHandler<3>              vector_handler(model.triangulation);
+    const FESystem<3>          system(model.grid->fe, 3);
+    Vector<float>              monolith(model.grid->triangulation.n_active_cells());
+    DoFHandler<3>              vector_handler(model.grid->triangulation);
     Vector<float>              displacement;
     std::vector<Vector<float>> scalars;
-    DataOut<3>                 data_out;                // declared last, because it refers to the others
-    data_out.attach_triangulation(model.triangulation); // before any data
+    DataOut<3>                 data_out; // declared last, because it refers to the others
+    data_out.attach_triangulation(model.grid->triangulation); // before any data
     scalars.reserve(fields.size());
     for (const NodalField &field : fields)
     {
       scalars.emplace_back(field.values.begin(), field.values.end());
-      data_out.add_data_vector(model.dof_handler, scalars.back(), field.name);
+      data_out.add_data_vector(model.grid->dof_handler, scalars.back(), field.name);
     }
-    for (const auto &cell : model.triangulation.active_cell_iterators())
+    for (const auto &cell : model.grid->triangulation.active_cell_iterators())
       monolith[cell->active_cell_index()] = static_cast<float>(monolith_of(cell->material_id()));
     data_out.add_data_vector(monolith, "monolith", DataOut<3>::type_cell_data);
     if (!u.empty())
     {
       vector_handler.distribute_dofs(system);
       displacement.reinit(vector_handler.n_dofs());
-      std::vector<types::global_dof_index> dofs(system.n_dofs_per_cell()), nodes(model.fe.n_dofs_per_cell());
-      auto                                 cell = vector_handler.begin_active();
-      for (const auto &scalar_cell : model.dof_handler.active_cell_iterators())
+      std::vector<types::global_dof_index> dofs(system.n_dofs_per_cell()),
+          nodes(model.grid->fe.n_dofs_per_cell());
+      auto cell = vector_handler.begin_active();
+      for (const auto &scalar_cell : model.grid->dof_handler.active_cell_iterators())
       {
         cell->get_dof_indices(dofs);
         scalar_cell->get_dof_indices(nodes);
@@ -58,7 +60,7 @@ namespace Voussoir
                                std::vector<DataComponentInterpretation::DataComponentInterpretation>(
                                    3, DataComponentInterpretation::component_is_part_of_vector));
     }
-    data_out.build_patches(model.fe.degree);
+    data_out.build_patches(model.degree);
     data_out.set_flags(vtu_flags());
     OutputFile out(file);
     try
@@ -93,7 +95,7 @@ namespace Voussoir
           if (line_of.emplace(i, n_lines).second)
           {
             ++n_lines;
-            const Point<3> &p = model.points[i];
+            const Vector3 &p = model.points[i];
             nodes << name << ',' << monolith_of(quad.block) << ',' << p[0] << ',' << p[1] << ',' << p[2]
                   << ',' << geometry.arc_length(p);
             for (const NodalField &field : fields)

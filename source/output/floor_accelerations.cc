@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/log.h>
 #include <voussoir/motion/ground_motion.h>

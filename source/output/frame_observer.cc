@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/output/frame_observer.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +83,7 @@ namespace Voussoir
   {
     const SolidModel                    &model = *run.dam->model;
     std::map<unsigned int, std::int32_t> index;
-    for (const auto surface : model.triangulation.get_boundary_ids())
+    for (const auto surface : model.grid->triangulation.get_boundary_ids())
       for (const FaceQuad &quad : face_quads(model, static_cast<int>(surface)))
       {
         quads.push_back(static_cast<std::int32_t>(surface));

@@ -29,7 +29,7 @@ namespace Voussoir
     for (const auto &probe : run.scene().output.probe_places())
     {
       const Vector3 &p = probe.second;
-      declare_point(probe.first, probe_node(model, probe.first, dealii::Point<3>(p[0], p[1], p[2])));
+      declare_point(probe.first, probe_node(model, probe.first, p));
     }
     declare_accelerations();
     for (const double depth : run.scene().output.pressure_depths)

@@ -16,11 +16,6 @@ namespace Voussoir
   {
     constexpr double endless = std::numeric_limits<double>::infinity();
 
-    Vector3 place_of(const dealii::Point<3> &p)
-    {
-      return {{p[0], p[1], p[2]}};
-    }
-
     double length_of_slip(const Vector3 &moved)
     {
       return std::hypot(moved[1], moved[2]);
@@ -42,7 +37,7 @@ namespace Voussoir
         {
           const unsigned int from = quad.nodes[k], to = quad.nodes[(k + 1) % 4];
           if (model.on_surface(from, PhysicalId::upstream) && model.on_surface(to, PhysicalId::upstream))
-            rims[j].push_back({{place_of(model.points[from]), place_of(model.points[to])}});
+            rims[j].push_back({{model.points[from], model.points[to]}});
           const auto found = pair_of.find({j, model.equation[from]});
           complete = complete && found != pair_of.end();
           of_joint.pairs[k] = complete ? found->second : 0;
@@ -184,9 +179,8 @@ namespace Voussoir
     {
       const Vector3 &x = pairs[p].place;
       points << pairs[p].joint + 1 << ',' << x[0] << ',' << x[1] << ',' << x[2] << ','
-             << geometry.arc_length(dealii::Point<3>(x[0], x[1], x[2])) << ',' << depth[p] << ','
-             << pairs[p].area << ',' << opening[p] << ',' << slip[p] << ',' << std::max(now[p][0], 0.) << ','
-             << length_of_slip(now[p]) << '\n';
+             << geometry.arc_length(x) << ',' << depth[p] << ',' << pairs[p].area << ',' << opening[p] << ','
+             << slip[p] << ',' << std::max(now[p][0], 0.) << ',' << length_of_slip(now[p]) << '\n';
     }
     cells << "joint,n0,n1,n2,n3\n";
     for (const Quad &quad : quads)

@@ -56,7 +56,8 @@ namespace Voussoir
         {
           const unsigned int node = quad.nodes[k < 2 ? k : 5 - k]; // lexicographic order
           const auto         found = pair_of.find({j, model.equation[node]});
-          patch.vertices[k] = model.points[node];
+          patch.vertices[k] =
+              dealii::Point<3>(model.points[node][0], model.points[node][1], model.points[node][2]);
           if (found == pair_of.end()) // fixed base node
           {
             patch.data(0, k) = j + 1.;

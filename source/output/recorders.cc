@@ -234,9 +234,7 @@ namespace Voussoir
         const double x = largest ? maximum[i] : minimum[i];
         if (!found || (largest ? x > result.value : x < result.value))
         {
-          result = {x,
-                    largest ? time_of_maximum[i] : time_of_minimum[i],
-                    {{model.points[i][0], model.points[i][1], model.points[i][2]}}};
+          result = {x, largest ? time_of_maximum[i] : time_of_minimum[i], model.points[i]};
           found = true;
         }
       }

@@ -12,8 +12,8 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double amplification = 10.; ///< of the motion at a node, see StabilityMonitor
-    constexpr double long_period = 1.;    ///< natural period above that of any arch dam [s]
+    constexpr double growth_limit = 10.; ///< of the motion at a node, see StabilityMonitor
+    constexpr double long_period = 1.;   ///< natural period above that of any arch dam [s]
 
     /** Returns the velocity with which the dam has the kinetic energy @p strain [J] [m/s]. */
     double static_speed(const Structure &structure, const double strain)
@@ -47,11 +47,11 @@ namespace Voussoir
     const MotionBounds bounds = bounds_of(motion, dam.structure.mass_damping);
     const double       strain = newmark.state().energy.strain + dam.foundation->strain_at_start(),
                  v_0 = static_speed(dam.structure, strain);
-    velocity_dam = amplification * (bounds.oscillator + v_0);
-    const double velocity_rock = amplification * (bounds.velocity + v_0);
+    velocity_dam = growth_limit * (bounds.oscillator + v_0);
+    const double velocity_rock = growth_limit * (bounds.velocity + v_0);
     const double time = .5 * long_period / M_PI;
-    displacement_dam = amplification * bounds.displacement + time * velocity_dam;
-    const double displacement_rock = amplification * bounds.displacement + time * velocity_rock;
+    displacement_dam = growth_limit * bounds.displacement + time * velocity_dam;
+    const double displacement_rock = growth_limit * bounds.displacement + time * velocity_rock;
     for (Neighbour *neighbour : dam.neighbours)
       if (NeighbourMonitor *monitor = neighbour->monitor())
       {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/solid/face_quads.h>
+#include <voussoir/solid/solid_grid.h>
 
 namespace Voussoir
 {
@@ -7,11 +8,11 @@ namespace Voussoir
 
   std::vector<FaceQuad> face_quads(const SolidModel &model, const int surface)
   {
-    const unsigned int                   degree = model.fe.degree, per_side = degree + 1;
+    const unsigned int                   degree = model.degree, per_side = degree + 1;
     std::vector<FaceQuad>                quads;
-    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+    std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
     std::vector<unsigned int>            lattice(per_side * per_side);
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
         if (cell->face(f)->at_boundary() && static_cast<int>(cell->face(f)->boundary_id()) == surface)
         {
@@ -19,9 +20,9 @@ namespace Voussoir
           // Nodes of the face by their two tangential reference coordinates.
           const unsigned int normal = f / 2, t0 = (normal + 1) % 3, t1 = (normal + 2) % 3;
           for (unsigned int i = 0; i < dofs.size(); ++i)
-            if (model.fe.has_support_on_face(i, f))
+            if (model.grid->fe.has_support_on_face(i, f))
             {
-              const Point<3> &x = model.fe.unit_support_point(i);
+              const Point<3> &x = model.grid->fe.unit_support_point(i);
               lattice[static_cast<unsigned int>(x[t1] * degree + .5) * per_side +
                       static_cast<unsigned int>(x[t0] * degree + .5)] = dofs[i];
             }
@@ -45,7 +46,6 @@ namespace Voussoir
   double area(const SolidModel &model, const FaceQuad &quad)
   {
     const auto &p = model.points;
-    return .5 *
-           cross_product_3d(p[quad.nodes[2]] - p[quad.nodes[0]], p[quad.nodes[3]] - p[quad.nodes[1]]).norm();
+    return .5 * norm(cross(p[quad.nodes[2]] - p[quad.nodes[0]], p[quad.nodes[3]] - p[quad.nodes[1]]));
   }
 } // namespace Voussoir

@@ -2,7 +2,7 @@
 #include <voussoir/solid/cell_elasticity.h>
 #include <voussoir/solid/initial_strain.h>
 #include <voussoir/solid/nodal_mean.h>
-#include <voussoir/solid/solid_model.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <cmath>
 
@@ -87,15 +87,15 @@ namespace Voussoir
     InitialStrain                        result{Unknowns(3 * std::size_t(model.first_equation.back()), 0.),
                          std::vector<Stress>(model.n_nodes(), Stress{})};
     const NodalMean                      mean(model, materials, to_base);
-    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
+    std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
     std::vector<std::array<double, 6>>   sum(model.n_nodes()), of_base(model.n_nodes()), stress;
     std::vector<double>                  of_cell(dofs.size()), load;
-    CellElasticity                       elasticity(model.fe, incompatible_modes);
+    CellElasticity                       elasticity(model.grid->fe, incompatible_modes);
     auto                                 share = mean.shares.begin();
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
-      const Material &material = model.material_of(cell, materials);
+      const Material &material = model.material_of(cell->active_cell_index(), materials);
       for (unsigned int i = 0; i < dofs.size(); ++i)
         of_cell[i] = strain[dofs[i]];
       elasticity.reinit(cell, material);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/solid/nodal_mean.h>
 #include <voussoir/solid/node_faces.h>
-#include <voussoir/solid/solid_model.h>
+#include <voussoir/solid/solid_grid.h>
 #include <voussoir/solid/traction_condition.h>
 
 #include <algorithm>
@@ -47,11 +47,11 @@ namespace Voussoir
   NodalMean::NodalMean(const SolidModel &model, const std::vector<Material> &materials, const bool to_base)
       : material(model.n_nodes(), Material{0.}), n_cells(model.n_nodes(), 0)
   {
-    Dofs dofs(model.fe.n_dofs_per_cell());
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    Dofs dofs(model.grid->fe.n_dofs_per_cell());
+    for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
-      const Material &of_cell = model.material_of(cell, materials);
+      const Material &of_cell = model.material_of(cell->active_cell_index(), materials);
       for (const auto i : dofs)
       {
         if (of_cell.young > material[i].young)
@@ -62,7 +62,7 @@ namespace Voussoir
         n_cells[i] += of_cell.young == material[i].young;
       }
     }
-    if (to_base && model.fe.degree == 1)
+    if (to_base && model.degree == 1)
       add_base(model, materials);
   }
 
@@ -72,7 +72,7 @@ namespace Voussoir
     for (const NodeFace &face : faces_of_base(model))
       normals[face.node].push_back(face.normal);
     Dofs dofs(8), above(8);
-    for (const Cell &cell : model.dof_handler.active_cell_iterators())
+    for (const Cell &cell : model.grid->dof_handler.active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
       {
         const unsigned int d = f / 2, opposite = f ^ 1u; // direction of the element height
@@ -85,13 +85,15 @@ namespace Voussoir
         next->get_dof_indices(above);
         for (unsigned int i = 0; i < 8; ++i)
           if (const unsigned int node = dofs[i];
-              (i >> d & 1u) == f % 2 && model.material_of(cell, materials).young == material[node].young)
+              (i >> d & 1u) == f % 2 &&
+              model.material_of(cell->active_cell_index(), materials).young == material[node].young)
           {
             const unsigned int j = i ^ (1u << d),
                                low = std::find(above.begin(), above.end(), dofs[j]) - above.begin(),
                                high = low ^ (1u << next_d);
-            const Tensor<1, 3> edge = model.points[node] - model.points[dofs[j]];
-            const double h_1 = edge.norm(), h_2 = model.points[dofs[j]].distance(model.points[above[high]]),
+            const Tensor<1, 3> edge = to_point(model.points[node]) - to_point(model.points[dofs[j]]);
+            const double       h_1 = edge.norm(),
+                         h_2 = distance_between(model.points[dofs[j]], model.points[above[high]]),
                          w = h_1 / (h_1 + h_2);
             const auto P =
                 scaled(1. / n_cells[node], by_traction(material[node].poisson, normals[node], edge));

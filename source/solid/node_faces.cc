@@ -4,7 +4,7 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <voussoir/solid/node_faces.h>
-#include <voussoir/solid/solid_model.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <cmath>
 
@@ -29,12 +29,12 @@ namespace Voussoir
     std::vector<NodeFace> find_faces(const SolidModel &model, const bool of_base)
     {
       std::vector<Point<2>> places; // nodes of a face
-      for (unsigned int i = 0; i < model.fe.n_dofs_per_face(); ++i)
-        places.push_back(model.fe.unit_face_support_point(i));
-      FEFaceValues<3> values(model.fe, Quadrature<2>(places), update_values | update_boundary_forms);
+      for (unsigned int i = 0; i < model.grid->fe.n_dofs_per_face(); ++i)
+        places.push_back(model.grid->fe.unit_face_support_point(i));
+      FEFaceValues<3> values(model.grid->fe, Quadrature<2>(places), update_values | update_boundary_forms);
       std::vector<std::vector<NodeFace>>   at_node(model.n_nodes());
-      std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-      for (const auto &cell : model.dof_handler.active_cell_iterators())
+      std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
+      for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary() && (cell->face(f)->boundary_id() == PhysicalId::base) == of_base)
           {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/base/exceptions.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/mapping_q1.h>
 
 #include <voussoir/base/error.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/solid/cell_elasticity.h>
-#include <voussoir/solid/solid_model.h>
+#include <voussoir/solid/solid_grid.h>
 #include <voussoir/solid/triangulation.h>
 
 #include <algorithm>
@@ -17,11 +18,11 @@ namespace Voussoir
   using namespace dealii;
 
   SolidModel::SolidModel(const HexMesh &mesh, const unsigned int degree)
-      : fe(degree), dof_handler(triangulation), n_zones(mesh.zones.size())
+      : grid(std::make_unique<SolidGrid>(degree)), degree(degree), n_zones(mesh.zones.size())
   {
     std::vector<unsigned int> all(mesh.cells.size());
     std::iota(all.begin(), all.end(), 0);
-    make_triangulation(mesh, all, triangulation);
+    make_triangulation(mesh, all, grid->triangulation);
     std::set<int> numbers;
     for (const HexMesh::Cell &cell : mesh.cells)
     {
@@ -38,12 +39,19 @@ namespace Voussoir
     number_equations(on_base());
   }
 
+  SolidModel::SolidModel(SolidModel &&) noexcept = default;
+  SolidModel::~SolidModel() = default;
+
   /** Determines position, body and surfaces of each node. */
   void SolidModel::find_nodes()
   {
-    dof_handler.distribute_dofs(fe);
-    points.resize(dof_handler.n_dofs());
-    DoFTools::map_dofs_to_support_points(MappingQ1<3>(), dof_handler, points);
+    const FE_Q<3>       &fe = grid->fe;
+    const DoFHandler<3> &dof_handler = grid->dof_handler;
+    grid->dof_handler.distribute_dofs(fe);
+    std::vector<Point<3>> support(dof_handler.n_dofs());
+    DoFTools::map_dofs_to_support_points(MappingQ1<3>(), dof_handler, support);
+    for (const Point<3> &p : support)
+      points.push_back({{p[0], p[1], p[2]}});
     body.resize(points.size());
     surfaces.resize(points.size());
     bonded.resize(points.size());
@@ -161,13 +169,13 @@ namespace Voussoir
     return place({{p[0], p[1], p[2]}});
   }
 
-  const Material &SolidModel::material_of(const DoFHandler<3>::active_cell_iterator &cell,
-                                          const std::vector<Material>               &materials) const
+  const Material &SolidModel::material_of(const unsigned int           cell,
+                                          const std::vector<Material> &materials) const
   {
     if (materials.size() == 1)
       return materials[0];
     AssertThrow(materials.size() == n_zones, ExcDimensionMismatch(materials.size(), n_zones));
-    return materials[zone[cell->active_cell_index()]];
+    return materials[zone[cell]];
   }
 
   namespace
@@ -178,8 +186,8 @@ namespace Voussoir
       std::vector<std::vector<std::vector<unsigned int>>> columns(model.n_bodies());
       for (unsigned int b = 0; b < model.n_bodies(); ++b)
         columns[b].resize(model.first_equation[b + 1] - model.first_equation[b]);
-      std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-      for (const auto &cell : model.dof_handler.active_cell_iterators())
+      std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
+      for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
       {
         cell->get_dof_indices(dofs);
         const unsigned int b = model.body[dofs[0]], first = model.first_equation[b];
@@ -214,13 +222,13 @@ namespace Voussoir
     structure.added_mass.assign(model.first_equation.back(), Matrix3{});
     structure.bodies = empty_bodies(model);
 
-    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-    CellElasticity                       stiffness(model.fe, incompatible_modes);
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
+    CellElasticity                       stiffness(model.grid->fe, incompatible_modes);
+    for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
       const unsigned int b = model.body[dofs[0]];
-      stiffness.reinit(cell, model.material_of(cell, materials));
+      stiffness.reinit(cell, model.material_of(cell->active_cell_index(), materials));
       Body &body = structure.bodies[b];
       for (unsigned int i = 0; i < dofs.size(); ++i)
         if (const unsigned int e = model.equation[dofs[i]]; e != rigid_ground)

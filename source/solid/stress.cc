@@ -2,7 +2,7 @@
 #include <voussoir/base/simd.h>
 #include <voussoir/solid/cell_elasticity.h>
 #include <voussoir/solid/nodal_mean.h>
-#include <voussoir/solid/solid_model.h>
+#include <voussoir/solid/solid_grid.h>
 #include <voussoir/solid/stress.h>
 #include <voussoir/solid/traction_condition.h>
 
@@ -61,9 +61,9 @@ namespace Voussoir
   void StressRecovery::find_columns(const SolidModel &model, const NodalMean &mean)
   {
     std::vector<std::vector<unsigned int>> columns(model.n_nodes());
-    std::vector<types::global_dof_index>   dofs(model.fe.n_dofs_per_cell());
+    std::vector<types::global_dof_index>   dofs(model.grid->fe.n_dofs_per_cell());
     auto                                   share = mean.shares.begin();
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
       const auto add = [&](const unsigned int node)
@@ -98,14 +98,14 @@ namespace Voussoir
   void StressRecovery::add_cells(const SolidModel &model, const std::vector<Material> &materials,
                                  const bool incompatible_modes, const NodalMean &mean)
   {
-    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-    CellElasticity                       elasticity(model.fe, incompatible_modes);
+    std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
+    CellElasticity                       elasticity(model.grid->fe, incompatible_modes);
     std::vector<std::array<double, 18>>  cell_blocks;
     auto                                 share = mean.shares.begin();
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
-      const Material &of_cell = model.material_of(cell, materials);
+      const Material &of_cell = model.material_of(cell->active_cell_index(), materials);
       elasticity.reinit(cell, of_cell);
       elasticity.stress_operator(cell_blocks);
       for (unsigned int i = 0; i < dofs.size(); ++i)

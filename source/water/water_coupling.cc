@@ -15,7 +15,7 @@ namespace Voussoir
   {
     Vector3 place_of(const SolidModel &dam, const unsigned int node)
     {
-      return {{dam.points[node][0], dam.points[node][1], dam.points[node][2]}};
+      return dam.points[node];
     }
 
     double size_of(const WetQuad &quad)

@@ -68,6 +68,11 @@ namespace Voussoir
     return std::sqrt(dot(x, x));
   }
 
+  inline double distance_between(const Vector3 &a, const Vector3 &b)
+  {
+    return norm({{b[0] - a[0], b[1] - a[1], b[2] - a[2]}});
+  }
+
   /** Returns the length of the vector (x, y). */
   inline double length(const double x, const double y)
   {

@@ -18,7 +18,7 @@ namespace Voussoir
     /** Returns the arc length along the upstream edge of the crest [m], for the point of the edge that is
      * nearest to
      * @p p in plan. It is zero in the middle and positive towards the left bank. */
-    double arc_length(const dealii::Point<3> &p) const;
+    double arc_length(const Vector3 &p) const;
 
     /** Node of the upstream edge of the crest nearest to the middle. With equal distances, or at a joint, it
      * is the node towards the right bank. */
@@ -37,19 +37,19 @@ namespace Voussoir
   private:
     void find_crown(const SolidModel &model, const std::vector<unsigned int> &nodes);
 
-    std::vector<dealii::Point<3>> edge; ///< upstream edge of the crest, from the right bank
-    std::vector<double>           at;   ///< arc length at the points of @p edge [m]
+    std::vector<Vector3> edge; ///< upstream edge of the crest, from the right bank
+    std::vector<double>  at;   ///< arc length at the points of @p edge [m]
   };
 
   /** Returns the node nearest to a point. */
-  unsigned int nearest_node(const SolidModel &model, const dealii::Point<3> &p);
+  unsigned int nearest_node(const SolidModel &model, const Vector3 &p);
 
   /** Returns the node nearest to the probe @p name at @p p. Throws InputError if the distance exceeds the
    * element size, which is the largest distance of this node to the other nodes of its elements. */
-  unsigned int probe_node(const SolidModel &model, const std::string &name, const dealii::Point<3> &p);
+  unsigned int probe_node(const SolidModel &model, const std::string &name, const Vector3 &p);
 
   /** Returns the same for @p what, the begin of the message: "Entry ... : probe ...". */
-  unsigned int node_at(const SolidModel &model, const std::string &what, const dealii::Point<3> &p);
+  unsigned int node_at(const SolidModel &model, const std::string &what, const Vector3 &p);
 } // namespace Voussoir
 
 #endif

@@ -5,7 +5,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
-#include <voussoir/solid/solid_model.h>
+#include <voussoir/solid/solid_grid.h>
 
 namespace Voussoir
 {
@@ -18,11 +18,11 @@ namespace Voussoir
   void for_faces(const SolidModel &model, const int surface, const unsigned int n_points, const Function &f)
   {
     using namespace dealii;
-    FEFaceValues<3>                      values(model.fe, QGauss<2>(n_points),
+    FEFaceValues<3>                      values(model.grid->fe, QGauss<2>(n_points),
                                                 update_values | update_normal_vectors | update_JxW_values |
                                                     update_quadrature_points);
-    std::vector<types::global_dof_index> dofs(model.fe.n_dofs_per_cell());
-    for (const auto &cell : model.dof_handler.active_cell_iterators())
+    std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
+    for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
       for (const unsigned int face : cell->face_indices())
         if (cell->face(face)->at_boundary() && model.is_on(cell->face(face)->boundary_id(), surface))
         {

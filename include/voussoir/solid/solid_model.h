@@ -2,19 +2,19 @@
 #ifndef voussoir_solid_model_h
 #define voussoir_solid_model_h
 
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/grid/tria.h>
-
 #include <voussoir/mesh/mesh.h>
 #include <voussoir/solid/material.h>
 #include <voussoir/solid/structure.h>
 
 #include <algorithm>
+#include <memory>
 #include <set>
+#include <string>
 
 namespace Voussoir
 {
+  struct SolidGrid;
+
   /** Finite element mesh of the bodies: the deal.II triangulation of an opened mesh, its nodes, and the
    * numbering of the free nodes. The nodes are the support points of FE_Q(degree) (Gauss-Lobatto).
    *
@@ -27,6 +27,8 @@ namespace Voussoir
      * @param mesh opened mesh, see open_joints()
      * @param degree polynomial degree, 1 or 2 */
     SolidModel(const HexMesh &mesh, unsigned int degree);
+    SolidModel(SolidModel &&) noexcept;
+    ~SolidModel();
 
     /** Includes the base nodes in the free nodes, for a dam on deformable rock. */
     void free_base();
@@ -73,15 +75,13 @@ namespace Voussoir
 
     /** Returns the material of a cell. @p materials: one per zone of the mesh (HexMesh::zones), or a single
      * one for all cells. */
-    const Material &material_of(const dealii::DoFHandler<3>::active_cell_iterator &cell,
-                                const std::vector<Material>                       &materials) const;
+    const Material &material_of(unsigned int cell, const std::vector<Material> &materials) const;
 
-    dealii::Triangulation<3>      triangulation; ///< material id: block; boundary id: surface
-    dealii::FE_Q<3>               fe;
-    dealii::DoFHandler<3>         dof_handler;
-    std::vector<dealii::Point<3>> points;       ///< position of each node [m]
-    std::vector<unsigned int>     body;         ///< index into body_numbers of each node
-    std::vector<int>              body_numbers; ///< physical id of the (first) block of each body, ascending
+    std::unique_ptr<SolidGrid> grid;         ///< cells and faces, for solid_grid.h
+    unsigned int               degree;       ///< of the elements
+    std::vector<Vector3>       points;       ///< position of each node [m]
+    std::vector<unsigned int>  body;         ///< index into body_numbers of each node
+    std::vector<int>           body_numbers; ///< physical id of the (first) block of each body, ascending
     std::vector<unsigned int> master; ///< of each node: a node of the same body that moves with it, or itself
     std::size_t n_zones;              ///< number of zones of the mesh, also those without cells in this model
     std::vector<unsigned int>  zone;  ///< index into HexMesh::zones of each active cell
