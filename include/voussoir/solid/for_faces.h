@@ -6,6 +6,7 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 
 namespace Voussoir
 {

@@ -6,7 +6,7 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/grid/tria.h>
 
-#include <voussoir/solid/solid_model.h>
+#include <voussoir/base/tensor3.h>
 
 namespace Voussoir
 {
