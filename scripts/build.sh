@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Configures and builds Voussoir in build/ (Release); the program is build/voussoir.
+# Configures and builds Voussoir in build/ (Release), file by file; the program is build/voussoir.
+# With VOUSSOIR_UNITY=ON in the environment a new build directory compiles sources in groups: faster from scratch.
 # Usage: scripts/build.sh [--configure-only] [--directory DIR] [--target NAME] [more arguments for cmake, such as
 #        -DCMAKE_BUILD_TYPE=Debug]
 set -euo pipefail
@@ -24,7 +25,7 @@ done
 options=()
 # An existing build directory keeps its generator, its type and its way of compiling.
 if [[ ! -f "$directory/CMakeCache.txt" ]]; then
-  options+=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DVOUSSOIR_UNITY=ON)
+  options+=(-G Ninja -DCMAKE_BUILD_TYPE=Release "-DVOUSSOIR_UNITY=${VOUSSOIR_UNITY:-OFF}")
 fi
 if command -v ccache >/dev/null; then
   options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)

@@ -41,7 +41,7 @@ benchmarks()
 coverage()
 {
   local directory=$root/build-coverage flags="--coverage -fprofile-update=atomic" status=0
-  scripts/build.sh --directory "$directory" -DCMAKE_BUILD_TYPE=Release -DVOUSSOIR_UNITY=OFF "-DCMAKE_CXX_FLAGS=$flags" "-DCMAKE_C_FLAGS=$flags"
+  scripts/build.sh --directory "$directory" -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=$flags" "-DCMAKE_C_FLAGS=$flags"
   find "$directory" -name '*.gcda' -delete
   (cd "$directory" && ctest --output-on-failure --no-tests=error -j"$(nproc)" --timeout 1200 -E 'program_(install|packages)') || status=$?
   scripts/coverage.py "$directory" --missed build/missed_lines.txt | tee build/coverage.md

@@ -6,6 +6,7 @@
 set -euo pipefail
 # shellcheck source=environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+export VOUSSOIR_UNITY=ON # a new build directory: compile sources in groups
 
 directory="$root/build-package"
 if [[ "${1:-}" == --directory ]]; then

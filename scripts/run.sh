@@ -6,6 +6,7 @@
 set -euo pipefail
 # shellcheck source=environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+export VOUSSOIR_UNITY=ON # a new build directory: compile sources in groups
 
 scene="$root/prm/quickstart.prm"
 if (($#)) && [[ "$1" != -* ]]; then
@@ -30,8 +31,11 @@ while (($#)); do
 done
 
 step 1/4 "Packages: deal.II and what else is missing (scripts/setup.sh)" "$root/scripts/setup.sh" --program
+"$root/scripts/setup.sh" --figures >"$root/build/logs/figures.log" 2>&1 </dev/null & # during the build
+figures=$!
 step 2/4 "Configure: CMake" "$root/scripts/build.sh" --configure-only
 step 3/4 "Build: the program, without its tests" "$root/scripts/build.sh" --target voussoir
+wait "$figures" || echo "run: warning: packages of the figures are missing ($root/build/logs/figures.log)" >&2
 begin=$SECONDS
 echo "4/4  Run: $scene"
 echo

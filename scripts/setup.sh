@@ -2,21 +2,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what Voussoir needs on Debian and Ubuntu, by apt and only where a package is missing. An optional package that the
 # release does not have keeps no other package away. Prints at the end which are missing, and what they are for.
-# Usage: scripts/setup.sh [--program]     --program: what building and running the program needs, nothing for its tests
+# Usage: scripts/setup.sh [--program | --figures]
+#   --program: what the build of the program needs; --figures: what a run needs for figures, report and other mesh formats;
+#   without an option: both, and what the tests need
 set -euo pipefail
 
 # mold: deal.II of Debian 13 links with it, and its package does not depend on it; elsewhere it is faster.
-required=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev
-          ninja-build cmake g++ mold git python3-matplotlib)
-optional=("libfclib-dev: voussoir contact, Contact/Write problems" "libhdf5-dev: with libfclib-dev"
-          "python3-meshio: meshes in the formats .inp and .med"
+program=(libdeal.ii-dev libsuitesparse-dev libopenblas-dev libgmsh-dev ninja-build cmake g++ mold git)
+figures=(python3-matplotlib)
+for_runs=("python3-meshio: meshes in the formats .inp and .med"
           "libjs-three: view of the moving dam in voussoir report" "libjs-dygraphs: histories beside this view")
-if [[ "${1:-}" != --program ]]; then
-  required+=(gmsh numdiff ccache shellcheck flake8 doxygen)
-  optional+=("clang-format: format of the sources" "calculix-ccx: benchmarks/calculix.py" "python3-siconos: benchmarks/contact.py"
-             "python3-h5py: benchmarks/contact.py" "chromium: voussoir report --pdf and the test of its page"
-             "snakemake: voussoir study" "mkdocs-material: scripts/site.py" "python3-jsonschema: test of the JSON schema of the scene")
-fi
+case "${1:-}" in
+  --program) required=("${program[@]}") optional=() ;;
+  --figures) required=("${figures[@]}") optional=("${for_runs[@]}") ;;
+  *)
+    required=("${program[@]}" "${figures[@]}" gmsh numdiff ccache shellcheck flake8 doxygen)
+    optional=("${for_runs[@]}" "libfclib-dev: voussoir contact, Contact/Write problems" "libhdf5-dev: with libfclib-dev"
+              "clang-format: format of the sources" "calculix-ccx: benchmarks/calculix.py" "python3-siconos: benchmarks/contact.py"
+              "python3-h5py: benchmarks/contact.py" "chromium: voussoir report --pdf and the test of its page"
+              "snakemake: voussoir study" "mkdocs-material: scripts/site.py" "python3-jsonschema: test of the JSON schema of the scene")
+    ;;
+esac
 
 is_installed() # PACKAGE
 {
@@ -57,24 +63,23 @@ fi
 
 apt() # ARGUMENTS...: apt-get without questions
 {
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get "$@"
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=600 "$@"
 }
 
 # A failed update is no reason to stop: the lists that are there may do.
 apt update || echo "setup: warning: apt-get update failed; the present package lists are used" >&2
-if ((${#needed[@]})); then
-  echo "setup: installing ${needed[*]}"
-  apt install -y --no-install-recommends "${needed[@]}"
-fi
-
-# All candidates at once, which is faster; one by one if that fails.
 candidates=() missing=()
 for entry in "${wanted[@]}"; do
   if [[ "$(LC_ALL=C apt-cache policy "${entry%%:*}")" == *"Candidate: "[!\(]* ]]; then
     candidates+=("${entry%%:*}")
   fi
 done
-if ((${#candidates[@]})) && ! apt install -y --no-install-recommends "${candidates[@]}"; then
+# All packages at once, which is faster; the optional ones one by one if that fails.
+echo "setup: installing ${needed[*]} ${candidates[*]}"
+if ! apt install -y --no-install-recommends "${needed[@]}" "${candidates[@]}"; then
+  if ((${#needed[@]})); then
+    apt install -y --no-install-recommends "${needed[@]}"
+  fi
   for package in "${candidates[@]}"; do
     apt install -y --no-install-recommends "$package" || true
   done

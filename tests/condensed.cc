@@ -5,6 +5,7 @@
 #include "testing.h"
 
 #include <voussoir/joints/condensed_body.h>
+#include <voussoir/joints/packed_factor.h>
 #include <voussoir/joints/joint_block.h>
 
 #include <random>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/exceptions.h>
-
 #include <voussoir/app/checkpoint.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/internal_error.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/base/version.h>
 #include <voussoir/output/archive.h>
@@ -179,9 +178,8 @@ namespace Voussoir
         std::vector<double> saved;
         archive >> saved;
         // With a longer motion the columns of the free field are longer; the added part is at rest.
-        AssertThrow(saved.size() == array->size() ||
-                        (run.n_steps > n_steps_then && saved.size() < array->size()),
-                    dealii::ExcInternalError());
+        ensure(saved.size() == array->size() || (run.n_steps > n_steps_then && saved.size() < array->size()),
+               "A saved array has another size.");
         std::fill(std::copy(saved.begin(), saved.end(), array->begin()), array->end(), 0.);
       }
   }

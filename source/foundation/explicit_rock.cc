@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/exceptions.h>
-
 #include <voussoir/base/error.h>
 #include <voussoir/base/free_memory.h>
+#include <voussoir/base/internal_error.h>
 #include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/foundation/foundation_check.h>
 #include <voussoir/foundation/region_parameters.h>
@@ -110,8 +109,7 @@ namespace Voussoir
     /** Returns the static state of the rock, which must exist. */
     RockStaticState &existing(const std::unique_ptr<RockStaticState> &state)
     {
-      Assert(state,
-             dealii::ExcMessage("The static state requires add_stiffness() before and start() after."));
+      ensure(state != nullptr, "The static state requires add_stiffness() before and start() after.");
       return *state;
     }
   } // namespace

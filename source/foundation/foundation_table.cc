@@ -4,6 +4,7 @@
 #include <voussoir/foundation/foundation_table.h>
 #include <voussoir/foundation/massless_rock.h>
 #include <voussoir/foundation/subcycled_rock.h>
+#include <voussoir/rock/boundary_table.h>
 
 #include <algorithm>
 

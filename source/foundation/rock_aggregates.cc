@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/exceptions.h>
-
+#include <voussoir/base/internal_error.h>
 #include <voussoir/base/parallel.h>
 #include <voussoir/foundation/rock_aggregates.h>
 #include <voussoir/rock/rock_split.h>
@@ -302,8 +301,7 @@ namespace Voussoir
         for (unsigned int i = 0; i < x.nodes.size(); ++i)
         {
           const unsigned int node = x.nodes[i];
-          AssertThrow(K.start[node] < K.start[node + 1],
-                      dealii::ExcInternalError()); // the row must exist on this rank
+          ensure(K.start[node] < K.start[node + 1], "A row of the rock is not on this rank.");
           double largest = 0.;
           for (std::size_t k = K.start[node]; k < K.start[node + 1]; ++k)
             largest = std::max(largest, square(K.value[k]));

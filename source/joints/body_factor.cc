@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/exceptions.h>
-
 #include <voussoir/base/blas.h>
 #include <voussoir/base/cholmod_objects.h>
 #include <voussoir/joints/body_factor.h>
+#include <voussoir/joints/packed_factor.h>
 
 #include <omp.h>
 
@@ -237,9 +236,10 @@ namespace Voussoir
     return entries_of(cholmod->L, order == Order::interface_last ? n() - n_interface() : n());
   }
 
-  PackedFactor BodyFactor::take_leading_columns(const bool single)
+  std::unique_ptr<PackedFactor> BodyFactor::take_leading_columns(const bool single)
   {
-    return PackedFactor(cholmod->L, order == Order::interface_last ? n() - n_interface() : n(), single);
+    return std::make_unique<PackedFactor>(cholmod->L,
+                                          order == Order::interface_last ? n() - n_interface() : n(), single);
   }
 
   std::vector<unsigned int> BodyFactor::permutation() const

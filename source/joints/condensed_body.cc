@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/blas.h>
 #include <voussoir/joints/condensed_body.h>
+#include <voussoir/joints/packed_factor.h>
 
 #include <algorithm>
 #include <utility>
@@ -52,6 +53,9 @@ namespace Voussoir
     condensed_load.resize(free_order ? 0 : m);
   }
 
+  CondensedBody::CondensedBody(CondensedBody &&) noexcept = default;
+  CondensedBody::~CondensedBody() = default;
+
   void CondensedBody::apply_load(const double *b, double *u_G)
   {
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -60,9 +64,9 @@ namespace Voussoir
       return;
     if (free_order)
       load = x;
-    factor.forward(x.data());
+    factor->forward(x.data());
     if (free_order)
-      factor.backward(x.data());
+      factor->backward(x.data());
     for (std::size_t i = 0; i < interface_row.size(); ++i)
       (free_order ? u_G : condensed_load.data())[i] = x[interface_row[i]];
     if (!free_order)
@@ -77,7 +81,7 @@ namespace Voussoir
         x = load;
       for (std::size_t i = 0; i < interface_row.size(); ++i)
         x[interface_row[i]] += f[i];
-      factor.forward(x.data());
+      factor->forward(x.data());
     }
     else
     {
@@ -88,7 +92,7 @@ namespace Voussoir
       for (std::size_t i = 0; i < u_G.size(); ++i)
         x[interface_row[i]] = u_G[i];
     }
-    factor.backward(x.data());
+    factor->backward(x.data());
     for (std::size_t i = 0; i < x.size(); ++i)
       u[permutation[i]] = x[i];
   }
@@ -98,11 +102,11 @@ namespace Voussoir
     std::vector<double> u_G(n_interface());
     apply_load(b, u_G.data());
     if (interface_row.empty())
-      factor.forward(x.data());
+      factor->forward(x.data());
     for (std::size_t i = 0; i < u_G.size() && !free_order; ++i)
       x[interface_row[i]] = u_G[i];
     if (interface_row.empty() || !free_order)
-      factor.backward(x.data());
+      factor->backward(x.data());
     for (std::size_t i = 0; i < x.size(); ++i)
       u[permutation[i]] = x[i];
   }
@@ -114,7 +118,7 @@ namespace Voussoir
 
   double CondensedBody::memory() const
   {
-    return factor.memory() + 8. * (flexibility.size() + x.size() + load.size() + condensed_load.size()) +
+    return factor->memory() + 8. * (flexibility.size() + x.size() + load.size() + condensed_load.size()) +
            4. * (permutation.size() + interface_row.size());
   }
 } // namespace Voussoir

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/exceptions.h>
-
 #include <voussoir/base/parallel.h>
 #include <voussoir/joints/base_elimination.h>
 #include <voussoir/joints/dense_kernels.h>

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/exceptions.h>
-
 #include <voussoir/contact/elastic_law.h>
 #include <voussoir/contact/surfaces_law.h>
 #include <voussoir/joints/joint_laws.h>

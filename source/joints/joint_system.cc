@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/exceptions.h>
-
 #include <voussoir/base/parallel.h>
 #include <voussoir/joints/joint_system.h>
 

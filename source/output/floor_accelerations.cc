@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/exceptions.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/internal_error.h>
 #include <voussoir/base/log.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/motion/response_spectrum.h>
@@ -18,7 +18,7 @@ namespace Voussoir
     std::vector<double> column(const Table &table, const std::string &name)
     {
       const auto found = std::find(table.columns.begin(), table.columns.end(), name);
-      AssertThrow(found != table.columns.end(), dealii::ExcInternalError());
+      ensure(found != table.columns.end(), "A column of the floor accelerations is missing.");
       const std::size_t   k = found - table.columns.begin();
       std::vector<double> values;
       for (const auto &row : table.rows)

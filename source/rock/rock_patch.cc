@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/exceptions.h>
-
 #include <voussoir/base/error.h>
+#include <voussoir/base/internal_error.h>
 #include <voussoir/rock/rock_patch.h>
 
 #include <algorithm>
@@ -21,8 +20,8 @@ namespace Voussoir
     const unsigned int n_rows = n_layer[n_steps - 1];
     for (unsigned int i = 0; i < n_rows; ++i)
     {
-      AssertThrow(model.stiffness.start[node[i]] < model.stiffness.start[node[i] + 1],
-                  dealii::ExcInternalError()); // in a part of the model, is the row filled?
+      ensure(model.stiffness.start[node[i]] < model.stiffness.start[node[i] + 1],
+             "A row of the rock below the dam is not on this rank.");
       if (on_boundary[node[i]])
         throw InputError("The base of the dam is fewer than " + std::to_string(n_steps) +
                          " layers of rock elements from the artificial boundary, which is too near for "

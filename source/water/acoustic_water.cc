@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/base/exceptions.h>
-
 #include <voussoir/base/error.h>
+#include <voussoir/base/internal_error.h>
 #include <voussoir/base/log.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/motion/ground_motion.h>
@@ -151,7 +150,7 @@ namespace Voussoir
 
   void AcousticWater::start(const GroundMotion &motion, const TimeGrid &grid, const Unknowns &u)
   {
-    AssertThrow(model && dt == grid.dt, dealii::ExcMessage("prepare() comes first"));
+    ensure(model && dt == grid.dt, "AcousticWater::prepare() comes before start().");
     const std::size_t n = model->n_nodes();
     for (const auto &v : motion.integrated().velocity)
       ground_velocity.push_back({{v[0], v[1], v[2]}});

@@ -3,13 +3,14 @@
 #define voussoir_body_factor_h
 
 #include <voussoir/base/error.h>
-#include <voussoir/joints/packed_factor.h>
 #include <voussoir/solid/structure.h>
 
 #include <memory>
 
 namespace Voussoir
 {
+  class PackedFactor;
+
   /** Linear system of a step: A u = load + share G^T f with A = mass M + stiffness K + dashpot D + reaction E +
    * springs, and the joint forces f. A static system has the mass 0. */
   struct StepOperator
@@ -77,7 +78,7 @@ namespace Voussoir
 
     /** Moves the columns that n_entries() counts to the result, in @p single or double precision. Call it
      * once, after the other functions: only permutation() remains valid. Requires factorise(). */
-    PackedFactor take_leading_columns(bool single);
+    std::unique_ptr<PackedFactor> take_leading_columns(bool single);
 
     /** Returns the unknown of the body, 3 node + component, for each of the n() rows of L. Requires
      * analyse(). */

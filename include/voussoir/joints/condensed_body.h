@@ -25,6 +25,8 @@ namespace Voussoir
      * elements), and std::bad_alloc. */
     CondensedBody(const Structure &structure, const Body &body, const StepOperator &step,
                   const Unknowns &springs = Unknowns(), bool single = false);
+    CondensedBody(CondensedBody &&) noexcept;
+    ~CondensedBody();
 
     /** Computes the displacement of the interface without joint forces.
      * @param b load of the body, three values per node [N]
@@ -53,13 +55,13 @@ namespace Voussoir
     double memory() const; ///< memory consumption [bytes]
 
   private:
-    std::vector<unsigned int> permutation;   ///< unknown of the body at each row of the factor
-    std::vector<unsigned int> interface_row; ///< row of each unknown of the interface
-    PackedFactor              factor;
-    bool                      free_order;  ///< false: interface last
-    std::vector<double>       flexibility; ///< column by column
-    std::vector<double>       load, x;     ///< work space, in the order of the factor
-    std::vector<double>       condensed_load;
+    std::vector<unsigned int>     permutation;   ///< unknown of the body at each row of the factor
+    std::vector<unsigned int>     interface_row; ///< row of each unknown of the interface
+    std::unique_ptr<PackedFactor> factor;
+    bool                          free_order;  ///< false: interface last
+    std::vector<double>           flexibility; ///< column by column
+    std::vector<double>           load, x;     ///< work space, in the order of the factor
+    std::vector<double>           condensed_load;
   };
 } // namespace Voussoir
 
