@@ -14,6 +14,7 @@
 #include <voussoir/mesh/plane_section.h>
 #include <voussoir/solid/cell_elasticity.h>
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/dam/dam_geometry.h>
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 
 #include <algorithm>
 #include <cmath>

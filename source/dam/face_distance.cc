@@ -4,6 +4,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/dam/face_distance.h>
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include <voussoir/dam/face_distance.h>
 #include <voussoir/dam/joint_water.h>
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 
 #include <algorithm>
 #include <map>

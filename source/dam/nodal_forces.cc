@@ -3,6 +3,7 @@
 #include <voussoir/dam/dam_geometry.h>
 #include <voussoir/dam/nodal_forces.h>
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 
 #include <set>
 #include <utility>

@@ -6,6 +6,7 @@
 #include <voussoir/base/parallel.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace Voussoir
@@ -78,11 +79,11 @@ namespace Voussoir
   void Newmark::start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
                       const Unknowns &reference_jump, const Unknowns &memory, const Unknowns &constant_force)
   {
-    AssertDimension(u.size(), 3 * std::size_t(structure.n_nodes()));
-    AssertDimension(v.size(), 3 * std::size_t(structure.n_nodes()));
-    AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
-    AssertDimension(force.size(), 3 * structure.pairs.size());
-    AssertDimension(reference_jump.size(), 3 * structure.pairs.size());
+    assert(u.size() == 3 * std::size_t(structure.n_nodes()));
+    assert(v.size() == 3 * std::size_t(structure.n_nodes()));
+    assert(load.size() == 3 * std::size_t(structure.n_nodes()));
+    assert(force.size() == 3 * structure.pairs.size());
+    assert(reference_jump.size() == 3 * structure.pairs.size());
     reference = reference_jump;
     elastic_force = constant_force;
     elastic_energy = 0.;
@@ -171,7 +172,7 @@ namespace Voussoir
 
   ContactResult Newmark::advance(const Unknowns &load, const Vector3 &base_velocity)
   {
-    AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
+    assert(load.size() == 3 * std::size_t(structure.n_nodes()));
     return advance(StepSize{levels[0]->dt, levels[0]->n_substeps, 0}, load, base_velocity);
   }
 

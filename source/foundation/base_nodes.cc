@@ -3,6 +3,7 @@
 #include <voussoir/foundation/base_nodes.h>
 #include <voussoir/mesh/coincident.h>
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 
 #include <algorithm>
 #include <map>

@@ -7,6 +7,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cassert>
 #include <new>
 #include <numeric>
 #include <string>
@@ -170,7 +171,7 @@ namespace Voussoir
                          const Unknowns &springs)
       : body(body), cholmod(std::make_unique<Cholmod>())
   {
-    AssertIndexRange(body.first_node + body.n_nodes(), structure.n_nodes() + 1);
+    assert(body.first_node + body.n_nodes() < structure.n_nodes() + 1);
     cholmod->A = cholmod_allocate_sparse(n(), n(), 9 * body.stiffness.value.size() / 2 + 3 * n(), 1, 1, -1,
                                          CHOLMOD_REAL, &cholmod->common);
     check_memory(cholmod->common);

@@ -5,6 +5,7 @@
 #include <voussoir/joints/interface_operator.h>
 
 #include <algorithm>
+#include <cassert>
 #include <set>
 
 namespace Voussoir
@@ -19,8 +20,8 @@ namespace Voussoir
 
   std::vector<double> &InterfaceOperator::block(const unsigned int j, const unsigned int k)
   {
-    AssertIndexRange(k, n_groups());
-    AssertIndexRange(j, k + 1);
+    assert(k < n_groups());
+    assert(j < k + 1);
     const auto inserted = blocks.try_emplace({j, k});
     if (inserted.second)
     {
@@ -38,7 +39,7 @@ namespace Voussoir
 
   void InterfaceOperator::multiply(const Unknowns &x, Unknowns &y) const
   {
-    AssertDimension(x.size(), n());
+    assert(x.size() == n());
     // A block of two joints is used for both joints while it is in the cache. The two products are added
     // later in the order of the blocks, so that the result does not depend on the number of threads.
     std::vector<const std::pair<const std::pair<unsigned int, unsigned int>, std::vector<double>> *> list;
@@ -174,8 +175,8 @@ namespace Voussoir
 
   void InterfaceOperator::sweep(const PairSolver &solve_pair, Unknowns &force, Unknowns &gap) const
   {
-    AssertDimension(force.size(), n());
-    AssertDimension(gap.size(), n());
+    assert(force.size() == n());
+    assert(gap.size() == n());
     Floats change(n(), 0.f), moved(n(), 0.f); // changes of force and gap
     gauss_seidel(
         [&](const unsigned int g)
@@ -232,13 +233,13 @@ namespace Voussoir
 
   Matrix3 InterfaceOperator::diagonal(const unsigned int pair) const
   {
-    AssertIndexRange(pair, diagonals.size());
+    assert(pair < diagonals.size());
     return diagonals[pair];
   }
 
   Matrix3 InterfaceOperator::diagonal_of_blocks(const unsigned int pair) const
   {
-    AssertIndexRange(pair, n_pairs());
+    assert(pair < n_pairs());
     const unsigned int group = std::upper_bound(offset.begin(), offset.end(), 3 * pair) - offset.begin() - 1;
     const std::vector<double> &b = blocks.at({group, group});
     const std::size_t          first = 3 * pair - offset[group], m = size(group);

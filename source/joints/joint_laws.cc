@@ -4,6 +4,7 @@
 #include <voussoir/joints/joint_laws.h>
 
 #include <algorithm>
+#include <cassert>
 
 namespace Voussoir
 {
@@ -45,8 +46,8 @@ namespace Voussoir
   std::vector<PairHistory> PairLaws::histories(const Unknowns &start, const bool is_mean,
                                                const Unknowns &memory) const
   {
-    AssertDimension(start.size(), 3 * of_pair.size());
-    AssertDimension(memory.size(), n_memory());
+    assert(start.size() == 3 * of_pair.size());
+    assert(memory.size() == n_memory());
     std::vector<PairHistory> list;
     list.reserve(of_pair.size());
     for (std::size_t p = 0; p < of_pair.size(); ++p)
@@ -62,7 +63,7 @@ namespace Voussoir
   unsigned int PairLaws::revise(const Unknowns &start, const bool is_mean, const Unknowns &gap,
                                 Unknowns &force, Unknowns &memory) const
   {
-    AssertDimension(force.size(), 3 * of_pair.size());
+    assert(force.size() == 3 * of_pair.size());
     constexpr double               among_the_worst = .9;
     const std::vector<PairHistory> history = histories(start, is_mean, memory);
     std::vector<double>            utilisation(of_pair.size());
@@ -99,8 +100,8 @@ namespace Voussoir
   {
     if (!have_memory())
       return;
-    AssertDimension(force.size(), 3 * of_pair.size());
-    AssertDimension(gap.size(), 3 * of_pair.size());
+    assert(force.size() == 3 * of_pair.size());
+    assert(gap.size() == 3 * of_pair.size());
     const std::vector<PairHistory> history = histories(start, is_mean, memory);
     for (std::size_t p = 0; p < of_pair.size(); ++p)
       of_pair[p]->commit(get(force, p), get(gap, p), history[p], memory.data() + memory_begin(p));
@@ -111,8 +112,8 @@ namespace Voussoir
     JointEnergy sum;
     if (have_memory())
     {
-      AssertDimension(gap.size(), 3 * of_pair.size());
-      AssertDimension(memory.size(), n_memory());
+      assert(gap.size() == 3 * of_pair.size());
+      assert(memory.size() == n_memory());
       for (std::size_t p = 0; p < of_pair.size(); ++p)
       {
         const double *own = memory.data() + memory_begin(p);

@@ -9,6 +9,7 @@
 #include <voussoir/mesh/mesh.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <filesystem>
 #include <map>
@@ -300,10 +301,10 @@ namespace Voussoir
                                    Unknowns &memory, Unknowns &force, Unknowns &gap, Unknowns &u,
                                    BaseOfStep *of_step)
   {
-    AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
-    AssertDimension(offset.size(), 3 * sides.size());
-    AssertDimension(start.size(), 3 * sides.size());
-    AssertDimension(force.size(), 3 * sides.size());
+    assert(load.size() == 3 * std::size_t(structure.n_nodes()));
+    assert(offset.size() == 3 * sides.size());
+    assert(start.size() == 3 * sides.size());
+    assert(force.size() == 3 * sides.size());
     const double begin = now();
     u.resize(load.size());
     for_each_own_body(
@@ -420,7 +421,7 @@ namespace Voussoir
 
   void JointSystem::solve_free(const Unknowns &load, Unknowns &u)
   {
-    AssertDimension(load.size(), 3 * std::size_t(structure.n_nodes()));
+    assert(load.size() == 3 * std::size_t(structure.n_nodes()));
     u.resize(load.size());
     for_each_own_body(
         [&](const unsigned int b)

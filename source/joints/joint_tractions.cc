@@ -4,6 +4,7 @@
 
 #include <voussoir/joints/joint_tractions.h>
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 
 #include <algorithm>
 #include <map>

@@ -6,6 +6,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,6 @@ namespace Voussoir
     /** Three neighbours of each corner along edges, in right-handed order. */
     constexpr unsigned int neighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
                                                {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
-
   } // namespace
 
   MeshQuality mesh_quality(const HexMesh &mesh, const bool of_rock)
@@ -28,8 +27,8 @@ namespace Voussoir
       double smallest = 1e300, largest = 0.;
       for (unsigned int v = 0; v < 8; ++v)
       {
-        std::array<Vector, 3> edge;
-        double                product = 1;
+        std::array<Vector3, 3> edge;
+        double                 product = 1;
         for (unsigned int a = 0; a < 3; ++a)
         {
           for (unsigned int d = 0; d < 3; ++d)

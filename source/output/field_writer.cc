@@ -8,6 +8,7 @@
 #include <voussoir/output/vtu_flags.h>
 #include <voussoir/solid/face_quads.h>
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 
 #include <fstream>
 #include <map>

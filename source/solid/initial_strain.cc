@@ -3,6 +3,7 @@
 #include <voussoir/solid/initial_strain.h>
 #include <voussoir/solid/nodal_mean.h>
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 
 #include <cmath>
 

@@ -2,6 +2,7 @@
 #include <voussoir/solid/nodal_mean.h>
 #include <voussoir/solid/node_faces.h>
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 #include <voussoir/solid/traction_condition.h>
 
 #include <algorithm>

@@ -5,6 +5,7 @@
 
 #include <voussoir/solid/node_faces.h>
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 
 #include <cmath>
 

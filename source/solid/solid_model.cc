@@ -7,6 +7,7 @@
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/solid/cell_elasticity.h>
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 #include <voussoir/solid/triangulation.h>
 
 #include <algorithm>

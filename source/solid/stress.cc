@@ -3,6 +3,7 @@
 #include <voussoir/solid/cell_elasticity.h>
 #include <voussoir/solid/nodal_mean.h>
 #include <voussoir/solid/solid_grid.h>
+#include <voussoir/solid/solid_model.h>
 #include <voussoir/solid/stress.h>
 #include <voussoir/solid/traction_condition.h>
 

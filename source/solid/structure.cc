@@ -3,6 +3,7 @@
 #include <voussoir/solid/structure.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace Voussoir
@@ -73,7 +74,7 @@ namespace Voussoir
 
   void Structure::multiply_stiffness(const Unknowns &u, Unknowns &Ku) const
   {
-    AssertDimension(u.size(), 3 * std::size_t(n_nodes()));
+    assert(u.size() == 3 * std::size_t(n_nodes()));
     Ku.resize(u.size());
     for (unsigned int b = 0; b < bodies.size(); ++b)
       if (share.is_mine(b))
