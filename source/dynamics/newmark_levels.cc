@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Full and reduced time steps of Newmark, and its subcycled or massless support.
 
 #include <voussoir/base/error.h>

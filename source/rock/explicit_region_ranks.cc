@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // ExplicitRegion distributed over several MPI processes.
 
 #include <voussoir/base/excess.h>

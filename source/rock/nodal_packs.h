@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Kernel of nodal_kernel.h. nodal_kernel.cc includes this file several times, each time in a namespace for
 // another instruction set. The namespace supplies Lanes (a vector of n_wide doubles), load() and add().
 // Vectors are passed by reference to functions that are always inlined, so calling conventions

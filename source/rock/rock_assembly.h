@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Assembly of a RockModel and its stiffness matrix, for rock_model.cc and rock_part.cc.
 #ifndef voussoir_rock_assembly_h
 #define voussoir_rock_assembly_h

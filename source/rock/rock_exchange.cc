@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of the stiffness operator of a region on several MPI processes, and the exchange of their forces.
 
 #include "rock_numbering.h"

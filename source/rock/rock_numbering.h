@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Data that the steps of the construction of RockOperator share.
 #ifndef voussoir_rock_numbering_h
 #define voussoir_rock_numbering_h
