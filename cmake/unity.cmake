@@ -6,12 +6,11 @@
 #   1 another header of deal.II: one group;
 #   0 no header of deal.II: one group for each room.
 # Sources of kernels (*_kernels.cc, *_kernel.cc, *_factor.cc) have unnamed types of the same names and stay alone.
-# Sources of base and contact stay alone, too, as programs link them without deal.II (doc/tutorials/5_own_law.md).
 
 # Sets OUT to the highest level of the headers that FILE reaches.
 function(voussoir_reach file out)
   get_property(level GLOBAL PROPERTY VOUSSOIR_REACH_${file})
-  if(level STREQUAL "")
+  if("${level}" STREQUAL "")
     set(level 0)
     file(STRINGS ${file} lines REGEX "^ *# *include +<")
     foreach(line ${lines})
@@ -40,7 +39,7 @@ function(voussoir_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})
-    if(source MATCHES "/source/([^/]*)/[^/]*\\.cc$" AND NOT source MATCHES "_(kernels?|factor)\\.cc$")
+    if(NOT source MATCHES "_(kernels?|factor)\\.cc$" AND source MATCHES "/source/([^/]*)/[^/]*\\.cc$")
       set(room ${CMAKE_MATCH_1})
       voussoir_reach(${source} level)
       if(level GREATER 0)

@@ -52,9 +52,9 @@ namespace Voussoir
     std::ostringstream out(std::ios::binary);
     {
       boost::archive::binary_oarchive archive(out);
-      const DynamicState              state = run.newmark->state();
-      const Energy                    first = run.newmark->initial_energy();
-      const double wall = counters.wall(), cpu = counters.cpu(), largest = run.newmark->largest_energy();
+      const DynamicState              state = run.integrator->state();
+      const Energy                    first = run.integrator->initial_energy();
+      const double wall = counters.wall(), cpu = counters.cpu(), largest = run.integrator->largest_energy();
       const std::vector<double> samples = beginning(run.motion, run.step + 1);
       std::vector<int>          pairs;
       for (const PairState state : run.pairs())
@@ -71,7 +71,7 @@ namespace Voussoir
     write_checkpoint_file(file, out.str());
     OutputFile note(directory + "/checkpoint.txt");
     note << "scene " << scene.name << "\nstep " << run.step << " of " << run.n_steps << "\ntime "
-         << run.newmark->state().time << " s\nrevision " << revision() << "\n";
+         << run.integrator->state().time << " s\nrevision " << revision() << "\n";
     note.check();
   }
 
@@ -206,13 +206,13 @@ namespace Voussoir
     check_motion(run, dt, samples);
     archive >> counters.wall_before >> counters.cpu_before >> state >> first >> largest >> counters >>
         run.acceleration;
-    run.newmark->resume(state, first, largest, run.statics.closed);
+    run.integrator->resume(state, first, largest, run.statics.closed);
     for (Observer *observer : observers)
       observer->load(archive);
     load_neighbours(run, n_steps_then, archive);
     for (std::size_t p = 0; p < pairs.size() && p < run.pairs_at_start.size(); ++p)
       run.pairs_at_start[p] = static_cast<PairState>(pairs[p]);
     payload.clear();
-    log.line("Resumed   at t = %.2f s, step %u of %u", run.newmark->state().time, run.step, run.n_steps);
+    log.line("Resumed   at t = %.2f s, step %u of %u", run.integrator->state().time, run.step, run.n_steps);
   }
 } // namespace Voussoir

@@ -164,7 +164,7 @@ namespace Voussoir
     counters.statics += watch.seconds();
     if (state.n_steps > 0)
     {
-      const double memory = state.newmark->memory() +
+      const double memory = state.integrator->memory() +
                             (observers->time_error ? observers->time_error->memory_consumption() : 0.);
       const std::vector<double> bytes = Ranks::of_all(memory);
       log.line("Shaking   %.2f s in %u steps of %g s; memory of joint operators and factors %.2f GiB",
@@ -236,7 +236,7 @@ namespace Voussoir
   void Simulation::advance()
   {
     const Stopwatch   watch;
-    const SystemTimes before = state.newmark->joint_system().times;
+    const SystemTimes before = state.integrator->times();
     const double      rock_before = seconds_of(state.dam->neighbours),
                  stresses_before = observers->stresses.seconds;
     try
@@ -264,7 +264,7 @@ namespace Voussoir
     }
     for (Observer *observer : *observers)
       observer->follow();
-    const SystemTimes &after = state.newmark->joint_system().times;
+    const SystemTimes &after = state.integrator->times();
     const double       substitutions = after.substitutions - before.substitutions,
                  joints = after.joints - before.joints,
                  rock = seconds_of(state.dam->neighbours) - rock_before;
@@ -279,24 +279,25 @@ namespace Voussoir
   ContactResult Simulation::solve_step()
   {
     const Dam     &dam = *state.dam;
-    Newmark       &newmark = *state.newmark;
-    const double   memory_before = newmark.memory();
-    const Unknowns v_before = newmark.state().v;
+    Integrator    &integrator = *state.integrator;
+    const double   memory_before = integrator.memory();
+    const Unknowns v_before = integrator.state().v;
     Unknowns       load = state.next_load();
     for (Neighbour *neighbour : dam.neighbours)
       neighbour->advance(load);
-    state.u_before = newmark.state().u;
-    state.base_velocity_before = newmark.state().base_velocity;
-    const ContactResult result = newmark.advance(load, dam.foundation->base_velocity());
-    if (const double more = newmark.memory() - memory_before; more > 0.)
+    state.u_before = integrator.state().u;
+    state.base_velocity_before = integrator.state().base_velocity;
+    const ContactResult result = integrator.advance(load, dam.foundation->base_velocity());
+    if (const double more = integrator.memory() - memory_before; more > 0.)
       log.line("          reduced time steps from t = %.4g s, required by the joints: additional factors of "
                "%.2f GiB%s",
-               newmark.state().time, more / std::pow(2., 30), Ranks::size() > 1 ? " on the first rank" : "");
+               integrator.state().time, more / std::pow(2., 30),
+               Ranks::size() > 1 ? " on the first rank" : "");
     for (Neighbour *neighbour : dam.neighbours)
-      neighbour->update_from_dam(newmark.state());
+      neighbour->update_from_dam(integrator.state());
     state.acceleration =
-        mean_acceleration(v_before, newmark.state().v, state.motion.dt, state.ground_acceleration(state.step),
-                          state.ground_acceleration(state.step + 1));
+        mean_acceleration(v_before, integrator.state().v, state.motion.dt,
+                          state.ground_acceleration(state.step), state.ground_acceleration(state.step + 1));
     ++state.step;
     return result;
   }
@@ -396,11 +397,11 @@ namespace Voussoir
 
   void Simulation::report_step()
   {
-    const auto           &pairs = state.newmark->pair_states();
+    const auto           &pairs = state.integrator->pair_states();
     const JointRecorder  &joints = observers->joints.joints;
     const StressObserver &stresses = observers->stresses;
     const double          done = state.step - state.start_step, elapsed = loop_clock.seconds();
-    log.line("%7.2f  %6.2f %5u %5u  %12.2f %10.2f  %13.2f  %7s  %7s", state.newmark->state().time,
+    log.line("%7.2f  %6.2f %5u %5u  %12.2f %10.2f  %13.2f  %7s  %7s", state.integrator->state().time,
              counters.newton / state.step,
              static_cast<unsigned int>(std::count(pairs.begin(), pairs.end(), PairState::open)),
              static_cast<unsigned int>(std::count(pairs.begin(), pairs.end(), PairState::slip)),
@@ -461,7 +462,7 @@ namespace Voussoir
           write_tables();
         });
     std::ostringstream message;
-    message << signal << " at t = " << state.newmark->state().time << " s, after step " << state.step
+    message << signal << " at t = " << state.integrator->state().time << " s, after step " << state.step
             << " of " << state.n_steps << ". The tables so far and a checkpoint are in " << directory
             << ". Continue with the same command and --resume"
             << (options.overwrite ? " instead of --overwrite." : ".");

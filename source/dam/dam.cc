@@ -5,6 +5,7 @@
 #include <voussoir/dam/dam.h>
 #include <voussoir/dam/dam_loads.h>
 #include <voussoir/dam/mesh_warnings.h>
+#include <voussoir/dynamics/impact.h>
 #include <voussoir/foundation/foundation_table.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/footings.h>
@@ -23,7 +24,7 @@
 #include <set>
 #include <sstream>
 
-namespace Voussoir
+    namespace Voussoir
 {
   namespace
   {
@@ -487,7 +488,7 @@ namespace Voussoir
   }
 
   /** Removes the pairs at the base, which the foundation couples. */
-  void Dam::remove_base_pairs(std::vector<Pair> &pairs) const
+  void Dam::remove_base_pairs(std::vector<Pair> & pairs) const
   {
     const std::set<unsigned int> base = nodes_of_base();
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(),

@@ -6,7 +6,7 @@
 #include <voussoir/contact/fclib_io.h>
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/scene.h>
-#include <voussoir/dynamics/newmark.h>
+#include <voussoir/dynamics/impact.h>
 #include <voussoir/foundation/foundation_names.h>
 
 #include <algorithm>

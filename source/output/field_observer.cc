@@ -24,7 +24,7 @@ namespace Voussoir
   void FieldObserver::open(const std::string &path)
   {
     directory = path;
-    if (is_resumed && (files.empty() || files.back().first != run.newmark->state().time))
+    if (is_resumed && (files.empty() || files.back().first != run.integrator->state().time))
       flush(); // the previous process could not write the file, for example on a full disk
   }
 
@@ -62,13 +62,13 @@ namespace Voussoir
         pressure(opening);
     for (unsigned int p = 0; p < structure.pairs.size(); ++p)
     {
-      const Vector3 d = run.newmark->opening_and_slip(p);
+      const Vector3 d = run.integrator->opening_and_slip(p);
       for (const unsigned int node : {structure.pairs[p].node_1, structure.pairs[p].node_2})
         if (node != rigid_ground)
         {
           opening[node] = d[0];
           slip[node] = std::hypot(d[1], d[2]);
-          pressure[node] = joint_pressure(structure, run.newmark->state(), p);
+          pressure[node] = joint_pressure(structure, run.integrator->state(), p);
           state[node] = static_cast<float>(run.pairs()[p]);
         }
     }
@@ -97,10 +97,10 @@ namespace Voussoir
     char name[40];
     std::snprintf(name, sizeof(name), "solution-%05u.vtu", run.step);
     const Dam &dam = *run.dam;
-    FieldWriter(*dam.model).write_vtu(directory + "/" + name, run.newmark->state().u, fields);
-    files.emplace_back(run.newmark->state().time, name);
+    FieldWriter(*dam.model).write_vtu(directory + "/" + name, run.integrator->state().u, fields);
+    files.emplace_back(run.integrator->state().time, name);
     if (!dam.structure.pairs.empty())
-      write_joint_surfaces(directory + "/" + joints_file_of(name), *dam.model, dam.structure, *run.newmark,
+      write_joint_surfaces(directory + "/" + joints_file_of(name), *dam.model, dam.structure, *run.integrator,
                            run.pairs());
     write_collection();
   }

@@ -130,7 +130,7 @@ namespace Voussoir
     for (unsigned int p = 0; p < structure.pairs.size(); ++p)
       for (const unsigned int node : {structure.pairs[p].node_1, structure.pairs[p].node_2})
         if (node != rigid_ground)
-          of_node[node] = static_cast<float>(run.newmark->opening_and_slip(p)[0]);
+          of_node[node] = static_cast<float>(run.integrator->opening_and_slip(p)[0]);
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (const unsigned int e = run.dam->model->equation[nodes[i]]; e != rigid_ground)
         values[i] = of_node[e];
@@ -165,7 +165,7 @@ namespace Voussoir
   std::string FrameObserver::frame() const
   {
     const Quantized   u(displacements()), s(stresses_now()), d(openings());
-    const std::string text = bytes_of(run.newmark->state().time) + bytes_of(u.unit) + bytes_of(s.unit) +
+    const std::string text = bytes_of(run.integrator->state().time) + bytes_of(u.unit) + bytes_of(s.unit) +
                              bytes_of(d.unit) + bytes_of(u.numbers) + bytes_of(s.numbers) +
                              bytes_of(d.numbers);
     if (!run.dam->water)
@@ -180,7 +180,7 @@ namespace Voussoir
       return;
     *file << frame();
     file->check();
-    last_time = run.newmark->state().time;
+    last_time = run.integrator->state().time;
   }
 
   /** Shortens the file of the previous process to the frames up to the present time. */
@@ -197,7 +197,7 @@ namespace Voussoir
     for (size = head.size(); in.read(&text[0], text.size()); size += text.size())
     {
       std::copy_n(text.data(), sizeof(time), reinterpret_cast<char *>(&time));
-      if (!(time <= run.newmark->state().time))
+      if (!(time <= run.integrator->state().time))
         break;
       last_time = time;
     }
@@ -223,7 +223,7 @@ namespace Voussoir
     if (!continues)
       *file << begin;
     file->check();
-    if (is_resumed && last_time != run.newmark->state().time)
+    if (is_resumed && last_time != run.integrator->state().time)
       flush(); // the previous process could not write the frame, for example on a full disk
   }
 } // namespace Voussoir

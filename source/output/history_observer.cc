@@ -19,13 +19,13 @@ namespace Voussoir
     const DamGeometry &geometry = *run.dam->geometry;
     const SolidModel  &model = *run.dam->model;
     crown_is_at_joint = model.equation[geometry.crown_left] != model.equation[geometry.crown];
-    table.add("time", [this] { return run.newmark->state().time; });
+    table.add("time", [this] { return run.integrator->state().time; });
     declare_point("crest", geometry.crown);
     if (crown_is_at_joint)
       declare_point("crest_left", geometry.crown_left);
     table.add_vector("base_acceleration", [this] { return run.motion.sample(run.step); });
     if (!run.dam->base_is_held())
-      table.add_vector("base", [this] { return run.dam->base_motion(run.newmark->state().u); });
+      table.add_vector("base", [this] { return run.dam->base_motion(run.integrator->state().u); });
     for (const auto &probe : run.scene().output.probe_places())
     {
       const Vector3 &p = probe.second;
@@ -55,10 +55,10 @@ namespace Voussoir
   void HistoryObserver::declare_energy()
   {
     TableColumns &table = energy_columns;
-    const auto    now = [this]() -> const Energy    &{ return run.newmark->state().energy; };
-    const auto    first = [this]() -> const Energy    &{ return run.newmark->initial_energy(); };
+    const auto    now = [this]() -> const Energy    &{ return run.integrator->state().energy; };
+    const auto    first = [this]() -> const Energy    &{ return run.integrator->initial_energy(); };
     const auto   &laws = run.dam->laws;
-    table.add("time", [this] { return run.newmark->state().time; });
+    table.add("time", [this] { return run.integrator->state().time; });
     table.add("kinetic", [=] { return now().kinetic; });
     table.add("strain", [=] { return now().strain - first().strain; });
     table.add("added_mass", [=] { return now().added_mass; });
@@ -83,7 +83,7 @@ namespace Voussoir
   {
     history_columns.record();
     energy_columns.record();
-    const double balance = run.newmark->state().energy.balance(run.newmark->initial_energy());
+    const double balance = run.integrator->state().energy.balance(run.integrator->initial_energy());
     imbalance = std::max(imbalance, std::abs(balance));
   }
 

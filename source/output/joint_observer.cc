@@ -19,7 +19,7 @@ namespace Voussoir
 
   void JointObserver::record()
   {
-    joints.record(*run.newmark);
+    joints.record(*run.integrator);
     for (std::size_t part = 0; run.n_steps > 0 && part < run.motion.parts.size(); ++part)
       if (run.step == run.end_of_part(part))
         joints.points.end_part();

@@ -19,12 +19,12 @@ namespace Voussoir
         "slip",  "pressure",     "shear_stress", "shear_stress", "shear_stress", "joint_state"};
 
     /** Returns the values of a pair, in the order of @p names. */
-    std::vector<double> values_of(const unsigned int p, const Structure &structure, const Newmark &newmark,
-                                  const PairState state)
+    std::vector<double> values_of(const unsigned int p, const Structure &structure,
+                                  const Integrator &integrator, const PairState state)
     {
       const Pair         &pair = structure.pairs[p];
-      const Vector3       moved = newmark.opening_and_slip(p);
-      const Unknowns     &u = newmark.state().u, &force = newmark.state().force;
+      const Vector3       moved = integrator.opening_and_slip(p);
+      const Unknowns     &u = integrator.state().u, &force = integrator.state().force;
       std::vector<double> values = {double(pair.joint + 1)};
       for (unsigned int c = 0; c < 3; ++c)
         values.push_back(pair.node_1 == rigid_ground ? 0. : u[3 * pair.node_1 + c]);
@@ -41,7 +41,7 @@ namespace Voussoir
   } // namespace
 
   void write_joint_surfaces(const std::string &file, const SolidModel &model, const Structure &structure,
-                            const Newmark &newmark, const std::vector<PairState> &states)
+                            const Integrator &integrator, const std::vector<PairState> &states)
   {
     const PairsByNode                     pair_of = pairs_by_node(structure.pairs);
     std::vector<DataOutBase::Patch<2, 3>> patches;
@@ -64,7 +64,7 @@ namespace Voussoir
             patch.data(names.size() - 1, k) = -1.;
             continue;
           }
-          const auto values = values_of(found->second, structure, newmark, states[found->second]);
+          const auto values = values_of(found->second, structure, integrator, states[found->second]);
           for (std::size_t i = 0; i < values.size(); ++i)
             patch.data(i, k) = values[i];
         }

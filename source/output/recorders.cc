@@ -58,13 +58,13 @@ namespace Voussoir
   }
 
   /** Returns two openings and two slips of a joint at the crest, upstream and downstream [m]. */
-  std::array<double, 4> JointRecorder::at_crest(const Newmark &newmark, const std::size_t joint) const
+  std::array<double, 4> JointRecorder::at_crest(const Integrator &integrator, const std::size_t joint) const
   {
     const auto &pairs = geometry.joints[joint];
     if (pairs.upstream >= structure.pairs.size()) // no pairs, or a tied dam
       return {};
-    const Vector3 up = newmark.opening_and_slip(pairs.upstream),
-                  down = newmark.opening_and_slip(pairs.downstream);
+    const Vector3 up = integrator.opening_and_slip(pairs.upstream),
+                  down = integrator.opening_and_slip(pairs.downstream);
     return {{up[0], down[0], std::hypot(up[1], up[2]), std::hypot(down[1], down[2])}};
   }
 
@@ -73,12 +73,12 @@ namespace Voussoir
     return state.force[3 * pair] / structure.pairs[pair].area;
   }
 
-  void JointRecorder::record(const Newmark &newmark)
+  void JointRecorder::record(const Integrator &integrator)
   {
-    const double time = newmark.state().time;
+    const double time = integrator.state().time;
     for (unsigned int p = 0; p < structure.pairs.size(); ++p)
     {
-      const Vector3 d = newmark.opening_and_slip(p);
+      const Vector3 d = integrator.opening_and_slip(p);
       const double  s = std::hypot(d[1], d[2]);
       reach.record(p, structure.pairs[p], d);
       points.record(p, d);
@@ -88,12 +88,12 @@ namespace Voussoir
         slip = {s, time, structure.pairs[p].place};
     }
     points.end_record(time);
-    keys.record(time, newmark.state().force);
-    record_pressures(newmark.state());
+    keys.record(time, integrator.state().force);
+    record_pressures(integrator.state());
     std::vector<double> row = {time};
     for (std::size_t j = 0; j < largest.size(); ++j)
     {
-      const auto now = at_crest(newmark, j);
+      const auto now = at_crest(integrator, j);
       row.insert(row.end(), now.begin(), now.end());
       Largest &most = largest[j];
       if (std::max(now[0], now[1]) > most.opening())

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/dynamics/integrator_table.h>
 #include <voussoir/output/run_state.h>
 
 #include <algorithm>
@@ -27,14 +28,14 @@ namespace Voussoir
       for (Neighbour *neighbour : dam->neighbours)
         neighbour->start(motion, grid(), statics.u);
     Support *const support = n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr;
-    newmark =
-        std::make_unique<Newmark>(dam->structure, dam->laws, parameters, motion.dt,
-                                  impact_rule(scene().impact_rule), support, scene().has_single_factors());
+    integrator = make_integrator("trapezoidal",
+                                 {dam->structure, dam->laws, parameters, motion.dt,
+                                  impact_rule(scene().impact_rule), support, scene().has_single_factors()});
     Unknowns load = statics.constant_load();
     if (n_steps > 0)
       add_inertia(*dam, motion.acceleration[0], load);
-    newmark->start(statics.u, Unknowns(statics.u.size(), 0.), statics.force, load, statics.closed,
-                   statics.memory, statics.modulus_force);
+    integrator->start(statics.u, Unknowns(statics.u.size(), 0.), statics.force, load, statics.closed,
+                      statics.memory, statics.modulus_force);
   }
 
   Unknowns RunState::next_load() const
@@ -59,7 +60,7 @@ namespace Voussoir
 
   Vector3 RunState::relative_to_base(const unsigned int node) const
   {
-    const Unknowns    &u = newmark->state().u;
+    const Unknowns    &u = integrator->state().u;
     const unsigned int e = dam->model->equation[node];
     Vector3            result{};
     if (e != rigid_ground)
@@ -84,7 +85,7 @@ namespace Voussoir
       const Unknowns u = statics.elastic(statics.u);
       return use({u, u, {}, statics.force});
     }
-    const DynamicState &state = newmark->state();
+    const DynamicState &state = integrator->state();
     const Vector3       first = ground_acceleration(step - 1), last = ground_acceleration(step);
     Vector3             velocity, ground;
     for (unsigned int c = 0; c < 3; ++c)
@@ -92,7 +93,7 @@ namespace Voussoir
       velocity[c] = .5 * (base_velocity_before[c] + state.base_velocity[c]);
       ground[c] = .5 * (first[c] + last[c]);
     }
-    Unknowns force = newmark->impulses();
+    Unknowns force = integrator->impulses();
     for (double &f : force)
       f /= motion.dt;
     use({statics.elastic(u_before), statics.elastic(state.u), acceleration, force, ground, velocity,
@@ -102,6 +103,6 @@ namespace Voussoir
   double RunState::largest_energy() const
   {
     // Before the motion begins, the largest energy is only round-off of the static state.
-    return std::max(newmark->largest_energy(), 1e-6 * std::abs(newmark->initial_energy().strain));
+    return std::max(integrator->largest_energy(), 1e-6 * std::abs(integrator->initial_energy().strain));
   }
 } // namespace Voussoir

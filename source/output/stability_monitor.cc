@@ -41,11 +41,11 @@ namespace Voussoir
     return result;
   }
 
-  StabilityMonitor::StabilityMonitor(const Dam &dam, const GroundMotion &motion, const Newmark &newmark)
-      : dam(dam), u_static(newmark.state().u)
+  StabilityMonitor::StabilityMonitor(const Dam &dam, const GroundMotion &motion, const Integrator &integrator)
+      : dam(dam), u_static(integrator.state().u)
   {
     const MotionBounds bounds = bounds_of(motion, dam.structure.mass_damping);
-    const double       strain = newmark.state().energy.strain + dam.foundation->strain_at_start(),
+    const double       strain = integrator.state().energy.strain + dam.foundation->strain_at_start(),
                  v_0 = static_speed(dam.structure, strain);
     velocity_dam = growth_limit * (bounds.oscillator + v_0);
     const double velocity_rock = growth_limit * (bounds.velocity + v_0);
@@ -60,7 +60,7 @@ namespace Voussoir
       }
   }
 
-  std::string StabilityMonitor::instability(const Newmark &newmark, const unsigned int step,
+  std::string StabilityMonitor::instability(const Integrator &integrator, const unsigned int step,
                                             const bool last) const
   {
     if (step == 0)
@@ -75,25 +75,26 @@ namespace Voussoir
         if (what.empty())
           what = monitor->motion_excess(); // an instability of its boundary begins there
       if (what.empty())
-        what = of_dam(newmark.state());
+        what = of_dam(integrator.state());
     }
     if (what.empty())
-      what = of_joints(newmark);
+      what = of_joints(integrator);
     if (what.empty())
       return "";
     std::ostringstream text;
-    text << "The run has become unstable: at step " << step << ", t = " << newmark.state().time << " s, "
+    text << "The run has become unstable: at step " << step << ", t = " << integrator.state().time << " s, "
          << what << " " << suggestions();
     return text.str();
   }
 
-  std::string StabilityMonitor::of_joints(const Newmark &newmark) const
+  std::string StabilityMonitor::of_joints(const Integrator &integrator) const
   {
     Extreme moved;
     for (unsigned int p = 0; p < dam.structure.pairs.size(); ++p)
     {
-      const Vector3 d = newmark.opening_and_slip(p);
-      moved.raise(std::max(d[0], std::hypot(d[1], d[2])), newmark.state().time, dam.structure.pairs[p].place);
+      const Vector3 d = integrator.opening_and_slip(p);
+      moved.raise(std::max(d[0], std::hypot(d[1], d[2])), integrator.state().time,
+                  dam.structure.pairs[p].place);
     }
     if (moved.value <= largest_joint_share * dam.size)
       return "";

@@ -6,7 +6,7 @@ namespace Voussoir
 {
   void StabilityObserver::record()
   {
-    const std::string instability = monitor.instability(*run.newmark, run.step, run.is_last());
+    const std::string instability = monitor.instability(*run.integrator, run.step, run.is_last());
     if (!instability.empty())
       throw ComputationError(instability);
   }

@@ -38,7 +38,7 @@ namespace Voussoir
       return;
     const Stopwatch watch;
     if (run.is_due(run.scene().output.envelope_interval))
-      envelope.record(run.newmark->state().time, run.statics.elastic(run.newmark->state().u),
+      envelope.record(run.integrator->state().time, run.statics.elastic(run.integrator->state().u),
                       tractions_now());
     if (run.is_due(run.scene().output.progress_interval) || run.is_last())
       envelope.gather();
@@ -50,14 +50,14 @@ namespace Voussoir
     if (!known_tractions())
       return {};
     const AcousticWater *water = run.dam->water.get();
-    return tractions.at(run.newmark->state().force, run.acceleration,
+    return tractions.at(run.integrator->state().force, run.acceleration,
                         water ? water->at_dam(water->pressure()) : std::vector<double>());
   }
 
   std::vector<Stress> StressObserver::now()
   {
     std::vector<Stress> result;
-    recovery.apply(run.statics.elastic(run.newmark->state().u), tractions_now(), result);
+    recovery.apply(run.statics.elastic(run.integrator->state().u), tractions_now(), result);
     for (std::size_t i = 0; i < result.size(); ++i)
       for (unsigned int c = 0; c < 6; ++c)
         result[i][c] += run.dam->initial_stress[i][c];

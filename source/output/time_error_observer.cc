@@ -17,7 +17,7 @@ namespace Voussoir
     ContactParameters parameters = scene.contact;
     parameters.write_problems = false;
     coarse_run = std::make_unique<TimeErrorEstimate>(*run.dam, parameters, run.motion.dt,
-                                                     impact_rule(scene.impact_rule), run.newmark->state(),
+                                                     impact_rule(scene.impact_rule), run.integrator->state(),
                                                      run.statics);
     // The comparison run has every second time of the run. With longer intervals the run would miss peaks
     // that the comparison run records.
@@ -31,7 +31,7 @@ namespace Voussoir
       return;
     try
     {
-      const DynamicState &state = run.newmark->state();
+      const DynamicState &state = run.integrator->state();
       coarse_run->advance(run.step, state.load, state.base_velocity, run.ground_acceleration(run.step));
     }
     catch (const ComputationError &)
@@ -41,7 +41,7 @@ namespace Voussoir
           "warning: there will be no estimate of the error due to the time step (Dynamics/Error "
           "estimate): the comparison run with twice the time step stopped at t = %g s. This run continues "
           "and is not affected. Double \"Dynamics/Steps per sample\" for an estimate.",
-          run.newmark->state().time);
+          run.integrator->state().time);
     }
   }
 
@@ -107,7 +107,7 @@ namespace Voussoir
     }
     DynamicState coarse_state;
     archive >> coarse_state >> *coarse_run;
-    coarse_run->newmark.resume(coarse_state, run.newmark->initial_energy(), run.newmark->largest_energy(),
-                               run.statics.closed);
+    coarse_run->newmark.resume(coarse_state, run.integrator->initial_energy(),
+                               run.integrator->largest_energy(), run.statics.closed);
   }
 } // namespace Voussoir

@@ -15,7 +15,7 @@ namespace Voussoir
   void WaterObserver::record()
   {
     const std::vector<double> pressure = water.pressure();
-    const double              time = run.newmark->state().time;
+    const double              time = run.integrator->state().time;
     largest.resize(pressure.size(), 0.);
     smallest.resize(pressure.size(), 0.);
     for (unsigned int i = 0; i < pressure.size(); ++i)

@@ -65,7 +65,7 @@ namespace Voussoir
 
   void WedgeObserver::record()
   {
-    const double        time = run.newmark->state().time;
+    const double        time = run.integrator->state().time;
     std::vector<double> row = {time};
     for (OfWedge &one : wedges)
     {

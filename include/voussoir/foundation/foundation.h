@@ -4,7 +4,8 @@
 
 #include <voussoir/base/log.h>
 #include <voussoir/contact/contact_result.h>
-#include <voussoir/dynamics/newmark.h>
+#include <voussoir/dynamics/dynamic_state.h>
+#include <voussoir/dynamics/support.h>
 #include <voussoir/dynamics/time_grid.h>
 #include <voussoir/foundation/foundation_parameters.h>
 #include <voussoir/mesh/mesh.h>

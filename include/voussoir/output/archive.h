@@ -10,7 +10,7 @@
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
-#include <voussoir/dynamics/newmark.h>
+#include <voussoir/dynamics/integrator.h>
 
 namespace Voussoir
 {

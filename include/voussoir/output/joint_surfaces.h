@@ -2,7 +2,7 @@
 #ifndef voussoir_joint_surfaces_h
 #define voussoir_joint_surfaces_h
 
-#include <voussoir/dynamics/newmark.h>
+#include <voussoir/dynamics/integrator.h>
 #include <voussoir/solid/solid_model.h>
 
 #include <string>
@@ -17,12 +17,12 @@ namespace Voussoir
    * @param file name of the VTU file
    * @param model mesh of the dam
    * @param structure pairs of the joints
-   * @param newmark state at the present time
+   * @param integrator state at the present time
    * @param states contact states of the pairs
    *
    * Throws WriteError if the file cannot be written. */
   void write_joint_surfaces(const std::string &file, const SolidModel &model, const Structure &structure,
-                            const Newmark &newmark, const std::vector<PairState> &states);
+                            const Integrator &integrator, const std::vector<PairState> &states);
 } // namespace Voussoir
 
 #endif

@@ -20,7 +20,9 @@ namespace Voussoir
   {
   public:
     /** Computes the bounds. @p run: state at the start of the time loop; must outlive the observer. */
-    explicit StabilityObserver(const RunState &run) : run(run), monitor(*run.dam, run.motion, *run.newmark) {}
+    explicit StabilityObserver(const RunState &run) : run(run), monitor(*run.dam, run.motion, *run.integrator)
+    {
+    }
     void record() override;
 
   private:
@@ -47,7 +49,7 @@ namespace Voussoir
     /** Returns the present kinetic energy of the concrete relative to the largest energy [-]. */
     double kinetic_share() const
     {
-      return run.newmark->state().energy.kinetic / std::max(run.largest_energy(), 1e-300);
+      return run.integrator->state().energy.kinetic / std::max(run.largest_energy(), 1e-300);
     }
 
     /** Returns "accelerations" of summary.json [m/s^2]. */
@@ -189,7 +191,7 @@ namespace Voussoir
     /** @p run: state after the static state; must outlive the observer. */
     explicit BlockObserver(const RunState &run);
     void follow() override;
-    void record() override { blocks.record(run.newmark->state().time); }
+    void record() override { blocks.record(run.integrator->state().time); }
     void report(Log &log) const override;
     void flush() override { file.append(blocks.history); }
     void open(const std::string &directory) override { file.open(directory + "/blocks.csv", blocks.history); }

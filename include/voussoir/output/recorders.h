@@ -4,7 +4,7 @@
 
 #include <voussoir/base/output_file.h>
 #include <voussoir/dam/dam_geometry.h>
-#include <voussoir/dynamics/newmark.h>
+#include <voussoir/dynamics/integrator.h>
 #include <voussoir/joints/joint_reach.h>
 #include <voussoir/output/face_stresses.h>
 #include <voussoir/output/joint_points.h>
@@ -69,8 +69,8 @@ namespace Voussoir
       }
     };
 
-    /** Adds openings, slips and pressures at the present time of @p newmark to the results. */
-    void record(const Newmark &newmark);
+    /** Adds openings, slips and pressures at the present time of @p integrator to the results. */
+    void record(const Integrator &integrator);
 
     /** Returns the table of joints.csv: largest openings and slips of each joint. */
     Table maxima() const;
@@ -96,7 +96,7 @@ namespace Voussoir
     }
 
   private:
-    std::array<double, 4> at_crest(const Newmark &newmark, std::size_t joint) const;
+    std::array<double, 4> at_crest(const Integrator &integrator, std::size_t joint) const;
     void                  record_pressures(const DynamicState &state);
 
     const Structure    &structure;

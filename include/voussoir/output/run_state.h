@@ -5,7 +5,7 @@
 #include <voussoir/dam/base_force.h>
 #include <voussoir/dam/crack_water.h>
 #include <voussoir/dam/static_state.h>
-#include <voussoir/dynamics/newmark.h>
+#include <voussoir/dynamics/integrator.h>
 #include <voussoir/motion/ground_motion.h>
 
 #include <functional>
@@ -16,10 +16,10 @@ namespace Voussoir
    *  state; observers only read the state. */
   struct RunState
   {
-    std::unique_ptr<Dam>     dam;     ///< the dam with its foundation
-    GroundMotion             motion;  ///< ground motion, with the time step of the dam
-    StaticState              statics; ///< static state before the earthquake
-    std::unique_ptr<Newmark> newmark; ///< time integration of the dam; see start()
+    std::unique_ptr<Dam>        dam;        ///< the dam with its foundation
+    GroundMotion                motion;     ///< ground motion, with the time step of the dam
+    StaticState                 statics;    ///< static state before the earthquake
+    std::unique_ptr<Integrator> integrator; ///< time integration of the dam; see start()
 
     unsigned int           n_steps = 0;    ///< number of steps of the whole run; 0: static state only
     unsigned int           step = 0;       ///< number of steps done
@@ -47,7 +47,7 @@ namespace Voussoir
     /** Returns the contact states of the pairs after the last step. */
     const std::vector<PairState> &pairs() const
     {
-      return step == start_step ? pairs_at_start : newmark->pair_states();
+      return step == start_step ? pairs_at_start : integrator->pair_states();
     }
 
     /** Returns the number of the step at which the dam has received a part of the motion and the rest after it.

@@ -45,19 +45,19 @@ namespace Voussoir
     /** Computes the bounds at the start of the time loop, and sets those of Neighbour::monitor().
      * @param dam dam; must outlive the object
      * @param motion ground motion of the run
-     * @param newmark time integration in the static state */
-    StabilityMonitor(const Dam &dam, const GroundMotion &motion, const Newmark &newmark);
+     * @param integrator time integration in the static state */
+    StabilityMonitor(const Dam &dam, const GroundMotion &motion, const Integrator &integrator);
 
     /** Returns a message about an instability with suggestions, or an empty text. Energies and joints are
      * checked in each step, the nodes in each NeighbourMonitor::interval-th step and in
      * the last step.
-     * @param newmark present state
+     * @param integrator present state
      * @param step number of steps done
      * @param last true: it is the last step of the run */
-    std::string instability(const Newmark &newmark, unsigned int step, bool last) const;
+    std::string instability(const Integrator &integrator, unsigned int step, bool last) const;
 
   private:
-    std::string of_joints(const Newmark &newmark) const;
+    std::string of_joints(const Integrator &integrator) const;
     std::string of_dam(const DynamicState &state) const;
     std::string suggestions() const;
 

@@ -5,6 +5,7 @@
 #include <voussoir/dam/dam.h>
 #include <voussoir/dam/static_state.h>
 #include <voussoir/dam/tractions.h>
+#include <voussoir/dynamics/newmark.h>
 #include <voussoir/output/face_tension.h>
 
 #include <limits>
