@@ -639,6 +639,25 @@ namespace
     const auto of_monolith = base_uplift(scene, model).of_monolith;
     expect(of_monolith.size() == 1, "monoliths");
     expect_close(of_monolith.at(1)[2], unit * (.25 * 15. + .75 * 6.), 1e-12, "uplift of the monolith");
+    for (const double slope :
+         {.4, .65, .8}) // of the downstream face: the toe is not the nearest point of the face
+    {
+      const SolidModel sloped(
+          wall({{4, 3, 2}},
+               [=](const Vector3 &x) {
+                 return Vector3{{x[0] * (1. + slope * (tall - x[2]) / thick), x[1], x[2]}};
+               }),
+          1);
+      for (const double efficiency : {0., .5})
+      {
+        scene.loads.uplift.drain_efficiency = efficiency;
+        const double drained = 6. + (1. - efficiency) * .75 * 18.;
+        expect_close(sum(base_uplift(scene, sloped).force)[2],
+                     unit * (1. + slope * tall / thick) *
+                         (.25 * (24. + drained) / 2. + .75 * (drained + 6.) / 2.),
+                     1e-12, "uplift below a sloped face");
+      }
+    }
     // A base at z = 100 m; factors of water, tail water and uplift.
     const SolidModel high(wall({{4, 3, 2}},
                                [](const Vector3 &x) {

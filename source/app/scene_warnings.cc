@@ -87,11 +87,7 @@ namespace Voussoir
          [](const Scene &s) { return !s.contact.write_problems; },
          {"Contact/Write interval"}},
         {"Statics/Self-weight is none, and there are no water, silt and rock wedges",
-         [](const Scene &s)
-         {
-           return s.statics.self_weight == "none" && !any_acts(s, &LoadRow::is_by_gravity) &&
-                  s.limits.wedges.empty();
-         },
+         [](const Scene &s) { return !any_acts(s, &LoadRow::is_by_gravity) && s.limits.wedges.empty(); },
          {"Statics/Gravity"}},
         {"the matrix factors are always in double precision on subcycled rock, and on massless rock that is not one "
          "body with the dam",

@@ -54,7 +54,7 @@ namespace Voussoir
 
   BaseUplift base_uplift(const Scene &scene, const SolidModel &model, const std::set<int> &closed)
   {
-    const std::vector<double> place = places_in_thickness(model, "Loads/Uplift/Base");
+    const std::vector<double> place = places_in_thickness(model, "Loads/Uplift/Base", true);
     const double              factor = scene.loads.factor("uplift"), gravity = scene.statics.gravity,
                  tail = scene.loads.tail_water.level,
                  of_reservoir = scene.reservoir.density * gravity * scene.loads.factor("water"),

@@ -39,17 +39,26 @@ namespace Voussoir
       return above ? std::abs((p - t[0]) * normal) / area : nearest;
     }
 
-    /** Distance of points to a surface of the model. */
+    /** Distance of points to a surface of the model, or to its edge at the base. */
     class SurfaceDistance
     {
     public:
-      SurfaceDistance(const SolidModel &model, const int surface)
+      SurfaceDistance(const SolidModel &model, const int surface, const bool at_base)
       {
+        const auto is_at_base = [&](const auto &line, const unsigned int end)
+        { return model.is_at_base(line->vertex_dof_index(end, 0)); };
         for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
           for (const unsigned int f : cell->face_indices())
             if (cell->face(f)->at_boundary() && static_cast<int>(cell->face(f)->boundary_id()) == surface)
             {
-              const auto                    face = cell->face(f);
+              const auto face = cell->face(f);
+              if (at_base)
+              {
+                for (unsigned int k = 0; k < 4; ++k)
+                  if (const auto line = face->line(k); is_at_base(line, 0) && is_at_base(line, 1))
+                    triangles.push_back({{line->vertex(0), line->vertex(1), line->vertex(1)}});
+                continue;
+              }
               const Point<3>                middle = face->center();
               const std::array<Point<3>, 4> corner = {
                   {face->vertex(0), face->vertex(1), face->vertex(3), face->vertex(2)}};
@@ -89,16 +98,20 @@ namespace Voussoir
     };
   } // namespace
 
-  std::vector<double> places_in_thickness(const SolidModel &model, const std::string &entry)
+  std::vector<double> places_in_thickness(const SolidModel &model, const std::string &entry,
+                                          const bool at_base)
   {
-    const SurfaceDistance upstream(model, PhysicalId::upstream), downstream(model, PhysicalId::downstream);
+    const SurfaceDistance upstream(model, PhysicalId::upstream, at_base),
+        downstream(model, PhysicalId::downstream, at_base);
     if (upstream.is_empty() || downstream.is_empty())
       throw InputError("Entry \"" + entry + "\" requires the thickness of the dam, but the surface \"" +
-                       (upstream.is_empty() ? "upstream" : "downstream") +
-                       "\" of the mesh is missing. Mark it in the mesh.");
+                       (upstream.is_empty() ? "upstream" : "downstream") + "\" of the mesh is missing" +
+                       (at_base ? ", or does not reach the base" : "") + ". Mark it in the mesh.");
     std::vector<double> place(model.n_nodes());
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
     {
+      if (at_base && !model.is_at_base(i))
+        continue;
       const double a = upstream.to(to_point(model.points[i])), b = downstream.to(to_point(model.points[i]));
       place[i] = a + b > 0. ? a / (a + b) : .5;
     }

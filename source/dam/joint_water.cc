@@ -130,7 +130,7 @@ namespace Voussoir
     if (scene.loads.uplift.below_closed_part != "linear")
       return water;
     const std::vector<double> in_thickness =
-        places_in_thickness(*dam.model, "Loads/Uplift/Below closed part");
+        places_in_thickness(*dam.model, "Loads/Uplift/Below closed part", true);
     std::map<unsigned int, double> of_node;
     for (unsigned int i = 0; i < dam.model->n_nodes(); ++i)
       of_node[dam.model->equation[i]] = in_thickness[i];

@@ -24,7 +24,8 @@ namespace Voussoir
 
     LoadRow weight()
     {
-      LoadRow row{"weight", 1, [](const Scene &scene) { return scene.statics.self_weight == "monolithic"; }};
+      LoadRow row{"weight", 1, [](const Scene &scene) { return scene.statics.self_weight != "none"; }};
+      row.is_staged = [](const Scene &scene) { return scene.statics.self_weight == "staged"; };
       row.is_raised = false;
       row.is_by_gravity = true;
       row.add = [](const Scene &scene, const LoadSite &site, StaticLoad &load)
@@ -240,8 +241,9 @@ namespace Voussoir
   {
     std::vector<StaticLoad> result;
     for (const LoadRow *load : rows_by_order())
-      if (const double factor = scene.loads.factor(load->name);
-          (load->add || load->traction) && factor != 0. && load->acts(scene))
+      if (const double factor = scene.loads.factor(load->name); (load->add || load->traction) &&
+                                                                factor != 0. && load->acts(scene) &&
+                                                                !(load->is_staged && load->is_staged(scene)))
       {
         result.push_back(
             {load->name, load->is_raised, factor, Unknowns(3 * site.structure.n_nodes(), 0.), {}});

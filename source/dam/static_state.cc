@@ -383,9 +383,9 @@ namespace Voussoir
     log.line(
         "Static    self-weight %s, then water: %u Newton steps, %u pair%s open, crest %.1f mm downstream%s "
         "(%.1f s)",
-        dam.scene.statics.self_weight.c_str(), state.contact.iterations, state.n_open,
-        state.n_open == 1 ? "" : "s", 1e3 * state.crown[0], dam.base_is_held() ? "" : " of the base",
-        watch.seconds());
+        dam.scene.loads.factor("weight") == 0. ? "none" : dam.scene.statics.self_weight.c_str(),
+        state.contact.iterations, state.n_open, state.n_open == 1 ? "" : "s", 1e3 * state.crown[0],
+        dam.base_is_held() ? "" : " of the base", watch.seconds());
     return state;
   }
 } // namespace Voussoir

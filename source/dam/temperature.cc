@@ -203,7 +203,7 @@ namespace Voussoir
     const FaceTemperatures profile = face_temperatures(temperature, directory);
     std::vector<double>    strain(model.n_nodes(), 0.);
     if (std::any_of(profile.faces.begin(), profile.faces.end(), [](const auto &f) { return f[0] != f[1]; }))
-      strain = places_in_thickness(model, "Loads/Temperature");
+      strain = places_in_thickness(model, "Loads/Temperature", false);
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
     {
       const auto   faces = profile.at(model.points[i][2]);
