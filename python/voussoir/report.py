@@ -257,7 +257,7 @@ def stresses(page, runs):
                    lambda run=run, name=name, column=column: figures.directed_face(run, name, column, directed))
                   for run in directed for name in ("upstream", "downstream")])
     if strength:
-        page.row("Cumulative duration for which the stress at any one point of a face is above a multiple of the tensile strength "
+        page.row("Cumulative duration for which the stress at any one point of a face is above a multiple of the static tensile strength "
                  "(USACE EM 1110-2-6053).",
                  [(named(runs, run), f"duration of overstress of {run.name}", lambda run=run: figures.overstress(run)) for run in runs if run.moves])
 

@@ -276,7 +276,7 @@ def overstress(run):
     """Cumulative duration of overstress over the demand-capacity ratio, against what is allowed."""
     found = run.summary.get("overstress")
     if not found:
-        raise Skip("no tensile strength is given (Limits/Tensile strength)")
+        raise Skip("no tensile strength is given (Limits/Static tensile strength)")
     allowed = run.limit("Overstress duration")
 
     @panel(2.5)
@@ -287,7 +287,7 @@ def overstress(run):
             axes.plot(found["levels"], duration, color=colour, marker="o", markersize=3, label=name)
         if allowed > 0.:
             axes.plot([1., 2.], [allowed, 0.], **LIMIT, label="allowed")
-        axes.set(xlabel="principal stress over tensile strength [-]", ylabel="cumulative duration [s]", xlim=(0.98, 2.02))
+        axes.set(xlabel="principal stress over static tensile strength [-]", ylabel="cumulative duration [s]", xlim=(0.98, 2.02))
         axes.set_ylim(bottom=0.)
         axes.legend(loc="upper right")
     return made

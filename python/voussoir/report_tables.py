@@ -44,7 +44,7 @@ def with_unit(value, unit):
 
 
 LIMIT_WORDS = {"exceeded": "exceeds the limit", "undecided": "undecided, limit"}
-WORDS = {"demand_capacity": "demand-capacity ratio", "overstressed_share": "share of a face above the tensile strength",
+WORDS = {"demand_capacity": "demand-capacity ratio", "overstressed_share": "share of a face above the static tensile strength",
          "overstress_duration": "duration of overstress", "sliding_safety": "least safety against sliding on the base",
          "key_shear_stress": "shear stress of the keys", "wedge_safety": "least sliding safety of a rock wedge"}
 
@@ -65,7 +65,8 @@ def bars_of_limits(run):
         if not key.endswith(AWAY) or "value_with_base" in limits.get(name, {}):  # earlier versions compare the whole face
             found[name] = bar["low"], bar["high"]
     faces = [bars[key] for key in (f"max_tension_{face}_{AWAY}" for face in ("upstream", "downstream")) if key in bars]
-    strength = (run.summary.get("overstress") or {}).get("tensile_strength")
+    overstress = run.summary.get("overstress") or {}
+    strength = overstress.get("static_tensile_strength", overstress.get("tensile_strength"))  # the latter: earlier versions
     if len(faces) == 2 and strength and "value_with_base" in limits.get("demand_capacity", {}):
         found["demand_capacity"] = tuple(max(bar[end] for bar in faces) / strength for end in ("low", "high"))
     return found
@@ -233,31 +234,38 @@ def demands(run, limits):
     if away:
         found["demand_capacity_with_base"] = Item(f"Demand-capacity ratio, {WITH_BASE}", "", max(face["demand_capacity"] for face in faces))
     if not run.moves:  # the stresses are of one time
-        overstress_of_faces(found, overstress, limits, away)
+        overstress_of_faces(run, found, overstress, limits, away)
         return found
     title, longest, limit = f"Duration of overstress at a point{words}", max(face[f"duration{away}"][0] for face in faces), limits.get("overstress_duration")
     if limit:  # of the level that decides: what is allowed there falls to none at twice the strength
         longest = limit["value"]
-        level = 2. - limit["limit"] / run.limit("Overstress duration") if run.limit("Overstress duration") > 0. else 1.
-        title += f", above {level:.2g} times the strength"
+        title += f", above {level_of(run, limit, 'Overstress duration'):.2g} times the strength"
     found["overstress_duration"] = Item(title, "s", longest, limit)
     if away:
         longest = limit["value_with_base"] if limit else max(face["duration"][0] for face in faces)
         found["overstress_duration_with_base"] = Item(title.replace(words, f", {WITH_BASE}"), "s", longest)
-    overstress_of_faces(found, overstress, limits, away)
+    overstress_of_faces(run, found, overstress, limits, away)
     return found
 
 
-def overstress_of_faces(found, overstress, limits, away):
-    """Adds the share of either face."""
+def level_of(run, limit, entry):
+    """Level, in multiples of the strength, that decides on a limit which falls to zero at twice the strength."""
+    return 2. - limit["limit"] / run.limit(entry) if run.limit(entry) > 0. else 1.
+
+
+def overstress_of_faces(run, found, overstress, limits, away):
+    """Adds the share of either face, at the level that decides on the limit."""
+    limit = limits.get("overstressed_share")  # that of the worse face
+    level = level_of(run, limit, "Overstressed share") if limit else 1.
+    number = min(range(len(overstress["levels"])), key=lambda k: abs(overstress["levels"][k] - level))
     for name in ("upstream", "downstream"):
         if name in overstress:
-            share, limit = overstress[name][f"share{away}"][0], limits.get("overstressed_share")  # which is that of the worse face
-            title = f"Share of the {name} face above the tensile strength"
+            share = overstress[name][f"share{away}"][number]
+            title = f"Share of the {name} face above {f'{level:.2g} times ' if number else ''}the static tensile strength"
             found[f"share_{name}"] = Item(title + (", away from the base" if away else ""), "%", share,
                                           limit and {**limit, "value": share, "satisfied": share <= limit["limit"]})
             if away:
-                found[f"share_{name}_with_base"] = Item(f"{title}, {WITH_BASE}", "%", overstress[name]["share"][0])
+                found[f"share_{name}_with_base"] = Item(f"{title}, {WITH_BASE}", "%", overstress[name]["share"][number])
 
 
 def verdict(run):

@@ -76,11 +76,25 @@ namespace Voussoir
     {
       const LimitParameters &limits = scene.limits;
       if (scene.output.envelope_interval <= 1 ||
-          (limits.tensile_strength == 0. && limits.tension == 0. && limits.compression == 0.))
+          (limits.static_strength() == 0. && limits.tension == 0. && limits.compression == 0.))
         return "";
       return "Output/Envelope interval is " + std::to_string(scene.output.envelope_interval) +
              ": peaks of the stresses between are missed, so the limits of stresses are not evaluated. Set "
              "Output/Envelope interval to 1 for these limits (section Limits).";
+    }
+
+    std::string assumed_static_strength(const LimitParameters &limits)
+    {
+      const bool is_used =
+          limits.demand_capacity > 0. || limits.overstress_seconds > 0. || limits.overstress_share > 0.;
+      if (!is_used || limits.static_tensile_strength > 0. || limits.tensile_strength == 0.)
+        return "";
+      std::ostringstream text;
+      text
+          << "there is no Limits/Static tensile strength, to which the demand-capacity ratio, the duration and the share "
+             "of overstress refer: two thirds of Limits/Tensile strength, "
+          << 1e-6 * limits.static_strength() << " MPa, is used. Set the static strength of splitting tests.";
+      return text.str();
     }
 
     bool reservoir_acts(const Scene &scene)

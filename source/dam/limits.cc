@@ -21,25 +21,29 @@ namespace Voussoir
   void LimitParameters::add_stresses(Entries &prm)
   {
     prm.add_parameter("Tensile strength", tensile_strength,
-                      "Dynamic tensile strength of the concrete [Pa], reference of the demand-capacity "
-                      "ratio, the duration and the share of overstress. 0: none. Stress limits exclude nodes "
+                      "Dynamic tensile strength of the concrete [Pa]. 0: none. Stress limits exclude nodes "
                       "that are nearer to the base than a tenth of the dam's height.",
                       {1e5, 2e7, true}, not_negative);
+    prm.add_parameter("Static tensile strength", static_tensile_strength,
+                      "Static tensile strength of the concrete, from splitting tests [Pa], reference of the "
+                      "demand-capacity ratio, the duration and the share of overstress. 0: two thirds of "
+                      "\"Tensile strength\".",
+                      {1e5, 1e7, true}, not_negative);
     prm.add_parameter(
         "Demand-capacity ratio", demand_capacity,
-        "Limit of the largest principal stress on the faces, divided by the tensile strength [-]. USACE EM "
+        "Limit of the largest principal stress on the faces, divided by the static tensile strength [-]. USACE EM "
         "1110-2-6053 has 2. 0: none.",
         {.2, 10., true}, not_negative);
     prm.add_parameter(
         "Overstress duration", overstress_seconds,
-        "Limit of the cumulative duration for which the stress at a node of the faces exceeds the tensile "
-        "strength [s]. It decreases linearly to zero at twice the strength. USACE EM 1110-2-6053 has 0.4 s "
+        "Limit of the cumulative duration for which the stress at a node of the faces exceeds the static "
+        "tensile strength [s]. It decreases linearly to zero at twice the strength. USACE EM 1110-2-6053 has 0.4 s "
         "for arch dams. 0: none.",
         {.01, 10., true}, not_negative);
     prm.add_parameter(
         "Overstressed share", overstress_share,
-        "Limit of the share of either face where the stress exceeds the tensile strength at any time "
-        "[-]. USACE EM 1110-2-6053 has 0.2. 0: none.",
+        "Limit of the share of either face where the stress exceeds the static tensile strength at any "
+        "time [-]. It decreases linearly to zero at twice the strength. USACE EM 1110-2-6053 has 0.2. 0: none.",
         dealii::Patterns::Double(0., 1.));
     prm.add_parameter("Tension", tension,
                       "Limit of the maximum principal stress on the faces, away from the base [Pa]. 0: none.",

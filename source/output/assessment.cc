@@ -24,9 +24,10 @@ namespace Voussoir
       double area = 0.;  ///< sum of the nodal areas [m^2]
     };
 
-    /** Returns the values of one face. @p near_base: nodes near the base are included. */
+    /** Returns the values of one face. @p maximum: largest stress of each node over time [Pa]. @p near_base: nodes near
+     * the base are included. */
     Demand demand_on(const SolidModel &model, const int surface, const StressesOfRun &stresses,
-                     const double strength, const bool near_base)
+                     const std::vector<float> &maximum, const double strength, const bool near_base)
     {
       Demand                  demand;
       const EnvelopeRecorder &envelope = stresses.envelope;
@@ -37,7 +38,7 @@ namespace Voussoir
         {
           if (!near_base && stresses.tension.is_near_base(node))
             continue;
-          const double ratio = envelope.maximum[node] / strength;
+          const double ratio = maximum[node] / strength;
           demand.area += part;
           demand.ratio = std::max(demand.ratio, ratio);
           for (unsigned int k = 0; k < Overstress::n_levels; ++k)
@@ -97,7 +98,7 @@ namespace Voussoir
     if (stresses != nullptr && stresses->envelope.overstress.is_active())
       add_demand(model, *stresses);
     else
-      leave_demand(stresses == nullptr ? no_stress : "there is no Limits/Tensile strength");
+      leave_demand(stresses == nullptr ? no_stress : "there is no Limits/Static tensile strength");
     if (joints != nullptr)
       add_joints(*joints);
     else
@@ -169,12 +170,14 @@ namespace Voussoir
     for (unsigned int k = 0; k < Overstress::n_levels; ++k)
       levels[k] = Overstress::level(k);
     overstress.emplace();
-    overstress->add("tensile_strength", limits.tensile_strength).add_list("levels", levels);
+    overstress->add("static_tensile_strength", limits.static_strength()).add_list("levels", levels);
     std::string without;
     for (const auto &[surface, name] : faces)
     {
-      const Demand all = demand_on(model, surface, stresses, limits.tensile_strength, true),
-                   away = demand_on(model, surface, stresses, limits.tensile_strength, false);
+      const auto demand = [&, id = surface](const std::vector<float> &maximum, const bool near_base)
+      { return demand_on(model, id, stresses, maximum, limits.static_strength(), near_base); };
+      const Demand all = demand(stresses.envelope.maximum, true),
+                   away = demand(stresses.envelope.maximum, false);
       if (all.area == 0. || away.area == 0.) // then the largest value is unknown
         without = all.area == 0. ? no_face(name) : nothing_away(name);
       if (all.area == 0.)
@@ -186,6 +189,13 @@ namespace Voussoir
           .add("demand_capacity", all.ratio)
           .add_list("duration", all.duration)
           .add_list("share", all.share);
+      for (unsigned int k = 0; k < 2; ++k) // arch and cantilever
+      {
+        const Demand of_direction = demand(stresses.envelope.faces.field(model.n_nodes(), k, true), false);
+        const std::string direction = FaceDirections::name(k);
+        of_face.add("demand_capacity_" + direction + "_away_from_base", of_direction.ratio)
+            .add_list("share_" + direction + "_away_from_base", of_direction.share);
+      }
       overstress->add(name, of_face);
       take_worst(worst, away);
       take_worst(with_base, all);
@@ -196,22 +206,25 @@ namespace Voussoir
     if (!without.empty())
       return leave_demand(without);
     hold("demand_capacity", "", worst.ratio, limits.demand_capacity, with_base.ratio);
-    hold("overstressed_share", "", worst.share[0], limits.overstress_share, with_base.share[0]);
+    hold_by_level("overstressed_share", "", worst.share, with_base.share, limits.overstress_share);
     if (!stresses.envelope.overstress.has_lasted())
       leave("overstress_duration", limits.overstress_seconds, "the stresses are recorded at one time only");
     else
-      add_duration(worst.duration, with_base.duration);
+      hold_by_level("overstress_duration", "s", worst.duration, with_base.duration,
+                    limits.overstress_seconds);
   }
 
-  void Assessment::add_duration(const Levels &worst, const Levels &with_base)
+  /** Compares the values of all levels with a limit that falls linearly to zero at twice the strength. The verdict has
+   * the level with the largest excess. */
+  void Assessment::hold_by_level(const std::string &name, const std::string &unit, const Levels &worst,
+                                 const Levels &with_base, const double limit)
   {
-    if (!(limits.overstress_seconds > 0.))
+    if (!(limit > 0.))
       return;
-    // Level with the largest ratio of duration and allowed duration.
-    Verdict verdict{"overstress_duration", "s", worst[0], limits.overstress_seconds, false, with_base[0]};
+    Verdict verdict{name, unit, worst[0], limit, false, with_base[0]};
     for (unsigned int k = 1; k < Overstress::n_levels; ++k)
     {
-      const double allowed = std::max(0., limits.overstress_seconds * (2. - Overstress::level(k)));
+      const double allowed = std::max(0., limit * (2. - Overstress::level(k)));
       if (worst[k] - allowed > std::max(0., verdict.value - verdict.limit))
         verdict.value = worst[k], verdict.limit = allowed, verdict.with_base = with_base[k];
     }

@@ -27,7 +27,7 @@ namespace Voussoir
                  run.scene().output.knows_tractions()),
         tension(*run.dam->model), envelope(recovery, run.dam->initial_stress)
   {
-    envelope.overstress = Overstress(run.scene().limits.tensile_strength, run.dam->model->n_nodes());
+    envelope.overstress = Overstress(run.scene().limits.static_strength(), run.dam->model->n_nodes());
     envelope.faces = FaceEnvelope(*run.dam->model);
   }
 

@@ -11,7 +11,15 @@ namespace Voussoir
   /** Parameters of the subsection "Limits": limit values of the results. Zero: no limit. */
   struct LimitParameters
   {
-    double tensile_strength = 0.;  ///< f_t, reference of demand-capacity ratios and overstress [Pa]
+    double tensile_strength = 0.;        ///< dynamic tensile strength [Pa]; 0: none
+    double static_tensile_strength = 0.; ///< f_t; 0: see static_strength() [Pa]
+
+    /** Returns the static tensile strength f_t, the reference of demand-capacity ratios and overstress [Pa]. If it is not
+     * given, it is two thirds of the dynamic one (J. M. Raphael, "Tensile strength of concrete", ACI Journal, 1984). */
+    double static_strength() const
+    {
+      return static_tensile_strength > 0. ? static_tensile_strength : tensile_strength / 1.5;
+    }
     double demand_capacity = 0.;   ///< largest principal stress divided by f_t [-]
     double overstress_seconds = 0; ///< allowed duration above f_t, decreasing linearly to zero at 2 f_t [s]
     double overstress_share = 0.;  ///< share of either face above f_t [-]

@@ -67,7 +67,8 @@ namespace Voussoir
     void leave_demand(const std::string &reason);
     void add_stresses(const SolidModel &model, const StressesOfRun &stresses);
     void add_demand(const SolidModel &model, const StressesOfRun &stresses);
-    void add_duration(const Overstress::Levels &worst, const Overstress::Levels &with_base);
+    void hold_by_level(const std::string &name, const std::string &unit, const Overstress::Levels &worst,
+                       const Overstress::Levels &with_base, double limit);
     void add_joints(const JointRecorder &joints);
     void add_blocks(const BlockRecorder *blocks);
     void add_keys(const KeyForces &of_joints);

@@ -10,7 +10,7 @@
 
 namespace Voussoir
 {
-  /** Cumulative duration of overstress: time during which the stress at a node exceeds the tensile strength
+  /** Cumulative duration of overstress: time during which the stress at a node exceeds the static tensile strength
    * f_t, and 1.1, 1.2, ... 2 f_t (cumulative inelastic duration of USACE EM 1110-2-6053, and of Ghanaat,
    * "Failure modes approach to safety evaluation of dams", 13WCEE, 2004). A record represents the time since
    * the previous record. */
@@ -26,7 +26,7 @@ namespace Voussoir
     Overstress() = default; ///< inactive: add() ignores all stresses
 
     /** Sets all durations to zero.
-     * @param strength tensile strength f_t [Pa]; 0: inactive
+     * @param strength static tensile strength f_t [Pa]; 0: inactive
      * @param n_nodes number of nodes */
     Overstress(const double strength, const std::size_t n_nodes)
         : strength(static_cast<float>(strength)), seconds(strength > 0. ? n_levels * n_nodes : 0, 0.)
