@@ -156,7 +156,7 @@ namespace Voussoir
     double       elastic_energy = 0.; ///< half of its product with the initial displacement [J]
     Energy       first;               ///< energies at the start
     double       largest = 0.;
-    double       of_friction = 0.;              ///< JointSystem::friction_correction() of the last step [J]
+    double       of_friction = 0.;              ///< PairLaws::friction_correction() of the last step [J]
     std::vector<std::unique_ptr<Level>> levels; ///< one per step size, created on demand
     unsigned int                        last_level = 0; ///< level of the last accepted step
   };
